@@ -13,6 +13,7 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   };
   limits.has_map = has_map;
   limits.has_camera = system.rgbd_camera.has_value();
+  limits.target_names = system.config.autonomy.estimator.targets.names();
   return limits;
 }
 

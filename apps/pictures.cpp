@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base64.hpp"
 #include "common/jpeg_encoder.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -108,7 +109,7 @@ std::string map3dPicture(const rendering::Picture3d& picture) {
   view.width_px = 960;
   view.height_px = 720;
   view.scheme = rendering::Scheme::kLight;
-  return rendering::base64(common::JpegEncoder().encode(rendering::renderMap3d(picture, view), kQuality));
+  return common::base64(common::JpegEncoder().encode(rendering::renderMap3d(picture, view), kQuality));
 }
 
 }  // namespace swiftlet::apps

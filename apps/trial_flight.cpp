@@ -1,5 +1,6 @@
 #include "apps/trial_flight.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/run_folder.hpp"
+#include "simulation/world_model.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -57,6 +59,8 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
     truth.T_body_camera = errors.mount_error.pose() * truth.rgbd_camera->mount.pose();
     truth.camera_clock_offset_s = errors.clock_offset_s + 1e-6 * errors.clock_drift_ppm * record.flight_time_s;
   }
+  for (const evaluation::TrialTarget& target : trial.targets)
+    truth.targets.push_back({target.name, vehicle.world().boundsOf_world_m(target.model).center().cast<double>()});
   truth.quadrotor = vehicle.scenario().quadrotor;
   truth.clearance_m = trial.clearance_m;
   truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
@@ -91,6 +95,25 @@ void checkControllers(const TrialConfig& trial, const System& system, std::vecto
   }
 }
 
+/// The targets that it asks for must be in its world, and its profile must look for them.
+void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& problems) {
+  if (trial.targets.empty()) return;
+  const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
+  const std::vector<std::string> models = world.modelNames();
+  const std::vector<std::string> names = loadSystem(trial.system).config.autonomy.estimator.targets.names();
+  const auto check = [&](const std::vector<std::string>& known, const std::string& word, const std::string& whose) {
+    if (std::find(known.begin(), known.end(), word) != known.end()) return;
+    problems.push_back({{world.file},
+                        fmt::format("trial {}: targets", trial.name),
+                        fmt::format("{} has no `{}`", whose, word),
+                        common::didYouMean(word, known)});
+  };
+  for (const evaluation::TrialTarget& target : trial.targets) {
+    check(models, target.model, "the world");
+    check(names, target.name, "the profile " + trial.system);
+  }
+}
+
 }  // namespace
 
 void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
@@ -105,7 +128,9 @@ void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   for (TrialConfig& trial : trials) {
     findMap(trial, file_or_folder);
     findWorld(trial);
+    checkTargets(trial, problems);
   }
+  if (!problems.empty()) throw common::InputError(std::move(problems));
 }
 
 std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {

@@ -29,12 +29,13 @@ constexpr double kNear_m = 2.0;
 constexpr double kLandingMargin = 0.03;
 
 /// Of the missions that the operator starts in flight, as `fly` checks the first one.
-behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map) {
-  behaviors::MissionLimits limits;
-  limits.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); };
-  limits.max_height_m = vehicle.max_height_m;
-  limits.has_map = has_map;
-  return limits;
+behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map,
+                                  bool has_camera) {
+  return {.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); },
+          .max_height_m = vehicle.max_height_m,
+          .has_camera = has_camera,
+          .target_names = config.estimator.targets.names(),
+          .has_map = has_map};
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
       requests_(vehicle.hullRadius_m(), camera),
-      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr)),
+      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, camera != nullptr)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
@@ -376,9 +377,9 @@ void Autonomy::takeSnapshot(Time now) {
     home.flown_m = world_->vehicle->distance_flown_m;
   }
   parts.map3d = estimator_.map3d();
-  energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
-                                  kLandingMargin + config_.supervisor.least_thrust_margin);
-  parts.energy = energy_;
+  parts.targets.targets = estimator_.targets();
+  parts.energy = energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
+                                                 kLandingMargin + config_.supervisor.least_thrust_margin);
   world_ = world_builder_.build(now, std::move(parts));
 }
 

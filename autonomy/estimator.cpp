@@ -35,6 +35,7 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("slam", slam, "SLAM and the map.");
   fields.section("localization", localization, "Localization in a map that the flight was given.");
   fields.section("rgbd", rgbd, "The 3D map from the frames of an RGB-D camera.");
+  fields.section("targets", targets, "Coloured targets that the RGB-D camera looks for.");
   fields("slam_latency_s", slam_latency_s, {0.01, 10},
          "Declared time of a SLAM job, of the method graph: loop search, optimization and redrawing the map.");
 }
@@ -49,7 +50,9 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
       localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr),
-      rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr) {}
+      rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr),
+      targets_(camera && !config.targets.classes.empty() ? std::make_unique<TargetPipeline>(config.targets, jobs)
+                                                         : nullptr) {}
 
 void Estimator::addImu(const common::ImuSample& sample) {
   hear(sample);
@@ -100,13 +103,14 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.at_key = map.at_key;
   scanned_ = outcome.scan.stamp;
   if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
-  outcome.drift_m = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
+  outcome.drift_m = drift_m_ = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
   reportHealth(now);
   return outcome;
 }
 
 void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
+  if (targets_) targets_->add(frame);
   if (rgbd_) rgbd_->add(std::move(frame));
 }
 
@@ -114,16 +118,37 @@ void Estimator::mapFrames(Time now) {
   if (!rgbd_) return;
   rgbd_->watch(now);
   if (const auto step = rgbd_->takeStep()) fuse(*step, now);
+  mapFrame(now);
+  if (targets_) lookForTargets(now);
+}
+
+void Estimator::mapFrame(Time now) {
   const auto time = rgbd_->next();
   if (!time || !filter_.initialized() || filter_.newest() < *time) return;
   if (scanned_ < *time && now < rgbd_->waitUntil()) return;
+  rgbd_->map(situationAt(*time, now), now);
+}
+
+void Estimator::lookForTargets(Time now) {
+  const common::CameraEstimate camera = rgbd_->camera();
+  const auto time = targets_->next(camera.clock_offset_s);
+  if (!time || !filter_.initialized() || filter_.newest() < *time) return;
+  if (scanned_ < *time && now < targets_->waitUntil()) return;
+  targets_->look(situationAt(*time, now), camera, drift_m_, now);
+}
+
+FrameSituation Estimator::situationAt(Time time, Time now) {
   FrameSituation situation;
-  situation.at_key = atKey(*time);
-  situation.body = bodyAt(*time);
+  situation.at_key = atKey(time);
+  situation.body = bodyAt(time);
   situation.supported = (now - map_seen_).seconds() < kSupported_s;
   situation.keys = map_.keyPoses();
-  situation.people = people_.expectedAt(*time);
-  rgbd_->map(situation, now);
+  situation.people = people_.expectedAt(time);
+  return situation;
+}
+
+std::vector<common::Target> Estimator::targets() {
+  return targets_ ? targets_->targets(*map_.keyPoses()) : std::vector<common::Target>();
 }
 
 std::shared_ptr<const common::Map3dLayer> Estimator::map3d() { return rgbd_ ? rgbd_->layer(map_.keyPoses()) : nullptr; }
@@ -148,6 +173,8 @@ std::vector<common::Event> Estimator::takeEvents() {
     for (common::Event& event : localizer_->takeEvents()) events.push_back(std::move(event));
   if (rgbd_)
     for (common::Event& event : rgbd_->takeEvents()) events.push_back(std::move(event));
+  if (targets_)
+    for (common::Event& event : targets_->takeEvents()) events.push_back(std::move(event));
   return events;
 }
 

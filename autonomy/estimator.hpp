@@ -5,7 +5,7 @@
 //                \--> altitude over levels -----------> fuse ---^   v
 //                 \--> map <-------------------------- pose at the scan --> localize in a given map
 //                       \--> people, for the next scan
-//   RGB-D frame --> 3D map, at the pose of its own time
+//   RGB-D frame --> 3D map, and targets, at the pose of its own time
 //
 // Each step is a small object that takes values and returns values; only the Estimator uses the filter.
 #pragma once
@@ -21,6 +21,7 @@
 #include "autonomy/estimation/laser_pipeline.hpp"
 #include "autonomy/estimation/map_pipeline.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/target_pipeline.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
@@ -49,6 +50,7 @@ struct EstimatorConfig {
   perception::SlamMethodConfig slam;
   FlightLocalizerConfig localization;
   RgbdPipelineConfig rgbd;
+  TargetPipelineConfig targets;
   double slam_latency_s = 0.4;
 
   void describe(common::config::Fields& fields);
@@ -80,7 +82,8 @@ class Estimator {
 
   /// Without a camera the frame is ignored.
   void addFrame(std::shared_ptr<const common::RgbdFrame> frame);
-  /// Maps the frame that waits as soon as the pose at its time is known. To be called after the scans of every tick.
+  /// Maps the frame that waits as soon as the pose at its time is known, and looks for targets in it. To be called
+  /// after the scans of every tick.
   void mapFrames(common::Time now);
 
   /// None without a camera whose frames come over a radio.
@@ -111,6 +114,8 @@ class Estimator {
   common::LevelMap seenSurfaces() const { return altitude_.seenSurfaces(); }
   /// Null without a camera, and before its first frame.
   std::shared_ptr<const common::Map3dLayer> map3d();
+  /// What the camera has seen of the targets that the profile names.
+  std::vector<common::Target> targets();
   const perception::PeopleTracker& people() const { return people_; }
   /// None if no map was given.
   std::optional<common::Localization> localization() const;
@@ -130,6 +135,9 @@ class Estimator {
                           const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
   void fuse(const CameraStep& step, common::Time now);
+  void mapFrame(common::Time now);
+  void lookForTargets(common::Time now);
+  FrameSituation situationAt(common::Time time, common::Time now);
   std::optional<common::KeyRelativePose> atKey(common::Time time) const;
   std::optional<BodyAtFrame> bodyAt(common::Time time) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
@@ -150,6 +158,7 @@ class Estimator {
   DriftMonitor drift_;
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
   std::unique_ptr<RgbdPipeline> rgbd_;          ///< Null without a camera.
+  std::unique_ptr<TargetPipeline> targets_;     ///< Null without a camera, and without targets to look for.
 
   std::optional<common::ImuSample> last_imu_;
   common::Time started_;        ///< Time at which the filter started.
@@ -158,6 +167,7 @@ class Estimator {
   common::Time map_seen_;       ///< When the last scan that matched was processed: it tells the place in the map.
   /// The frame `odom` as of the last scan relative to a key scan, once there is a map.
   std::optional<common::KeyRelativePose> odom_at_key_;
+  double drift_m_ = 0.0;      ///< Of the last scan.
   common::Time height_seen_;  ///< When the last scan that measured the surface below was.
   bool at_flight_height_ = false;
   bool waiting_said_ = false;

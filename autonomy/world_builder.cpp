@@ -52,6 +52,7 @@ std::shared_ptr<const common::World> WorldBuilder::build(common::Time now, World
   replace(last_.people, std::move(parts.people));
   replace(last_.energy, parts.energy);
   last_.map3d = std::move(parts.map3d);
+  replace(last_.targets, std::move(parts.targets));
   return std::make_shared<const common::World>(last_);
 }
 

@@ -13,6 +13,7 @@
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/people_layer.hpp"
+#include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::autonomy {
@@ -26,6 +27,7 @@ struct WorldParts {
   common::PeopleLayer people;
   common::EnergyLayer energy;
   std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without an RGB-D camera.
+  common::TargetsLayer targets;
 };
 
 /// One thread; any thread may read the snapshots.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "behaviors/ports.hpp"
+#include "behaviors/target_ports.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
 #include "common/world/map_layer.hpp"
@@ -162,6 +163,22 @@ std::string IsAt::objection(const FlightTick& tick) const {
   const double above_m = place->z ? here_map_m.z() - *place->z : 0.0;
   return std::abs(above_m) <= *tolerance_m ? std::string()
                                            : fmt::format("it is {:.2f} m higher or lower", std::abs(above_m));
+}
+
+tree::NodeManifest IsTargetFound::manifest() {
+  return {.id = "IsTargetFound",
+          .kind = NodeKind::kCondition,
+          .ports = {targetNamePort(), targetCountPort()},
+          .description = "The camera has found targets."};
+}
+
+std::string IsTargetFound::objection(const FlightTick& tick) const {
+  const auto name = name_.get();
+  const auto count = count_.get();
+  if (!name) return name_.problem();
+  if (!count) return count_.problem();
+  const std::int64_t found = countFound(*tick.flight.world->targets, *name);
+  return found >= *count ? std::string() : foundText(found, *count, *name);
 }
 
 }  // namespace swiftlet::behaviors

@@ -2,6 +2,7 @@
 // not known; the reason says which.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "behaviors/flight_tick.hpp"
@@ -97,6 +98,19 @@ class IsAt final : public Condition {
   std::string objection(const FlightTick& tick) const override;
   tree::Input<tree::Point> place_;
   tree::Input<double> tolerance_m_;
+};
+
+/// At least `count` targets of that name are found.
+class IsTargetFound final : public Condition {
+ public:
+  explicit IsTargetFound(const tree::NodeSetup& setup)
+      : Condition(setup), name_(setup, "target"), count_(setup, "count") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  std::string objection(const FlightTick& tick) const override;
+  tree::Input<std::string> name_;
+  tree::Input<std::int64_t> count_;
 };
 
 }  // namespace swiftlet::behaviors

@@ -22,6 +22,7 @@ struct MissionMemory {
   bool go_on = false;  ///< The operator said so, and no WaitForOperator has taken it yet.
   /// Answers to requests, until the leaf that asked takes its own: it may be suspended when the answer comes.
   std::vector<common::MissionAnswer> answers;
+  std::vector<int> located_targets;  ///< The ids of those that a LocateTarget was about.
 };
 
 class FlightTick final : public tree::TickContext {
@@ -32,6 +33,7 @@ class FlightTick final : public tree::TickContext {
         pending_command(memory.pending_command),
         mode(memory.mode),
         go_on(memory.go_on),
+        located_targets(memory.located_targets),
         answers_(memory.answers),
         last_intent_id_(memory.last_intent_id) {}
 
@@ -64,6 +66,7 @@ class FlightTick final : public tree::TickContext {
   std::optional<common::OperatorCommand>& pending_command;
   common::FlightMode& mode;
   bool& go_on;
+  std::vector<int>& located_targets;
 
  private:
   std::vector<common::MissionAnswer>& answers_;

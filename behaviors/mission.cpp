@@ -118,7 +118,7 @@ bool Mission::letGo(Context& context) {
   const bool released = self.tree.halt(tick) == tree::Release::kReleased;
   self.narrator.listen(nullptr);
   if (released) {
-    self.memory = {self.memory.last_intent_id, {}, {}, {}, {}};
+    self.memory = {self.memory.last_intent_id, {}, {}, {}, {}, {}};
     self.narrator.forget();
     self.result = {};
   }

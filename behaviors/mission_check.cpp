@@ -150,6 +150,43 @@ class Walk {
   bool takes_off_ = false;
 };
 
+bool isAboutTargets(std::string_view id) {
+  return id == "LocateTarget" || id == "IsTargetFound" || id == "ExploreUntilFound";
+}
+bool needsCamera(std::string_view id) {
+  return id == "Photograph" || id == "Inspect" || id == "LookAround" || isAboutTargets(id);
+}
+
+/// "`red`, `blue`".
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + "`";
+  return text;
+}
+
+/// What is wrong with the targets that a node names; empty if nothing is.
+std::string targetProblem(const tree::Tree& tree, const tree::NodeRecord& record, const MissionLimits& limits) {
+  if (!limits.has_camera || !limits.target_names || !isAboutTargets(record.manifest->id)) return {};
+  if (limits.target_names->empty()) return "looks for targets, and the profile names none";
+  for (const tree::Value& value : tree.knownValues(record.node->id(), "target"))
+    if (const auto* name = std::get_if<std::string>(&value); name != nullptr && !name->empty())
+      if (std::find(limits.target_names->begin(), limits.target_names->end(), *name) == limits.target_names->end())
+        return "the profile looks for no `" + *name + "`, only for " + joined(*limits.target_names);
+  return {};
+}
+
+struct AreaProblem {
+  std::string problem;  ///< Empty without one.
+  const char* hint = "";
+};
+AreaProblem areaProblem(const common::Polygon& area, std::string_view id) {
+  if (std::string problem = problemOf(area); !problem.empty())
+    return {std::move(problem), "give the corners in order along the edge"};
+  if (id == "KeepOut" && area.contains(Eigen::Vector2d::Zero()))
+    return {"holds the take-off place 0;0", "the vehicle could not fly home: leave the place out"};
+  return {};
+}
+
 constexpr const char* kHeightHint =
     "in a building that is high enough, TakeOff's max_height_m or the vehicle's max_height_m allows more";
 
@@ -168,10 +205,13 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
     if (record.manifest->id == "Localize" && !limits.has_map)
       problems.push_back({tree.locationOf(id), record.manifest->id, "needs a map of the place, and the flight has none",
                           "give it one: swiftlet fly --map MAP.yaml, or map: in a trial", tree.pathOf(id)});
-    if ((record.manifest->id == "Photograph" || record.manifest->id == "Inspect") && !limits.has_camera)
+    if (needsCamera(record.manifest->id) && !limits.has_camera)
       problems.push_back({tree.locationOf(id), record.manifest->id, "needs an RGB-D camera, and the vehicle has none",
                           "fly with a profile that has one: --system swiftlet_3d, or system: in a trial",
                           tree.pathOf(id)});
+    if (const std::string problem = targetProblem(tree, record, limits); !problem.empty())
+      problems.push_back({tree.locationOf(id), record.manifest->id, problem,
+                          "name it in autonomy.estimator.targets.classes of the profile", tree.pathOf(id)});
     const bool names_file = record.manifest->id == "Photograph" || record.manifest->id == "SaveMap";
     for (const tree::Value& value : tree.knownValues(id, "file"))
       if (const auto* file = std::get_if<std::string>(&value); names_file && file != nullptr)
@@ -195,15 +235,9 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
     for (const tree::Value& value : tree.knownValues(id, "height_m"))
       if (const auto* height_m = std::get_if<double>(&value)) checkGoal("height_m", {.height_m = *height_m});
     for (const tree::Value& value : tree.knownValues(id, "polygon"))
-      if (const auto* corners = std::get_if<tree::Points>(&value)) {
-        const std::string problem = problemOf(polygonOf(*corners));
-        const bool home = record.manifest->id == "KeepOut" && polygonOf(*corners).contains(Eigen::Vector2d::Zero());
-        if (!problem.empty())
-          report(*record.node, *record.manifest, "polygon", problem, "give the corners in order along the edge");
-        else if (home)
-          report(*record.node, *record.manifest, "polygon", "holds the take-off place 0;0",
-                 "the vehicle could not fly home: leave the place out");
-      }
+      if (const auto* corners = std::get_if<tree::Points>(&value))
+        if (const auto [problem, hint] = areaProblem(polygonOf(*corners), record.manifest->id); !problem.empty())
+          report(*record.node, *record.manifest, "polygon", problem, hint);
     for (const tree::Value& value : tree.knownValues(id, "goal"))
       if (const auto* goal = std::get_if<tree::Point>(&value))
         checkGoal("goal", {.place_map_m = {goal->x, goal->y}, .height_m = goal->z});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,9 @@ struct MissionLimits {
   /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
   double max_height_m = 2.0;
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
-  bool has_map = true;     ///< A map of the place is given; nodes that localize need one.
+  /// Names of the targets that the profile looks for; none: any name is accepted.
+  std::optional<std::vector<std::string>> target_names = {};
+  bool has_map = true;  ///< A map of the place is given; nodes that localize need one.
 };
 
 }  // namespace swiftlet::behaviors

@@ -3,6 +3,7 @@
 #include "behaviors/avoid_obstacle.hpp"
 #include "behaviors/emergency_land.hpp"
 #include "behaviors/explore.hpp"
+#include "behaviors/explore_until_found.hpp"
 #include "behaviors/flight_conditions.hpp"
 #include "behaviors/follow_me.hpp"
 #include "behaviors/follow_path.hpp"
@@ -12,7 +13,9 @@
 #include "behaviors/keep_out.hpp"
 #include "behaviors/land.hpp"
 #include "behaviors/localize.hpp"
+#include "behaviors/locate_target.hpp"
 #include "behaviors/log_event.hpp"
+#include "behaviors/look_around.hpp"
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/photograph.hpp"
@@ -33,6 +36,7 @@ const tree::Registry& missionRegistry() {
     registry.add<EmergencyLand>();
     registry.add<Hold>();
     registry.add<Explore>();
+    registry.add<ExploreUntilFound>();
     registry.add<Localize>();
     registry.add<MoveToGoal>();
     registry.add<TurnTo>();
@@ -41,6 +45,8 @@ const tree::Registry& missionRegistry() {
     registry.add<GoHome>();
     registry.add<Survey>();
     registry.add<Inspect>();
+    registry.add<LocateTarget>();
+    registry.add<LookAround>();
     registry.add<FollowMe>();
     registry.add<ReturnToMe>();
     registry.add<AvoidObstacle>();
@@ -58,6 +64,7 @@ const tree::Registry& missionRegistry() {
     registry.add<IsPersonNear>();
     registry.add<IsExplored>();
     registry.add<IsAt>();
+    registry.add<IsTargetFound>();
     return registry;
   }();
   return kRegistry;

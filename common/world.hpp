@@ -15,6 +15,7 @@ struct MapLayer;
 struct PeopleLayer;
 struct EnergyLayer;
 struct Map3dLayer;
+struct TargetsLayer;
 
 /// Only `map3d` is ever null in a World that the autonomy made.
 struct World {
@@ -25,6 +26,7 @@ struct World {
   std::shared_ptr<const PeopleLayer> people;
   std::shared_ptr<const EnergyLayer> energy;
   std::shared_ptr<const Map3dLayer> map3d;  ///< Null in a flight without an RGB-D camera.
+  std::shared_ptr<const TargetsLayer> targets;
 };
 
 }  // namespace swiftlet::common

@@ -76,6 +76,7 @@ void BehaviorRecorder::intent(const common::Intent& intent, const common::Intent
 
 void BehaviorRecorder::world(const common::World& world) {
   followed_map_m_ = world.people->followed_map_m;
+  record_.targets = world.targets;
   if (zones_ == world.map->keep_out) return;
   zones_ = world.map->keep_out;
   std::erase_if(left_, [&](const common::Polygon& zone) {

@@ -11,6 +11,7 @@
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/polygon.hpp"
+#include "common/world/targets_layer.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -41,9 +42,10 @@ struct BehaviorRecord {
   /// Least distance of the true centre of the airborne vehicle from a keep-out zone, negative inside; from when it was
   /// first outside of that zone. None without a zone.
   std::optional<double> keep_out_distance_m;
-  std::vector<InspectingView> inspecting;  ///< At 10 Hz.
-  std::vector<common::Polygon> surveyed;   ///< The areas whose survey succeeded.
-  std::optional<FollowRecord> follow;      ///< None if nobody was followed.
+  std::vector<InspectingView> inspecting;               ///< At 10 Hz.
+  std::vector<common::Polygon> surveyed;                ///< The areas whose survey succeeded.
+  std::optional<FollowRecord> follow;                   ///< None if nobody was followed.
+  std::shared_ptr<const common::TargetsLayer> targets;  ///< The last; null before the first snapshot.
 };
 
 /// Called by the FlightRecorder, whose functions have the same names. Calls come in the order of time.

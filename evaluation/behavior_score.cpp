@@ -89,14 +89,28 @@ BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world, cons
     score.follow_farthest_m = record.follow->farthest_m;
     score.follow_lost_s = record.follow->lost_s;
   }
+  if (record.targets)
+    if (const auto targets = scoreTargets(record.targets->targets, world.targets, T_world_map)) {
+      score.targets_found = targets->found;
+      score.target_error_max_m = targets->error_max_m;
+      score.target_error_median_m = targets->error_median_m;
+      score.false_targets = targets->false_targets;
+    }
   return score;
 }
 
 std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score) {
-  return {{"keep_out_gap_m", score.keep_out_gap_m},     {"inspect_axis_max_deg", score.inspect_axis_max_deg},
-          {"survey_coverage", score.survey_coverage},   {"follow_share", score.follow_share},
-          {"follow_nearest_m", score.follow_nearest_m}, {"follow_farthest_m", score.follow_farthest_m},
-          {"follow_lost_s", score.follow_lost_s}};
+  return {{"keep_out_gap_m", score.keep_out_gap_m},
+          {"inspect_axis_max_deg", score.inspect_axis_max_deg},
+          {"survey_coverage", score.survey_coverage},
+          {"follow_share", score.follow_share},
+          {"follow_nearest_m", score.follow_nearest_m},
+          {"follow_farthest_m", score.follow_farthest_m},
+          {"follow_lost_s", score.follow_lost_s},
+          {"targets_found", score.targets_found},
+          {"target_error_max_m", score.target_error_max_m},
+          {"target_error_median_m", score.target_error_median_m},
+          {"false_targets", score.false_targets}};
 }
 
 }  // namespace swiftlet::evaluation

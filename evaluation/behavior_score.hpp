@@ -20,6 +20,8 @@ struct BehaviorScore {
   std::optional<double> follow_nearest_m;   ///< Least distance between the vehicle's centre and the person's.
   std::optional<double> follow_farthest_m;  ///< Greatest distance between them.
   std::optional<double> follow_lost_s;      ///< Longest time in which the person was not where he was believed.
+  std::optional<double> targets_found;      ///< See TargetScore; none where the trial asks for no targets.
+  std::optional<double> target_error_max_m, target_error_median_m, false_targets;
 };
 
 /// `T_world_body_views` are the true poses from which the camera saw.

@@ -66,6 +66,11 @@ void Criteria::describe(common::config::Fields& fields) {
          "Least share of the time of following with the person 1.5 to 3 m away.");
   fields("follow_lost_max_s", follow_lost_max_s, kPositive,
          "Greatest time in which the person who is followed was not within 1 m of where he was believed.");
+  fields("targets_found_min", targets_found_min, {0, 1}, "Least share of the trial's targets that are found.");
+  fields("target_error_max_m", target_error_max_m, kPositive,
+         "Greatest distance of a found target from the middle of the true one.");
+  fields("false_targets_max", false_targets_max, common::config::atLeast(0.0),
+         "Greatest number of found targets that are none of the trial's, or are one of them again.");
   fields("end_distance_max_m", end_distance_max_m, kPositive,
          "Greatest horizontal distance from the take-off place at which the vehicle is at the end.");
   fields("unfinished_distance_min_m", unfinished_distance_min_m, {0, 1e5},

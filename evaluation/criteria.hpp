@@ -42,6 +42,9 @@ struct Criteria {
   double survey_coverage_min = 0.0;
   double follow_share_min = 0.0;
   double follow_lost_max_s = kAny;
+  double targets_found_min = 0.0;
+  double target_error_max_m = kAny;
+  double false_targets_max = kAny;
   double end_distance_max_m = kAny;
   double unfinished_distance_min_m = 0.0;
   bool all_resumed = true;

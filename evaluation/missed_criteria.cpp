@@ -74,6 +74,9 @@ void judgeBehaviors(const BehaviorScore& behaviors, const Criteria& criteria, Ju
   judge.atLeast("share of the surveyed floor that was seen", behaviors.survey_coverage, criteria.survey_coverage_min);
   judge.atLeast("share of the time at the distance of following", behaviors.follow_share, criteria.follow_share_min);
   judge.atMost("time in which the person was lost, s", behaviors.follow_lost_s, criteria.follow_lost_max_s);
+  judge.atLeast("share of the targets that were found", behaviors.targets_found, criteria.targets_found_min);
+  judge.atMost("error of a target's place, m", behaviors.target_error_max_m, criteria.target_error_max_m);
+  judge.atMost("targets that are none", behaviors.false_targets, criteria.false_targets_max);
 }
 
 void judgeDistances(const FlightScore& score, const Criteria& criteria, Judge& judge) {

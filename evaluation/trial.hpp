@@ -9,6 +9,7 @@
 #include "evaluation/flight_score.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
+#include "evaluation/target_score.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/survey.hpp"
 
@@ -57,6 +58,7 @@ struct TrialConfig {
   TrialMap map;
   std::vector<OperatorStep> operator_steps;
   std::vector<PhaseConfig> phases;
+  std::vector<TrialTarget> targets;
   simulation::Scenario scenario;
 
   void describe(common::config::Fields& fields);

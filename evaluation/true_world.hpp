@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "common/geometry.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
+#include "evaluation/target_score.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 
@@ -24,6 +26,7 @@ struct TrueWorld {
   std::optional<common::RgbdCameraConfig> rgbd_camera;  ///< Of a vehicle that carries one.
   common::Pose3 T_body_camera;                          ///< Its true mount.
   double camera_clock_offset_s = 0.0;                   ///< How late its clock is at the end.
+  std::vector<TrueTarget> targets;                      ///< That the trial asks for.
   simulation::QuadrotorConfig quadrotor;
   double clearance_m = kClearance_m;  ///< Clearance of the mission. Places where the hull does not fit with it are not
                                       ///< expected to be reached.

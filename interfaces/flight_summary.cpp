@@ -30,6 +30,18 @@ ordered_json frontierJson(const common::Frontier& frontier) {
           {"explanation", frontier.explanation},         {"attempts", frontier.attempts}};
 }
 
+ordered_json targetJson(const common::Target& target) {
+  const Eigen::Vector3d& at = target.position_map_m;
+  return {{"label", labelOf(target)},
+          {"name", target.name},
+          {"state", common::toString(target.state)},
+          {"x_m", rounded(at.x())},
+          {"y_m", rounded(at.y())},
+          {"z_m", rounded(at.z())},
+          {"sigma_m", rounded(target.sigma_m())},
+          {"views", target.views}};
+}
+
 ordered_json localizationJson(const std::string& map, const LocalizationSummary& summary) {
   ordered_json pose = nullptr;
   if (const common::Pose2& at = summary.last.T_given_body; summary.last.localized())
@@ -89,6 +101,7 @@ std::string toJson(const FlightSummary& summary) {
         {"wall_time_s", orNull(summary.wall_time_s)},
         {"realtime_factor", orNull(summary.realtime_factor)}}},
   };
+  for (const common::Target& target : summary.targets) json["targets"].push_back(targetJson(target));
   if (!summary.info.nature.empty()) json["nature"] = summary.info.nature;
   if (!summary.info.vehicle.empty()) json["vehicle"] = summary.info.vehicle;
   if (summary.localization) json["localization"] = localizationJson(summary.info.given_map, *summary.localization);

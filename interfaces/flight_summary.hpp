@@ -11,6 +11,7 @@
 #include "common/localization.hpp"
 #include "common/time.hpp"
 #include "common/world/frontier.hpp"
+#include "common/world/targets_layer.hpp"
 
 namespace swiftlet::interfaces {
 
@@ -84,6 +85,7 @@ struct FlightSummary {
   std::optional<LocalizationSummary> localization;  ///< None if it was given no map.
   std::vector<Phase> phases;
   std::vector<common::Frontier> frontiers;  ///< The frontiers that remained, each with its reason.
+  std::vector<common::Target> targets;      ///< What the camera has found of those that it looked for.
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;
   std::optional<double> wall_time_s;      ///< Computing time.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/base64.hpp"
 #include "common/error.hpp"
 #include "common/jpeg_encoder.hpp"
 #include "common/world.hpp"
@@ -13,6 +14,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "interfaces/files/folder_lock.hpp"
 #include "interfaces/files/json_lines.hpp"
@@ -223,6 +225,7 @@ void RunFolder::Impl::track(const common::World& world) {
   if (world.map->explored_area_m2 > 0) summary.explored_area_m2 = world.map->explored_area_m2;
   summary.battery_remaining = world.energy->battery_remaining;
   if (world.map->frontiers) summary.frontiers = *world.map->frontiers;
+  summary.targets = world.targets->targets;
   grid = world.map->grid;
   const common::MissionStatus& mission = world.mission->status;
   if (mission.state == MissionState::kReady || mission_over) return;
@@ -319,6 +322,9 @@ void RunFolder::savePhoto(const std::string& name, const common::RgbdFrame& fram
   const std::vector<std::uint8_t> jpeg = common::JpegEncoder(common::JpegContent::kPhoto).encode(frame.color, kQuality);
   const common::RollPitchYaw angles = common::rollPitchYaw(T_map_camera.rotation);
   const Eigen::Vector3d& at = T_map_camera.position_m;
+  impl_->pictures.photos.push_back({fmt::format("{}, from ({:.2f}, {:.2f}, {:.2f}) at {:.0f} s", name, at.x(), at.y(),
+                                                at.z(), frame.stamps.measured.seconds()),
+                                    common::base64(jpeg)});
   if (impl_->failure) return;
   impl_->write((file + ".jpg").c_str(), {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
   impl_->write((file + ".json").c_str(),
@@ -329,6 +335,7 @@ void RunFolder::savePhoto(const std::string& name, const common::RgbdFrame& fram
 }
 
 void RunFolder::show(ReportPictures pictures) {
+  pictures.photos = std::move(impl_->pictures.photos);
   impl_->pictures = std::move(pictures);
   if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
 }

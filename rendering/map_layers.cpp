@@ -51,6 +51,21 @@ void drawGoal(Layer& layer, const MapMark& mark) {
   layer.canvas.disc(at, 2.4 * s, layer.theme().goal);
 }
 
+/// A diamond with its name; hollow while it is only a candidate.
+void drawTarget(Layer& layer, const MapMark& mark) {
+  const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
+  const double s = layer.scale;
+  const auto diamond = [&](double radius) {
+    return std::array<Vector2d, 4>{at + Vector2d(radius, 0.0), at + Vector2d(0.0, -radius), at - Vector2d(radius, 0.0),
+                                   at + Vector2d(0.0, radius)};
+  };
+  layer.canvas.polygon(diamond(9.0 * s), layer.theme().free.withAlpha(230));
+  layer.canvas.polygon(diamond(7.0 * s), layer.theme().goal);
+  if (mark.style == MarkStyle::kCandidate) layer.canvas.polygon(diamond(4.0 * s), layer.theme().free);
+  layer.canvas.text(mark.name, at + Vector2d(11.0, 3.5) * s, 9.0 * s, layer.theme().text, Align::kLeft,
+                    layer.theme().free.withAlpha(200));
+}
+
 void drawVehicle(Layer& layer, const MapMark& mark) {
   const Theme& theme = layer.theme();
   const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
@@ -138,6 +153,9 @@ void drawMark(Layer& layer, const MapMark& mark) {
       return drawHome(layer, mark);
     case MarkStyle::kGoal:
       return drawGoal(layer, mark);
+    case MarkStyle::kTarget:
+    case MarkStyle::kCandidate:
+      return drawTarget(layer, mark);
     case MarkStyle::kVehicle:
       return drawVehicle(layer, mark);
   }

@@ -3,6 +3,7 @@
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::rendering {
@@ -37,6 +38,12 @@ MapPicture pictureOf(const common::World& world, double hull_diameter_m) {
   if (const auto& goal_map_m = world.mission->goal_map_m) {
     picture.marks.push_back({"goal", {goal_map_m->x(), goal_map_m->y(), 0.0}, MarkStyle::kGoal});
     picture.in_view_map_m.push_back(*goal_map_m);
+  }
+  for (const common::Target& target : world.targets->targets) {
+    const bool found = target.state == common::TargetState::kFound;
+    picture.marks.push_back({labelOf(target),
+                             {target.position_map_m.x(), target.position_map_m.y(), 0.0},
+                             found ? MarkStyle::kTarget : MarkStyle::kCandidate});
   }
   picture.marks.push_back({"vehicle", T_map_body, MarkStyle::kVehicle, hull_diameter_m});
   return picture;

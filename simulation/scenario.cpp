@@ -86,6 +86,11 @@ void Variation::describe(common::config::Fields& fields) {
          "vehicle can fly to that start; empty for near the given start.");
   fields("obstacles", obstacles, "Models that are shifted.");
   fields("obstacle_m", obstacle_m, {0, 100}, "Greatest shift of each of these models, in x and in y.");
+  fields("tinted", tinted, "Models whose colour is changed.");
+  fields("tint", tint, {0, 1}, "Greatest change of each channel of the colour of these models, as a share of it.");
+  fields("light_tint", light_tint, {0, 1},
+         "Greatest change of the red and of the blue of the light, as a share of it.");
+  fields("light_dimmed", light_dimmed, {0, 1}, "Greatest loss of the light, as a share of it.");
   fields("wind_m_s", wind_m_s, {0, 30}, "Greatest change of each component of the mean wind.");
   fields("battery_remaining", battery_remaining, {0, 1},
          "Greatest loss of the start charge, unless the nature draws the charge.");

@@ -52,6 +52,10 @@ struct Variation {
   std::vector<double> start_area_world_m;
   std::vector<std::string> obstacles;
   double obstacle_m = 0.3;
+  std::vector<std::string> tinted = {};
+  double tint = 0.0;
+  double light_tint = 0.0;
+  double light_dimmed = 0.0;
   double wind_m_s = 0.0;
   double battery_remaining = 0.0;
   std::vector<double> reachable_map_m;

@@ -46,6 +46,17 @@ struct Drawn : PlacedVehicle {
   WorldModel world;
 };
 
+void drawColors(const Variation& variation, common::RandomStream& random, WorldModel& world) {
+  const auto share = [&random](double most) { return static_cast<float>(1.0 + random.uniform(-most, most)); };
+  for (const std::string& model : variation.tinted) {
+    const float red = share(variation.tint), green = share(variation.tint);
+    world.tintModel(model, {red, green, share(variation.tint)});
+  }
+  if (variation.light_tint == 0.0 && variation.light_dimmed == 0.0) return;
+  const float red = share(variation.light_tint), blue = share(variation.light_tint);
+  world.light = static_cast<float>(1.0 - variation.light_dimmed * random.uniform()) * Color(red, 1.0F, blue);
+}
+
 /// One draw of everything the seed varies.
 Drawn drawOnce(const WorldModel& world, const PlacedVehicle& nominal, int draw) {
   const Scenario& scenario = nominal.scenario;
@@ -70,6 +81,7 @@ Drawn drawOnce(const WorldModel& world, const PlacedVehicle& nominal, int draw) 
     const double x_m = within(variation.obstacle_m);
     drawn.world.moveModel(obstacle, {x_m, within(variation.obstacle_m)});
   }
+  drawColors(variation, random, drawn.world);
   return drawn;
 }
 
@@ -191,11 +203,13 @@ bool varies(const Variation& v) {
          (!v.obstacles.empty() && v.obstacle_m > 0.0);
 }
 
-/// The wind and the obstacles are those drawn with the first vehicle.
+/// The wind, the obstacles and the colours are those drawn with the first vehicle.
 void takeWindAndObstaclesOf(const PlacedVehicle& first, Scenario& scenario) {
   scenario.wind = first.scenario.wind;
   scenario.variation.wind_m_s = 0.0;
   scenario.variation.obstacles.clear();
+  scenario.variation.tinted.clear();
+  scenario.variation.light_tint = scenario.variation.light_dimmed = 0.0;
 }
 
 Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
@@ -227,12 +241,14 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
 
 Realization realize(const WorldModel& world, const Scenario& scenario) {
   const std::vector<std::string> models = world.modelNames();
-  for (const std::string& obstacle : scenario.variation.obstacles)
-    if (!world.hasModel(obstacle))
-      throw InputError(Problem{{world.file},
-                               "variation.obstacles",
-                               fmt::format("there is no model `{}`", obstacle),
-                               common::didYouMean(obstacle, models)});
+  const auto mustExist = [&](const std::vector<std::string>& names, const char* key) {
+    for (const std::string& name : names)
+      if (!world.hasModel(name))
+        throw InputError(
+            Problem{{world.file}, key, fmt::format("there is no model `{}`", name), common::didYouMean(name, models)});
+  };
+  mustExist(scenario.variation.obstacles, "variation.obstacles");
+  mustExist(scenario.variation.tinted, "variation.tinted");
   Realization realization{world, {}};
   std::vector<PlacedVehicle>& placed = realization.vehicles;
   for (std::size_t i = 0; i < scenario.vehicleCount(); ++i) {

@@ -26,6 +26,23 @@ void WorldModel::moveModel(const std::string& model, const Eigen::Vector2d& shif
   }
 }
 
+void WorldModel::tintModel(const std::string& model, const Color& share) {
+  const auto tint = [&share](Color& color) { color = color.cwiseProduct(share).cwiseMax(0.0F).cwiseMin(1.0F); };
+  for (Shape& shape : shapes) {
+    if (shape.model != model) continue;
+    tint(shape.color);
+    for (SurfaceMaterial& material : shape.materials) tint(material.color);
+  }
+}
+
+Eigen::AlignedBox3f WorldModel::boundsOf_world_m(const std::string& model) const {
+  Eigen::AlignedBox3f bounds;
+  for (const Shape& shape : shapes)
+    if (shape.model == model)
+      for (const Eigen::Vector3f& vertex : shape.vertices_world_m) bounds.extend(vertex);
+  return bounds;
+}
+
 Eigen::AlignedBox3f WorldModel::bounds_world_m() const {
   Eigen::AlignedBox3f bounds;
   for (const Shape& shape : shapes)

@@ -51,6 +51,7 @@ std::string nameOf(const Shape& shape);
 struct WorldModel {
   std::string file;
   std::vector<Shape> shapes;
+  Color light = Color::Ones();  ///< Of the lamps: what cameras see of white under them.
   /// The pose of `<frame name="start">`, if the world has one.
   std::optional<common::Pose3> T_world_start;
   /// The line of that frame in the file, or of the world if it has none.
@@ -63,6 +64,10 @@ struct WorldModel {
   bool hasModel(const std::string& model) const;
   /// Shifts every shape of a model horizontally.
   void moveModel(const std::string& model, const Eigen::Vector2d& shift_world_m);
+  /// Multiplies the colour of every shape of a model that has no picture; channels stay within [0, 1].
+  void tintModel(const std::string& model, const Color& share);
+  /// Smallest box around all shapes of a model; empty if there is none.
+  Eigen::AlignedBox3f boundsOf_world_m(const std::string& model) const;
   /// Smallest box around all shapes.
   Eigen::AlignedBox3f bounds_world_m() const;
 };

@@ -160,11 +160,15 @@ void RgbdPipeline::calibrate(const Outcome& outcome, Time now) {
   reportCamera(now);
 }
 
+common::CameraEstimate RgbdPipeline::camera() const {
+  const auto sigma = [this](int i) { return std::sqrt(calibration_.errors().covariance(i, i)); };
+  return {calibration_.T_body_camera(), {sigma(3), sigma(4), sigma(5)}, calibration_.clockOffset_s(), sigma(6)};
+}
+
 void RgbdPipeline::reportCamera(Time now) {
   const mapping3d::CameraErrors& errors = calibration_.errors();
   const auto sigma = [&](int i) { return std::sqrt(errors.covariance(i, i)); };
-  layer_->camera = {
-      calibration_.T_body_camera(), {sigma(3), sigma(4), sigma(5)}, calibration_.clockOffset_s(), sigma(6)};
+  layer_->camera = camera();
   const auto degrees = [&](int i) {
     return fmt::format("{:.2f} +- {:.2f}", errors.mean[i] / common::kRadPerDeg, sigma(i) / common::kRadPerDeg);
   };

@@ -77,6 +77,9 @@ class RgbdPipeline {
   /// Notices that the camera is silent, and takes what has come over the radio. To be called at every tick.
   void watch(common::Time now);
 
+  /// Mount and clock as they are used now, and how well they are known.
+  common::CameraEstimate camera() const;
+
   /// The layer with these key scans; null before the first frame. The same object until something changes.
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
   const RgbdCounts& counts() const { return counts_; }

@@ -172,6 +172,30 @@ std::string frontiersSection(const FlightSummary& summary) {
           rows + "</tbody></table></div>");
 }
 
+std::string targetsSection(const std::vector<common::Target>& targets) {
+  if (targets.empty()) return "";
+  common::Table table{"", {"target", "at x, y, z in the map (m)", "known to (m)", "seen from", "state"}, {}};
+  for (const common::Target& target : targets) {
+    const Eigen::Vector3d& at = target.position_map_m;
+    table.rows.push_back({{labelOf(target)},
+                          {fmt::format("({:.2f}, {:.2f}, {:.2f})", at.x(), at.y(), at.z())},
+                          {fmt::format("{:.2f}", target.sigma_m())},
+                          {fmt::format("{} places", target.views)},
+                          {common::toString(target.state)}});
+  }
+  return html::section("Targets", html::table(table));
+}
+
+std::string photosSection(const std::vector<ReportPhoto>& photos) {
+  if (photos.empty()) return "";
+  std::string body = "<div class=\"pictures\">\n";
+  for (const ReportPhoto& photo : photos)
+    body += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escaped(photo.caption), photo.jpeg);
+  return html::section("Photographs", body + "</div>");
+}
+
 std::string eventsSection(const std::vector<common::Event>& events) {
   std::string rows;
   const std::size_t count = std::min(events.size(), kMaxEvents);
@@ -206,7 +230,8 @@ std::string settingsSection(const std::string& config_yaml) {
 std::string flightReport(const FlightSummary& summary, const std::vector<common::Event>& events,
                          const ReportPictures& pictures, const std::string& config_yaml) {
   const std::string body = summarySection(summary) + mapSection(pictures.map_svg) +
-                           html::map3dSection(pictures.map3d_jpeg) + phasesSection(summary.phases) +
+                           html::map3dSection(pictures.map3d_jpeg) + targetsSection(summary.targets) +
+                           photosSection(pictures.photos) + phasesSection(summary.phases) +
                            plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
                            frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);
   return html::page(titleOf(summary) + ": " + toString(summary.outcome), header(summary), body);

@@ -13,12 +13,19 @@
 
 namespace swiftlet::interfaces {
 
+/// A photograph of the mission.
+struct ReportPhoto {
+  std::string caption;
+  std::string jpeg;  ///< In base64.
+};
+
 /// The pictures of a flight; each may be empty. An SVG is one <svg> element, put into the page unchanged.
 struct ReportPictures {
   std::string map_png;  ///< The bytes of a PNG: map.png of the run.
   std::string map_svg;  ///< The map of the report.
   std::vector<std::string> plots_svg;
   std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64.
+  std::vector<ReportPhoto> photos = {};
 };
 
 /// `config_yaml` has the settings of the flight.

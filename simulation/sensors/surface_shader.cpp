@@ -41,7 +41,7 @@ ImagePlace imagePlace(const Shape& shape, const Hit& hit) {
 
 }  // namespace
 
-SurfaceShader::SurfaceShader(const WorldModel& world) {
+SurfaceShader::SurfaceShader(const WorldModel& world) : world_light_(world.light) {
   for (const Shape& shape : world.shapes) {
     const Covering covering = coveringOf(shape);
     const common::Pose3 T_shape_world = shape.T_world_shape.inverse();
@@ -124,7 +124,7 @@ SeenSurface SurfaceShader::see(const Ray& ray, const Hit& hit, float pixel_rad, 
   const float lamp = std::max(0.0F, -hit.normal_world.dot(ray.direction_world));
   const float light = 0.5F + 0.5F * hit.normal_world.dot(kLight);
   const float fade = 1.0F / (1.0F + 0.004F * static_cast<float>(hit.distance_m * hit.distance_m));
-  return {color * (0.3F + 0.4F * light + 0.4F * lamp * fade), color.mean(), lamp};
+  return {color.cwiseProduct(world_light_) * (0.3F + 0.4F * light + 0.4F * lamp * fade), color.mean(), lamp};
 }
 
 }  // namespace swiftlet::simulation

@@ -52,7 +52,8 @@ class SurfaceShader {
 
   std::map<std::pair<Pattern, std::uint64_t>, std::unique_ptr<const Texture>> patterns_;
   std::map<std::string, std::unique_ptr<const Texture>> images_;  ///< By file; null if it cannot be read.
-  std::vector<Surfaces> surfaces_;                                ///< By shape of the world.
+  Color world_light_;
+  std::vector<Surfaces> surfaces_;  ///< By shape of the world.
 };
 
 }  // namespace swiftlet::simulation

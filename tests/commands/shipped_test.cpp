@@ -41,7 +41,8 @@ std::vector<std::string> shipped(const std::string& folder, const std::string& e
 bool needsCamera(const std::string& mission) {
   std::ifstream file(kRoot / mission);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  return text.find("<Photograph") != std::string::npos || text.find("<Inspect") != std::string::npos;
+  const auto has = [&](const char* leaf) { return text.find(leaf) != std::string::npos; };
+  return has("<Photograph") || has("<Inspect") || has("<LookAround") || has("<ExploreUntilFound");
 }
 
 TEST(Shipped, EachMissionIsValidAndFoundFromAnyFolder) {

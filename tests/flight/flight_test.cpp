@@ -32,7 +32,8 @@ std::vector<std::string> shippedMissions() {
     const auto has = [&](const char* leaf) { return text.find(leaf) != std::string::npos; };
     const bool needs_map = has("<Localize");                     // Flown in FlyWithMap.
     const bool needs_more = has("<FollowMe") || has("<Survey");  // A person, a camera: flown in MissionInItsTrial.
-    if (!needs_map && !needs_more) names.push_back(entry.path().stem().string());
+    const bool needs_camera = has("<LookAround") || has("<ExploreUntilFound");  // Flown in CameraMission.
+    if (!needs_map && !needs_more && !needs_camera) names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -101,6 +102,47 @@ TEST_P(MissionInItsTrial, IsFlownToItsEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial, testing::Values("follow_me", "survey_floor"), kByName);
+
+class CameraMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {
+ protected:
+  /// A room of 4.4 m by 3.6 m with a red box; the vehicle stands in it with its back to the box.
+  std::string room() const {
+    const auto box = [](const char* name, const char* pose, const char* size, const char* color) {
+      const std::string shape =
+          std::string("<pose>") + pose + " 0 0 0</pose><geometry><box><size>" + size + "</size></box></geometry>";
+      return std::string("<model name='") + name + "'><static>true</static><link name='body'><collision name='shape'>" +
+             shape + "</collision><visual name='shape'>" + shape + "<material><diffuse>" + color +
+             " 1</diffuse></material></visual></link></model>";
+    };
+    return write("room.sdf", "<sdf version='1.9'><world name='room'>" +
+                                 box("floor", "0 0 -0.05", "4.6 3.8 0.1", "0.5 0.5 0.5") +
+                                 box("east", "2.25 0 1.2", "0.1 3.8 2.4", "0.8 0.8 0.7") +
+                                 box("west", "-2.25 0 1.2", "0.1 3.8 2.4", "0.7 0.8 0.8") +
+                                 box("north", "0 1.85 1.2", "4.6 0.1 2.4", "0.8 0.7 0.8") +
+                                 box("south", "0 -1.85 1.2", "4.6 0.1 2.4", "0.8 0.8 0.8") +
+                                 box("target", "-1.6 0.9 0.12", "0.24 0.24 0.24", "0.85 0.08 0.08") + "</world></sdf>");
+  }
+};
+
+// The missions that look for targets find this one within the bound of trials/find_target.yaml.
+TEST_P(CameraMission, IsFlownToItsEnd) {
+  const std::string trial =
+      write(GetParam() + ".yaml", "mission: missions/" + GetParam() +
+                                      ".xml\nsystem: swiftlet_3d\ntime_limit_s: 200\n"
+                                      "criteria: {targets_found_min: 1, target_error_max_m: 0.10, "
+                                      "false_targets_max: 0, home_error_max_m: 0.16}\n"
+                                      "targets: [{model: target, name: red}]\n"
+                                      "scenario: {world: " +
+                                      room() + ", seed: 3, battery_remaining: 1.0}\n");
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--repeat", "1", "--json", "--out", path("out")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const std::string report = readText(path("out/" + GetParam() + "-003/report.html"));
+  EXPECT_THAT(report, testing::HasSubstr("red 1")) << "its place";
+  if (GetParam() != "map_room_3d") EXPECT_THAT(report, testing::HasSubstr("red_1, from (")) << "its photograph";
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, CameraMission, testing::Values("find_target", "search_and_report", "map_room_3d"),
+                         kByName);
 
 class WaitingMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
 

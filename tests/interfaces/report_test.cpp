@@ -116,6 +116,18 @@ TEST(FlightReport, ShowsThe3dMapInside) {
   EXPECT_THAT(mapReport(report), HasSubstr("src=\"data:image/jpeg;base64,/9j/4AAQ\""));
 }
 
+TEST(FlightReport, HasTheTargetsAndThePhotographs) {
+  FlightSummary summary = summaryOf("house");
+  summary.targets.push_back({.id = 4, .name = "red", .number = 2, .position_map_m = {1.25, -2.0, 0.4}, .views = 5});
+  ReportPictures pictures;
+  pictures.photos = {{"red_2 & door", "/9j/4AAQ"}};
+  const std::string page = flightReport(summary, {}, pictures, "");
+  EXPECT_THAT(page, HasSubstr("(1.25, -2.00, 0.40)"));
+  EXPECT_THAT(page, HasSubstr("5 places"));
+  EXPECT_THAT(page, HasSubstr("<figcaption>red_2 &amp; door</figcaption>"));
+  expectBalanced(page);
+}
+
 TEST(FlightReport, ShortensAFloodOfEventsAndReportsIt) {
   const std::string page = flightReport(summaryOf("house"), eventsOf("again", 5000), {}, "");
   EXPECT_THAT(page, HasSubstr("3000 more are in events.jsonl"));

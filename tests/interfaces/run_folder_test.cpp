@@ -89,10 +89,17 @@ TEST(RunFolder, KeepsTheMapsAndPhotographsOfTheMissionAndANewRunRemovesThem) {
     T_map_camera.position_m = {1.0, 2.0, 1.5};
     run.savePhoto("door", frame, T_map_camera);
     run.savePhoto("door", frame, T_map_camera);
+    test::Layers layers = flight.layers(MissionState::kRunning, "explore");
+    layers.targets.targets.push_back({.id = 4, .name = "red", .number = 2, .position_map_m = {1.25, -2.0, 0.4}});
+    run.world(layers.world());
+    run.show(ReportPictures{kPng, "", {}});
+    run.finish({});
     EXPECT_FALSE(run.failure());
   }
   for (const char* name : {"map-hall.pgm", "map-hall.yaml", "photo-01-door.jpg", "photo-02-door.jpg"})
     EXPECT_GT(std::filesystem::file_size(folder.path() / "run" / name), 10u) << name;
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("src=\"data:image/jpeg;base64,/9j/"));
+  EXPECT_EQ(json::parse(bytesOf(folder / "run/mission.json"))["targets"][0]["label"], "red 2");
   std::ifstream file(folder.path() / "run" / "photo-01-door.json");
   const json place = json::parse(file);
   EXPECT_EQ(place.at("stamp_s"), 12.5);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "common/base64.hpp"
 #include "common/jpeg_encoder.hpp"
 #include "rendering/encode.hpp"
 #include "rendering/map_renderer.hpp"
@@ -53,7 +54,7 @@ TEST(EncodeTest, JpegHasItsMarkersAndIsRepeatable) {
 }
 
 TEST(EncodeTest, Base64FollowsTheStandard) {
-  const auto of = [](const std::string& text) { return base64(Bytes(text.begin(), text.end())); };
+  const auto of = [](const std::string& text) { return common::base64(Bytes(text.begin(), text.end())); };
   EXPECT_EQ(of(""), "");
   EXPECT_EQ(of("f"), "Zg==");
   EXPECT_EQ(of("fo"), "Zm8=");

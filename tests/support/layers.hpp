@@ -10,6 +10,7 @@
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/people_layer.hpp"
+#include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::test {
@@ -22,6 +23,7 @@ struct Layers {
   common::PeopleLayer people;
   common::EnergyLayer energy;
   std::shared_ptr<const common::Map3dLayer> map3d;
+  common::TargetsLayer targets;
 
   /// Default values, with a map in which everything is unknown.
   Layers() {
@@ -36,7 +38,8 @@ struct Layers {
         map(*world.map),
         people(*world.people),
         energy(*world.energy),
-        map3d(world.map3d) {}
+        map3d(world.map3d),
+        targets(*world.targets) {}
 
   common::World world() const {
     return {stamp,
@@ -45,7 +48,8 @@ struct Layers {
             std::make_shared<const common::MapLayer>(map),
             std::make_shared<const common::PeopleLayer>(people),
             std::make_shared<const common::EnergyLayer>(energy),
-            map3d};
+            map3d,
+            std::make_shared<const common::TargetsLayer>(targets)};
   }
 };
 

@@ -1,4 +1,4 @@
-// Symbols of a fixed size on the map: home, goal, vehicle and the scale. `view` is the MapView they are painted on.
+// Symbols of a fixed size on the map: home, goal, targets, vehicle and the scale. `view` is the MapView they are painted on.
 
 export function paintHome(view, { x_m, y_m }) {
   const { context, colors } = view;
@@ -27,6 +27,22 @@ export function paintGoal(view, { x_m, y_m }, color, crossed) {
   Object.assign(context, { strokeStyle: color, lineWidth: 3 });
   context.stroke();
   if (!crossed) view.paintDisc(x, y, 3, color);
+}
+
+/** A diamond with its name; hollow while the target is only a candidate. */
+export function paintTarget(view, { x_m, y_m, label, state }) {
+  const { context, colors } = view;
+  const [x, y] = view.toScreen(x_m, y_m);
+  const diamond = (radius, color) => {
+    context.beginPath();
+    for (const [dx, dy] of [[radius, 0], [0, -radius], [-radius, 0], [0, radius]]) context.lineTo(x + dx, y + dy);
+    context.fillStyle = color;
+    context.fill();
+  };
+  diamond(12, colors.free);
+  diamond(9, colors.goal);
+  if (state === 'candidate') diamond(5, colors.free);
+  view.paintText(label, x + 14, y + 4, 'left');
 }
 
 export function paintVehicle(view, { x_m, y_m, yaw_rad }) {

@@ -2,7 +2,7 @@
 import { kTileSize } from './link.js';
 import { readColors } from './map_colors.js';
 import { listenToGestures } from './map_gestures.js';
-import { paintGoal, paintHome, paintScale, paintVehicle } from './map_symbols.js';
+import { paintGoal, paintHome, paintScale, paintTarget, paintVehicle } from './map_symbols.js';
 
 /** Space covered by the tools at the right, and by scale and legend at the bottom. */
 const kInsets_px = { left: 20, right: 68, top: 20, bottom: 52 };
@@ -128,6 +128,7 @@ export class MapView {
       if (pose) this.paintLine([...store.trail, [pose.x_m, pose.y_m]], colors.trail, 2.5, []);
       if (pose && state.plan.length > 0) this.paintPlan([[pose.x_m, pose.y_m], ...state.plan]);
       paintHome(this, state.home);
+      for (const target of state.targets ?? []) paintTarget(this, target);
       if (state.goal) paintGoal(this, state.goal, colors.goal, false);
     }
     this.paintMarker();

@@ -11,6 +11,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "web/server/tree_json.hpp"
 
@@ -109,6 +110,22 @@ Json zonesOf(const std::vector<common::Polygon>& zones) {
   return list;
 }
 
+Json targetsOf(const common::TargetsLayer& layer) {
+  Json list = Json::array();
+  for (const common::Target& target : layer.targets)
+    list.push_back({{"id", target.id},
+                    {"name", target.name},
+                    {"label", labelOf(target)},
+                    {"state", common::toString(target.state)},
+                    {"x_m", number(target.position_map_m.x())},
+                    {"y_m", number(target.position_map_m.y())},
+                    {"z_m", number(target.position_map_m.z())},
+                    {"deviation_m", number(target.sigma_m())},
+                    {"diameter_m", number(target.diameter_m, 2)},
+                    {"views", target.views}});
+  return list;
+}
+
 Json stateOf(const common::World& world, const Observation& seen) {
   const common::VehicleLayer& vehicle = *world.vehicle;
   const common::VehicleState& state = vehicle.state;
@@ -152,6 +169,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
                    ? Json{{"x_m", number(mission.goal_map_m->x())}, {"y_m", number(mission.goal_map_m->y())}}
                    : Json(nullptr)},
       {"keep_out", zonesOf(*world.map->keep_out)},
+      {"targets", targetsOf(*world.targets)},
       {"plan", points(vehicle.plan_map_m)}};
   if (!vehicle.name.empty()) json["vehicle"] = vehicle.name;
   return json;

@@ -1,0 +1,81 @@
+// Finds coloured targets in the frames of an RGB-D camera and places them in the map. Looking for them in a frame is a
+// job, a function of the frame alone; following them is done when it is delivered.
+//
+//   frame --> waits until the pose at its time is known --> TargetDetector, a job --> TargetTracker --> TargetsLayer
+//                 ^--- a newer frame replaces it
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "common/config_fwd.hpp"
+#include "common/event.hpp"
+#include "common/jobs.hpp"
+#include "common/key_pose.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "common/world/targets_layer.hpp"
+#include "perception/targets/target_detector.hpp"
+#include "perception/targets/target_tracker.hpp"
+
+namespace swiftlet::autonomy {
+
+struct TargetPipelineConfig {
+  std::vector<perception::TargetClassConfig> classes;
+  perception::TargetDetectorConfig detector;
+  perception::TargetTrackerConfig tracker;
+  double period_s = 0.15;
+  double latency_s = 0.05;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+  std::vector<std::string> names() const;
+};
+
+/// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
+class TargetPipeline {
+ public:
+  TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs);
+  TargetPipeline(const TargetPipeline&) = delete;
+  TargetPipeline& operator=(const TargetPipeline&) = delete;
+
+  /// A frame that was not measured after the last one is left out.
+  void add(std::shared_ptr<const common::RgbdFrame> frame);
+  /// The time at which the frame that is next was measured, by the flight's clock; none while there is none, or while
+  /// another one is being looked at. `clock_offset_s` is how late the camera's clock is.
+  std::optional<common::Time> next(double clock_offset_s) const;
+  /// Until then it is worth waiting for a scan of its time. Only if there is a next one.
+  common::Time waitUntil() const;
+  /// Looks for targets in that frame. Without a pose that a measurement supports it is left out.
+  void look(const FrameSituation& situation, const common::CameraEstimate& camera, double drift_m, common::Time now);
+
+  std::vector<common::Target> targets(const common::KeyPoses& keys) const { return tracker_.targets(keys); }
+  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
+
+ private:
+  /// Where a frame was taken.
+  struct Place {
+    int key = 0;
+    common::Pose3 T_key_camera;
+    double position_sigma_m = 0.0;
+    double turn_rate_rad_s = 0.0;
+    std::shared_ptr<const common::KeyPoses> keys;
+  };
+  void take(const std::vector<perception::TargetSighting>& sightings, const common::RgbdFrame& frame,
+            const Place& place, common::Time delivered);
+
+  TargetPipelineConfig config_;
+  common::JobRunner& jobs_;
+  std::shared_ptr<const perception::TargetDetector> detector_;
+  perception::TargetTracker tracker_;
+  std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
+  std::optional<common::Time> last_taken_;            ///< When the last frame that was looked at was measured.
+  std::vector<int> found_;                            ///< The ids of those that were reported.
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

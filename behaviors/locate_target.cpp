@@ -1,0 +1,209 @@
+#include "behaviors/locate_target.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "behaviors/line_of_sight.hpp"
+#include "behaviors/target_ports.hpp"
+#include "common/geometry.hpp"
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::PortType;
+using tree::Status;
+
+namespace {
+
+/// At a place: at least until the frames taken there have counted, and at most so long.
+constexpr double kLeastLook_s = 0.6, kMostLook_s = 2.0;
+/// Sides that differ by less tell the same.
+constexpr double kOtherSide_rad = 55.0 * common::kRadPerDeg;
+constexpr int kSides = 24;
+/// The picture of a camera that looks ahead or slightly down ends at some 25 degrees below and 10 above.
+constexpr double kTanBelow = 0.47, kTanAbove = 0.18;
+/// What stands at the target's place hides it from no side.
+constexpr double kTargetNear_m = 0.5;
+constexpr double kViewTolerance_m = 0.15;
+
+const common::Target* withId(const common::TargetsLayer& layer, int id) {
+  const auto found = std::find_if(layer.targets.begin(), layer.targets.end(),
+                                  [id](const common::Target& target) { return target.id == id; });
+  return found == layer.targets.end() ? nullptr : &*found;
+}
+
+/// "red_1": what can name a file.
+std::string fileOf(const common::Target& target) {
+  std::string name = labelOf(target).substr(0, 40);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !fileNameProblem(std::string(1, c)).empty(); }, '_');
+  return name;
+}
+
+/// The nearest of that name that is not in the list; null without one.
+const common::Target* nearestOther(const FlightTick& tick, const std::string& name) {
+  const Eigen::Vector2d here_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
+  const common::Target* nearest = nullptr;
+  for (const common::Target& target : tick.flight.world->targets->targets) {
+    const auto& located = tick.located_targets;
+    if (!hasName(target, name) || std::find(located.begin(), located.end(), target.id) != located.end()) continue;
+    const auto away_m = [&](const common::Target& t) { return (t.position_map_m.head<2>() - here_map_m).norm(); };
+    if (nearest == nullptr || away_m(target) < away_m(*nearest)) nearest = &target;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+tree::NodeManifest LocateTarget::manifest() {
+  return {.id = "LocateTarget",
+          .kind = tree::NodeKind::kAction,
+          .ports = {targetNamePort(),
+                    {.name = "sigma_m",
+                     .type = PortType::kDouble,
+                     .default_value = "0.08",
+                     .minimum = 0.01,
+                     .maximum = 5.0,
+                     .description = "Greatest standard deviation of its place."},
+                    {.name = "distance_m",
+                     .type = PortType::kDouble,
+                     .default_value = "1.8",
+                     .minimum = 0.5,
+                     .maximum = 10.0,
+                     .description = "Of the vehicle's centre from the target, horizontally; more where the target is "
+                                    "so far below or above that it would leave the picture."},
+                    clearancePort(),
+                    modePort(),
+                    {.name = "place",
+                     .type = PortType::kPoint,
+                     .direction = tree::Direction::kOutput,
+                     .description = "Where it is."},
+                    {.name = "file",
+                     .type = PortType::kString,
+                     .direction = tree::Direction::kOutput,
+                     .description = "Its name and number, as a part of a file's name."}},
+          .description = "Looks at a target from several sides until its place is known well."};
+}
+
+LocateTarget::LocateTarget(const tree::NodeSetup& setup)
+    : FlightLeaf(setup),
+      name_(setup, "target"),
+      sigma_m_(setup, "sigma_m"),
+      distance_m_(setup, "distance_m"),
+      clearance_m_(setup, "clearance_m"),
+      mode_(setup, "mode"),
+      place_(setup, "place"),
+      file_(setup, "file") {}
+
+void LocateTarget::onStart(tree::TickContext& context) {
+  FlightLeaf::onStart(context);
+  target_ = 0;
+  sides_rad_.clear();
+  view_.reset();
+  looks_since_.reset();
+}
+
+/// It looks from the same place again.
+void LocateTarget::onResume(tree::TickContext& context) {
+  FlightLeaf::onResume(context);
+  looks_since_.reset();
+}
+
+std::string LocateTarget::problemOfPorts() const {
+  if (!name_.get()) return name_.problem();
+  if (!sigma_m_.get()) return sigma_m_.problem();
+  if (!distance_m_.get()) return distance_m_.problem();
+  if (!clearance_m_.get()) return clearance_m_.problem();
+  return modeOr(mode_, common::FlightMode::kFast) ? std::string() : mode_.problem();
+}
+
+Status LocateTarget::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  if (const std::string problem = problemOfPorts(); !problem.empty()) return fail(context, problem);
+  const Ports ports{*name_.get(), *sigma_m_.get(), *distance_m_.get(), *clearance_m_.get(), *modeOr(mode_, tick.mode)};
+  const common::Target* target = withId(*tick.flight.world->targets, target_);
+  if (target == nullptr) {  // None is chosen, or the camera has looked through the place of the candidate.
+    onStart(context);
+    target = nearestOther(tick, ports.name);
+    if (target == nullptr)
+      return fail(context, fmt::format("no {}target is known{}", ports.name.empty() ? "" : "`" + ports.name + "` ",
+                                       tick.located_targets.empty() ? "" : " that was not located"));
+    target_ = target->id;
+  }
+  const Status status = look(tick, *target, ports);
+  if (status != Status::kFailure) return status;
+  tick.located_targets.push_back(target_);  // The next try is about another one.
+  return fail(context, sides_rad_.empty() ? fmt::format("no place to see {} from is free", labelOf(*target))
+                                          : fmt::format("{} is known to {:.2f} m after looking from {} sides",
+                                                        labelOf(*target), target->sigma_m(), sides_rad_.size()));
+}
+
+Status LocateTarget::look(FlightTick& tick, const common::Target& target, const Ports& ports) {
+  if (looks_since_) {
+    emitHold(tick);
+    const double looked_s = (tick.flight.now - *looks_since_).seconds();
+    const bool known = target.state == common::TargetState::kFound && target.sigma_m() <= ports.sigma_m;
+    if (known && looked_s >= kLeastLook_s) {
+      tick.located_targets.push_back(target.id);
+      place_.set(tree::Point{target.position_map_m.x(), target.position_map_m.y(), target.position_map_m.z()});
+      file_.set(fileOf(target));
+      return Status::kSuccess;
+    }
+    if (looked_s < kMostLook_s) return Status::kRunning;
+    view_.reset();
+    looks_since_.reset();
+  }
+  if (!view_) {
+    view_ = nextView(tick, target, ports);
+    if (!view_) return Status::kFailure;
+    const Eigen::Vector2d from = view_->goal_map_m - target.position_map_m.head<2>();
+    sides_rad_.push_back(std::atan2(from.y(), from.x()));
+    renewIntent();
+  }
+  emitIntent(tick, *view_);
+  if (intentState(tick) == common::IntentState::kSucceeded) looks_since_ = tick.flight.now;
+  if (intentState(tick) == common::IntentState::kFailed) view_.reset();
+  return Status::kRunning;
+}
+
+/// Among the free places on other sides, the one that is nearest to the vehicle.
+std::optional<common::GoToIntent> LocateTarget::nextView(const FlightTick& tick, const common::Target& target,
+                                                         const Ports& ports) const {
+  const common::VehicleState& state = tick.flight.world->vehicle->state;
+  const common::OccupancyGrid& grid = *tick.flight.world->map->grid;
+  const Eigen::Vector2d middle_map_m = target.position_map_m.head<2>();
+  const double below_m = state.T_map_body().position_m.z() - target.position_map_m.z();
+  const double least_m = std::max({ports.distance_m, below_m / kTanBelow, -below_m / kTanAbove});
+  std::optional<common::GoToIntent> nearest;
+  for (const double share : {1.0, 1.25, 0.85}) {
+    for (int i = 0; i < kSides; ++i) {
+      const double side_rad = 2.0 * std::numbers::pi * i / kSides;
+      const bool known = std::any_of(sides_rad_.begin(), sides_rad_.end(), [&](double before_rad) {
+        return std::abs(common::wrapAngle(side_rad - before_rad)) < kOtherSide_rad;
+      });
+      const Eigen::Vector2d from =
+          middle_map_m + share * least_m * Eigen::Vector2d(std::cos(side_rad), std::sin(side_rad));
+      const auto& map = tick.flight.goal_map;
+      const bool free = !map || map->stateAt(from, ports.clearance_m) == common::PlaceState::kFree;
+      if (known || !free || !isInSight(grid, from, middle_map_m, kTargetNear_m)) continue;
+      const Eigen::Vector2d here = state.T_map_body_planar().position_m();
+      if (nearest && (from - here).norm() >= (nearest->goal_map_m - here).norm()) continue;
+      nearest.emplace();
+      nearest->goal_map_m = from;
+      nearest->yaw_map_rad = common::wrapAngle(side_rad + std::numbers::pi);
+      nearest->tolerance_m = kViewTolerance_m;
+      nearest->clearance_m = ports.clearance_m;
+      nearest->mode = ports.mode;
+    }
+    if (nearest) return nearest;
+  }
+  return nearest;
+}
+
+}  // namespace swiftlet::behaviors

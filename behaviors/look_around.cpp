@@ -1,0 +1,25 @@
+#include "behaviors/look_around.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest LookAround::manifest() {
+  tree::NodeManifest manifest{.id = "LookAround",
+                              .kind = tree::NodeKind::kAction,
+                              .ports = {rangePort()},
+                              .description = "Looks with the camera at every free place of the map."};
+  for (tree::PortManifest& port : ExplorePorts::manifests()) manifest.ports.push_back(std::move(port));
+  return manifest;
+}
+
+tree::Status LookAround::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  const auto range_m = range_m_.get();
+  const auto limits = ports_.intent(tick.mode);
+  if (!range_m) return fail(context, range_m_.problem());
+  if (!limits) return fail(context, limits.error());
+  see(tick, *range_m);
+  return lookOn(tick, {*range_m, limits->clearance_m, limits->bounds, limits->leave_building}) ? tree::Status::kRunning
+                                                                                               : tree::Status::kSuccess;
+}
+
+}  // namespace swiftlet::behaviors
