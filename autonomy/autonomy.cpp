@@ -29,11 +29,13 @@ constexpr double kNear_m = 2.0;
 constexpr double kLandingMargin = 0.03;
 
 /// Of the missions that the operator starts in flight, as `fly` checks the first one.
-behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map) {
+behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map,
+                                  const MapShelf& maps) {
   behaviors::MissionLimits limits;
   limits.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); };
   limits.max_height_m = vehicle.max_height_m;
   limits.has_map = has_map;
+  limits.map_problem = [&maps](const std::string& map, const std::string&) { return maps.problemOf(map); };
   return limits;
 }
 
@@ -53,12 +55,13 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
       requests_(vehicle.hullRadius_m(), camera),
-      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr)),
+      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, map_shelf_)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
       given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
+      assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
   if (memory != nullptr) controller_.recallThrust(memory->thrust);
@@ -104,6 +107,7 @@ void Autonomy::take(const common::SensorEvent& event) {
                         estimator_.state().velocity_odom_m_s.head<2>().norm());
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
+    assist_.pilotArrived(*pilot);
   }
 }
 
@@ -174,7 +178,9 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   flight.inertial_fault = imu_watch_.fault(now);
   flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
+  assistPilot(flight);
   const common::Setpoint setpoint = controller_.tick(flight);
+  last_thrust_ = setpoint.thrust;
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
@@ -182,6 +188,16 @@ common::Setpoint Autonomy::tick(Time now) {
   followMapHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;
+}
+
+/// The pilot flies, and the program with him: it has the controller, but not the last word.
+void Autonomy::assistPilot(control::FlightTick& flight) {
+  const bool before = std::exchange(assisted_, assist_.assists(controller_.state(), flight.state));
+  if (before && !assisted_) controller_.hold();
+  if (!assisted_) return;
+  flight.thrust_applies = assist_.thrustApplies(last_thrust_);
+  flight.pilot_flies =
+      !assist_.fly(controller_, reactive_.decision(), flight.state, context_.goal_limits.greatest_height_m);
 }
 
 /// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
@@ -200,6 +216,7 @@ bool Autonomy::finished() const {
 std::vector<common::Event> Autonomy::takeEvents() {
   collect(scan_watch_.takeEvents());
   collect(estimator_.takeEvents());
+  collect(given_map_.takeEvents());
   collect(supervisor_.takeEvents());
   collect(requests_.takeEvents());
   collect(executor_.takeEvents());
@@ -233,8 +250,9 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const auto cost_map = executor_.desk().costMap();
   const auto& decision =
       reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(),
-                        estimator_.people().obstacles(), executor_.wantedVelocity_map_m_s(), cost_map.get(),
-                        camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),
+                        estimator_.people().obstacles(),
+                        assisted_ ? assist_.wantedVelocity_map_m_s(state) : executor_.wantedVelocity_map_m_s(),
+                        cost_map.get(), camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),
                         requests_.keepOut().edgesNear_level_m(outcome->T_map_body, kNear_m)});
   executor_.react(decision, state);
 
@@ -334,7 +352,11 @@ void Autonomy::tickMission() {
   context_.answers = requests_.takeAnswers(context_.now);
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
-  requests_.take(std::exchange(context_.requests, {}), *world_);
+  for (const common::MissionRequest& request : std::exchange(context_.requests, {}))
+    if (auto answer = map_shelf_.take(request, estimator_, given_map_))
+      requests_.answered(std::move(*answer), context_.now);
+    else
+      requests_.take(request, *world_);
   collect(std::exchange(context_.events, {}));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());

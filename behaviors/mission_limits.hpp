@@ -15,7 +15,11 @@ struct MissionLimits {
   /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
   double max_height_m = 2.0;
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
-  bool has_map = true;     ///< A map of the place is given; nodes that localize need one.
+  /// A map of the place is given; nodes that localize need one, or a LoadMap in the mission.
+  bool has_map = true;
+  /// Why the map that a LoadMap names, in that mission file, cannot be loaded; empty if it can. Without a function
+  /// every map is accepted.
+  std::function<std::string(const std::string& map, const std::string& mission)> map_problem = {};
 };
 
 }  // namespace swiftlet::behaviors

@@ -11,11 +11,13 @@
 #include "behaviors/inspect.hpp"
 #include "behaviors/keep_out.hpp"
 #include "behaviors/land.hpp"
+#include "behaviors/load_map.hpp"
 #include "behaviors/localize.hpp"
 #include "behaviors/log_event.hpp"
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/photograph.hpp"
+#include "behaviors/relocalize.hpp"
 #include "behaviors/save_map.hpp"
 #include "behaviors/set_flight_mode.hpp"
 #include "behaviors/survey.hpp"
@@ -33,7 +35,9 @@ const tree::Registry& missionRegistry() {
     registry.add<EmergencyLand>();
     registry.add<Hold>();
     registry.add<Explore>();
+    registry.add<LoadMap>();
     registry.add<Localize>();
+    registry.add<Relocalize>();
     registry.add<MoveToGoal>();
     registry.add<TurnTo>();
     registry.add<FollowPath>();
