@@ -11,8 +11,13 @@ namespace {
 
 /// Grzonka 2009, IV-F: programs perturb the commands of the user by 20 %.
 constexpr double kProgramShare = 0.20;
-/// The stick of the thrust hovers about its middle.
+/// Where the stick of the thrust is taken to hover until the pilot takes over.
 constexpr double kHoverStick = 0.5;
+/// The attitude of an autopilot is good to about a degree (common/sensor_event.hpp), which tilts the program's share.
+constexpr double kHorizonError_rad = 1.0 * common::kRadPerDeg;
+/// From a speed that is asked for to one that is flown.
+constexpr double kLag_s = 0.4;
+constexpr double kSpare_m = 0.05;
 /// The reference that is farther away was left by the pilot's sticks, not by the wind.
 constexpr double kLeft_m = 0.35;
 /// The yaw that is asked for lies so far ahead of the present one while its stick is moved.
@@ -42,16 +47,19 @@ PilotAssist::PilotAssist(const PilotAssistConfig& config, double max_tilt_deg,
                          const planning::AvoidanceConfig& avoidance)
     : config_(config),
       max_tilt_rad_(max_tilt_deg * common::kRadPerDeg),
+      hover_stick_(kHoverStick),
       deceleration_m_s2_(avoidance.deceleration_m_s2),
       unlimited_m_s_(avoidance.max_speed_m_s) {}
 
 void PilotAssist::pilotArrived(const common::PilotSample& sample) {
+  const bool begins = sample.takes_over && !sticks_.takes_over;
   const auto finite = [](double stick) { return std::isfinite(stick) ? std::clamp(stick, -1.0, 1.0) : 0.0; };
   sticks_ = sample;
   sticks_.roll = finite(sample.roll);
   sticks_.pitch = finite(sample.pitch);
   sticks_.yaw_rate = finite(sample.yaw_rate);
-  sticks_.thrust = std::isfinite(sample.thrust) ? std::clamp(sample.thrust, 0.0, 1.0) : kHoverStick;
+  sticks_.thrust = std::isfinite(sample.thrust) ? std::clamp(sample.thrust, 0.0, 1.0) : hover_stick_;
+  if (begins) hover_stick_ = sticks_.thrust;
 }
 
 bool PilotAssist::assists(common::FlightState flight, const common::VehicleState& state) {
@@ -70,12 +78,19 @@ Eigen::Vector2d PilotAssist::wantedVelocity_map_m_s(const common::VehicleState& 
 }
 
 /// The reactive layer counts on its own deceleration; against the pilot's stick the program has only what is left of
-/// its share. A stick that is moved farther than the share leaves none: the program then asks for a stop.
+/// its share, less the tilt by which the horizon may be wrong. A stick that is moved farther leaves none: the program
+/// then asks for a stop.
 double PilotAssist::allowedSpeed_m_s(const planning::AvoidanceDecision& decision) const {
-  if (decision.speed_limit_m_s >= unlimited_m_s_) return decision.speed_limit_m_s;
+  const double limit_m_s = decision.speed_limit_m_s;
+  if (limit_m_s >= unlimited_m_s_) return limit_m_s;
   const double stick = std::hypot(sticks_.pitch, sticks_.roll);
-  const double left_m_s2 = kGravity_m_s2 * std::tan(max_tilt_rad_ * std::max(0.0, kProgramShare - stick));
-  return decision.speed_limit_m_s * std::sqrt(std::min(1.0, left_m_s2 / deceleration_m_s2_));
+  const double left_m_s2 =
+      kGravity_m_s2 * std::tan(max_tilt_rad_ * std::max(0.0, kProgramShare - stick) - kHorizonError_rad);
+  const double gap_m = 0.5 * limit_m_s * limit_m_s / deceleration_m_s2_ - kSpare_m;
+  if (left_m_s2 <= 0.0 || gap_m <= 0.0) return 0.0;
+  // v t + v^2 / 2a = gap.
+  const double allowed_m_s = left_m_s2 * (std::sqrt(kLag_s * kLag_s + 2.0 * gap_m / left_m_s2) - kLag_s);
+  return std::min(limit_m_s, allowed_m_s);
 }
 
 bool PilotAssist::fly(control::FlightController& controller, const planning::AvoidanceDecision& decision,
@@ -94,7 +109,7 @@ bool PilotAssist::fly(control::FlightController& controller, const planning::Avo
     const double speed_m_s = velocity_map_m_s.norm(), allowed_m_s = allowedSpeed_m_s(decision);
     if (speed_m_s > allowed_m_s) velocity_map_m_s *= allowed_m_s / speed_m_s;
   }
-  double climb_m_s = config_.climb_m_s * wish(2.0 * (sticks_.thrust - kHoverStick), config_.climb_dead_band);
+  double climb_m_s = config_.climb_m_s * wish(2.0 * (sticks_.thrust - hover_stick_), config_.climb_dead_band);
   if (state.T_odom_body.position_m.z() > max_height_m) climb_m_s = std::min(climb_m_s, 0.0);
   (void)controller.followVelocity(velocity_map_m_s, acceleration_m_s2, *yaw_map_rad_, climb_m_s);
   return (controller.reference().position_odom_m - state.T_odom_body.position_m).head<2>().norm() < kLeft_m;

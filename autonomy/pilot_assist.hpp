@@ -56,6 +56,7 @@ class PilotAssist {
 
   PilotAssistConfig config_;
   double max_tilt_rad_;
+  double hover_stick_;  ///< The stick of the thrust when the pilot took over: from there it wishes to climb or to sink.
   double deceleration_m_s2_, unlimited_m_s_;  ///< Of the reactive layer.
   common::PilotSample sticks_;
   bool assists_ = false;
