@@ -23,5 +23,6 @@ void addMigrate(Command& program);
 void addIdentify(Command& program);
 void addPapers(Command& program);
 void addTune(Command& program);
+void addConsistency(Command& program);
 
 }  // namespace swiftlet::apps

@@ -150,7 +150,10 @@ std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map)
   for (const std::string& file : missionFiles(setup.scenario, setup.mission_file)) {
     try {
       const std::string found = common::findData(file).string();
-      missions.push_back({found, soundMission(found, setup.system, has_map)});
+      behaviors::Mission mission = soundMission(found, setup.system, has_map);
+      std::vector<autonomy::OfferedMap> maps =
+          offeredMaps(mission.mapFiles(), found, static_cast<std::uint64_t>(setup.scenario.seed));
+      missions.push_back({found, std::move(mission), std::move(maps)});
     } catch (const common::InputError& wrong) {
       problems[file] = wrong.problems();
     }

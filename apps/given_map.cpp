@@ -5,6 +5,7 @@
 
 #include "apps/required.hpp"
 #include "apps/system.hpp"
+#include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "evaluation/trajectory_metrics.hpp"
 #include "perception/slam2d/laser_slam.hpp"
@@ -38,6 +39,21 @@ interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
     throw common::InputError(
         common::Problem{{yaml_file.string()}, "", why, "are `negate` and the thresholds those of the picture?"});
   return stored;
+}
+
+fs::path missionMap(const std::string& map, const std::string& mission_file) {
+  const fs::path beside = fs::path(mission_file).parent_path() / map;
+  return fs::exists(beside) ? beside : common::findData(map);
+}
+
+std::vector<autonomy::OfferedMap> offeredMaps(const std::vector<std::string>& maps, const std::string& mission_file,
+                                              std::uint64_t seed) {
+  std::vector<autonomy::OfferedMap> offered;
+  for (const std::string& map : maps) {
+    offered.push_back({map, readFlightMap(missionMap(map, mission_file)).map});
+    offered.back().map.seed = seed;
+  }
+  return offered;
 }
 
 FlightMap readFlightMap(const fs::path& yaml_file) {

@@ -1,11 +1,14 @@
 // The map of the place that a flight is given.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "autonomy/estimation/flight_localizer.hpp"
+#include "autonomy/map_shelf.hpp"
 #include "common/geometry.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "simulation/survey.hpp"
@@ -22,6 +25,12 @@ struct FlightMap {
 
 /// Throws common::InputError if the file is not a map, or is a map in which nothing can be localized.
 interfaces::StoredMap readUsableMap(const std::filesystem::path& yaml_file);
+/// The file of a map that a mission names: beside the mission's own file, or where data is. Throws common::InputError.
+std::filesystem::path missionMap(const std::string& map, const std::string& mission_file);
+/// The maps that a mission may load, in the order in which it names them. Throws common::InputError.
+std::vector<autonomy::OfferedMap> offeredMaps(const std::vector<std::string>& maps, const std::string& mission_file,
+                                              std::uint64_t seed);
+
 /// The map of a file, with the pose of its origin in the world.
 FlightMap readFlightMap(const std::filesystem::path& yaml_file);
 

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   apps::addIdentify(top);
   apps::addPapers(top);
   apps::addTune(top);
+  apps::addConsistency(top);
 
   try {
     const auto [run, exit_code] = program.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "apps/mission_limits.hpp"
 
+#include "apps/given_map.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 
@@ -12,6 +13,14 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
     return autonomy.problemsWith(clearance_m);
   };
   limits.has_map = has_map;
+  limits.map_problem = [](const std::string& map, const std::string& mission) -> std::string {
+    try {
+      (void)readUsableMap(missionMap(map, mission));
+      return {};
+    } catch (const common::InputError& wrong) {
+      return wrong.problems().empty() ? wrong.what() : wrong.problems().front().message;
+    }
+  };
   limits.has_camera = system.rgbd_camera.has_value();
   limits.target_names = system.config.autonomy.estimator.targets.names();
   return limits;

@@ -58,4 +58,13 @@ std::vector<perception::FilterInput> readFilterTape(const std::string& run) {
   return inputs;
 }
 
+perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle) {
+  perception::TapedFlight flight;
+  for (const interfaces::ControlRow& row : readControlRows(run, vehicle, Truth::kNeeded))
+    if (row.flying)
+      flight.truth.push_back({row.stamp, row.true_yaw_map_rad, row.true_velocity_map_m_s, row.true_position_map_m.z()});
+  flight.inputs = readFilterTape(run);
+  return flight;
+}
+
 }  // namespace swiftlet::apps

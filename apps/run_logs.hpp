@@ -7,6 +7,7 @@
 #include "common/vehicle_config.hpp"
 #include "interfaces/control_log.hpp"
 #include "perception/fusion/filter_tape.hpp"
+#include "perception/fusion/noise_tuning.hpp"
 
 namespace swiftlet::apps {
 
@@ -19,5 +20,8 @@ std::vector<interfaces::ControlRow> readControlRows(const std::string& run, cons
 
 /// What the filter of that run was told. Throws common::InputError with file and line.
 std::vector<perception::FilterInput> readFilterTape(const std::string& run);
+
+/// What the filter was told, and the truth while the vehicle flew. Throws common::InputError.
+perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle);
 
 }  // namespace swiftlet::apps

@@ -26,17 +26,9 @@ struct TuneOptions {
   int steps = 40;
 };
 
-TapedFlight readFlight(const std::string& run, const common::VehicleConfig& vehicle) {
-  TapedFlight flight;
-  for (const interfaces::ControlRow& row : readControlRows(run, vehicle, Truth::kNeeded))
-    if (row.flying) flight.truth.push_back({row.stamp, row.true_yaw_map_rad, row.true_velocity_map_m_s});
-  flight.inputs = readFilterTape(run);
-  return flight;
-}
-
 std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const common::VehicleConfig& vehicle) {
   std::vector<TapedFlight> flights;
-  for (const std::string& run : runs) flights.push_back(readFlight(run, vehicle));
+  for (const std::string& run : runs) flights.push_back(readTapedFlight(run, vehicle));
   return flights;
 }
 

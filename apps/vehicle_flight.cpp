@@ -86,6 +86,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, commands(), sinks()) {
   if (setup.wait) autonomy_.waitForStart();
+  autonomy_.offerMaps(std::move(mission.maps));
   recorder_.watch(setup.phases);
   autonomy_.setFilterListener(control_log_.get());
 }

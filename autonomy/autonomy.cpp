@@ -24,18 +24,15 @@ constexpr double kFarFromGoal_m = 1.0;
 /// m.
 constexpr double kNear_m = 2.0;
 
-/// The flight home ends this far above the thrust margin at which the vehicle has to land where it is: 3 % of the
-/// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
-constexpr double kLandingMargin = 0.03;
-
 /// Of the missions that the operator starts in flight, as `fly` checks the first one.
 behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map,
-                                  bool has_camera) {
+                                  bool has_camera, const MapShelf& maps) {
   return {.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); },
           .max_height_m = vehicle.max_height_m,
           .has_camera = has_camera,
           .target_names = config.estimator.targets.names(),
-          .has_map = has_map};
+          .has_map = has_map,
+          .map_problem = [&maps](const std::string& map, const std::string&) { return maps.problemOf(map); }};
 }
 
 }  // namespace
@@ -54,12 +51,13 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
       requests_(vehicle.hullRadius_m(), camera),
-      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, camera != nullptr)),
+      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, camera != nullptr, map_shelf_)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
       given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
+      assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
   if (memory != nullptr) controller_.recallThrust(memory->thrust);
@@ -105,6 +103,7 @@ void Autonomy::take(const common::SensorEvent& event) {
                         estimator_.state().velocity_odom_m_s.head<2>().norm());
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
+    assist_.pilotArrived(*pilot);
   }
 }
 
@@ -175,7 +174,9 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   flight.inertial_fault = imu_watch_.fault(now);
   flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
+  assistPilot(flight);
   const common::Setpoint setpoint = controller_.tick(flight);
+  last_thrust_ = setpoint.thrust;
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
@@ -183,6 +184,16 @@ common::Setpoint Autonomy::tick(Time now) {
   followMapHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;
+}
+
+/// The pilot flies, and the program with him: it has the controller, but not the last word.
+void Autonomy::assistPilot(control::FlightTick& flight) {
+  const bool before = std::exchange(assisted_, assist_.assists(controller_.state(), flight.state));
+  if (before && !assisted_) controller_.hold();
+  if (!assisted_) return;
+  flight.thrust_applies = assist_.thrustApplies(last_thrust_);
+  flight.pilot_flies =
+      !assist_.fly(controller_, reactive_.decision(), flight.state, context_.goal_limits.greatest_height_m);
 }
 
 /// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
@@ -201,6 +212,7 @@ bool Autonomy::finished() const {
 std::vector<common::Event> Autonomy::takeEvents() {
   collect(scan_watch_.takeEvents());
   collect(estimator_.takeEvents());
+  collect(given_map_.takeEvents());
   collect(supervisor_.takeEvents());
   collect(requests_.takeEvents());
   collect(executor_.takeEvents());
@@ -234,8 +246,9 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const auto cost_map = executor_.desk().costMap();
   const auto& decision =
       reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(),
-                        estimator_.people().obstacles(), executor_.wantedVelocity_map_m_s(), cost_map.get(),
-                        camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),
+                        estimator_.people().obstacles(),
+                        assisted_ ? assist_.wantedVelocity_map_m_s(state) : executor_.wantedVelocity_map_m_s(),
+                        cost_map.get(), camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),
                         requests_.keepOut().edgesNear_level_m(outcome->T_map_body, kNear_m)});
   executor_.react(decision, state);
 
@@ -335,7 +348,11 @@ void Autonomy::tickMission() {
   context_.answers = requests_.takeAnswers(context_.now);
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
-  requests_.take(std::exchange(context_.requests, {}), *world_);
+  for (const common::MissionRequest& request : std::exchange(context_.requests, {}))
+    if (auto answer = map_shelf_.take(request, estimator_, given_map_))
+      requests_.answered(std::move(*answer), context_.now);
+    else
+      requests_.take(request, *world_);
   collect(std::exchange(context_.events, {}));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());
@@ -345,52 +362,6 @@ void Autonomy::tickMission() {
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
   mission_status_.question = missions_.mission().question();
-}
-
-void Autonomy::takeSnapshot(Time now) {
-  const common::VehicleState& state = estimator_.state();
-  given_map_.update(now, state.T_map_body_planar(), state.T_map_odom, estimator_.localization(), estimator_.grid());
-  WorldParts parts;
-  parts.vehicle.state = estimator_.state();
-  parts.vehicle.flight_state = controller_.state();
-  parts.vehicle.avoidance = reactive_.decision().status;
-  parts.vehicle.plan_map_m = executor_.remainingPlan_map_m();
-  parts.vehicle.laser = laser_points_;
-  parts.vehicle.drift_m = drift_m_;
-  parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
-  showWaiting(parts.mission);
-  parts.mission.status.tree = missions_.mission().view();
-  parts.map = {given_map_.grid(),
-               estimator_.levels(),
-               executor_.desk().frontiers(),
-               executor_.desk().exploredArea_m2(),
-               estimator_.localization(),
-               given_map_.T_map_given(),
-               requests_.keepOut().zones()};
-  for (const common::Disc& person : estimator_.people().expectedAt(now))
-    parts.people.people.push_back({person.center_map_m, person.radius_m});
-  parts.people.followed_map_m = executor_.followedPerson_map_m();
-  WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};
-  if (world_) {
-    home.straight_m =
-        (parts.vehicle.state.T_map_body_planar().position_m() - world_->vehicle->home_map.position_m()).norm();
-    home.flown_m = world_->vehicle->distance_flown_m;
-  }
-  parts.map3d = estimator_.map3d();
-  parts.targets.targets = estimator_.targets();
-  parts.energy = energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
-                                                 kLandingMargin + config_.supervisor.least_thrust_margin);
-  world_ = world_builder_.build(now, std::move(parts));
-}
-
-/// What the mission flies to after the hold, as long as nothing else is flown to.
-void Autonomy::showWaiting(common::MissionLayer& layer) const {
-  const auto command = missions_.mission().waitingCommand();
-  if (mission_status_.state != MissionState::kHeld || !command) return;
-  layer.waiting = toString(*command);
-  if (layer.goal_map_m) return;
-  const auto* goal = std::get_if<common::GoalCommand>(&command->kind);
-  layer.goal_map_m = goal != nullptr ? goal->goal_map_m : world_->vehicle->home_map.position_m();
 }
 
 void Autonomy::collect(std::vector<common::Event> events) {

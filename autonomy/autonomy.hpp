@@ -15,7 +15,9 @@
 #include "autonomy/given_map_overlay.hpp"
 #include "autonomy/imu_watch.hpp"
 #include "autonomy/input.hpp"
+#include "autonomy/map_shelf.hpp"
 #include "autonomy/mission_desk.hpp"
+#include "autonomy/pilot_assist.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/scan_queue.hpp"
 #include "autonomy/scan_watch.hpp"
@@ -47,6 +49,7 @@ struct AutonomyConfig {
   double behavior_rate_hz = 20.0;
   ScanQueueConfig scans;
   ImuWatchConfig imu;
+  PilotAssistConfig assist;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -73,6 +76,9 @@ class Autonomy {
 
   /// The mission begins when the operator starts it, or another one. Call it before the first input.
   void waitForStart() { missions_.waitForStart(); }
+
+  /// The maps that missions may load. Call it before the first input.
+  void offerMaps(std::vector<OfferedMap> maps) { map_shelf_.offer(std::move(maps)); }
 
   /// Returns a setpoint for a tick, and nothing for any other input. The delivered job must be outstanding (awaits).
   std::optional<common::Setpoint> process(const Input& input);
@@ -125,6 +131,7 @@ class Autonomy {
   common::CommandResult switchController(std::uint64_t id, const common::ControllerCommand& command);
   void answer(const common::OperatorCommand& command, common::CommandResult result, common::Time now);
   common::Setpoint tick(common::Time now);
+  void assistPilot(control::FlightTick& flight);
   void processDueScans(common::Time now);
   void processScan(const common::LaserScan& scan, common::Time now);
   void followMapHeight(double height_m);
@@ -152,6 +159,7 @@ class Autonomy {
   Supervisor supervisor_;
   SupervisorIntents supervisor_intents_;
   FlightRequests requests_;
+  MapShelf map_shelf_;
   MissionDesk missions_;
   std::unique_ptr<common::JobRunner> jobs_;
 
@@ -160,6 +168,9 @@ class Autonomy {
   ImuWatch imu_watch_;
   GivenMapOverlay given_map_;
   CameraObstacles camera_obstacles_;
+  PilotAssist assist_;
+  bool assisted_ = false;  ///< At the last tick.
+  double last_thrust_ = 0.0;
   EnergyMonitor energy_monitor_;
   common::EnergyLayer energy_;  ///< Of the last tick of the behaviours.
   double battery_v_ = 0.0;

@@ -49,6 +49,8 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       laser_(config.laser, laser),
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
+      localization_config_(config.localization),
+      jobs_(jobs),
       localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr),
       rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr),
       targets_(camera && !config.targets.classes.empty() ? std::make_unique<TargetPipeline>(config.targets, jobs)
@@ -107,6 +109,18 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
   reportHealth(now);
   return outcome;
+}
+
+void Estimator::loadMap(const GivenMap& given) {
+  if (localizer_)
+    localizer_->load(given);
+  else
+    localizer_ = std::make_unique<FlightLocalizer>(given, localization_config_, jobs_);
+}
+
+bool Estimator::forgetPlace() {
+  if (localizer_) localizer_->forget();
+  return localizer_ != nullptr;
 }
 
 void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {

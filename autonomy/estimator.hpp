@@ -80,6 +80,11 @@ class Estimator {
   /// return nothing.
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
 
+  /// That map is the given one from now on, and nothing is known of the vehicle's place in it.
+  void loadMap(const GivenMap& given);
+  /// The place in the given map is looked for anew; false if there is none.
+  bool forgetPlace();
+
   /// Without a camera the frame is ignored.
   void addFrame(std::shared_ptr<const common::RgbdFrame> frame);
   /// Maps the frame that waits as soon as the pose at its time is known, and looks for targets in it. To be called
@@ -156,6 +161,8 @@ class Estimator {
   AltitudePipeline altitude_;
   MapPipeline map_;
   DriftMonitor drift_;
+  FlightLocalizerConfig localization_config_;
+  common::JobRunner& jobs_;
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
   std::unique_ptr<RgbdPipeline> rgbd_;          ///< Null without a camera.
   std::unique_ptr<TargetPipeline> targets_;     ///< Null without a camera, and without targets to look for.

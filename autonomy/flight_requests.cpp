@@ -32,14 +32,17 @@ std::optional<common::CommandResult> FlightRequests::take(const common::Operator
   return common::CommandResult{command.id, true, inside ? "the vehicle is in it, and leaves with its next path" : ""};
 }
 
-void FlightRequests::take(const std::vector<common::MissionRequest>& requests, const common::World& world) {
-  for (const common::MissionRequest& request : requests) {
-    const auto* photograph = std::get_if<common::PhotographRequest>(&request.kind);
-    if (photograph != nullptr && camera_)
-      photograph_ = {request.id, photograph->name, world.stamp};
-    else
-      answers_.push_back(answerTo(request, world));
-  }
+void FlightRequests::take(const common::MissionRequest& request, const common::World& world) {
+  const auto* photograph = std::get_if<common::PhotographRequest>(&request.kind);
+  if (photograph != nullptr && camera_)
+    photograph_ = {request.id, photograph->name, world.stamp};
+  else
+    answers_.push_back(answerTo(request, world));
+}
+
+void FlightRequests::answered(common::MissionAnswer answer, common::Time now) {
+  if (answer.done) say(now, answer.reason, "the mission asked for it");
+  answers_.push_back(std::move(answer));
 }
 
 common::MissionAnswer FlightRequests::answerTo(const common::MissionRequest& request, const common::World& world) {

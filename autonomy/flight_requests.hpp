@@ -29,7 +29,9 @@ class FlightRequests {
 
   /// Handles and answers commands about keep-out zones; every other one is for somebody else.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, const common::World& world);
-  void take(const std::vector<common::MissionRequest>& requests, const common::World& world);
+  void take(const common::MissionRequest& request, const common::World& world);
+  /// An answer of somebody else, with its event.
+  void answered(common::MissionAnswer answer, common::Time now);
 
   /// A photograph that is asked for is taken of it if it was measured after that.
   void addFrame(const std::shared_ptr<const common::RgbdFrame>& frame, const common::VehicleState& state);

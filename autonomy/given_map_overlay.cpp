@@ -60,6 +60,13 @@ GivenMapOverlay::GivenMapOverlay(const GivenMap* given) : laid_(common::makeOccu
   if (given != nullptr) given_ = *given;
 }
 
+void GivenMapOverlay::load(const GivenMap& given) {
+  given_ = given;
+  smoothed_.reset();
+  changes_.forget();
+  if (std::exchange(T_map_given_, std::nullopt)) lay();
+}
+
 void GivenMapOverlay::update(common::Time now, const Pose2& T_map_body, const Pose2& T_map_odom,
                              const std::optional<common::Localization>& localization,
                              const std::shared_ptr<const OccupancyGrid>& flown) {
@@ -71,10 +78,12 @@ void GivenMapOverlay::update(common::Time now, const Pose2& T_map_body, const Po
     }
   } else {
     smoothed_.reset();
+    changes_.forget();
     changed |= std::exchange(T_map_given_, std::nullopt).has_value();
   }
   updated_ = now;
   if (changed) lay();
+  if (T_map_given_) changes_.update(now, *flown_, laid_, *T_map_given_);
 }
 
 /// True if the frame has moved.

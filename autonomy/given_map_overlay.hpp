@@ -5,8 +5,10 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "autonomy/estimation/flight_localizer.hpp"
+#include "autonomy/map_changes.hpp"
 #include "common/geometry.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
@@ -20,6 +22,9 @@ class GivenMapOverlay {
   /// `given` may be null and is read only here.
   explicit GivenMapOverlay(const GivenMap* given);
 
+  /// Another map is the given one from the next update on.
+  void load(const GivenMap& given);
+
   /// `T_map_body` is the pose for which the two frames have to agree best, at `now`.
   void update(common::Time now, const common::Pose2& T_map_body, const common::Pose2& T_map_odom,
               const std::optional<common::Localization>& localization,
@@ -30,6 +35,8 @@ class GivenMapOverlay {
   /// The frame of the given map, smoothed, and moved in steps of some centimetres at the vehicle, so that plans live
   /// longer than a scan. None while the vehicle is not localized.
   const std::optional<common::Pose2>& T_map_given() const { return T_map_given_; }
+  /// What has changed since the given map was made.
+  std::vector<common::Event> takeEvents() { return changes_.takeEvents(); }
 
  private:
   bool follow(common::Time now, const common::Pose2& T_map_body, const common::Pose2& T_map_given);
@@ -41,6 +48,7 @@ class GivenMapOverlay {
   common::Time updated_;
   common::OccupancyGrid laid_;  ///< The given map in the cells of `map`.
   std::shared_ptr<const common::OccupancyGrid> flown_, grid_;
+  MapChanges changes_;
 };
 
 }  // namespace swiftlet::autonomy

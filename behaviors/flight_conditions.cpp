@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "behaviors/target_ports.hpp"
 #include "common/world.hpp"
@@ -157,8 +158,10 @@ std::string IsAt::objection(const FlightTick& tick) const {
   if (!tolerance_m) return tolerance_m_.problem();
   const common::VehicleState& state = tick.flight.world->vehicle->state;
   if (!state.horizontal_valid) return "the position is not known";
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return places.error();
   const Eigen::Vector3d here_map_m = state.T_map_body().position_m;
-  const double distance_m = std::hypot(here_map_m.x() - place->x, here_map_m.y() - place->y);
+  const double distance_m = (here_map_m.head<2>() - places->inMap_m(*place)).norm();
   if (distance_m > *tolerance_m) return fmt::format("it is {:.2f} m away", distance_m);
   const double above_m = place->z ? here_map_m.z() - *place->z : 0.0;
   return std::abs(above_m) <= *tolerance_m ? std::string()

@@ -1,10 +1,11 @@
 #include "behaviors/follow_path.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -21,13 +22,15 @@ tree::PortManifest pointsPort() {
           .type = PortType::kPoints,
           .required = true,
           .description =
-              "In the map frame, whose origin is the take-off pose; z above the take-off floor, or none: the "
-              "present height."};
+              "In the map frame, whose origin is the take-off pose, or in the given map; z above the take-off floor, "
+              "or none: the present height."};
 }
 
+/// Infinite while it is not known where the point lies.
 double distanceTo_m(const FlightTick& tick, const tree::Point& point) {
   const Eigen::Vector2d here_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
-  return std::hypot(here_map_m.x() - point.x, here_map_m.y() - point.y);
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  return places ? (here_map_m - places->inMap_m(point)).norm() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -54,8 +57,9 @@ PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, co
   const auto failed = [this](const std::string& problem) {
     return Leg{Status::kFailure, fmt::format("point {}: {}", at_ + 1, problem)};
   };
+  if (leg_ && hasMoved(*leg_, *tick.flight.world)) endLeg();
   if (!leg_) {
-    const auto leg = go_to_.intentTo(point, present);
+    const auto leg = go_to_.intentTo(point, tick, present);
     if (!leg) return failed(leg.error());
     const auto verdict = common::judgeGoal(common::goalOf(*leg), tick.flight.goal_limits, nullptr);
     if (!verdict) return failed(verdict.error().text);

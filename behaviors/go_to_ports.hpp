@@ -5,6 +5,8 @@
 
 #include <tl/expected.hpp>
 
+#include "behaviors/flight_tick.hpp"
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/intent.hpp"
 
@@ -16,17 +18,21 @@ class GoToPorts {
   explicit GoToPorts(const tree::NodeSetup& setup)
       : tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m"), mode_(setup, "mode") {}
 
-  /// The intent to fly there, in the present mode if the port names none, or which port has no value. The place is not
-  /// judged.
-  tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place, common::FlightMode present) const {
+  /// The intent to fly to a place that the mission names, in the present mode if the port names none; or which port has
+  /// no value, or that the place is one of a given map whose pose is not known. The place is not judged.
+  tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place, const FlightTick& tick,
+                                                         common::FlightMode present) const {
     const auto tolerance_m = tolerance_m_.get();
     const auto clearance_m = clearance_m_.get();
     const auto mode = modeOr(mode_, present);
     if (!tolerance_m) return tl::unexpected(tolerance_m_.problem());
     if (!clearance_m) return tl::unexpected(clearance_m_.problem());
     if (!mode) return tl::unexpected(mode_.problem());
+    const auto places = NamedPlaces::in(*tick.flight.world);
+    if (!places) return tl::unexpected(places.error());
     common::GoToIntent intent;
-    intent.goal_map_m = {place.x, place.y};
+    intent.goal_map_m = places->inMap_m(place);
+    if (places->given()) intent.goal_given_m = Eigen::Vector2d(place.x, place.y);
     intent.height_m = place.z;
     intent.tolerance_m = *tolerance_m;
     intent.clearance_m = *clearance_m;

@@ -1,5 +1,6 @@
 #include "behaviors/inspect.hpp"
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
@@ -51,7 +52,9 @@ IntentLeaf::IntentOrProblem Inspect::makeIntent(const FlightTick& tick) {
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
   if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
   if (!mode) return {std::nullopt, mode_.problem()};
-  common::Goal place{.place_map_m = {point->x, point->y}, .height_m = height_m, .tolerance_m = 0, .clearance_m = 0};
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return {std::nullopt, places.error()};
+  common::Goal place{.place_map_m = places->inMap_m(*point), .height_m = height_m, .tolerance_m = 0, .clearance_m = 0};
   const auto verdict = common::judgeGoal(place, tick.flight.goal_limits, nullptr);
   if (!verdict) return {std::nullopt, verdict.error().text};
   return {common::InspectIntent{*verdict, point->z, *radius_m, *turns, height_m, *clearance_m, *mode}, {}};

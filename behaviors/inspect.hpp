@@ -1,5 +1,6 @@
 // Inspect: orbits `point` at `radius_m` with the camera on it. SUCCESS after `turns`; parts of the circle that are not
-// free are left out; FAILURE when none of it is.
+// free are left out; FAILURE when none of it is. The place of the point in a given map is asked for once, when it
+// begins.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 #include "behaviors/keep_out.hpp"
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
@@ -11,10 +12,12 @@ tree::NodeManifest KeepOut::manifest() {
           .description = "Keeps the vehicle out of an area for the rest of the flight."};
 }
 
-RequestLeaf::RequestOrProblem KeepOut::makeRequest(const FlightTick&) {
+RequestLeaf::RequestOrProblem KeepOut::makeRequest(const FlightTick& tick) {
   const auto points = polygon_.get();
   if (!points) return {std::nullopt, polygon_.problem()};
-  return {common::KeepOutRequest{polygonOf(*points)}, {}};
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return {std::nullopt, places.error()};
+  return {common::KeepOutRequest{places->inMap(*points)}, {}};
 }
 
 }  // namespace swiftlet::behaviors

@@ -1,5 +1,6 @@
 // KeepOut: the vehicle keeps out of `polygon` for the rest of the flight, whatever it does: planning, exploring, flying
-// home, and braking. SUCCESS when that holds; FAILURE for a polygon that cannot be kept out of.
+// home, and braking. SUCCESS when that holds; FAILURE for a polygon that cannot be kept out of, or whose
+// place in the given map is not known. It stays where it was made, also if the localization moves the given map.
 #pragma once
 
 #include "behaviors/request_leaf.hpp"

@@ -133,6 +133,8 @@ void Mission::continueIntentsOf(const Mission& before) {
 
 std::optional<double> Mission::maxHeight_m() const { return maxHeightOf_m(impl_->tree); }
 
+std::vector<std::string> Mission::mapFiles() const { return mapFilesOf(impl_->tree); }
+
 bool Mission::acceptsGoals() const { return !impl_->takers.empty(); }
 
 std::optional<common::OperatorCommand> Mission::waitingCommand() const {

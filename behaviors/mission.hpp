@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "behaviors/context.hpp"
 #include "behaviors/mission_limits.hpp"
@@ -53,6 +54,8 @@ class Mission {
   std::string question() const;
   /// The greatest height that the mission allows above the take-off floor, if one of its TakeOffs names one.
   std::optional<double> maxHeight_m() const;
+  /// The maps that its LoadMaps name, as they name them; each once.
+  std::vector<std::string> mapFiles() const;
   /// The ID of the main tree.
   const std::string& name() const;
 

@@ -179,10 +179,10 @@ struct AreaProblem {
   std::string problem;  ///< Empty without one.
   const char* hint = "";
 };
-AreaProblem areaProblem(const common::Polygon& area, std::string_view id) {
+AreaProblem areaProblem(const common::Polygon& area, std::string_view id, bool in_take_off_frame) {
   if (std::string problem = problemOf(area); !problem.empty())
     return {std::move(problem), "give the corners in order along the edge"};
-  if (id == "KeepOut" && area.contains(Eigen::Vector2d::Zero()))
+  if (in_take_off_frame && id == "KeepOut" && area.contains(Eigen::Vector2d::Zero()))
     return {"holds the take-off place 0;0", "the vehicle could not fly home: leave the place out"};
   return {};
 }
@@ -192,6 +192,31 @@ constexpr const char* kHeightHint =
 
 std::string metres(double value) { return tree::toString(tree::Value(value)) + " m"; }
 
+bool hasLeaf(const tree::Tree& tree, std::string_view id) {
+  return std::any_of(tree.nodes().begin(), tree.nodes().end(), [id](const tree::NodeRecord& record) {
+    return record.manifest != nullptr && record.manifest->id == id;
+  });
+}
+
+void checkMaps(const tree::Tree& tree, const MissionLimits& limits, std::vector<tree::Problem>& problems) {
+  const bool loads = hasLeaf(tree, "LoadMap");
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    if (record.manifest == nullptr) continue;
+    const int id = record.node->id();
+    const std::string& leaf = record.manifest->id;
+    if ((leaf == "Localize" || leaf == "Relocalize") && !limits.has_map && !loads)
+      problems.push_back({tree.locationOf(id), leaf, "needs a map of the place, and the flight has none",
+                          "give it one: LoadMap, swiftlet fly --map MAP.yaml, or map: in a trial", tree.pathOf(id)});
+    if (leaf != "LoadMap" || !limits.map_problem) continue;
+    const std::vector<tree::Value> files = tree.knownValues(id, "file");
+    for (const tree::Value& value : files)
+      if (const auto* file = std::get_if<std::string>(&value))
+        if (std::string problem = limits.map_problem(*file, tree.locationOf(id).file); !problem.empty())
+          problems.push_back({tree.locationOf(id, "file"), "LoadMap.file", std::move(problem),
+                              "a map is the YAML file of map_server, as a run writes map.yaml", tree.pathOf(id)});
+  }
+}
+
 void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vector<tree::Problem>& problems) {
   const double max_height_m = maxHeightOf_m(tree).value_or(limits.max_height_m);
   const auto report = [&](const tree::Node& node, const tree::NodeManifest& manifest, const char* port,
@@ -199,12 +224,11 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
     problems.push_back(
         {tree.locationOf(node.id(), port), manifest.id + "." + port, std::move(message), hint, tree.pathOf(node.id())});
   };
+  // In a mission that localizes, the places are those of the given map.
+  const bool in_take_off_frame = !hasLeaf(tree, "Localize") && !hasLeaf(tree, "LoadMap");
   for (const tree::NodeRecord& record : tree.nodes()) {
     if (record.manifest == nullptr) continue;
     const int id = record.node->id();
-    if (record.manifest->id == "Localize" && !limits.has_map)
-      problems.push_back({tree.locationOf(id), record.manifest->id, "needs a map of the place, and the flight has none",
-                          "give it one: swiftlet fly --map MAP.yaml, or map: in a trial", tree.pathOf(id)});
     if (needsCamera(record.manifest->id) && !limits.has_camera)
       problems.push_back({tree.locationOf(id), record.manifest->id, "needs an RGB-D camera, and the vehicle has none",
                           "fly with a profile that has one: --system swiftlet_3d, or system: in a trial",
@@ -236,7 +260,8 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
       if (const auto* height_m = std::get_if<double>(&value)) checkGoal("height_m", {.height_m = *height_m});
     for (const tree::Value& value : tree.knownValues(id, "polygon"))
       if (const auto* corners = std::get_if<tree::Points>(&value))
-        if (const auto [problem, hint] = areaProblem(polygonOf(*corners), record.manifest->id); !problem.empty())
+        if (const auto [problem, hint] = areaProblem(polygonOf(*corners), record.manifest->id, in_take_off_frame);
+            !problem.empty())
           report(*record.node, *record.manifest, "polygon", problem, hint);
     for (const tree::Value& value : tree.knownValues(id, "goal"))
       if (const auto* goal = std::get_if<tree::Point>(&value))
@@ -326,6 +351,17 @@ std::optional<double> maxHeightOf_m(const tree::Tree& tree) {
   return greatest_m;
 }
 
+std::vector<std::string> mapFilesOf(const tree::Tree& tree) {
+  std::vector<std::string> files;
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    if (record.manifest == nullptr || record.manifest->id != "LoadMap") continue;
+    for (const tree::Value& value : tree.knownValues(record.node->id(), "file"))
+      if (const auto* file = std::get_if<std::string>(&value))
+        if (std::find(files.begin(), files.end(), *file) == files.end()) files.push_back(*file);
+  }
+  return files;
+}
+
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits) {
   std::vector<tree::Problem> problems;
   Walk walk(tree, problems);
@@ -333,6 +369,7 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
   if (!walk.takesOff() && problems.empty())
     problems.push_back({tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}});
   checkLimits(tree, limits, problems);
+  checkMaps(tree, limits, problems);
   return problems;
 }
 

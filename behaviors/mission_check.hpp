@@ -25,6 +25,9 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
 /// The greatest `max_height_m` of the tree's TakeOffs; nullopt if none names one.
 std::optional<double> maxHeightOf_m(const tree::Tree& tree);
 
+/// The maps that its LoadMaps name, as they name them; each once.
+std::vector<std::string> mapFilesOf(const tree::Tree& tree);
+
 /// Every problem of a mission file, without flying it: those of the XML, and what cannot work in flight (a node that
 /// flies before the take-off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty if
 /// the mission is sound.

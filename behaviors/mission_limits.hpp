@@ -18,7 +18,11 @@ struct MissionLimits {
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
   /// Names of the targets that the profile looks for; none: any name is accepted.
   std::optional<std::vector<std::string>> target_names = {};
-  bool has_map = true;  ///< A map of the place is given; nodes that localize need one.
+  /// A map of the place is given; nodes that localize need one, or a LoadMap in the mission.
+  bool has_map = true;
+  /// Why the map that a LoadMap names, in that mission file, cannot be loaded; empty if it can. Without a function
+  /// every map is accepted.
+  std::function<std::string(const std::string& map, const std::string& mission)> map_problem = {};
 };
 
 }  // namespace swiftlet::behaviors

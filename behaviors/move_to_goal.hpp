@@ -3,8 +3,6 @@
 // was given a map, both are those of that map, and FAILURE while the vehicle does not know its place in it.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/go_to_ports.hpp"
 #include "behaviors/tree/registry.hpp"
@@ -23,7 +21,7 @@ class MoveToGoal final : public IntentLeaf {
   GoToPorts go_to_;
   tree::Input<double> height_m_;
   tree::Input<double> yaw_deg_;
-  Eigen::Vector2d emitted_map_m_ = Eigen::Vector2d::Zero();  ///< The goal of the present intent.
+  common::GoToIntent emitted_;  ///< The present intent.
 };
 
 }  // namespace swiftlet::behaviors

@@ -38,7 +38,8 @@ inline tree::PortManifest placePort(std::string name) {
   return {.name = std::move(name),
           .type = tree::PortType::kPoint,
           .required = true,
-          .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."};
+          .description =
+              "In the map frame, whose origin is the take-off pose, or in the given map; z above the take-off floor."};
 }
 
 /// An area that must be given; `purpose` completes "the area ...".
@@ -47,7 +48,7 @@ inline tree::PortManifest polygonPort(const std::string& purpose) {
           .type = tree::PortType::kPoints,
           .required = true,
           .description = "Corners, in order, of the area " + purpose +
-                         ", in the map frame, whose origin is the take-off pose; a z is ignored."};
+                         ", in the map frame, whose origin is the take-off pose, or in the given map; a z is ignored."};
 }
 inline common::Polygon polygonOf(const tree::Points& points) {
   common::Polygon polygon;

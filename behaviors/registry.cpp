@@ -12,6 +12,7 @@
 #include "behaviors/inspect.hpp"
 #include "behaviors/keep_out.hpp"
 #include "behaviors/land.hpp"
+#include "behaviors/load_map.hpp"
 #include "behaviors/localize.hpp"
 #include "behaviors/locate_target.hpp"
 #include "behaviors/log_event.hpp"
@@ -19,6 +20,7 @@
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/photograph.hpp"
+#include "behaviors/relocalize.hpp"
 #include "behaviors/save_map.hpp"
 #include "behaviors/set_flight_mode.hpp"
 #include "behaviors/survey.hpp"
@@ -37,7 +39,9 @@ const tree::Registry& missionRegistry() {
     registry.add<Hold>();
     registry.add<Explore>();
     registry.add<ExploreUntilFound>();
+    registry.add<LoadMap>();
     registry.add<Localize>();
+    registry.add<Relocalize>();
     registry.add<MoveToGoal>();
     registry.add<TurnTo>();
     registry.add<FollowPath>();

@@ -1,5 +1,6 @@
 #include "behaviors/survey.hpp"
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
@@ -41,7 +42,9 @@ IntentLeaf::IntentOrProblem Survey::makeIntent(const FlightTick& tick) {
   if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
   if (!mode) return {std::nullopt, mode_.problem()};
-  const common::Polygon area = polygonOf(*points);
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return {std::nullopt, places.error()};
+  const common::Polygon area = places->inMap(*points);
   if (std::string problem = problemOf(area); !problem.empty()) return {std::nullopt, problem};
   common::Goal at_height{.place_map_m = area.corners_map_m.front(), .height_m = height_m};
   const auto verdict = common::judgeGoal(at_height, tick.flight.goal_limits, nullptr);

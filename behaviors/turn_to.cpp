@@ -1,6 +1,6 @@
 #include "behaviors/turn_to.hpp"
 
-#include "common/geometry.hpp"
+#include "behaviors/named_places.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 
@@ -14,16 +14,19 @@ tree::NodeManifest TurnTo::manifest() {
                      .required = true,
                      .minimum = -360.0,
                      .maximum = 360.0,
-                     .description = "Heading in the map frame, counter-clockwise; 0 is that of the take-off."}},
+                     .description = "Heading in the map frame, counter-clockwise; 0 is that of the take-off, or the x "
+                                    "axis of the given map."}},
           .description = "Turns on the spot."};
 }
 
 IntentLeaf::IntentOrProblem TurnTo::makeIntent(const FlightTick& tick) {
   const auto yaw_deg = yaw_deg_.get();
   if (!yaw_deg) return {std::nullopt, yaw_deg_.problem()};
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return {std::nullopt, places.error()};
   common::GoToIntent intent;
   intent.goal_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
-  intent.yaw_map_rad = *yaw_deg * common::kRadPerDeg;
+  intent.yaw_map_rad = places->yawInMap_rad(*yaw_deg);
   intent.mode = tick.mode;
   intent.tolerance_m = 0.15;  // A gust may push the vehicle while it turns.
   intent.clearance_m = 0.0;   // It stands here already.

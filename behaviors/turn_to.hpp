@@ -1,4 +1,4 @@
-// TurnTo: SUCCESS when the vehicle, staying where it is, looks along yaw_deg in `map`.
+// TurnTo: SUCCESS when the vehicle, staying where it is, looks along yaw_deg in `map`, or in the given map.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

@@ -24,7 +24,15 @@ struct PhotographRequest {
   std::string name;
 };
 
-using MissionRequestKind = std::variant<KeepOutRequest, SaveMapRequest, PhotographRequest>;
+/// From now on that map is the given one. The maps that a mission may ask for are read before the flight.
+struct LoadMapRequest {
+  std::string file;  ///< As the mission names it.
+};
+/// Forget the pose in the given map and look for it anew.
+struct RelocalizeRequest {};
+
+using MissionRequestKind =
+    std::variant<KeepOutRequest, SaveMapRequest, PhotographRequest, LoadMapRequest, RelocalizeRequest>;
 
 struct MissionRequest {
   std::uint64_t id = 0;  ///< The ids of one mission rise from 1.

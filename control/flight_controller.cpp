@@ -101,13 +101,16 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
 }
 
 tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Vector2d& velocity_map_m_s,
-                                                                 double acceleration_m_s2, double yaw_map_rad) {
+                                                                 double acceleration_m_s2, double yaw_map_rad,
+                                                                 double climb_m_s) {
   if (!machine_.activation().waypoints)
     return tl::unexpected(fmt::format("no velocities while {}", common::toString(state())));
-  if (!velocity_map_m_s.allFinite() || !std::isfinite(yaw_map_rad) || !(acceleration_m_s2 > 0.0))
+  if (!velocity_map_m_s.allFinite() || !std::isfinite(yaw_map_rad) || !std::isfinite(climb_m_s) ||
+      !(acceleration_m_s2 > 0.0))
     return tl::unexpected(std::string("the velocity is not finite"));
   Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
   velocity_odom_m_s.head<2>() = Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * velocity_map_m_s;
+  velocity_odom_m_s.z() = climb_m_s;
   follower_.setVelocity(velocity_odom_m_s, acceleration_m_s2, common::wrapAngle(yaw_map_rad - T_map_odom_.yaw_rad));
   return {};
 }
@@ -132,7 +135,7 @@ common::Setpoint FlightController::tick(const FlightTick& given) {
     last_state_ = tick.state;
   }
   watch(tick);
-  limitByMargin();
+  limitByMargin(tick);
   common::Setpoint setpoint = setpointFor(tick);
   setpoint.stamp = now_;
   return setpoint;
@@ -231,8 +234,8 @@ tl::expected<void, std::string> FlightController::switchController(ControllerKin
 }
 
 /// Until the vehicle has flown, the margin is only that of the data sheet or of an earlier flight.
-void FlightController::limitByMargin() {
-  position_.thrust().setLearning(learnsThrust());
+void FlightController::limitByMargin(const FlightTick& tick) {
+  position_.thrust().setLearning(learnsThrust(tick));
   if (state() == FlightState::kFlying || state() == FlightState::kLanding || lifted_)
     margin_.observe(position_.thrust().margin(), dt_s_);
   follower_.setShares(margin_.speed(), margin_.acceleration());

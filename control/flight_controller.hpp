@@ -56,6 +56,8 @@ struct FlightTick {
   std::string inertial_fault;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
+  /// The motors get the thrust of the last setpoint: while a pilot overrules it, nothing is learned of it.
+  bool thrust_applies = true;
   /// By the accelerometer, without gravity and bias; none while it is not known.
   std::optional<Eigen::Vector3d> acceleration_odom_m_s2 = std::nullopt;
 };
@@ -99,7 +101,7 @@ class FlightController {
   /// Leaves the path and flies at that velocity until the next command; see PathFollower::setVelocity. Allowed only
   /// while flying.
   tl::expected<void, std::string> followVelocity(const Eigen::Vector2d& velocity_map_m_s, double acceleration_m_s2,
-                                                 double yaw_map_rad);
+                                                 double yaw_map_rad, double climb_m_s = 0.0);
   /// Stops as fast as the flight mode allows and holds, at that yaw if one is given.
   void hold(std::optional<double> yaw_map_rad = std::nullopt);
   /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat.
@@ -160,8 +162,8 @@ class FlightController {
   common::Setpoint descend(const FlightTick& tick);
   common::Setpoint descendInEmergency(const FlightTick& tick);
   common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
-  void limitByMargin();
-  bool learnsThrust() const;
+  void limitByMargin(const FlightTick& tick);
+  bool learnsThrust(const FlightTick& tick) const;
   bool nearGround() const;
   void moveVertically(double goal_m, double speed_m_s, double height_m);
   Eigen::Vector2d velocityForBraking_m_s() const;

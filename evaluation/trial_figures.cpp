@@ -64,6 +64,8 @@ const std::vector<TrialFigure>& trialFigures() {
       {"relocalization_error_max_m", kMax, of<&Score::relocalization_error_m>},
       {"relocalization_error_median_m", kMedian, of<&Score::relocalization_error_m>},
       {"mission_time_median_s", kMedian, timeIfDone_s},
+      {"distance_median_m", kMedian, of<&Score::distance_m>},
+      {"flight_time_median_s", kMedian, of<&Score::flight_time_s>},
       {"estimate_rms_median_m", kMedian, of<&Score::estimate_rms_m>},
       {"map_wall_error_median_m", kMedian, of<&Score::map_wall_error_median_m>},
       {"map3d_error_median_m", kMedian, ofMap3d<&Map3dScore::error_median_m>},

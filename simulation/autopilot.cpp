@@ -36,6 +36,9 @@ void AutopilotConfig::describe(common::config::Fields& fields) {
   fields("tilt_expo", tilt_expo, {0, 0.9}, "Share of the third power in the curve from command to angle.");
   fields.choice("mixing", mixing, {"clamp_each", "attitude_first"},
                 "How motors at their limit are shared: each clamped, or roll and pitch first, then thrust, yaw last.");
+  fields("program_share", program_share, {0, 1},
+         "Share of its range by which the program's setpoints may move each stick of a pilot who flies; 0: the pilot "
+         "flies alone.");
 }
 
 Autopilot::Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe,
@@ -43,8 +46,32 @@ Autopilot::Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig
     : vehicle_(vehicle), airframe_(scaledTo(vehicle, airframe)), config_(config) {}
 
 void Autopilot::receive(const common::Setpoint& setpoint, common::Time arrived) {
-  setpoint_ = setpoint;
-  received_ = arrived;
+  setpoint_ = program_ = setpoint;
+  received_ = program_received_ = arrived;
+}
+
+void Autopilot::fly(const common::Setpoint& sticks, common::Time now) {
+  setpoint_ = movedByProgram(sticks, now);
+  received_ = now;
+}
+
+common::Setpoint Autopilot::movedByProgram(const common::Setpoint& sticks, common::Time now) const {
+  const common::Setpoint& program = program_;
+  const bool finite = std::isfinite(program.roll_rad) && std::isfinite(program.pitch_rad) &&
+                      std::isfinite(program.yaw_rate_rad_s) && std::isfinite(program.thrust);
+  const bool fresh = (now - program_received_).seconds() <= config_.link_timeout_s;
+  if (config_.program_share == 0.0 || !sticks.motors_on || !program.motors_on || !finite || !fresh) return sticks;
+  const auto moved = [this](double stick, double wanted, double range) {
+    const double most = config_.program_share * range;
+    return stick + std::clamp(wanted - stick, -most, most);
+  };
+  const double max_tilt_rad = vehicle_.max_tilt_deg * std::numbers::pi / 180.0;
+  common::Setpoint both = sticks;
+  both.roll_rad = moved(sticks.roll_rad, program.roll_rad, max_tilt_rad);
+  both.pitch_rad = moved(sticks.pitch_rad, program.pitch_rad, max_tilt_rad);
+  both.yaw_rate_rad_s = moved(sticks.yaw_rate_rad_s, program.yaw_rate_rad_s, config_.max_yaw_rate_rad_s);
+  both.thrust = moved(sticks.thrust, program.thrust, 1.0);
+  return both;
 }
 
 bool Autopilot::linkLost(common::Time now) const { return (now - received_).seconds() > config_.link_timeout_s; }

@@ -35,6 +35,7 @@ struct AutopilotConfig {
   double tilt_share = 1.0;
   double tilt_expo = 0.0;
   Mixing mixing = Mixing::kClampEach;
+  double program_share = 0.0;
 
   void describe(common::config::Fields& fields);
 };
@@ -45,6 +46,10 @@ class Autopilot {
 
   /// Takes a setpoint that came over the link at `arrived`.
   void receive(const common::Setpoint& setpoint, common::Time arrived);
+  /// Takes the sticks of a pilot who flies, as a setpoint. With a program_share, the last setpoint of the link moves
+  /// each of them by at most that share of its range; one that is old, that is not finite, or whose motors are off does
+  /// not.
+  void fly(const common::Setpoint& sticks, common::Time now);
 
   /// One tick of the attitude loop: the throttles of the motors until the next.
   std::array<double, 4> tick(common::Time now, const AttitudeMeasurement& measured, double step_s);
@@ -61,8 +66,12 @@ class Autopilot {
   common::VehicleConfig vehicle_;
   QuadrotorConfig airframe_;
   AutopilotConfig config_;
+  common::Setpoint movedByProgram(const common::Setpoint& sticks, common::Time now) const;
+
   common::Setpoint setpoint_;
   common::Time received_;
+  common::Setpoint program_;  ///< The last one that came over the link.
+  common::Time program_received_;
   Eigen::Vector3d rate_integral_rad_ = Eigen::Vector3d::Zero();
 };
 

@@ -79,9 +79,9 @@ void VehicleModel::stepAutopilot(Time now, std::uint64_t tick) {
   if (sticks != nullptr && sticks->takes_over) {
     const Scenario& scenario = placed_.scenario;
     const double max_tilt_rad = scenario.vehicle.max_tilt_deg * std::numbers::pi / 180.0;
-    autopilot_.receive({now, sticks->thrust > 0.0, sticks->roll * max_tilt_rad, sticks->pitch * max_tilt_rad,
-                        sticks->yaw_rate * scenario.autopilot.max_yaw_rate_rad_s, sticks->thrust},
-                       now);
+    autopilot_.fly({now, sticks->thrust > 0.0, sticks->roll * max_tilt_rad, sticks->pitch * max_tilt_rad,
+                    sticks->yaw_rate * scenario.autopilot.max_yaw_rate_rad_s, sticks->thrust},
+                   now);
   }
   throttles_ = autopilot_.tick(now, measured, kTick_s);
 }

@@ -19,6 +19,19 @@ void FlightLocalizerConfig::describe(common::config::Fields& fields) {
 FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs)
     : config_(config), jobs_(jobs), localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed) {}
 
+void FlightLocalizer::load(const GivenMap& map) {
+  localizer_ = perception::Localizer(*map.grid, map.T_given_grid, config_.localizer, map.seed);
+  localization_ = {};
+  ++maps_;
+}
+
+void FlightLocalizer::forget() {
+  localizer_.forget();
+  localization_.state = localizer_.state();
+  localization_.places = 0;
+  localization_.refuted = false;
+}
+
 bool FlightLocalizer::wantsScan(const common::Pose2& T_odom_body) {
   return turns_.withholdNext(localizer_, T_odom_body);
 }
@@ -63,8 +76,10 @@ void FlightLocalizer::submitSearch(Time now) {
   auto task = localizer_.takeTask();
   if (!task) return;
   jobs_.submit("localization", now, common::Duration::fromSeconds(config_.search_latency_s),
-               [this, task = std::move(*task)]() -> common::JobRunner::Deliver {
-                 return [this, result = run(task)](Time delivered) { take(localizer_.apply(result), delivered); };
+               [this, map = maps_, task = std::move(*task)]() -> common::JobRunner::Deliver {
+                 return [this, map, result = run(task)](Time delivered) {
+                   if (map == maps_) take(localizer_.apply(result), delivered);
+                 };
                });
 }
 

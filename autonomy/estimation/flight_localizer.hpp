@@ -53,6 +53,11 @@ class FlightLocalizer {
  public:
   FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs);
 
+  /// Another map takes the place of the present one: the state is that of a new localizer.
+  void load(const GivenMap& map);
+  /// The pose is looked for anew in the whole map.
+  void forget();
+
   /// Whether the next scan, predicted at that pose, must be withheld from the odometry; see perception::ScanTurns.
   bool wantsScan(const common::Pose2& T_odom_body);
   void add(const LocatedScan& located, common::Time now);
@@ -71,6 +76,7 @@ class FlightLocalizer {
   common::JobRunner& jobs_;
   perception::Localizer localizer_;
   perception::ScanTurns turns_;
+  int maps_ = 1;  ///< How many were given: the result of a search in an earlier one is discarded.
   struct {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     bool interrupted = false;

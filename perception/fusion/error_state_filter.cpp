@@ -305,6 +305,8 @@ FusionCounts ErrorStateFilter::counts() const {
   out.relative_poses_gated = s.relative_gate.rejected;
   out.heights_gated = s.height_gate.rejected;
   out.recoveries = s.recoveries;
+  out.relative_poses = s.relative_gate.innovations;
+  out.heights = s.height_gate.innovations;
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
+#include "perception/fusion/fusion_types.hpp"
 
 namespace swiftlet::perception::fusion {
 
@@ -42,6 +43,7 @@ struct GateMemory {
   common::Time closed_since;
   common::Time last_accepted;
   std::uint64_t rejected = 0;
+  InnovationSum innovations;
 };
 
 /// Sums since the last drag measurement: integrals over time of the specific force and of the estimated velocity, along

@@ -174,7 +174,10 @@ template <int K>
 void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m) const {
   // Approximately the same tail probability for K degrees of freedom.
   const double limit2 = square(config_.gate_sigma) + 2.5 * (K - 1);
-  if (mahalanobis2(state, m) > limit2) {
+  const double innovation2 = mahalanobis2(state, m);
+  gate.innovations.sum += innovation2;
+  gate.innovations.degrees += static_cast<std::uint64_t>(K);
+  if (innovation2 > limit2) {
     if (!gate.closed) {
       gate.closed = true;
       gate.closed_since = state.stamp;

@@ -27,6 +27,15 @@ enum class Insertion {
   kUnknownReference,
 };
 
+/// Normalized innovations squared (NIS) of one kind of measurement, before its gate: their mean for each degree of
+/// freedom is 1 if the filter's covariance and the measurements' are right.
+struct InnovationSum {
+  double sum = 0.0;
+  std::uint64_t degrees = 0;  ///< Of freedom.
+
+  double mean() const { return degrees > 0 ? sum / static_cast<double>(degrees) : 0.0; }
+};
+
 struct FusionCounts {
   std::uint64_t imu_dropped = 0;  ///< Non-finite, repeated or out of order.
   std::uint64_t measurements = 0;
@@ -36,6 +45,7 @@ struct FusionCounts {
   std::uint64_t relative_poses_gated = 0;
   std::uint64_t heights_gated = 0;
   std::uint64_t recoveries = 0;
+  InnovationSum relative_poses, heights;
 };
 
 struct VerticalState {

@@ -18,6 +18,7 @@ struct TrueVelocity {
   common::Time stamp;
   double yaw_map_rad = 0.0;
   Eigen::Vector3d velocity_map_m_s = Eigen::Vector3d::Zero();
+  double height_m = 0.0;  ///< Of the body origin above the take-off floor.
 };
 
 /// What one flight's filter was told, and the truth while it flew, in the order of time.

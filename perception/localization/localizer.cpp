@@ -337,6 +337,17 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
   self.forgetAll();
 }
 
+void Localizer::forget() {
+  Impl& self = *impl_;
+  self.lose("told to look anew");
+  if (!self.was_localized) self.state = LocalizationState::kGlobal;
+  self.forgetAll();
+  self.was_localized = false;
+  self.map_doubt.reset();
+  self.tracker.particles().spreadOverFreeSpace();
+  self.event.reset();
+}
+
 bool Localizer::wantsFreshScan(const Pose2& T_odom_body) const {
   const Impl& self = *impl_;
   return self.state == LocalizationState::kLocalized && self.tracker.begun() && self.tracker.generationDue(T_odom_body);

@@ -13,7 +13,7 @@
 //   4  No place fits, and the vehicle was localized before.
 //   5  The map explains too little of the scans, another place explains them much better, or the pose is too uncertain.
 //
-// startAt() leads from any state to kLocalized.
+// startAt() leads from any state to kLocalized, forget() from any state to kLost or kGlobal.
 //
 // Until the vehicle is localized, its scans are collected in a local map. The whole local map is compared with the
 // given map, and the particles are drawn from all places where it fits (GlobalSearch), in proportion to the likelihood.
@@ -76,6 +76,9 @@ class Localizer {
 
   /// Starts localized at a given pose, which later scans may refute.
   void startAt(const common::Pose2& T_map_body, const Eigen::Matrix3d& covariance);
+
+  /// Forgets the pose and all scans: kLost if it was localized before, and else as at the start.
+  void forget();
 
   /// Whether a scan taken at that pose should be withheld from the odometry and weigh the particles instead. The local
   /// map may use all scans, because it is compared with the given map and not with the odometry.

@@ -83,5 +83,36 @@ TEST(FlightLocalizer, TheResultDoesNotDependOnTheSpeedOfTheSearch) {
   }
 }
 
+/// The search in the first map is under way when the second one comes.
+TEST(FlightLocalizer, AnotherMapBeginsAnewWithoutTheSearchesInTheFirst) {
+  Story story(3);
+  while (!story.localizer.localization().localized() && story.time_s < 20.0) story.step();
+  ASSERT_TRUE(story.localizer.localization().localized());
+  const test::Building elsewhere = test::hall(3);
+  story.localizer.load({std::make_shared<const common::OccupancyGrid>(test::mapOf(elsewhere)), {}, 3});
+  EXPECT_EQ(story.localizer.localization().state, LocalizationState::kGlobal);
+  story.step();  // Asks for a search in the hall.
+  story.localizer.load({std::make_shared<const common::OccupancyGrid>(test::mapOf(story.building)), {}, 3});
+  for (int i = 0; i < 600 && !story.localizer.localization().localized(); ++i) {
+    story.step();
+    ASSERT_LT(story.time_s, 60.0);
+  }
+  ASSERT_TRUE(story.localizer.localization().localized());
+  EXPECT_LT((story.localizer.localization().T_given_body.position_m() - story.truth.position_m()).norm(), 0.3);
+}
+
+TEST(FlightLocalizer, ForgetsItsPlaceAndFindsItAgain) {
+  Story story(1);
+  while (!story.localizer.localization().localized() && story.time_s < 20.0) story.step();
+  ASSERT_TRUE(story.localizer.localization().localized());
+  story.localizer.forget();
+  EXPECT_FALSE(story.localizer.localization().localized());
+  story.step();
+  EXPECT_FALSE(story.localizer.localization().localized()) << "not by the scan before";
+  for (int i = 0; i < 800 && !story.localizer.localization().localized(); ++i) story.step();
+  ASSERT_TRUE(story.localizer.localization().localized());
+  EXPECT_LT((story.localizer.localization().T_given_body.position_m() - story.truth.position_m()).norm(), 0.3);
+}
+
 }  // namespace
 }  // namespace swiftlet::autonomy

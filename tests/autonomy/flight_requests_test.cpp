@@ -27,7 +27,7 @@ std::shared_ptr<const common::RgbdFrame> frameAt(double seconds) {
 TEST(FlightRequests, SavesTheMapOfThePresentWorld) {
   FlightRequests requests(0.275);
   const common::World world = worldAt(3.0);
-  requests.take({{5, common::SaveMapRequest{"hall"}}}, world);
+  requests.take({5, common::SaveMapRequest{"hall"}}, world);
   EXPECT_TRUE(requests.takeAnswers(timeAt(3.0)).at(0).done);
   const auto files = requests.takeFiles();
   ASSERT_EQ(files.size(), 1u);
@@ -35,11 +35,23 @@ TEST(FlightRequests, SavesTheMapOfThePresentWorld) {
   EXPECT_EQ(std::get<SavedMap>(files[0]).grid, world.map->grid);
 }
 
+TEST(FlightRequests, PassesOnTheAnswersOfOthersWithAnEvent) {
+  FlightRequests requests(0.275);
+  requests.answered({5, true, "map a.yaml is the given one"}, timeAt(1.0));
+  requests.answered({6, false, "no such map"}, timeAt(1.0));
+  const auto answers = requests.takeAnswers(timeAt(1.1));
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_FALSE(answers[1].done);
+  const auto events = requests.takeEvents();
+  ASSERT_EQ(events.size(), 1u) << "what fails is told by the leaf";
+  EXPECT_EQ(events[0].text, "map a.yaml is the given one");
+}
+
 TEST(FlightRequests, PhotographsTheFirstFrameThatIsMeasuredAfterIt) {
   common::RgbdCameraConfig camera;
   camera.mount = {.x_m = 0.1, .z_m = 0.05};
   FlightRequests requests(0.275, &camera);
-  requests.take({{5, common::PhotographRequest{"door"}}}, worldAt(3.0));
+  requests.take({5, common::PhotographRequest{"door"}}, worldAt(3.0));
   common::VehicleState state;
   state.T_odom_body.position_m = {1.0, 2.0, 1.5};
   requests.addFrame(frameAt(2.9), state);
@@ -60,13 +72,13 @@ TEST(FlightRequests, PhotographsTheFirstFrameThatIsMeasuredAfterIt) {
 TEST(FlightRequests, GivesUpAPhotographWithoutFramesOrCamera) {
   common::RgbdCameraConfig camera;
   FlightRequests requests(0.275, &camera);
-  requests.take({{5, common::PhotographRequest{"door"}}}, worldAt(3.0));
+  requests.take({5, common::PhotographRequest{"door"}}, worldAt(3.0));
   EXPECT_TRUE(requests.takeAnswers(timeAt(4.9)).empty());
   const auto late = requests.takeAnswers(timeAt(5.1));
   ASSERT_EQ(late.size(), 1u);
   EXPECT_EQ(late[0].reason, "no frame of the camera for 2 s");
   FlightRequests blind(0.275);
-  blind.take({{6, common::PhotographRequest{"door"}}}, worldAt(3.0));
+  blind.take({6, common::PhotographRequest{"door"}}, worldAt(3.0));
   EXPECT_EQ(blind.takeAnswers(timeAt(3.0)).at(0).reason, "the vehicle has no RGB-D camera");
 }
 

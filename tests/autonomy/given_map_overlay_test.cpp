@@ -91,6 +91,31 @@ TEST_F(GivenMapOverlayStory, NoiseOfTheLocalizationDoesNotMoveIt) {
   EXPECT_NEAR(overlay_->T_map_given()->x_m, 4.0, 1e-6) << "found elsewhere: at once";
 }
 
+TEST_F(GivenMapOverlayStory, AnotherMapTakesItsPlace) {
+  const Pose2 T_map_given{2.0, -1.0, 0.7};
+  step(T_map_given);
+  GivenMap other = given_;
+  auto empty = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
+  empty->set({0, 0}, 100);
+  other.grid = empty;
+  overlay_->load(other);
+  EXPECT_FALSE(overlay_->T_map_given());
+  EXPECT_TRUE(isUnknown(at(T_map_given, 2.0, 2.0))) << "nothing is known of the place in it";
+  step(T_map_given);
+  EXPECT_TRUE(isUnknown(at(T_map_given, 2.0, 2.0)));
+  EXPECT_TRUE(isOccupied(at(T_map_given, 0.02, 0.02)));
+}
+
+TEST_F(GivenMapOverlayStory, SaysWhatHasChanged) {
+  const Pose2 T_map_given{0.0, 0.0, 0.0};
+  for (double x_m = 2.0; x_m < 2.5; x_m += 0.5 * kCell_m)
+    flown_.set(flown_.cellAt(given_.T_given_grid * Eigen::Vector2d(x_m, 2.0)), 100);
+  for (int i = 0; i < 4; ++i) step(T_map_given, 2.1);
+  const auto events = overlay_->takeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "something stands here that the given map does not have");
+}
+
 TEST(GivenMapOverlay, WithoutAMapTheGridStaysTheSame) {
   GivenMapOverlay overlay(nullptr);
   const auto flown = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));

@@ -22,7 +22,7 @@ common::Polygon square(double x_m, double y_m, double side_m) {
 TEST(KeepOutZones, TheOperatorTakesBackHisOwnOnly) {
   FlightRequests requests(0.275);
   const common::World world = test::Layers().world();
-  requests.take({{7, common::KeepOutRequest{square(2, 2, 1)}}}, world);
+  requests.take({7, common::KeepOutRequest{square(2, 2, 1)}}, world);
   const auto answers = requests.takeAnswers({});
   ASSERT_EQ(answers.size(), 1u);
   EXPECT_EQ(answers[0].id, 7u);

@@ -42,7 +42,7 @@ Eigen::Vector2d bearingOf(const common::GoToIntent& go_to, const Eigen::Vector2d
   return (go_to.goal_map_m - place).normalized();
 }
 
-std::vector<std::string> problemsInside(const std::string& inside, const MissionLimits& limits) {
+std::vector<std::string> problemsInFlight(const std::string& inside, const MissionLimits& limits) {
   std::vector<std::string> texts;
   for (const auto& problem : checkMissionText(R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence><TakeOff/>)" +
                                                   inside + "<Land/></Sequence></BehaviorTree></root>",
@@ -210,15 +210,15 @@ TEST(Targets, TheCheckRefusesAVehicleWithoutCameraAndNamesThatTheProfileLacks) {
   const std::string mission =
       R"(<ExploreUntilFound target="red"/><LocateTarget target="red"/><IsTargetFound target="red"/>)";
   MissionLimits limits;
-  EXPECT_THAT(problemsInside(mission, limits), IsEmpty());
+  EXPECT_THAT(problemsInFlight(mission, limits), IsEmpty());
   limits.target_names = std::vector<std::string>{"reed", "blue"};
-  EXPECT_THAT(problemsInside(R"(<LocateTarget target="red"/>)", limits),
+  EXPECT_THAT(problemsInFlight(R"(<LocateTarget target="red"/>)", limits),
               ElementsAre(HasSubstr("LocateTarget: the profile looks for no `red`, only for `reed`, `blue`")));
-  EXPECT_THAT(problemsInside("<LocateTarget/>", limits), IsEmpty());
+  EXPECT_THAT(problemsInFlight("<LocateTarget/>", limits), IsEmpty());
   limits.target_names->clear();
-  EXPECT_THAT(problemsInside("<LocateTarget/>", limits), ElementsAre(HasSubstr("the profile names none")));
+  EXPECT_THAT(problemsInFlight("<LocateTarget/>", limits), ElementsAre(HasSubstr("the profile names none")));
   limits.has_camera = false;
-  EXPECT_THAT(problemsInside(mission, limits),
+  EXPECT_THAT(problemsInFlight(mission, limits),
               ElementsAre(HasSubstr("ExploreUntilFound: needs an RGB-D camera, and the vehicle has none"),
                           HasSubstr("LocateTarget: needs"), HasSubstr("IsTargetFound: needs")));
 }

@@ -38,6 +38,71 @@ TEST_F(FlyWithMap, FindsItsPoseWithinFiveMetresInAMapFromAnotherHeight) {
   EXPECT_FALSE(readText(path(run + "trajectory_given.tum")).empty());
 }
 
+std::string missionOf(const std::string& leaves) {
+  return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Priority><AvoidObstacle/><Hold/>"
+         "<Sequence><TakeOff height_m=\"1.0\"/>" +
+         leaves + "<Land/></Sequence></Priority></BehaviorTree></root>";
+}
+
+/// The hall of unb_case1 with a crate that was not there before.
+std::string hallWithCrate() {
+  std::string world = readText(SWIFTLET_SOURCE_DIR "/worlds/unb_case1.sdf");
+  const std::string box = "<geometry><box><size>0.5 0.5 1.6</size></box></geometry>";
+  world.insert(world.rfind("</world>"),
+               "<model name=\"crate\"><static>true</static><pose>7.0 3.6 0.8 0 0 0</pose><link name=\"body\">"
+               "<collision name=\"box\">" +
+                   box + "</collision><visual name=\"box\">" + box + "</visual></link></model>");
+  return world;
+}
+
+TEST_F(FlyWithMap, TheMapOfOneFlightIsThatOfTheNext) {
+  const std::string first = write("first.xml", missionOf("<FollowPath points=\"3.8;0.6 | 4.2;-2.5 | 1.5;-3.2\"/>"));
+  const ProgramEnd flown = runSwiftlet({"fly", first, "--headless", "--seed", "11", "--out", path("first")});
+  ASSERT_EQ(flown.exit_code, 0) << describe(flown);
+
+  // From another place and heading, to where the first flight landed, by its map.
+  write("second.xml", missionOf("<Localize/><MoveToGoal goal=\"1.5;-3.2\"/>"));
+  write("hall.sdf", hallWithCrate());
+  const std::string trial =
+      write("second.yaml", "mission: " + path("second.xml") + "\ncriteria:\n  goal_error_max_m: 0.20\n" +
+                               "map: {file: " + path("first/map.yaml") + ", x_m: 2.0, y_m: 6.5}\n" +
+                               "scenario:\n  world: " + path("hall.sdf") +
+                               "\n  start: {from_world: false, x_m: 6.2, y_m: 5.6, yaw_deg: -120}\n");
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--seed", "12", "--json", "--out", path("out")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const std::string events = readText(path("out/second-012/events.jsonl"));
+  EXPECT_THAT(events, HasSubstr("localized at ("));
+  EXPECT_THAT(events, HasSubstr("something stands here that the given map does not have")) << events;
+  EXPECT_THAT(events, HasSubstr("in the given map"));
+}
+
+/// The mission gives the map itself, before the take-off, and looks for its place again in mid-flight.
+TEST_F(FlyWithMap, AMissionLoadsItsMapAndLooksAroundForItsPlace) {
+  const ProgramEnd flown =
+      runSwiftlet({"fly", write("first.xml", missionOf("<FollowPath points=\"3.8;0.6 | 4.2;-2.5\"/>")), "--headless",
+                   "--seed", "13", "--out", path("first")});
+  ASSERT_EQ(flown.exit_code, 0) << describe(flown);
+  std::string text = missionOf("<Localize/><Relocalize/><MoveToGoal goal=\"3.0;0.5\" tolerance_m=\"0.2\"/>");
+  text.insert(text.find("<TakeOff"), "<LoadMap file=\"first/map.yaml\"/>");
+  const std::string second = write("second.xml", text);
+  const ProgramEnd end = runSwiftlet({"fly", second, "--headless", "--seed", "14", "--out", path("second")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const std::string events = readText(path("second/events.jsonl"));
+  EXPECT_THAT(events, HasSubstr("map first/map.yaml is the given one"));
+  EXPECT_THAT(events, HasSubstr("the place in the given map is looked for anew"));
+  std::size_t found = 0;
+  for (std::size_t at = events.find("localized at ("); at != std::string::npos;
+       at = events.find("localized at (", at + 1))
+    ++found;
+  EXPECT_GE(found, 2u) << events;
+
+  const ProgramEnd none =
+      runSwiftlet({"check", write("none.xml", missionOf("<LoadMap file=\"none.yaml\"/><Localize/>"))});
+  EXPECT_EQ(none.exit_code, 2) << describe(none);
+  EXPECT_THAT(none.err, HasSubstr("none.xml:1:"));
+  EXPECT_THAT(none.err, HasSubstr("LoadMap.file"));
+}
+
 TEST_F(FlyWithMap, AMissionThatNeedsAMapIsRefusedWithoutOne) {
   const ProgramEnd end = runSwiftlet({"fly", "missions/find_yourself.xml", "--headless", "--out", path("run")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

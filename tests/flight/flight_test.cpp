@@ -138,7 +138,9 @@ TEST_P(CameraMission, IsFlownToItsEnd) {
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const std::string report = readText(path("out/" + GetParam() + "-003/report.html"));
   EXPECT_THAT(report, testing::HasSubstr("red 1")) << "its place";
-  if (GetParam() != "map_room_3d") EXPECT_THAT(report, testing::HasSubstr("red_1, from (")) << "its photograph";
+  if (GetParam() != "map_room_3d") {
+    EXPECT_THAT(report, testing::HasSubstr("red_1, from (")) << "its photograph";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, CameraMission, testing::Values("find_target", "search_and_report", "map_room_3d"),

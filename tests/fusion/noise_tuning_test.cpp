@@ -1,10 +1,14 @@
 // What a filter was told reads back whole, gives another filter the same state, and teaches it its noise parameters.
+// NEES and NIS of such flights are near 1 for a filter that is right about its noise, and far above for one that is too
+// sure.
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "perception/fusion/consistency.hpp"
 #include "perception/fusion/noise_tuning.hpp"
 #include "tests/fusion/synthetic_flight.hpp"
 
@@ -53,7 +57,8 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
     }
     if (now_s < 6.0) continue;
     const Truth truth = flight.motion.truth(now_s);
-    taped.truth.push_back({sample.stamps.arrived, common::yawOf(truth.T_odom_body.rotation), truth.velocity_m_s});
+    taped.truth.push_back({sample.stamps.arrived, common::yawOf(truth.T_odom_body.rotation), truth.velocity_m_s,
+                           truth.T_odom_body.position_m.z()});
   }
   return taped;
 }
@@ -105,6 +110,46 @@ TEST(NoiseTuning, LearnsBetterVelocitiesOnFlightsThatItDidNotSee) {
   EXPECT_EQ(tuneNoise({&flights[0], &flights[1], &flights[2]}, wrong, options).config.ahrs_sigma_deg,
             tuned.config.ahrs_sigma_deg)
       << "it is deterministic";
+}
+
+TEST(ChiSquaredBounds, AgreeWithTables) {
+  EXPECT_NEAR(chiSquaredBounds95(100).lower * 100, 74.22, 0.1);
+  EXPECT_NEAR(chiSquaredBounds95(100).upper * 100, 129.56, 0.1);
+  EXPECT_NEAR(chiSquaredBounds95(10).upper * 10, 20.48, 0.1);
+}
+
+std::vector<TapedFlight> tapedFlights() {
+  std::vector<TapedFlight> flights;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) flights.push_back(tapedFlight(seed, {}, 12.0));
+  return flights;
+}
+
+TEST(FlightConsistency, IsOneForAFilterThatIsRightAboutItsNoise) {
+  const Consistency consistency = consistencyOf(tapedFlights(), withoutDrag());
+  ASSERT_EQ(consistency.flights, 20u);
+  ASSERT_EQ(consistency.errors.size(), 3u);
+  for (const ConsistencyFigure& figure : consistency.errors) {
+    std::printf("  %s: NEES %.2f, %.0f %% within\n", figure.name.c_str(), figure.mean, 100 * figure.inside_share);
+    EXPECT_GT(figure.mean, 0.4) << figure.name;
+    EXPECT_LT(figure.mean, 1.6) << figure.name;
+  }
+  EXPECT_GT(consistency.relative_pose_nis, 0.5);
+  EXPECT_LT(consistency.relative_pose_nis, 1.6);
+}
+
+TEST(FlightConsistency, IsMuchMoreThanOneForAFilterThatIsNot) {
+  // Scans and heights are told to be five times as good as they are.
+  std::vector<TapedFlight> flights = tapedFlights();
+  for (TapedFlight& flight : flights)
+    for (FilterInput& input : flight.inputs) {
+      if (auto* pose = std::get_if<TapedRelativePose>(&input)) pose->covariance *= 0.04;
+      if (auto* height = std::get_if<TapedHeight>(&input)) height->variance_m2 *= 0.04;
+    }
+  const Consistency consistency = consistencyOf(flights, withoutDrag());
+  ASSERT_GT(consistency.flights, 0u);
+  EXPECT_GT(consistency.errors[0].mean, 3.0);
+  EXPECT_LT(consistency.errors[0].inside_share, 0.3);
+  EXPECT_GT(consistency.relative_pose_nis, 3.0);
 }
 
 }  // namespace

@@ -1,0 +1,83 @@
+// swiftlet consistency: whether the filter's errors agree with its covariance.
+#include <memory>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.hpp"
+#include "apps/run_logs.hpp"
+#include "apps/show.hpp"
+#include "apps/system.hpp"
+#include "common/error.hpp"
+#include "common/rounding.hpp"
+#include "perception/fusion/consistency.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+using perception::Consistency;
+using perception::ConsistencyFigure;
+using perception::TapedFlight;
+
+struct ConsistencyOptions {
+  std::vector<std::string> runs;
+  std::string system = "swiftlet";
+  bool json = false;
+};
+
+nlohmann::json jsonOf(const Consistency& consistency) {
+  using common::rounded;
+  auto errors = nlohmann::json::array();
+  for (const ConsistencyFigure& figure : consistency.errors)
+    errors.push_back({{"name", figure.name},
+                      {"degrees", figure.degrees},
+                      {"nees", rounded(figure.mean)},
+                      {"lower", rounded(figure.lower)},
+                      {"upper", rounded(figure.upper)},
+                      {"inside_share", rounded(figure.inside_share)}});
+  return {{"flights", consistency.flights},
+          {"instants", consistency.instants},
+          {"diverged", consistency.diverged},
+          {"errors", errors},
+          {"relative_pose_nis", rounded(consistency.relative_pose_nis)},
+          {"height_nis", rounded(consistency.height_nis)}};
+}
+
+void print(const Consistency& consistency) {
+  show(fmt::format("{} flights, {} instants each{}\n\n", consistency.flights, consistency.instants,
+                   consistency.diverged > 0 ? fmt::format(", {} left out: diverged", consistency.diverged) : ""));
+  show("NEES, for each degree of freedom  mean    bounds of 95 %   instants within\n");
+  for (const ConsistencyFigure& figure : consistency.errors)
+    show(fmt::format("{:<32} {:6.2f}    {:.2f} to {:.2f}     {:5.0f} %\n", figure.name, figure.mean, figure.lower,
+                     figure.upper, 100.0 * figure.inside_share));
+  show(fmt::format("\nNIS, for each degree of freedom   mean\n{:<32} {:6.2f}\n{:<32} {:6.2f}\n", "relative poses",
+                   consistency.relative_pose_nis, "heights", consistency.height_nis));
+}
+
+int consistencyOfRuns(const ConsistencyOptions& options) {
+  const System system = loadSystem(options.system);
+  std::vector<TapedFlight> flights;
+  for (const std::string& run : options.runs) flights.push_back(readTapedFlight(run, system.vehicle));
+  const Consistency consistency = perception::consistencyOf(flights, system.config.autonomy.estimator.fusion);
+  if (options.json)
+    showJson(jsonOf(consistency).dump(2) + "\n");
+  else
+    print(consistency);
+  return consistency.flights > 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addConsistency(Command& program) {
+  auto options = std::make_shared<ConsistencyOptions>();
+  Command command = program.command(
+      "consistency",
+      "Compare the errors of the filter with its covariance (NEES, NIS), in flights whose truth is known.");
+  command.arguments("run", options->runs, "Folders of runs that were flown with --control-log.");
+  command.option("--system", options->system, "The profile whose filter is replayed.");
+  command.flag("--json", options->json, "Print the figures as JSON.");
+  command.footer("Example: swiftlet consistency runs/a runs/b runs/c");
+  command.runs([options] { return consistencyOfRuns(*options); });
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,63 @@
+// The snapshots of the world that Autonomy gives to those who watch.
+#include "autonomy/autonomy.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::MissionState;
+using common::Time;
+
+namespace {
+
+/// The flight home ends this far above the thrust margin at which the vehicle has to land where it is: 3 % of the
+/// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
+constexpr double kLandingMargin = 0.03;
+
+}  // namespace
+
+void Autonomy::takeSnapshot(Time now) {
+  const common::VehicleState& state = estimator_.state();
+  given_map_.update(now, state.T_map_body_planar(), state.T_map_odom, estimator_.localization(), estimator_.grid());
+  WorldParts parts;
+  parts.vehicle.state = estimator_.state();
+  parts.vehicle.flight_state = controller_.state();
+  parts.vehicle.avoidance = reactive_.decision().status;
+  parts.vehicle.plan_map_m = executor_.remainingPlan_map_m();
+  parts.vehicle.laser = laser_points_;
+  parts.vehicle.drift_m = drift_m_;
+  parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
+  showWaiting(parts.mission);
+  parts.mission.status.tree = missions_.mission().view();
+  parts.map = {given_map_.grid(),
+               estimator_.levels(),
+               executor_.desk().frontiers(),
+               executor_.desk().exploredArea_m2(),
+               estimator_.localization(),
+               given_map_.T_map_given(),
+               requests_.keepOut().zones()};
+  for (const common::Disc& person : estimator_.people().expectedAt(now))
+    parts.people.people.push_back({person.center_map_m, person.radius_m});
+  parts.people.followed_map_m = executor_.followedPerson_map_m();
+  WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};
+  if (world_) {
+    home.straight_m =
+        (parts.vehicle.state.T_map_body_planar().position_m() - world_->vehicle->home_map.position_m()).norm();
+    home.flown_m = world_->vehicle->distance_flown_m;
+  }
+  parts.map3d = estimator_.map3d();
+  parts.targets.targets = estimator_.targets();
+  parts.energy = energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
+                                                 kLandingMargin + config_.supervisor.least_thrust_margin);
+  world_ = world_builder_.build(now, std::move(parts));
+}
+
+/// What the mission flies to after the hold, as long as nothing else is flown to.
+void Autonomy::showWaiting(common::MissionLayer& layer) const {
+  const auto command = missions_.mission().waitingCommand();
+  if (mission_status_.state != MissionState::kHeld || !command) return;
+  layer.waiting = toString(*command);
+  if (layer.goal_map_m) return;
+  const auto* goal = std::get_if<common::GoalCommand>(&command->kind);
+  layer.goal_map_m = goal != nullptr ? goal->goal_map_m : world_->vehicle->home_map.position_m();
+}
+
+}  // namespace swiftlet::autonomy

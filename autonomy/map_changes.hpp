@@ -1,0 +1,43 @@
+// What has changed since the given map was made: things that stand where it has free space, and things of it that are
+// gone. They are said once, by their place in the given map, so that whoever keeps the map knows what to look at.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/event.hpp"
+#include "common/geometry.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. Both grids have the same cells.
+class MapChanges {
+ public:
+  /// Compares the two grids, at most every few seconds. `laid` is the given map in the cells of the flight's map.
+  void update(common::Time now, const common::OccupancyGrid& flown, const common::OccupancyGrid& laid,
+              const common::Pose2& T_map_given);
+  /// The place is lost, or another map is the given one: what has not been said twice is forgotten.
+  void forget() { seen_.clear(); }
+  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
+
+ private:
+  enum class Change { kNew, kGone };
+  using Square = std::pair<int, int>;  ///< Of one metre, in the given map.
+  struct Evidence {
+    int checks = 0;  ///< In a row.
+    bool said = false;
+  };
+  void judge(common::Time now, Change change, const std::map<Square, int>& cells);
+  void say(common::Time now, Change change, const std::vector<Square>& squares);
+
+  std::optional<common::Time> checked_;
+  std::map<std::pair<Change, Square>, Evidence> seen_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,21 @@
+#include "behaviors/load_map.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest LoadMap::manifest() {
+  return {.id = "LoadMap",
+          .kind = tree::NodeKind::kAction,
+          .ports = {{.name = "file",
+                     .type = tree::PortType::kString,
+                     .required = true,
+                     .description = "A map of map_server (YAML), beside the mission's file or where missions are."}},
+          .description = "Gives the flight another map to find itself in."};
+}
+
+RequestLeaf::RequestOrProblem LoadMap::makeRequest(const FlightTick&) {
+  const auto file = file_.get();
+  if (!file) return {std::nullopt, file_.problem()};
+  return {common::LoadMapRequest{*file}, {}};
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,62 @@
+// Where the places that a mission names lie in `map`: in a flight with a given map they are places of that map, and of
+// `map` itself otherwise.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+#include <tl/expected.hpp>
+
+#include "behaviors/ports.hpp"
+#include "behaviors/tree/value.hpp"
+#include "common/geometry.hpp"
+#include "common/intent.hpp"
+#include "common/polygon.hpp"
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
+
+namespace swiftlet::behaviors {
+
+/// An immutable value, valid as long as the localization does not move the given map.
+class NamedPlaces {
+ public:
+  /// Nothing but the reason while the flight has a given map and does not know its place in it.
+  static tl::expected<NamedPlaces, std::string> in(const common::World& world) {
+    const common::MapLayer& map = *world.map;
+    if (map.localization && !map.T_map_given)
+      return tl::unexpected(std::string("its place in the given map is not known"));
+    return NamedPlaces(map.localization ? map.T_map_given : std::nullopt);
+  }
+
+  /// True if the places are those of a given map.
+  bool given() const { return T_map_given_.has_value(); }
+  Eigen::Vector2d inMap_m(const Eigen::Vector2d& named_m) const {
+    return T_map_given_ ? *T_map_given_ * named_m : named_m;
+  }
+  Eigen::Vector2d inMap_m(const tree::Point& named) const { return inMap_m(Eigen::Vector2d(named.x, named.y)); }
+  double yawInMap_rad(double named_deg) const {
+    const double named_rad = named_deg * common::kRadPerDeg;
+    return T_map_given_ ? common::wrapAngle(T_map_given_->yaw_rad + named_rad) : named_rad;
+  }
+  common::Polygon inMap(const tree::Points& named) const {
+    common::Polygon polygon;
+    for (const tree::Point& point : named.points) polygon.corners_map_m.push_back(inMap_m(point));
+    return polygon;
+  }
+
+ private:
+  explicit NamedPlaces(std::optional<common::Pose2> T_map_given) : T_map_given_(T_map_given) {}
+
+  std::optional<common::Pose2> T_map_given_;
+};
+
+/// The localization has moved the given map, and with it the goal, or has lost it.
+inline bool hasMoved(const common::GoToIntent& intent, const common::World& world) {
+  constexpr double kMoved_m = 0.03;
+  if (!intent.goal_given_m) return false;
+  const auto places = NamedPlaces::in(world);
+  return !places || (places->inMap_m(*intent.goal_given_m) - intent.goal_map_m).norm() > kMoved_m;
+}
+
+}  // namespace swiftlet::behaviors

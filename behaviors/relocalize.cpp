@@ -1,0 +1,112 @@
+#include "behaviors/relocalize.hpp"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "behaviors/ports.hpp"
+#include "common/goal.hpp"
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::PortType;
+using tree::Status;
+
+namespace {
+
+/// The places about the vehicle are looked at as they come: a gust must not keep it at one.
+constexpr double kTolerance_m = 0.15;
+constexpr int kTurns = 3;       ///< A laser sees 240 to 270 degrees; three turns show all of it twice.
+constexpr int kDirections = 4;  ///< In a corridor two of them are free.
+
+}  // namespace
+
+tree::NodeManifest Relocalize::manifest() {
+  return {.id = "Relocalize",
+          .kind = tree::NodeKind::kAction,
+          .ports = {clearancePort(),
+                    {.name = "radius_m",
+                     .type = PortType::kDouble,
+                     .default_value = "1.5",
+                     .minimum = 0.5,
+                     .maximum = 10.0,
+                     .description = "How far it flies from where it began, to see more."}},
+          .description = "Looks around for its place in the given map, as if it did not know it."};
+}
+
+void Relocalize::onStart(tree::TickContext& context) {
+  FlightLeaf::onStart(context);
+  request_id_ = 0;
+  forgotten_ = false;
+  looks_.clear();
+  look_ = 0;
+}
+
+/// Straight ahead first: what is there has been seen best.
+void Relocalize::planLooks(const FlightTick& tick, double clearance_m, double radius_m) {
+  const common::Pose2 T_map_body = tick.flight.world->vehicle->state.T_map_body_planar();
+  common::GoToIntent look;
+  look.goal_map_m = T_map_body.position_m();
+  look.tolerance_m = kTolerance_m;
+  look.mode = tick.mode;
+  look.clearance_m = 0.0;  // It is here already.
+  for (int i = 1; i <= kTurns; ++i) {
+    look.yaw_map_rad = common::wrapAngle(T_map_body.yaw_rad + i * 2.0 * std::numbers::pi / kTurns);
+    looks_.push_back(look);
+  }
+  const common::GoToIntent here = [&] {
+    common::GoToIntent back = look;
+    back.yaw_map_rad.reset();
+    return back;
+  }();
+  for (int i = 0; i < kDirections; ++i) {
+    common::GoToIntent out = here;
+    const Eigen::Rotation2Dd turned(i * 2.0 * std::numbers::pi / kDirections);
+    out.goal_map_m = T_map_body * (turned * Eigen::Vector2d(radius_m, 0.0));
+    out.clearance_m = clearance_m;
+    looks_.push_back(out);
+    looks_.push_back(here);
+  }
+}
+
+/// Leaves out what the map says is not free, and then the flight back from there.
+void Relocalize::nextLook(const FlightTick& tick) {
+  renewIntent();
+  ++look_;
+  const auto isFree = [&](const common::GoToIntent& look) {
+    return common::judgeGoal(common::goalOf(look), tick.flight.goal_limits, tick.flight.goal_map.get()).has_value();
+  };
+  while (look_ < looks_.size() && looks_[look_].clearance_m > 0.0 && !isFree(looks_[look_])) look_ += 2;
+}
+
+Status Relocalize::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  const auto& localization = tick.flight.world->map->localization;
+  if (!localization) return fail(context, "the flight was given no map");
+  const auto clearance_m = clearance_m_.get(), radius_m = radius_m_.get();
+  if (!clearance_m) return fail(context, clearance_m_.problem());
+  if (!radius_m) return fail(context, radius_m_.problem());
+  if (request_id_ == 0) request_id_ = tick.request(common::RelocalizeRequest{});
+  if (!forgotten_) {
+    emitHold(tick);
+    const auto answer = tick.takeAnswer(request_id_);
+    if (!answer) return Status::kRunning;
+    if (!answer->done) return fail(context, answer->reason);
+    forgotten_ = true;
+    planLooks(tick, *clearance_m, *radius_m);
+  }
+  if (localization->localized()) return Status::kSuccess;
+  if (localization->refuted) return fail(context, "the given map is not that of this place");
+  if (look_ < looks_.size()) emitIntent(tick, looks_[look_]);
+  if (intentState(tick) != common::IntentState::kRunning) nextLook(tick);
+  if (look_ < looks_.size()) {
+    emitIntent(tick, looks_[look_]);
+    return Status::kRunning;
+  }
+  return fail(context, fmt::format("looked around, and the place is still {}", toString(localization->state)));
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,41 @@
+// Relocalize: forgets the pose in the given map, turns about once where it is and, while that does not tell the place,
+// flies to free places around and back.
+//
+//   forget --> turn by 120 deg, three times --> fly out, fly back, in four directions --> FAILURE
+//                    |                               |
+//                    +------> localized: SUCCESS <---+
+//
+// FAILURE without a given map, in a map that is found to be that of another place, and after the last of these.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+class Relocalize final : public FlightLeaf {
+ public:
+  explicit Relocalize(const tree::NodeSetup& setup)
+      : FlightLeaf(setup), clearance_m_(setup, "clearance_m"), radius_m_(setup, "radius_m") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  void onStart(tree::TickContext& context) override;
+  void planLooks(const FlightTick& tick, double clearance_m, double radius_m);
+  void nextLook(const FlightTick& tick);
+
+  tree::Input<double> clearance_m_, radius_m_;
+  std::uint64_t request_id_ = 0;  ///< 0 before it has asked.
+  bool forgotten_ = false;
+  std::vector<common::GoToIntent> looks_;
+  std::size_t look_ = 0;  ///< The one that is being flown.
+};
+
+}  // namespace swiftlet::behaviors
