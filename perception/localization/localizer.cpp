@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "common/check.hpp"
-#include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/localization/greatest_sigma.hpp"
 #include "perception/localization/localization_task_data.hpp"
 #include "perception/localization/map_doubt.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
 #include "perception/localization/search_patience.hpp"
+#include "perception/localization/skipped_inputs.hpp"
 
 namespace swiftlet::perception {
 
@@ -39,7 +39,6 @@ struct Localizer::Impl {
         lost_test(config_in.lost),
         distinction(distinctionOf(config_in)) {}
 
-  void passOver(const LocalizationInput& input);
   void step(const LocalizationInput& input);
   void track(const LocalizationInput& input);
   void doubt(const LocalizationInput& input);
@@ -96,12 +95,7 @@ struct Localizer::Impl {
   bool searching = false;
   std::uint64_t epoch = 0;  ///< Results of a search from an earlier epoch are discarded.
 
-  /// Accumulated odometry of the inputs that were skipped for lack of a pose.
-  struct {
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    bool interrupted = false;
-  } passed_over;
-
+  SkippedInputs skipped;
   std::optional<LocalizationEvent> event;
 };
 
@@ -109,11 +103,6 @@ void Localizer::Impl::enter(LocalizationState next, std::string reason) {
   if (next == state) return;
   state = next;
   event = LocalizationEvent{now, next, std::move(reason)};
-}
-
-void Localizer::Impl::passOver(const LocalizationInput& input) {
-  passed_over.covariance += stepCovarianceOrUnknown(input.step_covariance);
-  passed_over.interrupted |= input.interrupted;
 }
 
 void Localizer::Impl::step(const LocalizationInput& input) {
@@ -364,12 +353,9 @@ LocalizationEstimate Localizer::add(const LocalizationInput& input) {
 
 LocalizationEstimate Localizer::follow(const LocalizationInput& given) {
   Impl& self = *impl_;
-  self.passOver(given);
+  self.skipped.add(given);
   if (!isFinite(given.T_odom_body)) return self.estimate();
-  LocalizationInput input = given;
-  input.step_covariance = self.passed_over.covariance;
-  input.interrupted = self.passed_over.interrupted;
-  self.passed_over = {};
+  const LocalizationInput input = self.skipped.included(given);
   self.support = {};
   self.step(input);
   if (self.state == LocalizationState::kLocalized)

@@ -13,7 +13,7 @@ using common::Setpoint;
 using common::Time;
 
 constexpr double kShare = 0.2;
-constexpr double kStep_s = 0.002;
+constexpr double kSimulatorStep_s = 0.002;
 
 struct Pair {
   Pair() : mixing({}, {}, config(kShare)), alone({}, {}, config(0.0)) {}
@@ -26,7 +26,7 @@ struct Pair {
   void expectAlike(const Setpoint& sticks_of_mixing, const Setpoint& sticks_of_alone, Time now, const char* what) {
     mixing.fly(sticks_of_mixing, now);
     alone.fly(sticks_of_alone, now);
-    EXPECT_EQ(mixing.tick(now, {}, kStep_s), alone.tick(now, {}, kStep_s)) << what;
+    EXPECT_EQ(mixing.tick(now, {}, kSimulatorStep_s), alone.tick(now, {}, kSimulatorStep_s)) << what;
   }
   Autopilot mixing, alone;
 };
