@@ -72,6 +72,39 @@ TEST(Variation, RedrawsUntilStartIsFreeAndGoalReachable) {
   }
 }
 
+TEST(Variation, ColoursAndLightAreThoseOfTheSeedWithinTheirBounds) {
+  WorldModel world = boxRoom();
+  world.shapes.push_back(boxShape("ball", {2.0, -0.5, 0.0}, {2.3, -0.2, 0.3}));
+  world.shapes.back().color = {0.8F, 0.4F, 0.2F};
+  Scenario scenario;
+  scenario.variation.tinted = {"ball"};
+  scenario.variation.tint = 0.1;
+  scenario.variation.light_tint = 0.2;
+  scenario.variation.light_dimmed = 0.5;
+  std::vector<float> reds, lights;
+  for (int seed = 1; seed <= 20; ++seed) {
+    scenario.seed = seed;
+    const SimulatedVehicle a(world, scenario), b(world, scenario);
+    EXPECT_EQ(a.world().shapes.back().color, b.world().shapes.back().color);
+    EXPECT_EQ(a.world().light, b.world().light);
+    EXPECT_EQ(a.world().shapes.front().color, world.shapes.front().color) << "a wall";
+    const Color share = a.world().shapes.back().color.cwiseQuotient(world.shapes.back().color);
+    EXPECT_LE((share - Color::Ones()).lpNorm<Eigen::Infinity>(), 0.1F + 1e-6F);
+    reds.push_back(share.x());
+    lights.push_back(a.world().light.y());
+    EXPECT_NEAR(a.world().light.x() / a.world().light.y(), 1.0F, 0.2F + 1e-6F);
+  }
+  const auto [low, high] = std::minmax_element(reds.begin(), reds.end());
+  EXPECT_LT(*low, 0.95F);
+  EXPECT_GT(*high, 1.05F);
+  const auto [dim, bright] = std::minmax_element(lights.begin(), lights.end());
+  EXPECT_GE(*dim, 0.5F);
+  EXPECT_LT(*dim, 0.65F);
+  EXPECT_GT(*bright, 0.85F);
+  scenario.variation.tinted = {"bal"};
+  EXPECT_THROW(SimulatedVehicle(world, scenario), common::InputError);
+}
+
 TEST(Variation, ARandomStartHasFloorHeadroomAndAPathToTheNominalStart) {
   WorldModel world = boxRoom();
   world.shapes.push_back(boxShape("stage", {-5.0, -4.0, 0.0}, {-3.0, 4.0, 0.3}));
