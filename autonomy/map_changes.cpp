@@ -67,7 +67,7 @@ void MapChanges::say(common::Time now, Change change, const std::vector<Square>&
     places += fmt::format("{}({:.1f}, {:.1f})", places.empty() ? "" : ", ", square.first + 0.5, square.second + 0.5);
   events_.push_back({now, common::Severity::kInfo, "localization",
                      change == Change::kNew ? "something stands here that the given map does not have"
-                                            : "something of the given map is gone",
+                                            : "something of the given map is not there at this height",
                      "within half a metre of " + places + " in the given map"});
 }
 

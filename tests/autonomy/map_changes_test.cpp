@@ -63,7 +63,7 @@ TEST_F(MapChangesStory, WhatIsGoneIsSaidToo) {
   fill(laid_, 1.0, 1.4, 1.0, 1.4, 100);
   const auto events = checks(3);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "something of the given map is gone");
+  EXPECT_EQ(events[0].text, "something of the given map is not there at this height");
   EXPECT_THAT(events[0].reason, HasSubstr("(1.5, 1.5)"));
 }
 
