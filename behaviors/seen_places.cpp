@@ -96,27 +96,34 @@ std::optional<Eigen::Vector2d> SeenPlaces::nearestUnseen(const Eigen::Vector2d& 
   return nearest;
 }
 
+/// What the laser's plane misses is known only where the camera has looked, so such places to look from come first.
 std::optional<SeenPlaces::Look> SeenPlaces::next(const Eigen::Vector2d& here_map_m, const common::OccupancyGrid& grid,
                                                  const common::GoalMap* map, const SearchArea& area) {
   while (const auto place = nearestUnseen(here_map_m, grid, area)) {
-    std::optional<Look> best;
-    for (const double from_m : kLookFrom_m) {
-      if (from_m > area.range_m) continue;
-      for (int i = 0; i < kLookDirections; ++i) {
-        const double angle_rad = 2.0 * std::numbers::pi * i / kLookDirections;
-        const Eigen::Vector2d ahead(std::cos(angle_rad), std::sin(angle_rad));
-        const Eigen::Vector2d from = *place - from_m * ahead;
-        if (map != nullptr && map->stateAt(from, area.clearance_m) != common::PlaceState::kFree) continue;
-        if (!isInSight(grid, from, *place, kPlaceNear_m)) continue;
-        if (!area.leave_building && !hasWallsAround(grid, from)) continue;
-        if (best && (from - here_map_m).norm() >= (best->from_map.position_m() - here_map_m).norm()) continue;
-        best = Look{*place, {from.x(), from.y(), angle_rad}};
-      }
-      if (best) return best;
-    }
+    for (const bool from_seen : {true, false})
+      for (const double from_m : kLookFrom_m)
+        if (const auto look = lookAt(*place, from_m, from_seen, here_map_m, grid, map, area)) return look;
     giveUp(*place);
   }
   return std::nullopt;
+}
+
+std::optional<SeenPlaces::Look> SeenPlaces::lookAt(const Eigen::Vector2d& place_map_m, double from_m, bool from_seen,
+                                                   const Eigen::Vector2d& here_map_m, const common::OccupancyGrid& grid,
+                                                   const common::GoalMap* map, const SearchArea& area) const {
+  std::optional<Look> best;
+  if (from_m > area.range_m) return best;
+  for (int i = 0; i < kLookDirections; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / kLookDirections;
+    const Eigen::Vector2d from = place_map_m - from_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    if (from_seen && !isSeen(from)) continue;
+    if (map != nullptr && map->stateAt(from, area.clearance_m) != common::PlaceState::kFree) continue;
+    if (!isInSight(grid, from, place_map_m, kPlaceNear_m)) continue;
+    if (!area.leave_building && !hasWallsAround(grid, from)) continue;
+    if (best && (from - here_map_m).norm() >= (best->from_map.position_m() - here_map_m).norm()) continue;
+    best = Look{place_map_m, {from.x(), from.y(), angle_rad}};
+  }
+  return best;
 }
 
 }  // namespace swiftlet::behaviors

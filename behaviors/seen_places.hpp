@@ -51,6 +51,11 @@ class SeenPlaces {
  private:
   /// Side of a place; small targets stand more closely to each other, but a frame that shows one shows its neighbour.
   static constexpr double kCell_m = 0.25;
+  /// From a free place at that distance, the nearest to the vehicle; only from one that the camera has seen itself if
+  /// `from_seen`.
+  std::optional<Look> lookAt(const Eigen::Vector2d& place_map_m, double from_m, bool from_seen,
+                             const Eigen::Vector2d& here_map_m, const common::OccupancyGrid& grid,
+                             const common::GoalMap* map, const SearchArea& area) const;
   bool isAskedFor(common::CellIndex cell, const common::OccupancyGrid& grid, const SearchArea& area) const;
   std::optional<Eigen::Vector2d> nearestUnseen(const Eigen::Vector2d& here_map_m, const common::OccupancyGrid& grid,
                                                const SearchArea& area) const;

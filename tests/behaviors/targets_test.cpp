@@ -206,6 +206,17 @@ TEST(SeenPlaces, TheNextIsTheNearestUnseenFromAFreePlaceThatFacesIt) {
   EXPECT_NEAR(std::atan2(ahead.y(), ahead.x()), common::wrapAngle(look->from_map.yaw_rad), 1e-6);
 }
 
+TEST(SeenPlaces, PlacesThatTheCameraHasSeenAreLookedFromFirst) {
+  common::OccupancyGrid grid = common::makeOccupancyGrid(0.1);
+  for (int y = -40; y < 40; ++y)
+    for (int x = -40; x < 40; ++x) grid.set({x, y}, std::max(std::abs(x), std::abs(y)) == 39 ? 50 : -50);
+  SeenPlaces places;
+  places.see(frameAt(0.0, 1.0), grid, 3.5);
+  const auto look = places.next({0.0, 0.0}, grid, nullptr, {});
+  ASSERT_TRUE(look);
+  EXPECT_TRUE(places.isSeen(look->from_map.position_m())) << "and not one of those behind the vehicle, as near";
+}
+
 TEST(Targets, TheCheckRefusesAVehicleWithoutCameraAndNamesThatTheProfileLacks) {
   const std::string mission =
       R"(<ExploreUntilFound target="red"/><LocateTarget target="red"/><IsTargetFound target="red"/>)";
