@@ -38,7 +38,6 @@ struct Localizer::Impl {
         local_map(config_in.local_map_length_m),
         lost_test(config_in.lost),
         distinction(distinctionOf(config_in)) {}
-
   void passOver(const LocalizationInput& input);
   void step(const LocalizationInput& input);
   void track(const LocalizationInput& input);
@@ -56,7 +55,6 @@ struct Localizer::Impl {
   void localize(const LikelyPlace& place, const Pose2& T_odom_middle);
   void enter(LocalizationState next, std::string reason);
   LocalizationEstimate estimate();
-
   LocalizerConfig config;
   Pose2 T_map_grid;
   std::shared_ptr<const MapField> map;
@@ -65,7 +63,6 @@ struct Localizer::Impl {
   LocalMap local_map;
   LostTest lost_test;
   PlaceDistinction distinction;
-
   LocalizationState state = LocalizationState::kGlobal;
   bool was_localized = false;
   common::Time now;
@@ -101,7 +98,6 @@ struct Localizer::Impl {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     bool interrupted = false;
   } passed_over;
-
   std::optional<LocalizationEvent> event;
 };
 
@@ -183,7 +179,7 @@ void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::lose(std::string reason) {
-  enter(LocalizationState::kLost, std::move(reason));
+  enter(was_localized ? LocalizationState::kLost : LocalizationState::kGlobal, std::move(reason));
   candidate.reset();
   question.reset();
   searched_path_length_m.reset();
@@ -297,10 +293,7 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
                                                    100.0 * place.explained, local_map.length_m()));
   was_localized = true;
   map_doubt.reset();
-  local_map.clear();
-  question.reset();
-  lost_test.reset();
-  candidate.reset();
+  forgetAll();
 }
 
 LocalizationEstimate Localizer::Impl::estimate() {
@@ -339,8 +332,7 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
 
 void Localizer::forget() {
   Impl& self = *impl_;
-  self.lose("told to look anew");
-  if (!self.was_localized) self.state = LocalizationState::kGlobal;
+  self.lose({});
   self.forgetAll();
   self.was_localized = false;
   self.map_doubt.reset();
