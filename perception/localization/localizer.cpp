@@ -55,7 +55,6 @@ struct Localizer::Impl {
   void localize(const LikelyPlace& place, const Pose2& T_odom_middle);
   void enter(LocalizationState next, std::string reason);
   LocalizationEstimate estimate();
-
   LocalizerConfig config;
   Pose2 T_map_grid;
   std::shared_ptr<const MapField> map;
@@ -64,7 +63,6 @@ struct Localizer::Impl {
   LocalMap local_map;
   LostTest lost_test;
   PlaceDistinction distinction;
-
   LocalizationState state = LocalizationState::kGlobal;
   bool was_localized = false;
   common::Time now;
@@ -172,7 +170,7 @@ void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::lose(std::string reason) {
-  enter(LocalizationState::kLost, std::move(reason));
+  enter(was_localized ? LocalizationState::kLost : LocalizationState::kGlobal, std::move(reason));
   candidate.reset();
   question.reset();
   searched_path_length_m.reset();
@@ -286,10 +284,7 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
                                                    100.0 * place.explained, local_map.length_m()));
   was_localized = true;
   map_doubt.reset();
-  local_map.clear();
-  question.reset();
-  lost_test.reset();
-  candidate.reset();
+  forgetAll();
 }
 
 LocalizationEstimate Localizer::Impl::estimate() {
@@ -328,8 +323,7 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
 
 void Localizer::forget() {
   Impl& self = *impl_;
-  self.lose("told to look anew");
-  if (!self.was_localized) self.state = LocalizationState::kGlobal;
+  self.lose({});
   self.forgetAll();
   self.was_localized = false;
   self.map_doubt.reset();
