@@ -9,7 +9,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "mapping3d/voxels/clearance_field.hpp"
 #include "mapping3d/voxels/voxel_mapper.hpp"
 #include "tests/mapping3d/rooms.hpp"
 
@@ -88,24 +87,6 @@ void octomapTree(benchmark::State& state) {
   state.counters["s_a_frame"] =
       benchmark::Counter(kFrames, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-
-/// A query of the hull of the cobra at a random place of a room that the flight has drawn, up to 1 m.
-void clearanceQuery(benchmark::State& state) {
-  const auto unknown = state.range(0) == 0 ? common::UnknownSpace::kFree : common::UnknownSpace::kOccupied;
-  VoxelMapper mapper(VoxelConfig{});
-  for (const View& view : flight(1)) mapper.insert(view.depth, camera(), view.T_map_camera);
-  ClearanceField field(std::make_shared<const common::VoxelMap>(mapper.snapshot()), 1.0);
-  std::mt19937 random(7);
-  std::vector<Eigen::Vector3d> centers_m;
-  for (int i = 0; i < 1000; ++i) {
-    const auto part = [&] { return static_cast<double>(random()) / static_cast<double>(std::mt19937::max()); };
-    centers_m.emplace_back(-3.0 + 7.0 * part(), -2.0 + 5.0 * part(), 0.2 + 2.0 * part());
-  }
-  std::size_t i = 0;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(field.clearance_m(centers_m[++i % centers_m.size()], {0.275, 0.25}, unknown));
-}
-BENCHMARK(clearanceQuery)->ArgName("unknown_is_occupied")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 // The argument is the seed of the room. Both are run in turn, so that the load of the machine falls on both.
 BENCHMARK(swiftletVoxels)->Arg(1)->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
