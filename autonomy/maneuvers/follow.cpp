@@ -23,8 +23,9 @@ constexpr double kSlack_m = 0.2;
 /// Unseen for longer he is lost, also if he is believed to stand still where he was; the vehicle goes to look.
 constexpr double kLost_s = 3.0;
 constexpr double kNear_s = 1.0;
-/// While it waits for somebody it turns, for lasers do not see behind themselves.
-constexpr double kLooksAround_rad_s = 25.0 * common::kRadPerDeg;
+/// Somebody who is to be followed stands in front. After this time the vehicle turns, for lasers do not see behind
+/// themselves.
+constexpr double kLooksAhead_s = 8.0, kLooksAround_rad_s = 25.0 * common::kRadPerDeg;
 constexpr double kPersonTolerance_m = 0.5;
 /// It flies behind him before a corner hides him: the place where he is after this time stays in sight.
 constexpr double kInSight_s = 1.5;
@@ -69,8 +70,12 @@ Progress Follow::search(const ManeuverInput& input) {
   if (intent_.until_near) return Progress::failed("nobody was followed before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
     return Progress::failed(fmt::format("nobody walks within {:.0f} m for {:.0f} s", kReach_m, intent_.lost_s));
-  const double yaw_rad = kLooksAround_rad_s * (input.now - *since_).seconds();
-  setup_.controller.lookAt(input.position_map_m() + kReach_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
+  const double turned_rad = kLooksAround_rad_s * ((input.now - *since_).seconds() - kLooksAhead_s);
+  if (!since_yaw_rad_) since_yaw_rad_ = input.state.T_map_body_planar().yaw_rad;
+  if (turned_rad > 0.0) {
+    const double yaw_rad = *since_yaw_rad_ + turned_rad;
+    setup_.controller.lookAt(input.position_map_m() + kReach_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
+  }
   return Progress::running("waits for somebody who walks");
 }
 

@@ -32,6 +32,7 @@ class Follow final : public PathManeuver {
   PersonWatch person_;
   std::optional<Eigen::Vector2d> target_map_m_;
   std::optional<common::Time> since_, near_since_;
+  std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for somebody.
   common::Time asked_;
   bool lost_ = false;
 };

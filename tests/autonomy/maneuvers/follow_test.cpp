@@ -213,13 +213,15 @@ TEST_F(FollowInFlight, BelievesHimWhereHeStandsInTheMap) {
 
 TEST_F(FollowInFlight, LooksAroundForSomebodyAndGivesUp) {
   common::FollowIntent intent;
-  intent.lost_s = 3.0;
+  intent.lost_s = 12.0;
   const double yaw_rad = state_.T_map_body_planar().yaw_rad;
   want(intent);
-  run(1.0);
+  run(7.0);
+  EXPECT_LT(std::abs(common::wrapAngle(state_.T_map_body_planar().yaw_rad - yaw_rad)), 0.1);
+  run(3.0);
   EXPECT_GT(std::abs(common::wrapAngle(state_.T_map_body_planar().yaw_rad - yaw_rad)), 0.2);
   EXPECT_EQ(executor_.status().reason, "waits for somebody who walks");
-  EXPECT_EQ(runToTheEnd(3.0), IntentState::kFailed);
+  EXPECT_EQ(runToTheEnd(4.0), IntentState::kFailed);
 }
 
 TEST_F(FollowInFlight, ReturnsToWhereHeWasFollowed) {
