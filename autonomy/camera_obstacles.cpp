@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "autonomy/occupied_near.hpp"
+#include "common/occupied_near.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -121,7 +121,7 @@ void CameraObstacles::findCells(Columns& columns, const common::Pose2& T_map_sub
   for (const Eigen::Vector2d& center_submap_m : columns.centers_submap_m) {
     const common::CellIndex cell = laser_grid_->cellAt(T_map_submap * center_submap_m);
     include(cell, columns.around);
-    if (!occupiedNear(*laser_grid_, cell, kNearLaser_cells)) columns.cells.push_back(cell);
+    if (!common::occupiedNear(*laser_grid_, cell, kNearLaser_cells)) columns.cells.push_back(cell);
   }
 }
 

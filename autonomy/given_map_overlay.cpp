@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "autonomy/occupied_near.hpp"
+#include "common/occupied_near.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -109,7 +109,7 @@ void GivenMapOverlay::lay() {
   auto both = std::make_shared<OccupancyGrid>(laid_.snapshot());
   laid_.forEachCell([&](CellIndex cell, occupancy::Cell value) {
     if (occupancy::isOccupied(value) && occupancy::isUnknown(flown_->at(cell)) &&
-        occupiedNear(*flown_, cell, same_wall))
+        common::occupiedNear(*flown_, cell, same_wall))
       both->set(cell, 0);
   });
   flown_->forEachCell([&](CellIndex cell, occupancy::Cell value) {

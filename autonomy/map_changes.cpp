@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "autonomy/occupied_near.hpp"
+#include "common/occupied_near.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -35,9 +35,11 @@ void MapChanges::update(common::Time now, const OccupancyGrid& flown, const Occu
   };
   std::map<Square, int> appeared, gone;
   flown.forEachCell([&](CellIndex cell, occupancy::Cell value) {
-    if (occupancy::isOccupied(value) && occupancy::isFree(laid.at(cell)) && !occupiedNear(laid, cell, same_wall))
+    if (occupancy::isOccupied(value) && occupancy::isFree(laid.at(cell)) &&
+        !common::occupiedNear(laid, cell, same_wall))
       ++appeared[squareOf(cell)];
-    if (occupancy::isFree(value) && occupancy::isOccupied(laid.at(cell)) && !occupiedNear(flown, cell, same_wall))
+    if (occupancy::isFree(value) && occupancy::isOccupied(laid.at(cell)) &&
+        !common::occupiedNear(flown, cell, same_wall))
       ++gone[squareOf(cell)];
   });
   const int least = static_cast<int>(std::lround(kLeastOutline_m / flown.resolution_m()));

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "behaviors/line_of_sight.hpp"
 #include "behaviors/target_ports.hpp"
 #include "common/geometry.hpp"
+#include "common/line_of_sight.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -191,7 +191,7 @@ std::optional<common::GoToIntent> LocateTarget::nextView(const FlightTick& tick,
           middle_map_m + share * least_m * Eigen::Vector2d(std::cos(side_rad), std::sin(side_rad));
       const auto& map = tick.flight.goal_map;
       const bool free = !map || map->stateAt(from, ports.clearance_m) == common::PlaceState::kFree;
-      if (known || !free || !isInSight(grid, from, middle_map_m, kTargetNear_m)) continue;
+      if (known || !free || !common::isInSight(grid, from, middle_map_m, kTargetNear_m)) continue;
       const Eigen::Vector2d here = state.T_map_body_planar().position_m();
       if (nearest && (from - here).norm() >= (nearest->goal_map_m - here).norm()) continue;
       nearest.emplace();

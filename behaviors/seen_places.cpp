@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "behaviors/line_of_sight.hpp"
+#include "common/line_of_sight.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
@@ -34,7 +34,7 @@ bool hasWallsAround(const common::OccupancyGrid& grid, const Eigen::Vector2d& pl
   for (int i = 0; i < kLookDirections; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / kLookDirections;
     const Eigen::Vector2d end = place_map_m + kWalls_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-    if (!isInSight(grid, place_map_m, end, 0.0)) ++walls;
+    if (!common::isInSight(grid, place_map_m, end, 0.0)) ++walls;
   }
   return 4 * walls >= kLookDirections;
 }
@@ -55,7 +55,7 @@ void SeenPlaces::see(const common::Map3dLayer& layer, const common::OccupancyGri
       const auto seenAt = [&](double z_m) {
         return isInPicture(layer.frame->camera, T_camera_map * Eigen::Vector3d(place.x(), place.y(), z_m));
       };
-      if (seenAt(kFloor_m) && seenAt(kTable_m) && isInSight(grid, from_map_m, place, kPlaceNear_m))
+      if (seenAt(kFloor_m) && seenAt(kTable_m) && common::isInSight(grid, from_map_m, place, kPlaceNear_m))
         places_.set({x, y}, 1);
     }
 }
@@ -118,7 +118,7 @@ std::optional<SeenPlaces::Look> SeenPlaces::lookAt(const Eigen::Vector2d& place_
     const Eigen::Vector2d from = place_map_m - from_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
     if (from_seen && !isSeen(from)) continue;
     if (map != nullptr && map->stateAt(from, area.clearance_m) != common::PlaceState::kFree) continue;
-    if (!isInSight(grid, from, place_map_m, kPlaceNear_m)) continue;
+    if (!common::isInSight(grid, from, place_map_m, kPlaceNear_m)) continue;
     if (!area.leave_building && !hasWallsAround(grid, from)) continue;
     if (best && (from - here_map_m).norm() >= (best->from_map.position_m() - here_map_m).norm()) continue;
     best = Look{place_map_m, {from.x(), from.y(), angle_rad}};

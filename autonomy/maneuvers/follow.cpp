@@ -6,14 +6,12 @@
 #include <fmt/format.h>
 
 #include "common/geometry.hpp"
-#include "perception/slam2d/grid_ray.hpp"
+#include "common/line_of_sight.hpp"
 #include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
 
-/// The laser tracks people up to 6 m away.
-constexpr double kReach_m = 6.0;
 /// Between two paths, and by how much the place to fly to moves meanwhile: each new path costs speed.
 constexpr double kReplan_s = 0.3, kReplan_m = 0.4;
 /// The place to fly to is that behind the person after this time: a path takes as long to begin and to end.
@@ -29,17 +27,8 @@ constexpr double kLooksAhead_s = 8.0, kLooksAround_rad_s = 25.0 * common::kRadPe
 constexpr double kPersonTolerance_m = 0.5;
 /// It flies behind him before a corner hides him: the place where he is after this time stays in sight.
 constexpr double kInSight_s = 1.5;
-
-/// Whether nothing that the map shows stands between two places; what is near the second one may be the person.
-bool inSight(const common::OccupancyGrid& grid, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
-  constexpr double kHimself_m = 0.4;
-  const Eigen::Vector2d way_m = to_map_m - from_map_m;
-  const double share = std::max(0.0, 1.0 - kHimself_m / std::max(1e-6, way_m.norm()));
-  const double per_cell = 1.0 / grid.resolution_m();
-  return perception::visitCrossed(
-      per_cell * from_map_m, per_cell * (from_map_m + share * way_m),
-      [&](const common::CellIndex& cell, double, double) { return !common::occupancy::isOccupied(grid.at(cell)); });
-}
+/// What the map shows so near to him may be himself.
+constexpr double kHimself_m = 0.4;
 
 }  // namespace
 
@@ -52,7 +41,7 @@ Progress Follow::fly(const ManeuverInput& input) {
   if (!since_) since_ = input.now;
   if (!person_.known() && setup_.memory.person_map_m && intent_.until_near)
     person_.remember(*setup_.memory.person_map_m, *since_);
-  person_.choose(input.people, input.position_map_m(), kReach_m);
+  person_.choose(input.people, input.position_map_m(), HiddenPerson::kTracked_m);
   person_.update(input.people, {input.grid, input.seen}, input.now);
   if (!person_.known()) return search(input);
   const Eigen::Vector2d place_map_m = person_.place_map_m(input.now);
@@ -69,12 +58,14 @@ Progress Follow::fly(const ManeuverInput& input) {
 Progress Follow::search(const ManeuverInput& input) {
   if (intent_.until_near) return Progress::failed("nobody was followed before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
-    return Progress::failed(fmt::format("nobody walks within {:.0f} m for {:.0f} s", kReach_m, intent_.lost_s));
+    return Progress::failed(
+        fmt::format("nobody walks within {:.0f} m for {:.0f} s", HiddenPerson::kTracked_m, intent_.lost_s));
   const double turned_rad = kLooksAround_rad_s * ((input.now - *since_).seconds() - kLooksAhead_s);
   if (!since_yaw_rad_) since_yaw_rad_ = input.state.T_map_body_planar().yaw_rad;
   if (turned_rad > 0.0) {
     const double yaw_rad = *since_yaw_rad_ + turned_rad;
-    setup_.controller.lookAt(input.position_map_m() + kReach_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
+    setup_.controller.lookAt(input.position_map_m() +
+                             HiddenPerson::kTracked_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
   }
   return Progress::running("waits for somebody who walks");
 }
@@ -108,8 +99,8 @@ std::optional<Eigen::Vector2d> Follow::wanted(const ManeuverInput& input) const 
   if (person_.hidden())
     return away.norm() > intent_.distance_m || segmentCost(*map, here, place).lethal ? std::optional(place)
                                                                                      : std::nullopt;
-  const bool soon_hidden =
-      !inSight(*input.grid, here, person_.place_map_m(input.now) + kInSight_s * person_.velocity_map_m_s());
+  const bool soon_hidden = !common::isInSight(
+      *input.grid, here, person_.place_map_m(input.now) + kInSight_s * person_.velocity_map_m_s(), kHimself_m);
   if (!soon_hidden && std::abs(away.norm() - intent_.distance_m) < kSlack_m) return std::nullopt;
   const Eigen::Vector2d straight = place + intent_.distance_m * away.normalized();
   if (!soon_hidden && (!segmentCost(*map, here, straight).lethal || away.norm() < intent_.distance_m)) return straight;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "common/geometry.hpp"
+#include "common/occupied_near.hpp"
+#include "perception/slam2d/particle/resampling.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -18,8 +20,6 @@ constexpr double kPlaceSigma_m = 0.1, kVelocitySigma_m_s = 0.15;
 constexpr double kTurns_1_s = 0.4, kStopShare = 0.3;
 /// Walking speeds indoors.
 constexpr double kSlow_m_s = 0.3, kFast_m_s = 1.1;
-/// The laser tracks people this far.
-constexpr double kTracked_m = 6.0;
 /// Half of a person's width: what the map shows so near may be himself.
 constexpr double kBody_m = 0.35;
 /// A person in sight is tracked within this time.
@@ -31,12 +31,9 @@ constexpr double kOnePlace_m = 0.6;
 bool appearedNear(const common::OccupancyGrid& grid, const common::OccupancyGrid& before,
                   const Eigen::Vector2d& place_map_m) {
   const int reach = static_cast<int>(kBody_m / grid.resolution_m());
-  const common::CellIndex center = grid.cellAt(place_map_m);
-  for (int y = center.y - reach; y <= center.y + reach; ++y)
-    for (int x = center.x - reach; x <= center.x + reach; ++x)
-      if (common::occupancy::isOccupied(grid.at({x, y})) && !common::occupancy::isOccupied(before.at({x, y})))
-        return true;
-  return false;
+  return common::anyNear(grid.cellAt(place_map_m), reach, [&](common::CellIndex cell) {
+    return common::occupancy::isOccupied(grid.at(cell)) && !common::occupancy::isOccupied(before.at(cell));
+  });
 }
 
 /// The degree of the bearing.
@@ -125,28 +122,25 @@ void HiddenPerson::View::take(const perception::SeenPoints& seen) {
 
 double HiddenPerson::View::range_m(const Eigen::Vector2d& way_m) const { return ranges_m[degreeOf(way_m)]; }
 
-/// Low variance resampling (Thrun 2005, table 4.4), once half of the particles carry the weight.
+/// Systematic resampling, once half of the particles carry the weight.
 void HiddenPerson::resample() {
-  double sum = 0.0, squares = 0.0;
-  for (const Particle& particle : particles_) {
-    sum += particle.weight;
-    squares += particle.weight * particle.weight;
-  }
+  double sum = 0.0;
+  for (const Particle& particle : particles_) sum += particle.weight;
   if (sum < 1e-6 * kParticles) {  // He is nowhere where he could be: the particles spread by walking on.
     for (Particle& particle : particles_) particle.weight = 1.0;
     return;
   }
-  if (sum * sum > 0.5 * kParticles * squares) return;
+  std::vector<double> weights;
+  weights.reserve(particles_.size());
+  for (const Particle& particle : particles_) weights.push_back(particle.weight / sum);
+  if (perception::effectiveSampleSize(weights) > 0.5 * kParticles) return;
   std::vector<Particle> drawn;
   drawn.reserve(particles_.size());
-  const double step = sum / kParticles;
-  double next = step * random_.uniform(), passed = 0.0;
-  for (const Particle& particle : particles_) {
-    passed += particle.weight;
-    for (; next < passed && drawn.size() < particles_.size(); next += step)
-      drawn.push_back({particle.place_map_m, particle.velocity_map_m_s, particle.stays, particle.shown});
+  for (const std::size_t chosen : perception::resampled(weights, random_)) {
+    drawn.push_back(particles_[chosen]);
+    drawn.back().weight = 1.0;
   }
-  if (!drawn.empty()) particles_ = std::move(drawn);
+  particles_ = std::move(drawn);
 }
 
 /// The particle with the most weight around it, of some of them.

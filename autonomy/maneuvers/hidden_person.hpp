@@ -27,6 +27,8 @@ class HiddenPerson {
  public:
   /// Slower than that he stands.
   static constexpr double kStands_m_s = 0.25;
+  /// The laser tracks people this far.
+  static constexpr double kTracked_m = 6.0;
 
   /// He was last seen at that place and time with that velocity. `before` is the map before he stood there.
   HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,

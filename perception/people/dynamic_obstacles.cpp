@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/occupied_near.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -29,10 +30,7 @@ bool unexplained(const common::OccupancyGrid& background, const Point& point_m, 
 bool revealed(const common::OccupancyGrid& background, const Point& point_m, const Point& sensor_m, int cells) {
   // In the age of the background a person walks this far at most.
   constexpr double kGone_m = 1.5;
-  const CellIndex center = background.cellAt(point_m);
-  for (int dy = -cells; dy <= cells; ++dy)
-    for (int dx = -cells; dx <= cells; ++dx)
-      if (common::occupancy::isOccupied(background.at({center.x + dx, center.y + dy}))) return false;
+  if (common::occupiedNear(background, background.cellAt(point_m), cells)) return false;
   const Point towards = (sensor_m - point_m).normalized();
   for (double back_m = 0.0; back_m <= kGone_m; back_m += background.resolution_m())
     if (common::occupancy::isOccupied(background.at(background.cellAt(point_m + back_m * towards)))) return true;

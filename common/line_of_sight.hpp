@@ -5,17 +5,17 @@
 
 #include "common/occupancy_grid.hpp"
 
-namespace swiftlet::behaviors {
+namespace swiftlet::common {
 
 /// No occupied cell lies between the two places, in the plane at the height of flight. The last `near_m` before `to`
 /// are not asked for, as what stands there is itself in the map.
-inline bool isInSight(const common::OccupancyGrid& grid, const Eigen::Vector2d& from_map_m,
-                      const Eigen::Vector2d& to_map_m, double near_m) {
+inline bool isInSight(const OccupancyGrid& grid, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m,
+                      double near_m) {
   const Eigen::Vector2d way_m = to_map_m - from_map_m;
   const double length_m = way_m.norm() - near_m, step_m = 0.7 * grid.resolution_m();
   for (double along_m = 0.0; along_m < length_m; along_m += step_m)
-    if (common::occupancy::isOccupied(grid.at(grid.cellAt(from_map_m + along_m / way_m.norm() * way_m)))) return false;
+    if (occupancy::isOccupied(grid.at(grid.cellAt(from_map_m + along_m / way_m.norm() * way_m)))) return false;
   return true;
 }
 
-}  // namespace swiftlet::behaviors
+}  // namespace swiftlet::common
