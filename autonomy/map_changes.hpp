@@ -1,5 +1,5 @@
 // What has changed since the given map was made: things that stand where it has free space, and things of it that are
-// gone. They are said once, by their place in the given map, so that whoever keeps the map knows what to look at.
+// gone. Each is reported once, with its place in the given map, so that whoever keeps the map knows where to look.
 #pragma once
 
 #include <map>

@@ -128,7 +128,7 @@ Status LocateTarget::act(tree::TickContext& context) {
   if (const std::string problem = problemOfPorts(); !problem.empty()) return fail(context, problem);
   const Ports ports{*name_.get(), *sigma_m_.get(), *distance_m_.get(), *clearance_m_.get(), *modeOr(mode_, tick.mode)};
   const common::Target* target = withId(*tick.flight.world->targets, target_);
-  if (target == nullptr) {  // None is chosen, or the camera has looked through the place of the candidate.
+  if (target == nullptr) {  // None is chosen, or the candidate was dropped after free-space violations.
     onStart(context);
     target = nearestOther(tick, ports.name);
     if (target == nullptr)

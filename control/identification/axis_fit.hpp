@@ -26,7 +26,7 @@ struct AxisFitOptions {
   double longest_lag_s = 0.4;
   double lag_step_s = 0.01;
   double shortest_s = 15.0;      ///< Less flight is not enough.
-  double widest_interval = 0.3;  ///< A gain known less well than this share of itself is not identified.
+  double widest_interval = 0.3;  ///< A gain whose interval is a greater share of it is not identified.
 };
 
 /// Over each window T: v(t + T) - v(t) = k1 int(u) + k2 int(v) + b T, with u behind the lag of least residual. `damped`

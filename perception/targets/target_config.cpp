@@ -54,7 +54,7 @@ void TargetTrackerConfig::describe(common::config::Fields& fields) {
   fields("time_sigma_s", time_sigma_s, {0, 0.1}, "Standard deviation of the time of a picture: it matters in turns.");
   fields("gate_sigma", gate_sigma, {1, 10}, "Greatest Mahalanobis distance of a sighting from its target.");
   fields("misses_max", misses_max, {1, 1000},
-         "A candidate is dropped when the camera has looked through its place in so many pictures.");
+         "A candidate is dropped after so many pictures with a free-space violation of its place.");
 }
 
 }  // namespace swiftlet::perception

@@ -20,7 +20,7 @@ constexpr std::size_t kPlacesKept = 64;
 /// A sighting nearer to a target of its class than this share of their diameter is of that target, even if the
 /// estimates differ: two things do not stand in each other.
 constexpr double kSameShare = 0.8;
-/// The camera looks through the place of a target if what it sees there is so much farther.
+/// A depth so much greater than that of a target is a free-space violation of its place.
 constexpr double kThrough_m = 0.4;
 /// The rim of the picture, where a target need not be whole, as a share of its width.
 constexpr double kRim = 0.1;
@@ -59,7 +59,7 @@ void TargetTracker::add(const std::vector<TargetSighting>& sightings, const Targ
     else
       begin(sighting, view);
   }
-  dropLookedThrough(view);
+  dropViolated(view);
   mergeDuplicates(view.keys);
 }
 
@@ -139,7 +139,7 @@ void TargetTracker::confirm(Track& track) {
 }
 
 /// A candidate that is in the middle of the picture and in range, where the camera sees something farther.
-void TargetTracker::dropLookedThrough(const TargetView& view) {
+void TargetTracker::dropViolated(const TargetView& view) {
   const common::PinholeCamera& camera = view.frame.camera;
   std::erase_if(tracks_, [&](Track& track) {
     if (track.number > 0 || track.seen_now) return false;

@@ -2,7 +2,7 @@
 //
 //   sightings --> to the frame of a key scan --> the target they belong to (Mahalanobis) --> Kalman update
 //                                                    \--> none: a new candidate
-//   candidate --seen from enough places--> found;  candidate --looked through--> dropped
+//   candidate --seen from enough places--> found;  candidate --free-space violations--> dropped
 //
 // Each target is kept relative to a key scan of the 2D map, so a loop closure moves it along.
 #pragma once
@@ -59,7 +59,7 @@ class TargetTracker {
   void update(Track& track, const TargetSighting& sighting, const TargetView& view);
   void confirm(Track& track);
   void mergeDuplicates(const common::KeyPoses& keys);
-  void dropLookedThrough(const TargetView& view);
+  void dropViolated(const TargetView& view);
 
   TargetTrackerConfig config_;
   std::vector<TargetClassConfig> classes_;
