@@ -80,11 +80,14 @@ function(swiftlet_tests name)
                            PROPERTIES TIMEOUT ${timeout})
     endif()
   endforeach()
-  # gtest_discover_tests takes no list as the value of a property, so the labels are set when ctest has the tests.
+  # gtest_discover_tests takes no list as the value of a property, so the labels are set when ctest has the tests. What
+  # is slow costs more, so that ctest starts it first.
   file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/labels.cmake" @ONLY CONTENT [[
+set(cost_quick 1)
+set(cost_slow 20)
 foreach(pace quick slow)
   if(@name@_${pace})
-    set_tests_properties(${@name@_${pace}} PROPERTIES LABELS "@name@;${pace}")
+    set_tests_properties(${@name@_${pace}} PROPERTIES LABELS "@name@;${pace}" COST ${cost_${pace}})
   endif()
 endforeach()
 ]])
