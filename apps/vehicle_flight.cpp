@@ -156,7 +156,7 @@ bool VehicleFlight::over() {
   if (outcome_ != Outcome::kFlying) return true;
   if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
   if (loop_.now().seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
-  if (autonomy_.finished()) {
+  if (autonomy_.finished() && cameToRest()) {
     const common::MissionStatus& mission = autonomy_.missionStatus();
     const bool done = mission.state == common::MissionState::kDone;
     return end(done                           ? Outcome::kDone
@@ -165,6 +165,13 @@ bool VehicleFlight::over() {
                mission.reason);
   }
   return false;
+}
+
+/// A vehicle whose motors were switched off above the ground still falls, and how it lands is part of its flight.
+bool VehicleFlight::cameToRest() {
+  constexpr double kLongestFall_s = 2.0;  // From 20 m.
+  if (!motors_off_since_) motors_off_since_ = loop_.now();
+  return !vehicle_->truth().airborne || (loop_.now() - *motors_off_since_).seconds() > kLongestFall_s;
 }
 
 bool VehicleFlight::end(Outcome outcome, std::string reason) {

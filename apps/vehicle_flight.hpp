@@ -55,6 +55,7 @@ class VehicleFlight {
   void landIfAsked();
   void warnOfUnwrittenFiles();
   void keepMemory(interfaces::FlightEnd& end);
+  bool cameToRest();
   bool end(interfaces::Outcome outcome, std::string reason);
   void showEnd() const;
 
@@ -74,6 +75,7 @@ class VehicleFlight {
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;
+  std::optional<common::Time> motors_off_since_;  ///< When the autonomy was found to have finished.
   bool asked_to_land_ = false;
   bool warned_of_unwritten_files_ = false;
   std::optional<std::string> memory_failure_;  ///< Why the vehicle's memory could not be written.

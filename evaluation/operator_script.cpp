@@ -58,10 +58,10 @@ void OperatorStep::describe(common::config::Fields& fields) {
          "For command keep_out: the corners x, y, x, y ... in the vehicle's frame `map`.");
   fields("controller", controller, "For command controller: the kind that takes over in flight.");
   fields("at_s", at_s, {0, 1e6}, "Time before which the command is not given.");
-  fields(
-      "after_phase", after_phase,
-      "It is given when the flight's state, the mission's phase or a running behaviour begins with this text: `taking "
-      "off`, `explore`, `GoHome`; empty for any.");
+  fields("after_phase", after_phase,
+         "It is given when the flight's state, the mission's phase or reason, or a running behaviour begins with this "
+         "text: `taking "
+         "off`, `explore`, `GoHome`; empty for any.");
   fields("after_event", after_event,
          "It is given when an event holds this text, in itself or its reason; empty for none.");
   fields("after_goals", after_goals, {0, 10'000}, "It is given when that many goals have been reached in all.");

@@ -10,7 +10,7 @@ namespace swiftlet::evaluation {
 
 std::vector<std::string> phaseWords(const common::World& world) {
   const common::MissionStatus& mission = world.mission->status;
-  std::vector<std::string> words{toString(world.vehicle->flight_state), mission.phase};
+  std::vector<std::string> words{toString(world.vehicle->flight_state), mission.phase, world.mission->intent.reason};
   for (const common::TreeNodeView& node : mission.tree)
     if (node.status == "RUNNING") words.push_back(node.name);
   return words;

@@ -33,7 +33,8 @@ void FaultConfig::describe(common::config::Fields& fields) {
          "Place x, y in the world: the fault begins when the vehicle first comes there; empty for anywhere.");
   fields("within_m", within_m, {0.01, 1000}, "Horizontal distance from the place at which the fault begins.");
   fields("phase", phase,
-         "The fault begins when the flight's state, the mission's phase or a running behaviour first begins with this "
+         "The fault begins when the flight's state, the mission's phase or reason, or a running behaviour first begins "
+         "with this "
          "text: `taking off`, `explore`, `GoHome`; empty for any.");
   fields("lasts_s", lasts_s, {0, 1e6}, "Duration of a fault that begins at a place or in a phase.");
   fields("gyro_bias_deg_s", gyro_bias_deg_s, {-500, 500}, "For kind bias: error of the rate about each axis.");

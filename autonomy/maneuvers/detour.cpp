@@ -20,11 +20,12 @@ void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m) 
   flight_.ask(input, DetourRequest{goal_map_m});
 }
 
-void Detour::begin(const DetourPlan& plan, std::string reason, Time now, const common::VehicleState& state) {
+Progress Detour::begin(const DetourPlan& plan, std::string reason, Time now, const common::VehicleState& state) {
   active_ = true;
-  memory_.say(now, common::Severity::kInfo, plan.makes_room ? "goes aside to make room" : "goes nearer to look",
-              std::move(reason));
+  const std::string what = plan.makes_room ? "goes aside to make room" : "goes nearer to look";
+  memory_.say(now, common::Severity::kInfo, what, std::move(reason));
   flight_.offer(plan.path, now, state);
+  return Progress::running("detour: " + what);
 }
 
 void Detour::endWhenOver(const ManeuverInput& input) {

@@ -81,7 +81,7 @@ bool Explore::look(const ManeuverInput& input) {
 }
 
 Progress Explore::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
-  if (answer.detour) detour_.begin(*answer.detour, reason_, now, state);
+  if (answer.detour) return detour_.begin(*answer.detour, reason_, now, state);
   if (!answer.exploration) return Progress::running();
   const planning::ExplorationResult& result = *answer.exploration;
   reason_ = result.reason;

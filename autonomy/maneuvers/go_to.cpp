@@ -56,7 +56,7 @@ Progress GoTo::fly(const ManeuverInput& input) {
 }
 
 Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
-  if (answer.detour && no_path_) detour_.begin(*answer.detour, "waiting: " + no_path_->failure.text, now, state);
+  if (answer.detour && no_path_) return detour_.begin(*answer.detour, "waiting: " + no_path_->failure.text, now, state);
   if (!answer.path) return Progress::running();
   if (!*answer.path) return waitFor(answer.path->error(), now);
   no_path_.reset();

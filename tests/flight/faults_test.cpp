@@ -96,5 +96,16 @@ TEST_F(SensorFault, LongSilenceHoldsThenLandsAndIsReported) {
   EXPECT_THAT(mission.at("reason").get<std::string>(), HasSubstr("landed: no scan for 1."));
 }
 
+/// More thrust than the vehicle believes carries it off the floor, and its motors stop before it lies there again.
+TEST_F(SensorFault, AVehicleWhoseMotorsStopAboveTheGroundIsWatchedUntilItLies) {
+  const auto flight = flyIn(
+      "  quadrotor: {thrust_share: 1.05, mass_share: 0.92}\n"
+      "  faults:\n    - {sensor: imu, kind: silent, phase: taking off, lasts_s: 1000}\n",
+      "nominal");
+  EXPECT_FALSE(flight.at("mission_done").get<bool>());
+  EXPECT_NE(flight.at("verdict"), "unfinished") << flight.dump(2);
+  EXPECT_GT(flight.at("touch_down_speed_m_s").get<double>(), 0.0) << "it has left the floor";
+}
+
 }  // namespace
 }  // namespace swiftlet::flight
