@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/segment.hpp"
+
 namespace swiftlet::common {
 namespace {
 
@@ -16,19 +18,13 @@ constexpr double kLeastArea_m2 = 0.01;
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double segmentDistance_m(const Point& point, const Point& from, const Point& to) {
-  const Point along = to - from;
-  const double share = along.isZero() ? 0.0 : std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (point - from - share * along).norm();
-}
-
 bool touch(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double at_c = cross(b - a, c - a), at_d = cross(b - a, d - a);
   const double at_a = cross(d - c, a - c), at_b = cross(d - c, b - c);
   if (((at_c > 0) != (at_d > 0)) && ((at_a > 0) != (at_b > 0))) return true;
   constexpr double kSame_m = 1e-9;
-  return std::min({segmentDistance_m(c, a, b), segmentDistance_m(d, a, b), segmentDistance_m(a, c, d),
-                   segmentDistance_m(b, c, d)}) < kSame_m;
+  return std::min({segmentDistance(c, a, b), segmentDistance(d, a, b), segmentDistance(a, c, d),
+                   segmentDistance(b, c, d)}) < kSame_m;
 }
 
 bool crossesItself(const std::vector<Point>& corners) {
@@ -60,8 +56,8 @@ bool Polygon::contains(const Point& point_map_m) const {
 double Polygon::edgeDistance_m(const Point& point_map_m) const {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners_map_m.size(); ++i)
-    nearest_m = std::min(
-        nearest_m, segmentDistance_m(point_map_m, corners_map_m[i], corners_map_m[(i + 1) % corners_map_m.size()]));
+    nearest_m = std::min(nearest_m,
+                         segmentDistance(point_map_m, corners_map_m[i], corners_map_m[(i + 1) % corners_map_m.size()]));
   return nearest_m;
 }
 

@@ -2,7 +2,32 @@
 
 #include <algorithm>
 
+#include "common/segment.hpp"
+
 namespace swiftlet::autonomy {
+namespace {
+
+/// The same path with fewer corners, none of its points further than this from it. A trail has every small motion of a
+/// hover; flown point by point the vehicle would turn with each of them instead of looking where it came from.
+std::vector<Eigen::Vector2d> straightened(const std::vector<Eigen::Vector2d>& path) {
+  constexpr double kWithin_m = 0.06, kLongest_m = 1.0;
+  std::vector<Eigen::Vector2d> corners;
+  for (std::size_t from = 0; from < path.size();) {
+    corners.push_back(path[from]);
+    std::size_t to = std::min(from + 1, path.size());
+    const auto straightTo = [&](std::size_t end) {
+      if ((path[end] - path[from]).norm() > kLongest_m) return false;
+      return std::all_of(path.begin() + from + 1, path.begin() + end, [&](const Eigen::Vector2d& between) {
+        return common::segmentDistance(between, path[from], path[end]) < kWithin_m;
+      });
+    };
+    while (to + 1 < path.size() && straightTo(to + 1)) ++to;
+    from = to;
+  }
+  return corners;
+}
+
+}  // namespace
 
 Retrace::Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup) : setup_(setup), intent_(intent) {
   if (intent.lost_on_the_way_to_map_m) setup_.memory.exploration.lost_map_m.push_back(*intent.lost_on_the_way_to_map_m);
@@ -46,7 +71,7 @@ void Retrace::follow(const ManeuverInput& input) {
              }));
   control::FlightPath flown;
   flown.mode = common::FlightMode::kCareful;
-  for (const Eigen::Vector2d& point : path)
+  for (const Eigen::Vector2d& point : straightened(path))
     flown.points_map_m.emplace_back(point.x(), point.y(), setup_.memory.cruise_height_m);
   following_ = setup_.controller.follow(flown).has_value();
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/segment.hpp"
 #include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning {
@@ -47,9 +48,7 @@ void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2
   const common::CellIndex high = cellAt(from_map_m.cwiseMax(to_map_m) + within);
   for (int y = std::max(low.y, rect_.begin.y); y <= std::min(high.y, rect_.end.y - 1); ++y) {
     for (int x = std::max(low.x, rect_.begin.x); x <= std::min(high.x, rect_.end.x - 1); ++x) {
-      const Eigen::Vector2d to_cell = centerOf({x, y}) - from_map_m;
-      const double along = step.isZero() ? 0.0 : std::clamp(to_cell.dot(step) / step.squaredNorm(), 0.0, 1.0);
-      if ((to_cell - along * step).norm() > kWithin_m) continue;
+      if (common::segmentDistance(centerOf({x, y}), from_map_m, to_map_m) > kWithin_m) continue;
       Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
       if (cost == kLethal && stateAt({x, y}) == CellState::kFree && obstacleDistance_m({x, y}) >= least_m)
         cost = costOfMargin(0.0);

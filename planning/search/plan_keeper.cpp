@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/segment.hpp"
 
 namespace swiftlet::planning {
 
@@ -14,13 +15,6 @@ using common::config::kPositive;
 namespace {
 
 using Point = Eigen::Vector2d;
-
-/// The fraction of the segment from a to b at which it is nearest to p, in [0, 1].
-double shareNearest(const Point& a, const Point& b, const Point& p) {
-  const Point step = b - a;
-  const double squared = step.squaredNorm();
-  return squared > 0.0 ? std::clamp((p - a).dot(step) / squared, 0.0, 1.0) : 0.0;
-}
 
 /// The cost of the rest of a plan. It may begin in the lethal zone, which the vehicle must leave; after that, a lethal
 /// segment blocks it.
@@ -107,7 +101,7 @@ void PlanKeeper::advanceTo(const Point& position_map_m) {
   std::size_t best_segment = segment_;
   double best_along = along_;
   for (std::size_t i = segment_; i + 1 < points.size(); ++i) {
-    double share = shareNearest(points[i], points[i + 1], position_map_m);
+    double share = common::shareNearest(position_map_m, points[i], points[i + 1]);
     if (i == segment_) share = std::max(share, along_);
     const double off_m = (points[i] + share * (points[i + 1] - points[i]) - position_map_m).norm();
     if (off_m <= best_m + kSame_m) {
