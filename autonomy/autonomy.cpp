@@ -200,7 +200,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.desk().costMap();
   const auto& decision =
-      reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(),
+      reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(), drift_m_,
                         estimator_.people().obstacles(),
                         assisted_ ? assist_.wantedVelocity_map_m_s(state) : executor_.wantedVelocity_map_m_s(),
                         cost_map.get(), camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),

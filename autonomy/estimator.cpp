@@ -45,6 +45,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
                      const common::RgbdCameraConfig* camera)
     : standing_height_m_(0.5 * vehicle.hull_height_m),
       filter_(config.fusion),
+      explained_within_m_(config.people.explained_within_m),
       people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       laser_(config.laser, laser),
       altitude_(config.altitude, vehicle.hullRadius_m()),
@@ -224,8 +225,10 @@ perception::ProjectedScan Estimator::project(const common::LaserScan& scan) cons
   return laser_.project(scan, [&](Time t) { return history.at(t).value_or(newest); });
 }
 
-/// Points on a moving person bias the match, so points where the tracker predicts people are removed.
+/// Points on a moving person bias the match, so points where the tracker predicts people are removed. A position that is
+/// known less well than the tolerance of that comparison tells nothing: what the map does not explain may be a wall.
 perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedScan& scan, Time measured) const {
+  if (drift_m_ > explained_within_m_) return scan;
   return perception::withoutPeople(people_.expectedAt(measured), map_.T_map_odom() * planar(scan.T_odom_body), scan);
 }
 

@@ -156,6 +156,7 @@ class Estimator {
   perception::ErrorStateFilter filter_;
   perception::FilterListener* listener_ = nullptr;
   bool at_rest_ = false;
+  double explained_within_m_;  ///< Of the people tracker.
   perception::PeopleTracker people_;
   LaserPipeline laser_;
   AltitudePipeline altitude_;

@@ -39,6 +39,7 @@ const planning::AvoidanceDecision& Reactive::update(const ReactiveInput& input) 
   planning::AvoidanceInput seen;
   seen.stamp = input.scan.stamp;
   seen.age_s = input.age_s;
+  seen.position_sigma_m = input.drift_m;
   const std::vector<Eigen::Vector2f> merged = withCamera(input);
   seen.points_level_m = merged.empty() ? std::span<const Eigen::Vector2f>(input.scan.points_level_m) : merged;
   seen.velocity_level_m_s = level_from_map * Eigen::Vector2d(input.state.velocity_map_m_s().head<2>());

@@ -27,7 +27,8 @@ struct ReactiveInput {
   const perception::ProjectedScan& scan;
   common::Pose2 T_map_body;  ///< At the scan's stamp.
   const common::VehicleState& state;
-  double age_s = 0.0;  ///< Time since the scan's stamp.
+  double age_s = 0.0;    ///< Time since the scan's stamp.
+  double drift_m = 0.0;  ///< Standard deviation of the position, grown since the laser fixed it in every direction.
   /// Objects that the map does not explain, usually people, after this scan.
   std::span<const common::DynamicObstacle> obstacles;
   /// The velocity that the intent asks for; zero if it holds.

@@ -58,11 +58,12 @@ inline common::Polygon polygonOf(const tree::Points& points) {
 
 /// A port that takes the names of `values`; chosenOf() reads it.
 template <typename Enum, std::size_t N>
-tree::PortManifest choicePort(std::string name, const std::array<Enum, N>& values, std::string description) {
-  tree::PortManifest port{.name = std::move(name),
+tree::PortManifest choicePort(const std::string& name, const std::array<Enum, N>& values,
+                              const std::string& description) {
+  tree::PortManifest port{.name = name,
                           .type = tree::PortType::kString,
                           .default_value = toString(values.front()),
-                          .description = std::move(description)};
+                          .description = description};
   for (const Enum value : values) port.choices.emplace_back(toString(value));
   return port;
 }

@@ -53,7 +53,7 @@ struct LaserOdometryConfig {
   bool widened_must_hold = false;
   double min_overlap = 0.75;
   double min_fit = 0.35;
-  double min_weak_overlap = 0.75;
+  double min_weak_overlap = 0.93;
   double weak_sigma_m = 0.05;
   double max_reference_distance_m = 2.0;
   double max_reference_rotation_deg = 60.0;

@@ -37,23 +37,29 @@ bool revealed(const common::OccupancyGrid& background, const Point& point_m, con
   return false;
 }
 
-/// Whether the beams beside the points from `first` to `last` end well behind them or return nothing. The nearest ones
-/// may be split between both surfaces.
-bool standsByItself(std::span<const Eigen::Vector2f> points_map_m, std::size_t first, std::size_t last,
-                    const Point& sensor_map_m) {
-  constexpr double kBehind_m = 0.3;
+/// What the beams beside a cluster of end points show, in order of bearing.
+enum class Beside {
+  kBehind,   ///< They end well behind it, or return nothing: it ends there.
+  kJoined,   ///< Something of which it may be a part.
+  kNothing,  ///< There are none: the edge of the field of view.
+};
+
+/// `edge` is the cluster's first or last point, and `step` leads away from it. The nearest beams may be split between
+/// both surfaces.
+Beside beside(std::span<const Eigen::Vector2f> points_map_m, std::size_t edge, std::ptrdiff_t step,
+              const Point& sensor_map_m) {
+  constexpr double kBehind_m = 0.3, kApart_m = 0.3;
   constexpr std::ptrdiff_t kSplit = 3;
   const auto range_m = [&](std::ptrdiff_t i) { return (points_map_m[i].cast<double>() - sensor_map_m).norm(); };
-  const auto endsAt = [&](std::size_t edge, std::ptrdiff_t step) {
-    const auto at = static_cast<std::ptrdiff_t>(edge), count = static_cast<std::ptrdiff_t>(points_map_m.size());
-    for (std::ptrdiff_t k = 1; k <= kSplit; ++k) {
-      const std::ptrdiff_t beside = at + k * step;
-      if (beside < 0 || beside >= count) return false;
-      if (!points_map_m[beside].allFinite() || range_m(beside) > range_m(at) + kBehind_m) return true;
-    }
-    return false;
-  };
-  return endsAt(first, -1) && endsAt(last, 1);
+  const auto at = static_cast<std::ptrdiff_t>(edge), count = static_cast<std::ptrdiff_t>(points_map_m.size());
+  for (std::ptrdiff_t k = 1; k <= kSplit; ++k) {
+    const std::ptrdiff_t next = at + k * step;
+    if (next < 0 || next >= count) return k > 1 ? Beside::kJoined : Beside::kNothing;
+    if (!points_map_m[next].allFinite() || range_m(next) > range_m(at) + kBehind_m) return Beside::kBehind;
+    // The beams between returned nothing.
+    if (k == 1 && (points_map_m[next] - points_map_m[at]).norm() > kApart_m) return Beside::kBehind;
+  }
+  return Beside::kJoined;
 }
 
 /// Whether several beams pass near the middle of the obstacle's predicted place and end well behind it.
@@ -114,10 +120,18 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
   std::vector<Point> members;
   std::size_t first = 0, last = 0;
   bool is_revealed = false;
+  // A wall that is not where the map has it, because the position is wrong, joins other walls or leaves the field of
+  // view; a person ends at least at one side.
+  const auto standsAlone = [&] {
+    const Beside before = beside(points_map_m, first, -1, sensor_map_m);
+    const Beside after = beside(points_map_m, last, 1, sensor_map_m);
+    const int ends = (before == Beside::kBehind) + (after == Beside::kBehind);
+    if (is_revealed) return ends == 2;
+    return ends > 0 || (before == Beside::kNothing && after == Beside::kNothing);
+  };
   const auto close = [&] {
     if (static_cast<int>(members.size()) >= config_.min_points &&
-        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m &&
-        (!is_revealed || standsByItself(points_map_m, first, last, sensor_map_m))) {
+        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m && standsAlone()) {
       Point mean = Point::Zero();
       for (const Point& p : members) mean += p / static_cast<double>(members.size());
       double extent_m = 0.0;

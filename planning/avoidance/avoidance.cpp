@@ -23,6 +23,9 @@ constexpr double kStill_m_s = 1e-3;
 /// A return this near to the outline of a tracked person is the person: an arm, or half a stride ahead of the track.
 constexpr double kSameBody_m = 0.3;
 
+/// A door of 0.8 m leaves a hull of 0.55 m this much on either side, less 2 cm.
+constexpr double kDoor_m = 0.105;
+
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// How far a disc of `radius_m` at the origin may move before it touches the point; infinity if it passes by.
@@ -137,14 +140,16 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
   for (const Bin& bin : bins) {
     const double gap_m = bin.range_m - hull_radius_m_;
-    if (gap_m >= config_.retreat_distance_m * slack || isMapped(input, bin.nearest_level_m)) continue;
+    if (gap_m >= config_.retreat_distance_m * slack) continue;
+    const bool mapped = isMapped(input, bin.nearest_level_m);
+    if (mapped && (input.position_sigma_m <= config_.mapped_within_m || gap_m >= kDoor_m * slack)) continue;
     const bool followed = std::any_of(result.begin(), result.begin() + followed_count, [&](const Threat& t) {
       return (t.center_m - bin.nearest_level_m).norm() <= t.radius_m + kSameBody_m;
     });
     if (followed) continue;
-    result.push_back(
-        {bin.nearest_level_m, 0.0, Point::Zero(), true,
-         fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(bin.nearest_level_m))});
+    result.push_back({bin.nearest_level_m, 0.0, Point::Zero(), true,
+                      fmt::format("something {} {:.2f} m off the hull at {}", mapped ? "near" : "unmapped", gap_m,
+                                  bearingInWords(bin.nearest_level_m))});
   }
   return result;
 }

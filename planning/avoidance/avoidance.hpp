@@ -29,9 +29,13 @@ struct AvoidanceInput {
   /// The velocity that the intent asks for; zero asks for a stop.
   Eigen::Vector2d wanted_level_m_s = Eigen::Vector2d::Zero();
   common::Pose2 T_map_level;
-  const CostMap* cost_map = nullptr;                   ///< May be null: then nothing counts as mapped.
+  const CostMap* cost_map = nullptr;                   ///< May be null: then only `obstacles` are reasons to retreat.
   std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
   double age_s = 0.0;  ///< Of the scan when it was processed; the vehicle has moved on since.
+  /// Standard deviation of the position in the map. Where it exceeds `mapped_within_m`, the map tells nothing of what
+  /// is near, and the velocity may be wrong, too: the vehicle also retreats from what the map has, when it is very
+  /// near.
+  double position_sigma_m = 0.0;
   /// Points of the edges of keep-out zones. The vehicle brakes before them, and no retreat leads across them, but they
   /// are never a reason to retreat.
   std::span<const Eigen::Vector2d> keep_out_points_level_m = {};

@@ -91,6 +91,29 @@ TEST_F(MovingObjects, DetectsOneWhoWalksStraightAwayFromTheLaser) {
   EXPECT_TRUE(other.obstacles().empty());
 }
 
+/// Seen from a place that is wrong by more than a metre along a corridor, its end is where the map has free space.
+TEST_F(MovingObjects, TheEndOfACorridorThatIsNotWhereTheMapHasItIsNotAPerson) {
+  std::vector<Eigen::Vector2f> end, side;
+  for (int i = 0; i < 20; ++i) end.push_back({3.8f, 4.48f - 0.05f * static_cast<float>(i)});
+  for (int i = 0; i < 6; ++i) side.push_back({3.9f + 0.05f * static_cast<float>(i), 3.5f});
+  const auto seen = [&](std::size_t first) {
+    std::vector<Eigen::Vector2f> points(end.begin() + static_cast<std::ptrdiff_t>(first), end.end());
+    points.insert(points.end(), side.begin(), side.end());
+    return points;
+  };
+  planning::test::fill(grid, {{60, 60}, {200, 69}}, planning::test::kWallCell);  // The corridor's side at y = 3.45 m.
+  for (const std::size_t first : {0u, 8u, 15u}) {
+    for (int i = 0; i < 8; ++i) tracker.update(at(0.025 * i), seen(first), sensor, grid);
+    EXPECT_TRUE(tracker.obstacles().empty()) << first << " points of it are out of the field of view";
+  }
+  // A person who stands against the same side of the corridor ends where the beams pass him.
+  std::vector<Eigen::Vector2f> person(end.begin() + 12, end.end());
+  person.insert(person.begin(), Eigen::Vector2f(1.0f, 4.6f));
+  person.insert(person.end(), side.begin(), side.end());
+  for (int i = 0; i < 8; ++i) tracker.update(at(1.0 + 0.025 * i), person, sensor, grid);
+  EXPECT_EQ(tracker.obstacles().size(), 1u);
+}
+
 /// A nodding laser hits a lower object: it appears in one scan of four, each time elsewhere.
 TEST_F(MovingObjects, AnIntermittentObjectIsNotAWalker) {
   for (int i = 0; i < 120; ++i) {

@@ -106,7 +106,7 @@ class Story {
     std::vector<Point> edges_level_m;
     for (const Point& edge : keep_out_map_m) edges_level_m.push_back(at.inverse() * edge);
     return avoidance_.update({stamp, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, at, &map_,
-                              dynamic_.obstacles(), (now - stamp).seconds(), edges_level_m});
+                              dynamic_.obstacles(), (now - stamp).seconds(), position_sigma_m, edges_level_m});
   }
 
   /// Senses, obeys with its acceleration, and lets time pass. Returns the smallest gap to any person.
@@ -121,8 +121,8 @@ class Story {
     const Point change = delayed_.front() - velocity_map_m_s;
     const double most = 1.2 * kTick_s;
     velocity_map_m_s += change.norm() > most ? Point(change.normalized() * most) : change;
-    pose.x_m += velocity_map_m_s.x() * kTick_s;
-    pose.y_m += velocity_map_m_s.y() * kTick_s;
+    pose.x_m += (velocity_map_m_s + unknown_velocity_map_m_s).x() * kTick_s;
+    pose.y_m += (velocity_map_m_s + unknown_velocity_map_m_s).y() * kTick_s;
     for (Person& person : people) person.place_map_m += person.velocity_map_m_s * kTick_s;
     now += Duration::fromSeconds(kTick_s);
     for (const Person& person : people)
@@ -135,6 +135,8 @@ class Story {
 
   Pose2 pose{5.0, 4.0, 0.0};
   Point velocity_map_m_s = Point::Zero();
+  Point unknown_velocity_map_m_s = Point::Zero();  ///< By which the estimated velocity is wrong.
+  double position_sigma_m = 0.0;
   std::vector<Person> people;
   std::vector<Person> poles;
   std::vector<Point> keep_out_map_m;  ///< Of the edges of keep-out zones.

@@ -282,6 +282,30 @@ TEST(Avoidance, DoesNotRetreatFromMappedObstacles) {
   }
 }
 
+/// It believes that it stands still, and drifts towards a wall that its map has.
+TEST(Avoidance, DoesNotDriftIntoAMappedWallWhenThePositionIsUncertain) {
+  for (const double sigma_m : {0.05, 0.5}) {
+    Story story;
+    story.pose.x_m = 8.8;
+    story.position_sigma_m = sigma_m;
+    story.unknown_velocity_map_m_s = {0.2, 0.0};
+    for (int i = 0; i < 400; ++i) story.tick({0, 0});
+    if (sigma_m > 0.1)
+      EXPECT_GT(story.least_wall_m, 0.0);
+    else
+      EXPECT_LT(story.least_wall_m, 0.0) << "a known position does not drift: the test tests nothing";
+  }
+}
+
+TEST(Avoidance, FliesThroughADoorOfEightyCentimetresWithAnUncertainPosition) {
+  Story story;
+  addDoor(story);
+  story.position_sigma_m = 0.5;
+  for (int i = 0; i < 240; ++i) story.tick({0.6, 0});
+  EXPECT_GT(story.pose.x_m, 8.0);
+  EXPECT_EQ(story.retreats, 0);
+}
+
 TEST(Avoidance, DoesNotSwitchBackAndForthNearTheRetreatDistance) {
   Story story;
   story.people.push_back({{5.0 + kHull_m + 0.25 + 0.26, 4.0}, {0, 0}});
