@@ -41,6 +41,7 @@ common::Intent SupervisorIntents::home(std::uint64_t id, const SupervisedFlight&
     if (!flight.home_planned) return {id, common::RetraceIntent{trailBack_map_m(flight.world), std::nullopt}};
     common::GoToIntent to_home;
     to_home.goal_map_m = flight.world.vehicle->home_map.position_m();
+    to_home.instead_within_m = common::kHomeWithin_m;
     to_home.clearance_m = clearance_m_;
     return {id, to_home};
   }

@@ -45,9 +45,13 @@ struct GoToIntent {
   std::optional<double> height_m;  ///< Above the take-off floor; none: stay at the present height.
   std::optional<double> yaw_map_rad;
   double tolerance_m = 0.05;  ///< Greatest horizontal distance at arrival.
+  /// Where the goal itself is not free, a free place this near is as good, although it is beyond the tolerance.
+  double instead_within_m = 0.0;
   double clearance_m = 0.10;  ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
+/// For those who fly home: how far from the take-off place a landing is still at home.
+inline constexpr double kHomeWithin_m = 0.5;
 /// Leave the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};
 /// Fly back along a path that was flown before, without planning.

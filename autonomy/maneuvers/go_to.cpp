@@ -1,5 +1,6 @@
 #include "autonomy/maneuvers/go_to.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -25,7 +26,10 @@ bool mayPass(const planning::PlanFailure& failure) {
 using common::Time;
 
 GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
-    : PathManeuver(setup, "fly to a goal", intent.mode), intent_(intent), detour_(setup, flight_) {
+    : PathManeuver(setup, "fly to a goal", intent.mode),
+      intent_(intent),
+      detour_(setup, flight_),
+      place_map_m_(intent.goal_map_m) {
   if (intent.height_m) setup.memory.cruise_height_m = *intent.height_m;
   flight_.setGoalYaw(intent.yaw_map_rad);
 }
@@ -36,9 +40,15 @@ bool GoTo::looksAsAsked(const common::VehicleState& state) const {
   return std::abs(common::wrapAngle(state.T_map_body_planar().yaw_rad - *intent_.yaw_map_rad)) < kNear_rad;
 }
 
+std::string GoTo::reached() const {
+  const double off_m = (place_map_m_ - intent_.goal_map_m).norm();
+  return fmt::format("reached ({:.2f}, {:.2f})", place_map_m_.x(), place_map_m_.y()) +
+         (off_m > 0.0 ? fmt::format(", {:.2f} m beside the goal, which is not free", off_m) : "");
+}
+
 Progress GoTo::fly(const ManeuverInput& input) {
-  if (flight_.arrived(input, intent_.goal_map_m, intent_.tolerance_m) && looksAsAsked(input.state))
-    return Progress::done(fmt::format("reached ({:.2f}, {:.2f})", intent_.goal_map_m.x(), intent_.goal_map_m.y()));
+  if (flight_.arrived(input, place_map_m_, intent_.tolerance_m) && looksAsAsked(input.state))
+    return Progress::done(reached());
   const bool replan = flight_.keep(input);
   if (no_path_) {
     const double patience_s = mayPass(no_path_->failure) ? setup_.config.give_up_s : kGrowing_s;
@@ -50,7 +60,7 @@ Progress GoTo::fly(const ManeuverInput& input) {
     detour_.ask(input, intent_.goal_map_m);
   } else if (detour_.active() ? (input.now - asked_).seconds() >= Detour::kAskAgain_s : replan) {
     asked_ = input.now;
-    flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m});
+    flight_.ask(input, GoalRequest{intent_.goal_map_m, std::max(intent_.tolerance_m, intent_.instead_within_m)});
   }
   return Progress::running();
 }
@@ -61,6 +71,8 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   if (!*answer.path) return waitFor(answer.path->error(), now);
   no_path_.reset();
   detour_.breakOff();
+  const Eigen::Vector2d& end_map_m = (*answer.path)->points_map_m.back();
+  place_map_m_ = (end_map_m - intent_.goal_map_m).norm() > intent_.tolerance_m ? end_map_m : intent_.goal_map_m;
   flight_.offer(**answer.path, now, state);
   return Progress::running(fmt::format("flying to ({:.2f}, {:.2f})", intent_.goal_map_m.x(), intent_.goal_map_m.y()));
 }

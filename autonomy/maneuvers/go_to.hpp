@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "autonomy/maneuvers/detour.hpp"
 #include "autonomy/maneuvers/path_maneuver.hpp"
@@ -22,6 +23,7 @@ class GoTo final : public PathManeuver {
     planning::PlanFailure failure;
   };
 
+  std::string reached() const;
   bool looksAsAsked(const common::VehicleState& state) const;
   Progress fly(const ManeuverInput& input) override;
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
@@ -29,7 +31,8 @@ class GoTo final : public PathManeuver {
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
-  common::Time asked_;  ///< When the path to the goal was last requested.
+  Eigen::Vector2d place_map_m_;  ///< The goal, or the free place that is flown to instead.
+  common::Time asked_;           ///< When the path to the goal was last requested.
 };
 
 }  // namespace swiftlet::autonomy

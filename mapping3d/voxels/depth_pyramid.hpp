@@ -44,7 +44,9 @@ class DepthPyramid {
   }
 
  private:
-  std::size_t index(int u, int v) const { return static_cast<std::size_t>(v * width_px_ + u); }
+  std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(u);
+  }
   int levelOf(int side) const {
     const auto level = static_cast<int>(std::bit_width(static_cast<unsigned>(side))) - 1;
     return std::min(level, static_cast<int>(levels_.size()) - 1);

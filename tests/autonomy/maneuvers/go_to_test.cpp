@@ -56,6 +56,19 @@ TEST_F(GoToManeuver, FliesThroughTheDoorToTheGoal) {
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
 }
 
+TEST_F(GoToManeuver, FliesToTheNearestFreePlaceInsteadOfAGoalThatIsNotFree) {
+  build(true);
+  common::GoToIntent home = to(6.0, 3.2);
+  fill(grid_, {{122, 60}, {126, 70}}, kWallCell);  // 0.1 m beside the goal.
+  want(home);
+  EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed) << "the tolerance is 5 cm";
+  home.instead_within_m = 0.5;
+  want(home);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("beside the goal, which is not free"));
+  EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.5);
+}
+
 TEST_F(GoToManeuver, SucceedsOnceNearAndSlowForAWhile) {
   follows_ = false;
   want(to(2.0, 2.0));
