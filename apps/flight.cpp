@@ -27,6 +27,7 @@ std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
   scenario.vehicle = setup.system.vehicle;
   scenario.laser = setup.system.laser;
   scenario.rgbd_camera = setup.system.rgbd_camera;
+  scenario.vertical_laser = setup.system.vertical_laser;
   static std::mutex sdformat_is_not_thread_safe;
   const std::scoped_lock lock(sdformat_is_not_thread_safe);
   return std::make_shared<simulation::Arena>(simulation::loadWorld(scenario.world, scenario.model_paths), scenario);

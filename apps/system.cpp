@@ -56,6 +56,22 @@ void refuseUnfitModel(const System& system, const common::config::YamlReader& pr
   if (!problems.empty()) throw common::InputError(std::move(problems));
 }
 
+/// One sensor makes the 3D map, and an upright laser has no mirror, whose beams would be placed wrongly.
+void refuseUnfitVerticalLaser(const System& system, const common::config::YamlReader& profile) {
+  if (!system.vertical_laser) return;
+  const common::SourceLocation place = profile.locationOf("vertical_laser");
+  if (system.rgbd_camera)
+    throw common::InputError(common::Problem{place, "vertical_laser",
+                                             "one sensor makes the 3D map, and the profile names an rgbd_camera too",
+                                             "leave out one of the two"});
+  if (system.vertical_laser->mirror_beams > 0)
+    throw common::InputError(
+        common::Problem{place, "vertical_laser",
+                        fmt::format("{} has a mirror ({} beams), and an upright laser has none",
+                                    system.config.vertical_laser, system.vertical_laser->mirror_beams),
+                        "name a sheet such as `utm_30lx_upright`"});
+}
+
 /// Puts "# " before every line.
 std::string asComment(const std::string& yaml) {
   std::string text;
@@ -71,6 +87,10 @@ void SystemConfig::describe(common::config::Fields& fields) {
   fields("laser", laser, "A file of config/sensors, without .yaml, or a path.");
   fields("rgbd_camera", rgbd_camera,
          "A file of config/sensors, without .yaml, or a path; empty without such a camera.");
+  fields(
+      "vertical_laser", vertical_laser,
+      "A second laser whose scan plane stands upright, which makes the 3D map where there is no RGB-D camera: a file "
+      "of config/sensors, without .yaml, or a path; empty without one.");
   fields("vehicle_model", vehicle_model,
          "What `swiftlet identify` found of the vehicle: a file of config/models, without .yaml, or a path; empty "
          "without one.");
@@ -85,6 +105,8 @@ std::string System::toYaml(bool comments) const {
   std::string sheets = "\n# The data sheets these name:\n#\n# vehicle " + config.vehicle + "\n" +
                        asComment(print(vehicle)) + "#\n# laser " + config.laser + "\n" + asComment(print(laser));
   if (rgbd_camera) sheets += "#\n# rgbd_camera " + config.rgbd_camera + "\n" + asComment(print(*rgbd_camera));
+  if (vertical_laser)
+    sheets += "#\n# vertical_laser " + config.vertical_laser + "\n" + asComment(print(*vertical_laser));
   return print(config) + sheets;
 }
 
@@ -102,10 +124,14 @@ System loadSystem(const std::string& name) {
   if (!system.config.rgbd_camera.empty())
     system.rgbd_camera =
         common::config::readFile<common::RgbdCameraConfig>(sheet(system.config.rgbd_camera, "sensors", "rgbd_camera"));
+  if (!system.config.vertical_laser.empty())
+    system.vertical_laser =
+        common::config::readFile<common::LaserConfig>(sheet(system.config.vertical_laser, "sensors", "vertical_laser"));
   if (!system.config.vehicle_model.empty())
     system.model =
         common::config::readFile<control::VehicleModel>(sheet(system.config.vehicle_model, "models", "vehicle_model"));
   refuseUnfitModel(system, reader);
+  refuseUnfitVerticalLaser(system, reader);
   system.config.autonomy.limitTo(system.laser);
   return system;
 }

@@ -22,6 +22,7 @@ struct SystemConfig {
   std::string vehicle = "cobra";
   std::string laser = "utm_30lx";
   std::string rgbd_camera = {};
+  std::string vertical_laser = {};
   std::string vehicle_model = {};
   autonomy::AutonomyConfig autonomy;
   perception::MotionPredictionConfig log_motion;
@@ -35,6 +36,7 @@ struct System {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
   std::optional<common::RgbdCameraConfig> rgbd_camera;
+  std::optional<common::LaserConfig> vertical_laser;
   std::optional<control::VehicleModel> model;
 
   /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.

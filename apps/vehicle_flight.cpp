@@ -25,7 +25,8 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
                             common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get(),
                             setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr,
-                            setup.system.model ? &*setup.system.model : nullptr);
+                            setup.system.model ? &*setup.system.model : nullptr,
+                            setup.system.vertical_laser ? &*setup.system.vertical_laser : nullptr);
 }
 
 /// Where the camera was found to be mounted and how late its clock is.
@@ -201,7 +202,7 @@ void VehicleFlight::finish(double wall_s) {
     end.figures.push_back({"radio_frames", static_cast<double>(radio->sent)});
     end.figures.push_back({"radio_frames_dropped", static_cast<double>(radio->replaced + radio->late)});
   }
-  if (const auto& map3d = autonomy_.world()->map3d) addCameraFigures(map3d->camera, end.figures);
+  if (const auto& map3d = autonomy_.world()->map3d; map3d && map3d->frame) addCameraFigures(map3d->camera, end.figures);
   keepMemory(end);
   folder_.finish(end);
   if (web_) showEnd();

@@ -40,11 +40,11 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::Ve
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
                    std::string vehicle_name, const VehicleMemory* memory, const common::RgbdCameraConfig* camera,
-                   const control::VehicleModel* model)
+                   const control::VehicleModel* model, const common::LaserConfig* vertical_laser)
     : config_(config),
       vehicle_(vehicle),
       vehicle_name_(std::move(vehicle_name)),
-      estimator_(config.estimator, laser, vehicle, given, *jobs, camera),
+      estimator_(config.estimator, laser, vehicle, given, *jobs, camera, vertical_laser),
       reactive_(config_.reactive, vehicle.hullRadius_m()),
       controller_(config.control, vehicle, model),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs, camera),
@@ -96,6 +96,8 @@ void Autonomy::take(const common::SensorEvent& event) {
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
     estimator_.addFrame(*frame);
     requests_.addFrame(*frame, estimator_.state());
+  } else if (const auto* sweep = std::get_if<std::shared_ptr<const common::VerticalScan>>(&event)) {
+    estimator_.addSweep(*sweep);
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     battery_v_ = battery->voltage_v;
@@ -120,7 +122,7 @@ void Autonomy::take(const std::shared_ptr<const common::LaserScan>& scan) {
 
 common::Setpoint Autonomy::tick(Time now) {
   processDueScans(now);
-  estimator_.mapFrames(now);
+  estimator_.updateMap3d(now);
 
   const double period_s = 1.0 / config_.behavior_rate_hz;
   if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= period_s - 1e-6) {

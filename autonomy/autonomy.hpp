@@ -67,11 +67,13 @@ class Autonomy {
   /// `given` is a map to localize in, or null; it is read only in the constructor. `vehicle_name` appears in the
   /// snapshots and in the events of its loop; it is empty if there is only one vehicle. `memory` is what earlier
   /// flights of this vehicle have learned, or null; `camera` is the data sheet of an RGB-D camera, or null without one.
-  /// `model` is what was identified of the vehicle, or null. All three are read only in the constructor.
+  /// `model` is what was identified of the vehicle, or null; `vertical_laser` is the data sheet of a second laser whose
+  /// scan plane stands upright, or null without one. All four are read only in the constructor.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
            behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
            std::string vehicle_name = {}, const VehicleMemory* memory = nullptr,
-           const common::RgbdCameraConfig* camera = nullptr, const control::VehicleModel* model = nullptr);
+           const common::RgbdCameraConfig* camera = nullptr, const control::VehicleModel* model = nullptr,
+           const common::LaserConfig* vertical_laser = nullptr);
   ~Autonomy();
 
   /// The mission begins when the operator starts it, or another one. Call it before the first input.

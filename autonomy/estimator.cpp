@@ -35,6 +35,7 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("slam", slam, "SLAM and the map.");
   fields.section("localization", localization, "Localization in a map that the flight was given.");
   fields.section("rgbd", rgbd, "The 3D map from the frames of an RGB-D camera.");
+  fields.section("vertical_laser", vertical_laser, "The 3D map from a second laser whose scan plane stands upright.");
   fields.section("targets", targets, "Coloured targets that the RGB-D camera looks for.");
   fields("slam_latency_s", slam_latency_s, {0.01, 10},
          "Declared time of a SLAM job, of the method graph: loop search, optimization and redrawing the map.");
@@ -42,7 +43,7 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
                      const common::VehicleConfig& vehicle, const GivenMap* given, common::JobRunner& jobs,
-                     const common::RgbdCameraConfig* camera)
+                     const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser)
     : standing_height_m_(0.5 * vehicle.hull_height_m),
       filter_(config.fusion),
       explained_within_m_(config.people.explained_within_m),
@@ -54,6 +55,9 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       jobs_(jobs),
       localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr),
       rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr),
+      vertical_laser_(vertical_laser && !camera
+                          ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs)
+                          : nullptr),
       targets_(camera && !config.targets.classes.empty() ? std::make_unique<TargetPipeline>(config.targets, jobs)
                                                          : nullptr) {}
 
@@ -129,8 +133,16 @@ void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
   if (rgbd_) rgbd_->add(std::move(frame));
 }
 
+void Estimator::addSweep(std::shared_ptr<const common::VerticalScan> sweep) {
+  if (vertical_laser_) vertical_laser_->add(std::move(sweep));
+}
+
+void Estimator::updateMap3d(Time now) {
+  if (rgbd_) mapFrames(now);
+  if (vertical_laser_) mapSweeps(now);
+}
+
 void Estimator::mapFrames(Time now) {
-  if (!rgbd_) return;
   rgbd_->watch(now);
   if (const auto step = rgbd_->takeStep()) fuse(*step, now);
   mapFrame(now);
@@ -142,6 +154,28 @@ void Estimator::mapFrame(Time now) {
   if (!time || !filter_.initialized() || filter_.newest() < *time) return;
   if (scanned_ < *time && now < rgbd_->waitUntil()) return;
   rgbd_->map(situationAt(*time, now), now);
+}
+
+void Estimator::mapSweeps(Time now) {
+  while (const auto times = vertical_laser_->next()) {
+    if (!filter_.initialized() || filter_.newest() < times->end) break;
+    if (scanned_ < times->end && now < vertical_laser_->waitUntil()) break;
+    vertical_laser_->place(situationAt(*times, now));
+  }
+  vertical_laser_->draw(map_.keyPoses(), now);
+}
+
+/// None where the place in the map is only predicted: nothing else places the sweep.
+std::optional<SweepSituation> Estimator::situationAt(const VerticalLaserPipeline::Interval& times, Time now) {
+  const perception::PoseHistory history = filter_.poses(times.begin, times.end);
+  if (!odom_at_key_ || (now - map_seen_).seconds() >= kSupported_s) return std::nullopt;
+  if (!history.covers(times.begin) || !history.covers(times.end)) return std::nullopt;
+  const Pose3 newest = filter_.state().T_odom_body;
+  return SweepSituation{odom_at_key_->key,
+                        [T_key_odom = odom_at_key_->T_key_body, history, newest](Time time) {
+                          return T_key_odom * history.at(time).value_or(newest);
+                        },
+                        people_.expectedAt(times.begin)};
 }
 
 void Estimator::lookForTargets(Time now) {
@@ -166,7 +200,10 @@ std::vector<common::Target> Estimator::targets() {
   return targets_ ? targets_->targets(*map_.keyPoses()) : std::vector<common::Target>();
 }
 
-std::shared_ptr<const common::Map3dLayer> Estimator::map3d() { return rgbd_ ? rgbd_->layer(map_.keyPoses()) : nullptr; }
+std::shared_ptr<const common::Map3dLayer> Estimator::map3d() {
+  if (vertical_laser_) return vertical_laser_->layer(map_.keyPoses());
+  return rgbd_ ? rgbd_->layer(map_.keyPoses()) : nullptr;
+}
 
 common::VehicleState Estimator::state() const {
   common::VehicleState state = filter_.state();
@@ -188,6 +225,8 @@ std::vector<common::Event> Estimator::takeEvents() {
     for (common::Event& event : localizer_->takeEvents()) events.push_back(std::move(event));
   if (rgbd_)
     for (common::Event& event : rgbd_->takeEvents()) events.push_back(std::move(event));
+  if (vertical_laser_)
+    for (common::Event& event : vertical_laser_->takeEvents()) events.push_back(std::move(event));
   if (targets_)
     for (common::Event& event : targets_->takeEvents()) events.push_back(std::move(event));
   return events;

@@ -6,6 +6,7 @@
 //                 \--> map <-------------------------- pose at the scan --> localize in a given map
 //                       \--> people, for the next scan
 //   RGB-D frame --> 3D map, and targets, at the pose of its own time
+//   sweep of an upright laser --> 3D map, at the poses of its beams' own times
 //
 // Each step is a small object that takes values and returns values; only the Estimator uses the filter.
 #pragma once
@@ -22,6 +23,7 @@
 #include "autonomy/estimation/map_pipeline.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
+#include "autonomy/estimation/vertical_laser_pipeline.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
@@ -50,6 +52,7 @@ struct EstimatorConfig {
   perception::SlamMethodConfig slam;
   FlightLocalizerConfig localization;
   RgbdPipelineConfig rgbd;
+  VerticalLaserPipelineConfig vertical_laser;
   TargetPipelineConfig targets;
   double slam_latency_s = 0.4;
 
@@ -71,9 +74,11 @@ struct ScanOutcome {
 /// One thread. The jobs of SLAM and localization are submitted to `jobs`, which must not deliver after its destruction.
 class Estimator {
  public:
-  /// `given` is a map to localize in, or null; `camera` makes the 3D map, or is null. Both are read only here.
+  /// `given` is a map to localize in, or null; `camera` or else `vertical_laser` makes the 3D map, or both are null.
+  /// All are read only here.
   Estimator(const EstimatorConfig& config, const common::LaserConfig& laser, const common::VehicleConfig& vehicle,
-            const GivenMap* given, common::JobRunner& jobs, const common::RgbdCameraConfig* camera = nullptr);
+            const GivenMap* given, common::JobRunner& jobs, const common::RgbdCameraConfig* camera = nullptr,
+            const common::LaserConfig* vertical_laser = nullptr);
 
   void addImu(const common::ImuSample& sample);
   /// Processes a scan at `now`. The first scans, taken while the vehicle stands still, only initialize the filter and
@@ -87,9 +92,11 @@ class Estimator {
 
   /// Without a camera the frame is ignored.
   void addFrame(std::shared_ptr<const common::RgbdFrame> frame);
-  /// Maps the frame that waits as soon as the pose at its time is known, and looks for targets in it. To be called
-  /// after the scans of every tick.
-  void mapFrames(common::Time now);
+  /// Without an upright laser the sweep is ignored.
+  void addSweep(std::shared_ptr<const common::VerticalScan> sweep);
+  /// Maps frames and sweeps that wait as soon as the poses at their times are known, and looks for targets in frames.
+  /// To be called after the scans of every tick.
+  void updateMap3d(common::Time now);
 
   /// None without a camera whose frames come over a radio.
   std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
@@ -117,7 +124,7 @@ class Estimator {
   std::shared_ptr<const common::LevelMap> levels() { return altitude_.levels(); }
   /// See AltitudePipeline::seenSurfaces.
   common::LevelMap seenSurfaces() const { return altitude_.seenSurfaces(); }
-  /// Null without a camera, and before its first frame.
+  /// Null without a camera and an upright laser, and before the first frame or sweep.
   std::shared_ptr<const common::Map3dLayer> map3d();
   /// What the camera has seen of the targets that the profile names.
   std::vector<common::Target> targets();
@@ -140,7 +147,10 @@ class Estimator {
                           const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
   void fuse(const CameraStep& step, common::Time now);
+  void mapFrames(common::Time now);
   void mapFrame(common::Time now);
+  void mapSweeps(common::Time now);
+  std::optional<SweepSituation> situationAt(const VerticalLaserPipeline::Interval& times, common::Time now);
   void lookForTargets(common::Time now);
   FrameSituation situationAt(common::Time time, common::Time now);
   std::optional<common::KeyRelativePose> atKey(common::Time time) const;
@@ -164,9 +174,10 @@ class Estimator {
   DriftMonitor drift_;
   FlightLocalizerConfig localization_config_;
   common::JobRunner& jobs_;
-  std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
-  std::unique_ptr<RgbdPipeline> rgbd_;          ///< Null without a camera.
-  std::unique_ptr<TargetPipeline> targets_;     ///< Null without a camera, and without targets to look for.
+  std::unique_ptr<FlightLocalizer> localizer_;             ///< Null if no map was given.
+  std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera.
+  std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
+  std::unique_ptr<TargetPipeline> targets_;                ///< Null without a camera, and without targets to look for.
 
   std::optional<common::ImuSample> last_imu_;
   common::Time started_;        ///< Time at which the filter started.

@@ -39,6 +39,10 @@ struct LaserScan {
   std::vector<float> ranges_m;
 };
 
+/// One sweep of a second laser, whose scan plane stands upright; it has no mirror. It is a type of its own, so that it
+/// cannot be matched as a scan of the first laser.
+struct VerticalScan : LaserScan {};
+
 /// What the vehicle's power module and its fuel gauge measure.
 struct BatterySample {
   Stamps stamps;
@@ -64,7 +68,8 @@ struct CameraFrame {
 };
 
 using SensorEvent = std::variant<ImuSample, std::shared_ptr<const LaserScan>, BatterySample, PilotSample,
-                                 std::shared_ptr<const CameraFrame>, std::shared_ptr<const RgbdFrame>>;
+                                 std::shared_ptr<const CameraFrame>, std::shared_ptr<const RgbdFrame>,
+                                 std::shared_ptr<const VerticalScan>>;
 
 const Stamps& stampsOf(const SensorEvent& event);
 

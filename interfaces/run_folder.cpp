@@ -265,7 +265,7 @@ void RunFolder::Impl::localize(const common::World& world) {
 
 /// A frame is a snapshot's news once; one that did not fit has no pose of its own.
 void RunFolder::Impl::followCamera(const common::World& world) {
-  if (!world.map3d || !world.map3d->tracked || failure) return;
+  if (!world.map3d || !world.map3d->frame || !world.map3d->tracked || failure) return;
   const Time stamp = world.map3d->frame->stamps.measured;
   if (camera_trajectory_file && stamp <= camera_stamp) return;
   if (!camera_trajectory_file) {

@@ -22,7 +22,8 @@ bool isOfPictures(FaultKind kind) {
 }
 
 void FaultConfig::describe(common::config::Fields& fields) {
-  fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera", "rgbd"}, "Which sensor fails.");
+  fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera", "rgbd", "vertical_laser"},
+                "Which sensor fails.");
   fields.choice("kind", kind, kKinds,
                 "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, the last four for "
                 "camera and rgbd.");

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "common/vehicle_config.hpp"
-#include "mapping3d/model/submap_fusion.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -16,7 +15,6 @@ using common::Severity;
 using common::Time;
 
 constexpr const char* kMapping3d = "mapping3d";
-constexpr const char* kFusion3d = "mapping3d fusion";
 
 /// Whether its images have the size of its camera.
 bool isWhole(const common::RgbdFrame& frame) {
@@ -35,7 +33,8 @@ RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdC
       calibration_(config.calibration, camera.mount.pose()),
       silence_(Duration::fromSeconds(config.silent_s)),
       jobs_(jobs),
-      mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)) {
+      mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)),
+      publisher_(config.publisher, config.mapper.voxels.resolution_m, jobs) {
   if (config.radio.isUsed()) radio_.emplace(config.radio);
 }
 
@@ -86,8 +85,7 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
   if (situation.at_key)
     context.seed = mapping3d::CameraSeed{situation.keys->inMap(*situation.at_key) * calibration_.T_body_camera(),
                                          situation.at_key->key, situation.supported};
-  const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
-  if (publish) submaps_stamp_ = now;
+  const bool publish = publisher_.begin(now);
   std::optional<BodyAtFrame> body = situation.body;
   if (body) body->motion.clock_offset_s = calibration_.clockOffset_s();
   jobs_.submit(kMapping3d, now, Duration::fromSeconds(config_.latency_s),
@@ -98,29 +96,24 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
                  if (publish) outcome.submaps = mapper->submaps();
                  return [this, outcome = std::move(outcome)](Time delivered) { take(outcome, delivered); };
                });
-  fuse(situation.keys, now);
+  publisher_.fuse(situation.keys, now);
 }
 
 void RgbdPipeline::take(Outcome outcome, Time delivered) {
   const bool tracked = outcome.mapped.pose.isTracked();
   ++(tracked ? counts_.mapped : counts_.lost);
   reportTrack(tracked, delivered);
-  if (!layer_) {
-    layer_ = std::make_shared<common::Map3dLayer>();
-    layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>();
-    layer_->camera.T_body_camera = calibration_.T_body_camera();
-  }
+  if (!publisher_.hasLayer()) publisher_.change().camera.T_body_camera = calibration_.T_body_camera();
   if (tracked) {
     calibrate(outcome, delivered);
     if (config_.measure) step_ = stepOf(outcome);
   }
-  if (outcome.submaps)
-    layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>(std::move(*outcome.submaps));
-  layer_->frame = outcome.frame;
-  layer_->tracked = tracked;
+  if (outcome.submaps) publisher_.setSubmaps(std::move(*outcome.submaps));
+  common::Map3dLayer& layer = publisher_.change();
+  layer.frame = outcome.frame;
+  layer.tracked = tracked;
   scan_ = outcome.mapped.pose.scan;
   T_scan_camera_ = outcome.mapped.T_scan_camera;
-  changed_ = true;
 }
 
 CameraStep RgbdPipeline::stepOf(const Outcome& outcome) {
@@ -168,7 +161,7 @@ common::CameraEstimate RgbdPipeline::camera() const {
 void RgbdPipeline::reportCamera(Time now) {
   const mapping3d::CameraErrors& errors = calibration_.errors();
   const auto sigma = [&](int i) { return std::sqrt(errors.covariance(i, i)); };
-  layer_->camera = camera();
+  publisher_.change().camera = camera();
   const auto degrees = [&](int i) {
     return fmt::format("{:.2f} +- {:.2f}", errors.mean[i] / common::kRadPerDeg, sigma(i) / common::kRadPerDeg);
   };
@@ -185,29 +178,8 @@ void RgbdPipeline::reportCamera(Time now) {
 }
 
 std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_ptr<const common::KeyPoses>& keys) {
-  if (!layer_ || (!changed_ && published_ && published_->keys == keys)) return published_;
-  changed_ = false;
-  layer_->keys = keys;
-  layer_->T_map_camera = keys->T_map_level(scan_) * T_scan_camera_;
-  published_ = std::make_shared<const common::Map3dLayer>(*layer_);
-  return published_;
-}
-
-/// All submaps are fused again where one has grown or a key scan has moved.
-void RgbdPipeline::fuse(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
-  if (!layer_ || layer_->submaps->empty() || !jobs_.idle(kFusion3d)) return;
-  if (fused_from_ && (now - *fused_from_).seconds() < config_.fusion_period_s) return;
-  fused_from_ = now;
-  jobs_.submit(kFusion3d, now, Duration::fromSeconds(config_.fusion_latency_s),
-               [this, submaps = layer_->submaps, keys, now,
-                resolution_m = config_.mapper.voxels.resolution_m]() -> common::JobRunner::Deliver {
-                 auto fused = std::make_shared<const common::VoxelMap>(mapping3d::fuse(*submaps, *keys, resolution_m));
-                 return [this, fused, now](Time) {
-                   layer_->fused = fused;
-                   layer_->fused_stamp = now;
-                   changed_ = true;
-                 };
-               });
+  if (publisher_.isStale(keys)) publisher_.change().T_map_camera = keys->T_map_level(scan_) * T_scan_camera_;
+  return publisher_.layer(keys);
 }
 
 void RgbdPipeline::watch(Time now) {

@@ -106,7 +106,6 @@ class RgbdPipeline {
   void calibrate(const Outcome& outcome, common::Time now);
   void reportCamera(common::Time now);
   void reportTrack(bool tracked, common::Time now);
-  void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
 
   RgbdPipelineConfig config_;
@@ -123,9 +122,7 @@ class RgbdPipeline {
   bool silent_ = false, fault_said_ = false, lost_said_ = false;
   std::optional<common::Time> lost_since_;
 
-  std::shared_ptr<common::Map3dLayer> layer_;  ///< The next one to be published; null before the first frame.
-  std::shared_ptr<const common::Map3dLayer> published_;
-  bool changed_ = false;
+  Map3dPublisher publisher_;
   int scan_ = 0;
   common::Pose3 T_scan_camera_;
   /// The frame from which measurements start: it became a key frame, so that later frames are aligned to it.
@@ -144,8 +141,6 @@ class RgbdPipeline {
   std::optional<BodyAtKeyFrame> key_frame_;
   std::optional<Reference> reference_;
   std::optional<CameraStep> step_;
-  std::optional<common::Time> submaps_stamp_;  ///< When the submaps of the layer were taken.
-  std::optional<common::Time> fused_from_;     ///< The same, of those that are fused.
   RgbdCounts counts_;
   std::vector<common::Event> events_;
 };

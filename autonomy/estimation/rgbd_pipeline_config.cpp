@@ -11,10 +11,7 @@ void RgbdPipelineConfig::describe(common::config::Fields& fields) {
   fields("measure", measure, "Whether the poses of frames are measurements for the filter.");
   fields("latency_s", latency_s, {0.001, 2}, "Declared time for mapping one frame.");
   fields("wait_s", wait_s, {0, 1}, "Greatest wait of a frame for a scan that is not older.");
-  fields("publish_period_s", publish_period_s, {0, 10},
-         "So often the submap that grows is copied for those who show the map.");
-  fields("fusion_period_s", fusion_period_s, {0.5, 1000}, "So often all submaps are fused to one map, if any changed.");
-  fields("fusion_latency_s", fusion_latency_s, {0.01, 60}, "Declared time for fusing all submaps.");
+  publisher.describe(fields);
   fields("silent_s", silent_s, {0.1, 60}, "A camera that sends no frame for so long is silent.");
   fields("lost_s", lost_s, {0, 60}, "The track counts as lost when no frame has fitted for so long.");
 }

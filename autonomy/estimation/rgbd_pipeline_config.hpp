@@ -1,6 +1,7 @@
 // The settings of 3D mapping in flight.
 #pragma once
 
+#include "autonomy/estimation/map3d_publisher.hpp"
 #include "common/config_fwd.hpp"
 #include "mapping3d/link/radio_link.hpp"
 #include "mapping3d/model/mapper3d.hpp"
@@ -15,9 +16,7 @@ struct RgbdPipelineConfig {
   bool measure = true;
   double latency_s = 0.06;
   double wait_s = 0.05;
-  double publish_period_s = 0.4;
-  double fusion_period_s = 10.0;
-  double fusion_latency_s = 2.0;
+  Map3dPublisherConfig publisher;  ///< Its keys are on the level of the pipeline's own.
   double silent_s = 1.0;
   double lost_s = 0.5;
 

@@ -1,4 +1,4 @@
-// The World's layer of the 3D map: what the RGB-D camera has mapped.
+// The World's layer of the 3D map: what the RGB-D camera, or a laser whose scan plane stands upright, has mapped.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ struct Map3dLayer {
   /// All submaps in the frame `map`, made in the background; null before the first.
   std::shared_ptr<const VoxelMap> fused;
   Time fused_stamp;                        ///< When the submaps and poses of `fused` were those of the flight.
-  std::shared_ptr<const RgbdFrame> frame;  ///< The newest that was processed.
+  std::shared_ptr<const RgbdFrame> frame;  ///< The newest that was processed; null without a camera.
   Pose3 T_map_camera;                      ///< At its stamp.
   CameraEstimate camera;
   bool tracked = false;  ///< Whether that frame was aligned to the map; else its pose is predicted.

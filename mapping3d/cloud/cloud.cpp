@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include <pcl/common/centroid.h>
 #include <pcl/common/eigen.h>
@@ -44,36 +47,57 @@ SurfacePoint surfacePoint(const PclPoint& point) {
 
 bool isKnown(const Vector3f& normal) { return normal.squaredNorm() > 0.5F; }
 
-/// The points by tiles whose borders are borders of cubes.
-std::map<std::array<std::int64_t, 3>, PclCloud::Ptr> tilesOf(const std::vector<SurfacePoint>& points, float cube_m) {
+/// Calls its argument for each point, the same ones in the same order each time. A list of all points of a large map
+/// would take as much memory as the map.
+using PointSource = std::function<void(const std::function<void(const SurfacePoint&)>&)>;
+using TileIndex = std::array<std::int64_t, 3>;
+
+std::optional<TileIndex> tileOf(const SurfacePoint& point, float cube_m) {
   const float per_m = 1.0F / cube_m;  // As PCL computes a cube's number.
-  std::map<std::array<std::int64_t, 3>, PclCloud::Ptr> tiles;
-  for (const SurfacePoint& point : points) {
-    if (!point.position_m.allFinite() || !point.normal.allFinite()) continue;
-    if (point.position_m.cwiseAbs().maxCoeff() > kFarthest_m) continue;
-    std::array<std::int64_t, 3> tile{};
-    for (int axis = 0; axis < 3; ++axis)
-      tile[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
-          std::floor(std::floor(point.position_m[axis] * per_m) / static_cast<float>(kTileCubes)));
-    PclCloud::Ptr& cloud = tiles[tile];
-    if (!cloud) cloud = pcl::make_shared<PclCloud>();
-    cloud->push_back(pclPoint(point));
+  if (!point.position_m.allFinite() || !point.normal.allFinite()) return std::nullopt;
+  if (point.position_m.cwiseAbs().maxCoeff() > kFarthest_m) return std::nullopt;
+  TileIndex tile{};
+  for (int axis = 0; axis < 3; ++axis)
+    tile[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
+        std::floor(std::floor(point.position_m[axis] * per_m) / static_cast<float>(kTileCubes)));
+  return tile;
+}
+
+/// The points by tiles whose borders are borders of cubes. They are counted first: a cloud that grows takes up to twice
+/// its memory.
+std::map<TileIndex, PclCloud::Ptr> tilesOf(const PointSource& points, float cube_m) {
+  std::map<TileIndex, std::size_t> sizes;
+  points([&](const SurfacePoint& point) {
+    if (const auto tile = tileOf(point, cube_m)) ++sizes[*tile];
+  });
+  std::map<TileIndex, PclCloud::Ptr> tiles;
+  for (const auto& [index, size] : sizes) {
+    tiles[index] = pcl::make_shared<PclCloud>();
+    tiles[index]->reserve(size);
   }
+  points([&](const SurfacePoint& point) {
+    if (const auto tile = tileOf(point, cube_m)) tiles[*tile]->push_back(pclPoint(point));
+  });
   return tiles;
 }
 
 /// One point a cube. Opposite normals of a thin wall may cancel each other: the point has none then.
-PclCloud::Ptr thinned(const std::vector<SurfacePoint>& points, float cube_m) {
-  auto all = pcl::make_shared<PclCloud>();
-  for (const auto& [index, tile] : tilesOf(points, cube_m)) {
+PclCloud::Ptr thinned(const PointSource& points, float cube_m) {
+  std::map<TileIndex, PclCloud::Ptr> tiles = tilesOf(points, cube_m);
+  std::size_t size = 0;
+  for (auto& [index, tile] : tiles) {
     pcl::VoxelGrid<PclPoint> grid;
     grid.setLeafSize(cube_m, cube_m, cube_m);
     grid.setDownsampleAllData(true);
     grid.setInputCloud(tile);
-    PclCloud kept;
-    grid.filter(kept);
-    *all += kept;
+    auto kept = pcl::make_shared<PclCloud>();
+    grid.filter(*kept);
+    tile = kept;
+    size += kept->size();
   }
+  auto all = pcl::make_shared<PclCloud>();
+  all->reserve(size);
+  for (auto& [index, tile] : tiles) *all += *std::exchange(tile, nullptr);
   for (PclPoint& point : *all)
     if (!point.getNormalVector3fMap().allFinite() || !isKnown(point.getNormalVector3fMap()))
       point.getNormalVector3fMap().setZero();
@@ -81,7 +105,7 @@ PclCloud::Ptr thinned(const std::vector<SurfacePoint>& points, float cube_m) {
 }
 
 /// Surfaces have a quarter of the points in cubes of twice the size.
-PclCloud::Ptr thinned(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
+PclCloud::Ptr thinned(const PointSource& points, const CloudConfig& config) {
   auto cube_m = static_cast<float>(config.cube_m);
   PclCloud::Ptr cloud = thinned(points, cube_m);
   while (cloud->size() > config.points_max) {
@@ -133,9 +157,7 @@ void addMissingNormals(const PclCloud::Ptr& cloud) {
   }
 }
 
-}  // namespace
-
-std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
+std::vector<SurfacePoint> cleaned(const PointSource& points, const CloudConfig& config) {
   PclCloud::Ptr cloud = thinned(points, config);
   if (config.neighbours > 0) {
     cloud = withoutOutliers(cloud, config);
@@ -147,17 +169,24 @@ std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, co
   return kept;
 }
 
+}  // namespace
+
+std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
+  return cleaned([&](const auto& visit) { std::for_each(points.begin(), points.end(), visit); }, config);
+}
+
 std::vector<SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
                                   const CloudConfig& config) {
-  std::vector<SurfacePoint> all;
-  for (const common::Submap3d& submap : submaps) {
-    const common::Pose3 T_map_submap = submap.T_map_submap(keys);
-    const Eigen::Matrix3f rotation = T_map_submap.rotation.toRotationMatrix().cast<float>();
-    const Vector3f origin_m = T_map_submap.position_m.cast<float>();
-    for (const SurfacePoint& point : *submap.points)
-      all.push_back({rotation * point.position_m + origin_m, rotation * point.normal, point.rgb});
-  }
-  return cleanCloud(all, config);
+  const auto points = [&](const std::function<void(const SurfacePoint&)>& visit) {
+    for (const common::Submap3d& submap : submaps) {
+      const common::Pose3 T_map_submap = submap.T_map_submap(keys);
+      const Eigen::Matrix3f rotation = T_map_submap.rotation.toRotationMatrix().cast<float>();
+      const Vector3f origin_m = T_map_submap.position_m.cast<float>();
+      for (const SurfacePoint& point : *submap.points)
+        visit({rotation * point.position_m + origin_m, rotation * point.normal, point.rgb});
+    }
+  };
+  return cleaned(points, config);
 }
 
 }  // namespace swiftlet::mapping3d

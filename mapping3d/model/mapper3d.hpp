@@ -30,7 +30,7 @@ namespace swiftlet::mapping3d {
 struct Mapper3dConfig {
   RgbdOdometryConfig odometry;
   VoxelConfig voxels;
-  SubmapConfig submaps;
+  ImageSubmapConfig submaps;
   LoopSearchConfig loops;
   KeyFrameGraphConfig graph;
 

@@ -8,11 +8,17 @@ namespace swiftlet::mapping3d {
 struct SubmapConfig {
   double cube_m = 0.02;
   double point_range_m = 4.0;
-  int pixel_step = 2;
-  int frame_step = 3;
   double reach_m = 2.5;
   int points_max = 6'000'000;
   int submaps_max = 200;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// Of submaps from depth images, which have far more pixels than a map needs points.
+struct ImageSubmapConfig : SubmapConfig {
+  int pixel_step = 2;
+  int frame_step = 3;
 
   void describe(common::config::Fields& fields);
 };

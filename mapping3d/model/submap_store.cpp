@@ -1,6 +1,7 @@
 #include "mapping3d/model/submap_store.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -13,6 +14,8 @@ using common::Submap3d;
 
 /// Key scans are up to a metre apart, and over some ten metres the 2D map drifts by no more than a voxel.
 constexpr int kNeighbouringScans = 10;
+/// The colour of points whose colour nobody has seen.
+constexpr std::array<std::uint8_t, 3> kGrey{160, 160, 160};
 
 /// The discs in the frame of a submap, which is level.
 std::vector<common::Disc> inSubmap(std::span<const common::Disc> people, const Pose3& T_submap_map) {
@@ -35,18 +38,12 @@ bool hasNeighbour(const std::set<int>& scans, int scan) {
 
 }  // namespace
 
-SubmapStore::SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise)
+SubmapStore::SubmapStore(const ImageSubmapConfig& config, const VoxelConfig& voxels,
+                         const vision::DepthNoiseConfig& noise)
     : config_(config), voxels_(voxels), noise_(noise) {}
 
 void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans) {
-  if (growing_ && awayFrom(kept_[growing_->index].submap, placed.T_map_camera.position_m, scans) > config_.reach_m)
-    leave();
-  if (!growing_) {
-    const auto at = known(placed, scans);
-    grow(at ? *at : add(placed, scans));
-  }
-  kept_[growing_->index].scans.insert(placed.scan);
-  const Pose3 T_submap_map = kept_[growing_->index].submap.T_map_submap(scans).inverse();
+  const Pose3 T_submap_map = enter(placed.T_map_camera.position_m, placed.scan, scans).inverse();
   const Pose3 T_submap_camera = T_submap_map * placed.T_map_camera;
   growing_->voxels.insert(placed.frame.depth, placed.frame.camera, T_submap_camera,
                           inSubmap(placed.people, T_submap_map));
@@ -54,6 +51,40 @@ void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans)
   if (growing_->frames++ % step == 0 || placed.is_key_frame)
     growing_->points.add(surfacePoints(placed.still, config_.pixel_step, config_.point_range_m, noise_),
                          T_submap_camera);
+}
+
+void SubmapStore::draw(const PlacedSweep& placed, const common::KeyPoses& scans) {
+  if (placed.rays_scan.empty()) return;
+  const Pose3 T_map_scan = scans.T_map_level(placed.scan);
+  const Pose3 T_submap_map = enter(T_map_scan * placed.rays_scan.front().origin_m, placed.scan, scans).inverse();
+  const Pose3 T_submap_scan = T_submap_map * T_map_scan;
+  const Eigen::Matrix3d rotation = T_submap_scan.rotation.toRotationMatrix();
+  const std::vector<common::Disc> people = inSubmap(placed.people, T_submap_map);
+  std::vector<Ray> rays;
+  std::vector<SeenPoint> points;
+  rays.reserve(placed.rays_scan.size());
+  for (const Ray& ray : placed.rays_scan) {
+    rays.push_back(
+        {rotation * ray.origin_m + T_submap_scan.position_m, rotation * ray.end_m + T_submap_scan.position_m});
+    const Eigen::Vector3d& end_m = rays.back().end_m;
+    if ((end_m - rays.back().origin_m).norm() > config_.point_range_m) continue;
+    if (std::any_of(people.begin(), people.end(), [&](const auto& person) { return person.covers(end_m.head<2>()); }))
+      continue;
+    points.push_back({end_m.cast<float>(), Eigen::Vector3f::Zero(), kGrey, placed.weight_1_m2});
+  }
+  growing_->voxels.insert(rays, people);
+  growing_->points.add(points, {});
+}
+
+Pose3 SubmapStore::enter(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) {
+  if (growing_ && awayFrom(kept_[growing_->index].submap, sensor_map_m, scans) > config_.reach_m) leave();
+  if (!growing_) {
+    const auto at = known(sensor_map_m, scan, scans);
+    grow(at ? *at : add(sensor_map_m, scan, scans));
+  }
+  Kept& kept = kept_[growing_->index];
+  kept.scans.insert(scan);
+  return kept.submap.T_map_submap(scans);
 }
 
 std::vector<Submap3d> SubmapStore::snapshot() {
@@ -69,12 +100,13 @@ std::vector<Submap3d> SubmapStore::snapshot() {
 }
 
 /// The nearest within reach of those whose key scans place the frame.
-std::optional<std::size_t> SubmapStore::known(const PlacedFrame& placed, const common::KeyPoses& scans) const {
+std::optional<std::size_t> SubmapStore::known(const Eigen::Vector3d& sensor_map_m, int scan,
+                                              const common::KeyPoses& scans) const {
   std::optional<std::size_t> nearest;
   double least_m = config_.reach_m;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    if (!hasNeighbour(kept_[i].scans, placed.scan)) continue;
-    const double away_m = awayFrom(kept_[i].submap, placed.T_map_camera.position_m, scans);
+    if (!hasNeighbour(kept_[i].scans, scan)) continue;
+    const double away_m = awayFrom(kept_[i].submap, sensor_map_m, scans);
     if (away_m > least_m) continue;
     least_m = away_m;
     nearest = i;
@@ -83,13 +115,12 @@ std::optional<std::size_t> SubmapStore::known(const PlacedFrame& placed, const c
 }
 
 /// An empty one. Its voxels are those of the map as long as no correction moves it, so that fusing loses nothing.
-std::size_t SubmapStore::add(const PlacedFrame& placed, const common::KeyPoses& scans) {
+std::size_t SubmapStore::add(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) {
   if (static_cast<int>(kept_.size()) >= config_.submaps_max) kept_.erase(kept_.begin());
   Pose3 T_map_submap;
   for (int i = 0; i < 2; ++i)
-    T_map_submap.position_m[i] =
-        std::round(placed.T_map_camera.position_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
-  Submap3d submap{placed.scan, scans.T_map_level(placed.scan).inverse() * T_map_submap,
+    T_map_submap.position_m[i] = std::round(sensor_map_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
+  Submap3d submap{scan, scans.T_map_level(scan).inverse() * T_map_submap,
                   std::make_shared<const std::vector<common::SurfacePoint>>(),
                   std::make_shared<const common::VoxelMap>(voxels_.resolution_m)};
   kept_.push_back({std::move(submap), {}, config_.cube_m, {}});

@@ -1,4 +1,4 @@
-// The submaps of a 3D map: one that grows, and those that were left. Where one was left it goes on when the camera
+// The submaps of a 3D map: one that grows, and those that were left. Where one was left it goes on when the sensor
 // comes back, so that the map grows with the building and not with the flight. It does so only while the 2D map places
 // the frame by the submap's own key scans or by neighbours of them: after a long way the drift would be drawn into it,
 // where no loop closure could take it out again.
@@ -33,12 +33,24 @@ struct PlacedFrame {
   bool is_key_frame = false;
 };
 
+/// One sweep of a laser.
+struct PlacedSweep {
+  std::vector<Ray> rays_scan;  ///< In the level frame of the key scan. Each has the origin of its own time.
+  int scan = 0;                ///< As in PlacedFrame.
+  std::vector<common::Disc> people;
+  float weight_1_m2 = 1.0F;  ///< The inverse variance of a range.
+};
+
 /// One thread.
 class SubmapStore {
  public:
-  SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise);
+  SubmapStore(const ImageSubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise);
+  /// For sweeps alone.
+  SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels) : SubmapStore({config}, voxels, {}) {}
 
   void draw(const PlacedFrame& placed, const common::KeyPoses& scans);
+  /// The points have no normals and are grey: a laser sees neither.
+  void draw(const PlacedSweep& placed, const common::KeyPoses& scans);
   /// All submaps as they are now, in the order of their making. Those that do not grow are the same objects as before.
   std::vector<common::Submap3d> snapshot();
 
@@ -56,13 +68,15 @@ class SubmapStore {
     PointGrid points;
     std::uint64_t frames = 0;
   };
-  std::optional<std::size_t> known(const PlacedFrame& placed, const common::KeyPoses& scans) const;
-  std::size_t add(const PlacedFrame& placed, const common::KeyPoses& scans);
+  /// Makes the submap grow into which a sensor there draws, and returns its place.
+  common::Pose3 enter(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans);
+  std::optional<std::size_t> known(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) const;
+  std::size_t add(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans);
   void grow(std::size_t index);
   void leave();
   void thinOldest();
 
-  SubmapConfig config_;
+  ImageSubmapConfig config_;
   VoxelConfig voxels_;
   vision::DepthNoiseConfig noise_;
   std::vector<Kept> kept_;

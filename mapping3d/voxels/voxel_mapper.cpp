@@ -85,24 +85,32 @@ InsertionCounts VoxelMapper::insert(const common::DepthImage& depth, const commo
   return counts;
 }
 
-InsertionCounts VoxelMapper::insert(const Eigen::Vector3d& origin_map_m,
-                                    std::span<const Eigen::Vector3d> points_map_m) {
-  window_.moveTo(map_.voxelAt(origin_map_m));
+InsertionCounts VoxelMapper::insert(std::span<const Ray> rays_map, std::span<const common::Disc> people) {
   InsertionCounts counts;
-  for (const Eigen::Vector3d& point_map_m : points_map_m) {
-    const Eigen::Vector3d ray_m = point_map_m - origin_map_m;
-    const double length_m = ray_m.norm();
-    if (!std::isfinite(length_m)) {
+  const double block_m = VoxelBlock::kSide * config_.resolution_m;
+  const auto is_whole = [](const Ray& ray) { return ray.origin_m.allFinite() && ray.end_m.allFinite(); };
+  const auto first = std::find_if(rays_map.begin(), rays_map.end(), is_whole);
+  counts.unknown = static_cast<int>(first - rays_map.begin());
+  if (first == rays_map.end()) return counts;
+  window_.moveTo(map_.voxelAt(first->origin_m));
+  for (auto ray = first; ray != rays_map.end(); ++ray) {
+    if (!is_whole(*ray) || (ray->origin_m - first->origin_m).cwiseAbs().maxCoeff() > block_m) {
       ++counts.unknown;
       continue;
     }
-    const bool hit = length_m <= config_.range_max_m;
-    ++(hit ? counts.hits : counts.too_far);
-    addRay(origin_map_m, hit ? point_map_m : Eigen::Vector3d(origin_map_m + ray_m * (config_.range_max_m / length_m)),
-           hit);
+    const Eigen::Vector3d along_m = ray->end_m - ray->origin_m;
+    const double length_m = along_m.norm();
+    if (length_m > config_.range_max_m) {
+      ++counts.too_far;
+      addRay(ray->origin_m, ray->origin_m + along_m * (config_.range_max_m / length_m), false);
+      continue;
+    }
+    const bool on_person = isOnPerson(ray->end_m, people);
+    ++(on_person ? counts.ignored : counts.hits);
+    addRay(ray->origin_m, ray->end_m, !on_person);
   }
   apply();
-  counts.forgotten = forgetFarBlocks(origin_map_m);
+  counts.forgotten = forgetFarBlocks(first->origin_m);
   return counts;
 }
 

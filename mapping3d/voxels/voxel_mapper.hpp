@@ -16,6 +16,12 @@
 
 namespace swiftlet::mapping3d {
 
+/// A beam that has returned: from the sensor to the surface.
+struct Ray {
+  Eigen::Vector3d origin_m;
+  Eigen::Vector3d end_m;
+};
+
 /// What one frame changed.
 struct InsertionCounts {
   int hits = 0;       ///< Rays that ended on a surface within range.
@@ -38,8 +44,9 @@ class VoxelMapper {
   /// only clear the space before it.
   InsertionCounts insert(const common::DepthImage& depth, const common::PinholeCamera& camera,
                          const common::Pose3& T_map_camera, std::span<const common::Disc> people = {});
-  /// End points of rays, in the frame of the map. Points beyond the range only clear the space before it.
-  InsertionCounts insert(const Eigen::Vector3d& origin_map_m, std::span<const Eigen::Vector3d> points_map_m);
+  /// Rays in the frame of the map, as one frame. Those that end beyond the range, or on a person, only clear the space
+  /// before that. A ray whose origin is more than a block from that of the first is unknown: one sweep is not so long.
+  InsertionCounts insert(std::span<const Ray> rays_map, std::span<const common::Disc> people = {});
 
   const common::VoxelMap& map() const { return map_; }
   common::VoxelMap snapshot() { return map_.snapshot(); }

@@ -13,9 +13,9 @@ using common::SensorEvent;
 EventQueue::EventQueue(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed)
     : faults_(faults), laser_(scenario.laser) {
   const SensorsConfig& sensors = scenario.sensors;
-  const std::array<const LinkConfig*, kSensorCount> configs{&sensors.imu_link,     &sensors.laser_link,
-                                                            &sensors.battery_link, &sensors.pilot_link,
-                                                            &sensors.camera_link,  &sensors.rgbd_link};
+  const std::array<const LinkConfig*, kSensorCount> configs{
+      &sensors.imu_link,    &sensors.laser_link, &sensors.battery_link,       &sensors.pilot_link,
+      &sensors.camera_link, &sensors.rgbd_link,  &sensors.vertical_laser_link};
   for (int i = 0; i < kSensorCount; ++i)
     links_.emplace_back(*configs[static_cast<std::size_t>(i)], seed, toString(static_cast<Sensor>(i)));
 }

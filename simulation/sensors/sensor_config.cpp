@@ -23,6 +23,8 @@ const char* toString(Sensor sensor) {
       return "camera";
     case Sensor::kRgbd:
       return "rgbd";
+    case Sensor::kVerticalLaser:
+      return "vertical_laser";
   }
   return "?";
 }
@@ -128,6 +130,7 @@ void SensorsConfig::describe(common::config::Fields& fields) {
   fields.section("laser_errors", laser_errors, "Errors of the laser beyond its data sheet.");
   fields.section("camera", camera, "The camera of the operator's stream.");
   fields.section("rgbd_errors", rgbd_errors, "Errors of the RGB-D camera beyond its data sheet.");
+  fields.section("vertical_laser_errors", vertical_laser_errors, "Errors of the upright laser beyond its data sheet.");
   fields("battery_rate_hz", battery_rate_hz, {0.1, 100}, "Battery samples a second.");
   fields("battery_noise_v", battery_noise_v, {0, 5}, "Standard deviation of the battery's voltage.");
   fields.section("fuel_gauge", fuel_gauge, "Errors of the estimated charge.");
@@ -138,6 +141,7 @@ void SensorsConfig::describe(common::config::Fields& fields) {
   fields.section("pilot_link", pilot_link, "Link of the sticks to the computer.");
   fields.section("camera_link", camera_link, "Link of camera frames to the computer.");
   fields.section("rgbd_link", rgbd_link, "Link of RGB-D frames to the computer.");
+  fields.section("vertical_laser_link", vertical_laser_link, "Link of scans of the upright laser to the computer.");
   fields.section("command_link", command_link, "Link of setpoints to the autopilot.");
 }
 

@@ -10,8 +10,8 @@
 namespace swiftlet::simulation {
 
 /// The order in which measurements that arrive at the same instant are delivered.
-enum class Sensor { kImu, kLaser, kBattery, kPilot, kCamera, kRgbd };
-inline constexpr int kSensorCount = 6;
+enum class Sensor { kImu, kLaser, kBattery, kPilot, kCamera, kRgbd, kVerticalLaser };
+inline constexpr int kSensorCount = 7;
 const char* toString(Sensor sensor);
 
 /// The link from a sensor to the computer.
@@ -107,6 +107,7 @@ struct SensorsConfig {
   LaserErrorsConfig laser_errors;
   CameraConfig camera;
   RgbdErrorsConfig rgbd_errors;
+  LaserErrorsConfig vertical_laser_errors;
   double battery_rate_hz = 5.0;
   double battery_noise_v = 0.02;
   FuelGaugeConfig fuel_gauge;
@@ -117,6 +118,7 @@ struct SensorsConfig {
   LinkConfig pilot_link{.latency_s = 0.020};
   LinkConfig camera_link{.latency_s = 0.030};
   LinkConfig rgbd_link{.latency_s = 0.030};
+  LinkConfig vertical_laser_link{.latency_s = 0.004, .jitter_s = 0.002, .loss_rate = 0.0};
   LinkConfig command_link{.latency_s = 0.004};
 
   void describe(common::config::Fields& fields);

@@ -31,10 +31,12 @@ struct MakeNan {
     sample.rotation_ahrs_body.coeffs().setConstant(kNan);
     return sample;
   }
-  SensorEvent operator()(const Scan& scan) const {
-    auto copy = std::make_shared<common::LaserScan>(*scan);
+  template <typename AnyScan>
+  requires std::is_base_of_v<common::LaserScan, AnyScan> SensorEvent
+  operator()(const std::shared_ptr<const AnyScan>& scan) const {
+    auto copy = std::make_shared<AnyScan>(*scan);
     std::fill(copy->ranges_m.begin(), copy->ranges_m.end(), std::numeric_limits<float>::quiet_NaN());
-    return Scan(std::move(copy));
+    return std::shared_ptr<const AnyScan>(std::move(copy));
   }
   SensorEvent operator()(common::BatterySample sample) const {
     sample.voltage_v = sample.remaining = sample.current_a = kNan;

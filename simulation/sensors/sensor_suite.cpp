@@ -23,16 +23,21 @@ SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, 
       world_(world),
       seed_(seed),
       inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
-      laser_(scenario.laser, scenario.sensors.laser_errors, world, seed),
+      laser_{LaserScanner(scenario.laser, scenario.sensors.laser_errors, world, seed), Clock(scenario.laser.rate_hz)},
       fuel_gauge_(scenario.sensors.fuel_gauge, scenario.battery_remaining),
       queue_(scenario, faults, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
-      laser_clock_(scenario.laser.rate_hz),
       battery_clock_(scenario.sensors.battery_rate_hz),
       pilot_clock_(scenario.sensors.pilot_rate_hz),
       camera_clock_(scenario.sensors.camera.rate_hz),
       rgbd_clock_(scenario.rgbd_camera.value_or(common::RgbdCameraConfig()).rate_hz) {
   if (scenario.rgbd_camera) rgbd_.emplace(*scenario.rgbd_camera, scenario.sensors.rgbd_errors, world, seed);
+  if (const auto& laser = scenario.vertical_laser) {
+    // Streams of its own: the same noise as that of the first laser would be that of one device.
+    const std::uint64_t own_seed = common::RandomStream(seed, "vertical laser", 0).bits();
+    vertical_laser_.emplace(
+        Sweeper{LaserScanner(*laser, scenario.sensors.vertical_laser_errors, world, own_seed), Clock(laser->rate_hz)});
+  }
   imu_clock_.frame = 1;  // The first sample is the mean of the first period.
 }
 
@@ -44,7 +49,9 @@ AttitudeMeasurement SensorSuite::attitude(std::uint64_t tick, const QuadrotorSta
 }
 
 void SensorSuite::begin(const QuadrotorState& state, const std::vector<Actor>& actors) {
-  track_.assign(1, {Time(), state.T_world_body, actors});
+  const Moment start{Time(), state.T_world_body, actors};
+  laser_.track.assign(1, start);
+  if (vertical_laser_) vertical_laser_->track.assign(1, start);
 }
 
 void SensorSuite::step(Time now, const QuadrotorState& state, const Battery& battery, const std::vector<Actor>& actors,
@@ -55,24 +62,27 @@ void SensorSuite::step(Time now, const QuadrotorState& state, const Battery& bat
     sample.stamps.measured = now;
     queue_.send(Sensor::kImu, imu_clock_.frame++, now, sample);
   }
-  stepLaser(now, state, actors, rays);
+  const Moment moment{now, state.T_world_body, actors};
+  stepLaser<common::LaserScan>(laser_, Sensor::kLaser, moment, rays);
+  if (vertical_laser_) stepLaser<common::VerticalScan>(*vertical_laser_, Sensor::kVerticalLaser, moment, rays);
   stepSlow(now, battery);
   stepCamera(now, state, actors, rays);
   stepRgbd(now, state, actors, rays);
 }
 
-void SensorSuite::stepLaser(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
-                            const RayCaster& rays) {
-  track_.push_back({now, state.T_world_body, actors});
-  const Time start = laser_clock_.next(), end = start + laser_.sweep();
-  if (now < end) return;
-  auto scan = std::make_shared<common::LaserScan>(laser_.scan(laser_clock_.frame, start, track_, rays));
+template <typename Scan>
+void SensorSuite::stepLaser(Sweeper& laser, Sensor sensor, const Moment& moment, const RayCaster& rays) {
+  auto& [scanner, clock, track] = laser;
+  track.push_back(moment);
+  const Time start = clock.next(), end = start + scanner.sweep();
+  if (moment.time < end) return;
+  auto scan = std::make_shared<Scan>(Scan{scanner.scan(clock.frame, start, track, rays)});
   // The sweep ended between two steps. Nothing arrives before it was computed.
-  queue_.send(Sensor::kLaser, laser_clock_.frame++, now, std::shared_ptr<const common::LaserScan>(std::move(scan)));
-  const Time next = laser_clock_.next();
+  queue_.send(sensor, clock.frame++, moment.time, std::shared_ptr<const Scan>(std::move(scan)));
+  const Time next = clock.next();
   const auto first_needed =
-      std::find_if(track_.begin(), track_.end() - 1, [next](const Moment& moment) { return moment.time > next; });
-  track_.erase(track_.begin(), first_needed == track_.begin() ? first_needed : first_needed - 1);
+      std::find_if(track.begin(), track.end() - 1, [next](const Moment& at) { return at.time > next; });
+  track.erase(track.begin(), first_needed == track.begin() ? first_needed : first_needed - 1);
 }
 
 void SensorSuite::stepCamera(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,

@@ -40,7 +40,7 @@ class SensorSuite {
   void setCameraConsumer(bool wanted) { camera_wanted_ = wanted; }
 
   /// As LaserScanner::seen().
-  const std::vector<bool>& seenShapes() const { return laser_.seen(); }
+  const std::vector<bool>& seenShapes() const { return laser_.scanner.seen(); }
   /// The pilot's sticks now; null without a remote control.
   const PilotConfig* sticks(common::Time now) const;
 
@@ -54,8 +54,15 @@ class SensorSuite {
     bool due(common::Time now) const { return now >= next(); }
   };
 
-  void stepLaser(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
-                 const RayCaster& rays);
+  /// A laser with the track since the start of its present sweep.
+  struct Sweeper {
+    LaserScanner scanner;
+    Clock clock;
+    std::vector<Moment> track = {};
+  };
+  /// `Scan` is the type of its measurements.
+  template <typename Scan>
+  void stepLaser(Sweeper& laser, Sensor sensor, const Moment& moment, const RayCaster& rays);
   void stepCamera(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
                   const RayCaster& rays);
   void stepRgbd(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors, const RayCaster& rays);
@@ -65,13 +72,13 @@ class SensorSuite {
   const WorldModel& world_;
   std::uint64_t seed_;
   InertialUnit inertial_;
-  LaserScanner laser_;
+  Sweeper laser_;
+  std::optional<Sweeper> vertical_laser_;
   std::optional<Camera> camera_;  ///< Made for the first frame that is wanted.
   std::optional<RgbdCamera> rgbd_;
   FuelGauge fuel_gauge_;
   EventQueue queue_;
-  Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_, rgbd_clock_;
-  std::vector<Moment> track_;       ///< The track since the start of the present sweep.
+  Clock imu_clock_, battery_clock_, pilot_clock_, camera_clock_, rgbd_clock_;
   std::vector<Moment> rgbd_track_;  ///< The track since the present frame of the RGB-D camera began to be exposed.
   bool camera_wanted_ = false;
 };

@@ -74,6 +74,16 @@ TEST_F(BadInput, AMissingMissionIsRefused) {
   expectRefused(fly({"--headless", path("none.xml")}), "none\\.xml: ");
 }
 
+TEST_F(BadInput, OneSensorMakesThe3DMap) {
+  const std::string both =
+      write("both.yaml", "vehicle: cobra\nlaser: utm_30lx\nrgbd_camera: xtion\nvertical_laser: utm_30lx_upright\n");
+  expectRefused(fly({"--headless", hop(), "--system", both}),
+                "both\\.yaml:4:17: vertical_laser: one sensor makes the 3D map.*leave out one");
+  const std::string mirrored = write("mirrored.yaml", "vehicle: cobra\nlaser: utm_30lx\nvertical_laser: utm_30lx\n");
+  expectRefused(fly({"--headless", hop(), "--system", mirrored}),
+                "mirrored\\.yaml:3:17: vertical_laser: utm_30lx has a mirror.*utm_30lx_upright");
+}
+
 TEST_F(BadInput, AMisspeltMissionNameGetsASuggestion) {
   expectRefused(fly({"--headless", "missions/explore_and_retrun.xml"}),
                 "did you mean `missions/explore_and_return\\.xml`");

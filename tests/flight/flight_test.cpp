@@ -108,7 +108,7 @@ TEST_P(MissionInItsTrial, IsFlownToItsEnd) {
 
 INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial, testing::Values("follow_me", "survey_floor"), kByName);
 
-class CameraMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {
+class BareRoom : public test_support::Scratch {
  protected:
   /// A room of 4.4 m by 3.6 m with a red box; the vehicle stands in it with its back to the box.
   std::string room() const {
@@ -128,6 +128,9 @@ class CameraMission : public test_support::Scratch, public testing::WithParamInt
                                  box("target", "-1.6 0.9 0.12", "0.24 0.24 0.24", "0.85 0.08 0.08") + "</world></sdf>");
   }
 };
+
+class CameraMission : public BareRoom, public testing::WithParamInterface<std::string> {};
+using VerticalLaserMission = BareRoom;
 
 // The missions that look for targets find this one within the bound of trials/find_target.yaml. The camera has a
 // quarter of the pixels and a third of the rate, so that the flight takes no longer than one without it.
@@ -158,6 +161,27 @@ TEST_P(CameraMission, IsFlownToItsEnd) {
 
 INSTANTIATE_TEST_SUITE_P(Each, CameraMission, testing::Values("find_target", "search_and_report", "map_room_3d"),
                          kByName);
+
+// Its own cloud against the true walls. No camera is on board.
+TEST_F(VerticalLaserMission, MapsTheRoomInThreeDimensions) {
+  const std::string mission =
+      write("mission.xml",
+            "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Upright\"><Sequence>\n"
+            "<TakeOff height_m=\"1.0\"/><Explore/><GoHome/><Land/>\n</Sequence></BehaviorTree></root>\n");
+  const std::string trial = write("upright.yaml", "mission: " + mission +
+                                                      "\nsystem: swiftlet_vertical_laser\ntime_limit_s: 200\n"
+                                                      "criteria: {map3d_error_max_m: 0.08, home_error_max_m: 0.16}\n"
+                                                      "scenario: {world: " +
+                                                      room() + ", seed: 3, battery_remaining: 1.0}\n");
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--repeat", "1", "--json", "--out", path("out")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const std::string run = path("out/upright-003");
+  EXPECT_GT(std::filesystem::file_size(run + "/cloud.ply"), 200'000u);
+  EXPECT_GT(std::filesystem::file_size(run + "/map.bt"), 1'000u);
+  EXPECT_GT(std::filesystem::file_size(run + "/map.ot"), 1'000u);
+  EXPECT_FALSE(std::filesystem::exists(run + "/trajectory_camera.tum")) << "there is no camera";
+  EXPECT_THAT(readText(run + "/report.html"), testing::HasSubstr("3D map"));
+}
 
 class WaitingMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
 

@@ -93,7 +93,7 @@ TEST(Mapper3d, MapsTheWallsFromNoisySeeds) {
 /// Two submaps on two key scans. When it draws the second one, the 2D map has drifted; then a loop closure corrects it.
 struct LoopClosure {
   LoopClosure() {
-    SubmapConfig config;
+    ImageSubmapConfig config;
     config.reach_m = 0.8;
     SubmapStore store(config, VoxelConfig(), vision::DepthNoiseConfig());
     for (int i = 0; i < 45; ++i) {
@@ -285,7 +285,7 @@ TEST(SubmapStore, StaysWithinItsPoints) {
 /// Frames seen along a line there and back, placed by key scans.
 struct Commute {
   TexturedRoom room;
-  SubmapConfig config;
+  ImageSubmapConfig config;
   std::shared_ptr<const KeyPoses> scans;
 
   Commute() {

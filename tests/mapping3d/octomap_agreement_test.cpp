@@ -81,7 +81,7 @@ Agreement agreementAfterFrames(unsigned seed, Given given, double shift_m = 0.0)
     if (given == Given::kDepths)
       mapper.insert(depth, smallCamera(), T_map_camera);
     else
-      mapper.insert(T_map_camera.position_m, points_map_m);
+      mapper.insert(raysFrom(T_map_camera.position_m, points_map_m));
     const Eigen::Vector3f origin_m = T_map_camera.position_m.cast<float>();
     tree.insertPointCloud(cloud, {origin_m.x(), origin_m.y(), origin_m.z()}, 5.0);
   }

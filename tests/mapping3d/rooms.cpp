@@ -71,4 +71,10 @@ common::DepthImage depthImage(const Room& room, const common::PinholeCamera& cam
   return image;
 }
 
+std::vector<Ray> raysFrom(const Eigen::Vector3d& origin_m, const std::vector<Eigen::Vector3d>& ends_m) {
+  std::vector<Ray> rays;
+  for (const Eigen::Vector3d& end_m : ends_m) rays.push_back({origin_m, end_m});
+  return rays;
+}
+
 }  // namespace swiftlet::mapping3d

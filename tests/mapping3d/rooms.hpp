@@ -8,6 +8,7 @@
 
 #include "common/geometry.hpp"
 #include "common/rgbd_frame.hpp"
+#include "mapping3d/voxels/voxel_mapper.hpp"
 
 namespace swiftlet::mapping3d {
 
@@ -24,5 +25,8 @@ common::Pose3 randomView(const Room& room, std::mt19937& random);
 /// Some pixels are unknown and some report that they are too far, at random with these shares.
 common::DepthImage depthImage(const Room& room, const common::PinholeCamera& camera, const common::Pose3& T_map_camera,
                               std::mt19937& random, double unknown_share = 0.0, double too_far_share = 0.0);
+
+/// From one place to each of the points.
+std::vector<Ray> raysFrom(const Eigen::Vector3d& origin_m, const std::vector<Eigen::Vector3d>& ends_m);
 
 }  // namespace swiftlet::mapping3d

@@ -179,12 +179,38 @@ TEST(VoxelMapper, AFullMapForgetsTheFarthestBlocks) {
 TEST(VoxelMapper, BeamsOfALaserAreDrawnAsPixelsAre) {
   VoxelMapper mapper(VoxelConfig{});
   const std::vector<Eigen::Vector3d> points_map_m = {{2.01, 0.01, 1.01}, {0.01, 9.0, 1.01}, {NAN, 0, 0}};
-  const InsertionCounts counts = mapper.insert(Eigen::Vector3d(0.01, 0.01, 1.01), points_map_m);
+  const InsertionCounts counts = mapper.insert(raysFrom({0.01, 0.01, 1.01}, points_map_m));
   EXPECT_EQ(counts.hits, 1);
   EXPECT_EQ(counts.too_far, 1);
   EXPECT_EQ(counts.unknown, 1);
   EXPECT_TRUE(mapper.map().isOccupied(mapper.map().voxelAt(points_map_m[0])));
   EXPECT_TRUE(mapper.map().isFree(mapper.map().voxelAt({0.01, 4.9, 1.01})));
+}
+
+TEST(VoxelMapper, EachRayOfASweepHasItsOwnOrigin) {
+  VoxelMapper mapper(VoxelConfig{});
+  const std::vector<Ray> rays{{{0.0, 0.01, 1.01}, {0.0, 2.0, 1.01}},
+                              {{0.2, 0.01, 1.01}, {0.2, 2.0, 1.01}},
+                              {{3.0, 0.01, 1.01}, {3.0, 2.0, 1.01}},
+                              {{NAN, 0, 0}, {0, 1, 0}}};
+  const std::vector<common::Disc> people{{{0.2, 2.0}, 0.15}};
+  const InsertionCounts counts = mapper.insert(rays, people);
+  EXPECT_EQ(counts.hits, 1);
+  EXPECT_EQ(counts.ignored, 1) << "it ended on a person";
+  EXPECT_EQ(counts.unknown, 2) << "no sweep is metres long";
+  const common::VoxelMap& map = mapper.map();
+  EXPECT_TRUE(map.isOccupied(map.voxelAt({0.0, 2.0, 1.01})));
+  EXPECT_TRUE(map.isFree(map.voxelAt({0.2, 1.0, 1.01})));
+  EXPECT_FALSE(map.isKnown(map.voxelAt({0.2, 2.0, 1.01})));
+  EXPECT_FALSE(map.isKnown(map.voxelAt({0.1, 1.0, 1.01}))) << "between the rays";
+}
+
+TEST(VoxelMapper, ASweepWithoutARayChangesNothing) {
+  VoxelMapper mapper(VoxelConfig{});
+  EXPECT_EQ(mapper.insert(std::span<const Ray>{}).hits, 0);
+  const std::vector<Ray> rays{{{NAN, 0, 0}, {0, 1, 0}}};
+  EXPECT_EQ(mapper.insert(rays).unknown, 1);
+  EXPECT_EQ(mapper.map().blockCount(), 0u);
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ inline std::string bytesOf(const common::SensorEvent& event) {
     append(bytes, imu->rotation_ahrs_body.coeffs().data(), 4 * sizeof(double));
   } else if (const auto* scan = std::get_if<Scan>(&event)) {
     append(bytes, (*scan)->ranges_m.data(), (*scan)->ranges_m.size() * sizeof(float));
+  } else if (const auto* sweep = std::get_if<Sweep>(&event)) {
+    append(bytes, (*sweep)->ranges_m.data(), (*sweep)->ranges_m.size() * sizeof(float));
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     append(bytes, battery->voltage_v);
     append(bytes, battery->remaining);

@@ -126,5 +126,6 @@ std::vector<Event> eventsOf(const std::vector<common::SensorEvent>& events) {
 using Scan = std::shared_ptr<const common::LaserScan>;
 using Frame = std::shared_ptr<const common::CameraFrame>;
 using Rgbd = std::shared_ptr<const common::RgbdFrame>;
+using Sweep = std::shared_ptr<const common::VerticalScan>;
 
 }  // namespace swiftlet::simulation

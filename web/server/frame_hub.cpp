@@ -161,7 +161,8 @@ FrameHub::Drawn FrameHub::drawMap3d(View& view, common::Time now) {
 
 FrameHub::Drawn FrameHub::drawDepth(const PictureView& asked, common::Time now) {
   const auto& depth = telemetry_.depth();
-  const bool camera = !telemetry_.world().value || telemetry_.world().value->map3d;
+  const auto& world = telemetry_.world().value;
+  const bool camera = !world || (world->map3d && world->map3d->frame);
   if (!depth.value || depth.value->depth.width_px <= 0 || depth.value->depth.height_px <= 0)
     return {jpeg_.encode(cameraNotice(asked, camera ? "waiting for the camera" : kNoCamera), kCameraQuality), {}, now};
   return {jpeg_.encode(rendering::depthPicture(depth.value->depth, asked.width_px), kCameraQuality),

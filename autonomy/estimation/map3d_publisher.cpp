@@ -1,0 +1,75 @@
+#include "autonomy/estimation/map3d_publisher.hpp"
+
+#include <utility>
+
+#include "common/config_fields.hpp"
+#include "mapping3d/model/submap_fusion.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Duration;
+using common::Time;
+
+constexpr const char* kFusion3d = "mapping3d fusion";
+
+}  // namespace
+
+void Map3dPublisherConfig::describe(common::config::Fields& fields) {
+  fields("publish_period_s", publish_period_s, {0, 10},
+         "So often the submap that grows is copied for those who show the map.");
+  fields("fusion_period_s", fusion_period_s, {0.5, 1000}, "So often all submaps are fused to one map, if any changed.");
+  fields("fusion_latency_s", fusion_latency_s, {0.01, 60}, "Declared time for fusing all submaps.");
+}
+
+Map3dPublisher::Map3dPublisher(const Map3dPublisherConfig& config, double resolution_m, common::JobRunner& jobs)
+    : config_(config), resolution_m_(resolution_m), jobs_(jobs) {}
+
+bool Map3dPublisher::begin(Time now) {
+  const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
+  if (publish) submaps_stamp_ = now;
+  return publish;
+}
+
+void Map3dPublisher::setSubmaps(std::vector<common::Submap3d> submaps) {
+  change().submaps = std::make_shared<const std::vector<common::Submap3d>>(std::move(submaps));
+}
+
+common::Map3dLayer& Map3dPublisher::change() {
+  if (!layer_) {
+    layer_ = std::make_shared<common::Map3dLayer>();
+    layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>();
+  }
+  changed_ = true;
+  return *layer_;
+}
+
+bool Map3dPublisher::isStale(const std::shared_ptr<const common::KeyPoses>& keys) const {
+  return layer_ && (changed_ || !published_ || published_->keys != keys);
+}
+
+std::shared_ptr<const common::Map3dLayer> Map3dPublisher::layer(const std::shared_ptr<const common::KeyPoses>& keys) {
+  if (!isStale(keys)) return published_;
+  changed_ = false;
+  layer_->keys = keys;
+  published_ = std::make_shared<const common::Map3dLayer>(*layer_);
+  return published_;
+}
+
+void Map3dPublisher::fuse(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
+  if (!layer_ || layer_->submaps->empty() || !jobs_.idle(kFusion3d)) return;
+  if (fused_from_ && (now - *fused_from_).seconds() < config_.fusion_period_s) return;
+  fused_from_ = now;
+  jobs_.submit(
+      kFusion3d, now, Duration::fromSeconds(config_.fusion_latency_s),
+      [this, submaps = layer_->submaps, keys, now, resolution_m = resolution_m_]() -> common::JobRunner::Deliver {
+        auto fused = std::make_shared<const common::VoxelMap>(mapping3d::fuse(*submaps, *keys, resolution_m));
+        return [this, fused, now](Time) {
+          common::Map3dLayer& layer = change();
+          layer.fused = fused;
+          layer.fused_stamp = now;
+        };
+      });
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,129 @@
+#include "autonomy/estimation/vertical_laser_pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/config_fields.hpp"
+#include "perception/projection/placed_returns.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Duration;
+using common::Severity;
+using common::Time;
+
+constexpr const char* kDrawing = "mapping3d";
+/// Sweeps that wait to be placed, or to be drawn: half a second of the fastest laser. More of them come only when the
+/// link has held them back, or the work takes longer than it may.
+constexpr std::size_t kMostWaiting = 20;
+/// A laser whose data sheet says that it has no noise still counts in millimetres.
+constexpr double kLeastNoise_m = 0.001;
+/// No clock is so far ahead: such a stamp is an error, after which no other sweep would be newer.
+constexpr Duration kFarAhead = Duration::fromMilliseconds(1000);
+
+Time endOf(const common::LaserScan& sweep) {
+  return sweep.stamps.measured + sweep.time_increment * static_cast<std::int64_t>(sweep.ranges_m.size());
+}
+
+}  // namespace
+
+void VerticalLaserPipelineConfig::describe(common::config::Fields& fields) {
+  fields.section("voxels", voxels, "Occupancy.");
+  fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
+  publisher.describe(fields);
+  fields("body_radius_m", body_radius_m, {0, 2},
+         "Returns nearer to the body's origin come from the vehicle itself and are left out.");
+  fields("latency_s", latency_s, {0.001, 2}, "Declared time for drawing the sweeps that have come since the last job.");
+  fields("wait_s", wait_s, {0, 1}, "Greatest wait of a sweep for a scan of the first laser that is not older.");
+  fields("silent_s", silent_s, {0.1, 60}, "A laser that sends no sweep for so long is silent.");
+}
+
+VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& config,
+                                             const common::LaserConfig& laser, common::JobRunner& jobs)
+    : config_(config),
+      laser_(laser),
+      jobs_(jobs),
+      submaps_(std::make_shared<mapping3d::SubmapStore>(config.submaps, config.voxels)),
+      publisher_(config.publisher, config.voxels.resolution_m, jobs) {}
+
+void VerticalLaserPipeline::add(std::shared_ptr<const common::VerticalScan> sweep) {
+  const common::Stamps& stamps = sweep->stamps;
+  last_arrived_ = stamps.arrived;
+  if (std::exchange(silent_, false)) say(stamps.arrived, Severity::kInfo, "upright laser sends again");
+  const bool is_ahead = stamps.measured > stamps.arrived + kFarAhead;
+  if (is_ahead || (last_measured_ && stamps.measured <= *last_measured_)) {
+    ++counts_.skipped;
+    if (!std::exchange(fault_said_, true))
+      say(stamps.arrived, Severity::kWarning, "a sweep of the upright laser cannot be used",
+          std::string(is_ahead ? "its stamp is of the future" : "it was not measured after the last") +
+              "; further ones are only counted");
+    return;
+  }
+  ++counts_.sweeps;
+  last_measured_ = stamps.measured;
+  waiting_.push_back(std::move(sweep));
+  if (waiting_.size() <= kMostWaiting) return;
+  waiting_.pop_front();
+  ++counts_.skipped;
+}
+
+std::optional<VerticalLaserPipeline::Interval> VerticalLaserPipeline::next() const {
+  if (waiting_.empty()) return std::nullopt;
+  return Interval{waiting_.front()->stamps.measured, endOf(*waiting_.front())};
+}
+
+Time VerticalLaserPipeline::waitUntil() const {
+  return waiting_.front()->stamps.arrived + Duration::fromSeconds(config_.wait_s);
+}
+
+void VerticalLaserPipeline::place(const std::optional<SweepSituation>& situation) {
+  const auto sweep = std::move(waiting_.front());
+  waiting_.pop_front();
+  if (!situation) {
+    ++counts_.unplaced;
+    return;
+  }
+  mapping3d::PlacedSweep placed;
+  placed.scan = situation->key;
+  placed.people = situation->people;
+  placed.weight_1_m2 = static_cast<float>(1.0 / std::pow(std::max(laser_.range_noise_m, kLeastNoise_m), 2));
+  for (const auto& beam : perception::placeReturns(*sweep, laser_, situation->T_key_body, config_.body_radius_m))
+    placed.rays_scan.push_back({beam.origin_m, beam.end_m});
+  if (placed_.size() < kMostWaiting)
+    placed_.push_back(std::move(placed));
+  else
+    ++counts_.skipped;
+}
+
+void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
+  watch(now);
+  if (placed_.empty() || !jobs_.idle(kDrawing)) return;
+  counts_.drawn += placed_.size();
+  const bool publish = publisher_.begin(now);
+  jobs_.submit(
+      kDrawing, now, Duration::fromSeconds(config_.latency_s),
+      [this, submaps = submaps_, sweeps = std::exchange(placed_, {}), keys, publish]() -> common::JobRunner::Deliver {
+        for (const mapping3d::PlacedSweep& sweep : sweeps) submaps->draw(sweep, *keys);
+        if (!publish) return [](Time) {};
+        return [this, snapshot = submaps->snapshot()](Time) { publisher_.setSubmaps(snapshot); };
+      });
+  publisher_.fuse(keys, now);
+}
+
+void VerticalLaserPipeline::watch(Time now) {
+  if (silent_ || !last_arrived_ || (now - *last_arrived_).seconds() < config_.silent_s) return;
+  silent_ = true;
+  say(now, Severity::kWarning, "upright laser is silent", fmt::format("no sweep for {:.1f} s", config_.silent_s));
+}
+
+void VerticalLaserPipeline::say(Time now, Severity severity, std::string text, std::string reason) {
+  events_.push_back({now, severity, "mapping3d", std::move(text), std::move(reason)});
+}
+
+std::vector<common::Event> VerticalLaserPipeline::takeEvents() { return std::exchange(events_, {}); }
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,106 @@
+// Makes the 3D map from the sweeps of a second laser whose scan plane stands upright. It needs no camera, and works
+// outdoors. The sweeps are not matched: what places them is the laser in the plane, the altitude and the attitude.
+//
+//   sweep --> waits until the poses of its beams are known --> returns, each by the pose of its own time
+//                --> SubmapStore (points, voxels), a job --> Map3dLayer
+//
+// As submaps hang on the key scans of the 2D map, a loop closure moves them. Source: Saeedi et al., section IV-B, whose
+// vertical laser makes the 3D map in Case 2.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/estimation/map3d_publisher.hpp"
+#include "common/config_fwd.hpp"
+#include "common/disc.hpp"
+#include "common/event.hpp"
+#include "common/jobs.hpp"
+#include "common/key_pose.hpp"
+#include "common/sensor_event.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "mapping3d/model/submap_store.hpp"
+#include "perception/projection/scan_projection.hpp"
+
+namespace swiftlet::autonomy {
+
+struct VerticalLaserPipelineConfig {
+  mapping3d::VoxelConfig voxels{.range_max_m = 8.0};
+  mapping3d::SubmapConfig submaps{.cube_m = 0.03, .point_range_m = 8.0, .reach_m = 4.0};
+  Map3dPublisherConfig publisher;  ///< Its keys are on the level of the pipeline's own.
+  double body_radius_m = 0.3;
+  double latency_s = 0.05;
+  double wait_s = 0.05;
+  double silent_s = 1.0;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// What the estimator knows at the times of a sweep.
+struct SweepSituation {
+  int key = 0;                       ///< The key scan that the poses are relative to.
+  perception::PoseAt T_key_body;     ///< For each time of the sweep.
+  std::vector<common::Disc> people;  ///< In `map`.
+};
+
+struct VerticalLaserCounts {
+  std::uint64_t sweeps = 0;    ///< That arrived and were newer than those before.
+  std::uint64_t skipped = 0;   ///< Repeated or late, or too many at once.
+  std::uint64_t unplaced = 0;  ///< Of times at which no measurement supported the pose; they are left out.
+  std::uint64_t drawn = 0;
+};
+
+/// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
+class VerticalLaserPipeline {
+ public:
+  VerticalLaserPipeline(const VerticalLaserPipelineConfig& config, const common::LaserConfig& laser,
+                        common::JobRunner& jobs);
+  VerticalLaserPipeline(const VerticalLaserPipeline&) = delete;
+  VerticalLaserPipeline& operator=(const VerticalLaserPipeline&) = delete;
+
+  /// A sweep that was not measured after the last one is counted and left out.
+  void add(std::shared_ptr<const common::VerticalScan> sweep);
+
+  /// First and last time of the sweep that is placed next; none if none waits.
+  struct Interval {
+    common::Time begin, end;
+  };
+  std::optional<Interval> next() const;
+  /// Until then it is worth waiting for a scan of its time. Only if there is a next one.
+  common::Time waitUntil() const;
+  /// Places the next sweep; without a situation it is left out.
+  void place(const std::optional<SweepSituation>& situation);
+  /// Draws what was placed, in a job, and notices that the laser is silent. To be called at every tick.
+  void draw(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
+
+  /// See Map3dPublisher::layer.
+  std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys) {
+    return publisher_.layer(keys);
+  }
+  const VerticalLaserCounts& counts() const { return counts_; }
+  std::vector<common::Event> takeEvents();
+
+ private:
+  using Sweeps = std::vector<mapping3d::PlacedSweep>;
+  void watch(common::Time now);
+  void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
+
+  VerticalLaserPipelineConfig config_;
+  common::LaserConfig laser_;
+  common::JobRunner& jobs_;
+  std::shared_ptr<mapping3d::SubmapStore> submaps_;  ///< Belongs to the job while one is outstanding.
+  Map3dPublisher publisher_;
+  std::deque<std::shared_ptr<const common::VerticalScan>> waiting_;  ///< In the order of their times.
+  Sweeps placed_;
+  std::optional<common::Time> last_measured_, last_arrived_;
+  bool silent_ = false, fault_said_ = false;
+  VerticalLaserCounts counts_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy
