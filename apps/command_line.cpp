@@ -102,6 +102,11 @@ void Command::arguments(const std::string& name, std::vector<std::string>& value
   app_->add_option(name, values, description)->required();
 }
 
+void Command::optionalArguments(const std::string& name, std::vector<std::string>& values,
+                                const std::string& description) {
+  app_->add_option(name, values, description);
+}
+
 void Command::option(const std::string& name, std::string& value, const std::string& description) {
   CLI::Option* option = app_->add_option(name, value, description);
   if (!value.empty()) option->capture_default_str();

@@ -53,6 +53,8 @@ class Command {
   /// Arguments have no dashes and are required.
   void argument(const std::string& name, std::string& value, const std::string& description);
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& description);
+  /// Arguments of which there may be none.
+  void optionalArguments(const std::string& name, std::vector<std::string>& values, const std::string& description);
 
   void option(const std::string& name, std::string& value, const std::string& description);
   /// May be given several times.

@@ -1,4 +1,4 @@
-// swiftlet tune: the noise parameters of the filter from flights with truth.
+// swiftlet tune: the noise parameters of the filter from flights with truth, or the gains of the controller by flying.
 #include <memory>
 
 #include <fmt/core.h>
@@ -8,6 +8,7 @@
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"
+#include "apps/tune_gains.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "perception/fusion/noise_tuning.hpp"
@@ -24,6 +25,7 @@ struct TuneOptions {
   std::string system = "swiftlet";
   std::string out;
   int steps = 40;
+  TuneGainsOptions gains;
 };
 
 std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const common::VehicleConfig& vehicle) {
@@ -46,8 +48,11 @@ std::string settingsYaml(const FusionConfig& config) {
   return text;
 }
 
-int tune(const TuneOptions& options) {
+int tuneNoise(const TuneOptions& options) {
   const System system = loadSystem(options.system);
+  if (options.runs.empty())
+    throw common::InputError(
+        common::Problem{{}, "run", "names no flight", "give flights to learn from, or --gains with a trial to fly"});
   if (options.held_out.empty())
     throw common::InputError(common::Problem{
         {}, "--held-out", "names no flight", "parameters are judged on flights that they were not learned from"});
@@ -77,18 +82,41 @@ int tune(const TuneOptions& options) {
   return after_m_s < before_m_s ? kDone : kFailed;
 }
 
+int tune(const TuneOptions& options) {
+  if (options.gains.trial.empty()) return tuneNoise(options);
+  if (!options.runs.empty() || !options.held_out.empty())
+    throw common::InputError(common::Problem{{}, "--gains", "does not go with recorded flights", ""});
+  TuneGainsOptions gains = options.gains;
+  gains.system = options.system;
+  gains.out = options.out;
+  return tuneGains(gains);
+}
+
 }  // namespace
 
 void addTune(Command& program) {
   auto options = std::make_shared<TuneOptions>();
-  Command command =
-      program.command("tune", "Learn the noise parameters of the filter from flights whose truth is known.");
-  command.arguments("run", options->runs, "Folders of runs that were flown with --control-log, to learn from.");
+  TuneGainsOptions& gains = options->gains;
+  Command command = program.command(
+      "tune",
+      "Learn noise parameters of the filter from flights whose truth is known, or search a controller's gains.");
+  command.optionalArguments("run", options->runs, "Folders of runs that were flown with --control-log, to learn from.");
   command.option("--held-out", options->held_out, "A run to judge the result by; may be given several times.");
   command.option("--system", options->system, "The profile whose parameters are the start.");
   command.option("--steps", options->steps, {1, 10'000}, "Steps of the stochastic descent.");
-  command.option("--out", options->out, "File of the settings (YAML), a part of a profile.");
-  command.footer("Example: swiftlet tune runs/a runs/b --held-out runs/c --out tuned.yaml");
+  command.option("--gains", gains.trial,
+                 "Trial to fly: searches the gains of the profile's controller for the least cost, the mean of the "
+                 "figures of its phases over their `max`.");
+  command.option("--nature", gains.nature, "With --gains: nature to fly in, instead of the trial's.");
+  command.option("--flights", gains.flights, {2, 100'000}, "With --gains: flights altogether.");
+  command.option("--seeds", gains.seeds, {1, 1'000}, "With --gains: flights of each set of gains, all with the same.");
+  command.option("--seed", gains.seed, {0, kGreatestSeed}, "With --gains: the first seed; score on others.");
+  command.option("--only", gains.only, "With --gains: only gains whose names begin with this.");
+  command.option("--jobs", gains.jobs, {1, 64}, "With --gains: flights at the same time.");
+  command.option("--out", options->out, "File (YAML) of the noise parameters, or of the profile with its new gains.");
+  command.footer(
+      "Example: swiftlet tune runs/a runs/b --held-out runs/c --out tuned.yaml\n"
+      "Example: swiftlet tune --gains trials/papers/gains.yaml --system unb --flights 120 --out unb_tuned.yaml");
   command.runs([options] { return tune(*options); });
 }
 

@@ -1,0 +1,159 @@
+#include "apps/tune_gains.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "apps/command_line.hpp"
+#include "apps/required.hpp"
+#include "apps/show.hpp"
+#include "apps/stop_signals.hpp"
+#include "apps/system.hpp"
+#include "apps/trial_flight.hpp"
+#include "common/data_paths.hpp"
+#include "common/error.hpp"
+#include "control/gains.hpp"
+#include "control/identification/gain_search.hpp"
+#include "evaluation/gain_cost.hpp"
+#include "evaluation/trial.hpp"
+#include "interfaces/files/atomic_file.hpp"
+#include "simulation/nature.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using control::Gain;
+using evaluation::FlightScore;
+using evaluation::TrialConfig;
+
+/// The one trial to be flown, in one nature, with what it names found.
+TrialConfig trialToFly(const TuneGainsOptions& options) {
+  const fs::path file = common::findData(options.trial);
+  TrialConfig trial = evaluation::readTrial(file);
+  trial.systems = {options.system};
+  if (!options.nature.empty()) trial.natures = {options.nature};
+  std::vector<TrialConfig> conditions = trial.byCondition();
+  if (conditions.size() != 1)
+    throw common::InputError(common::Problem{
+        {file.string()}, "natures", "has several conditions to fly in", "choose a nature with --nature"});
+  prepare(conditions, file);
+  TrialConfig one = conditions.front();
+  if (one.phases.empty())
+    throw common::InputError(common::Problem{
+        {file.string()}, "phases", "is missing", "gains are compared by phases that have criteria with a `max`"});
+  one.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(one.natures.front()));
+  return one;
+}
+
+/// Flies sets of gains, each with the same seeds. What a flight leaves is removed, the profiles stay.
+class GainFlights {
+ public:
+  GainFlights(TrialConfig trial, System system, const TuneGainsOptions& options, fs::path folder)
+      : trial_(std::move(trial)), system_(std::move(system)), options_(options), folder_(std::move(folder)) {}
+
+  System systemWith(const std::vector<Gain>& gains) const {
+    System system = system_;
+    system.config.autonomy.control = control::withGains(system.config.autonomy.control, gains);
+    return system;
+  }
+
+  double cost(const std::vector<Gain>& gains) {
+    const fs::path profile = folder_ / fmt::format("set-{:03}.yaml", ++sets_);
+    required(interfaces::writeAtomically(profile, systemWith(gains).toYaml(false)));
+    TrialConfig trial = trial_;
+    trial.system = profile.string();
+    const double cost = evaluation::gainCost(flown(trial));
+    best_ = sets_ == 1 ? cost : std::min(best_, cost);
+    show(fmt::format("set {:3}  cost {:.4f}  best {:.4f}\n", sets_, cost, best_));
+    return cost;
+  }
+
+ private:
+  std::vector<FlightScore> flown(const TrialConfig& trial) {
+    const std::atomic<bool>& stop = stopOnSignals().first;
+    std::vector<std::vector<FlightScore>> scores(static_cast<std::size_t>(options_.seeds));
+    std::atomic<int> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&] {
+      for (int i = next++; i < options_.seeds; i = next++) {
+        try {
+          const fs::path run = folder_ / fmt::format("run-{}", i);
+          scores[static_cast<std::size_t>(i)] = flyOne(trial, nullptr, options_.seed + i, run, stop);
+          fs::remove_all(run);
+        } catch (...) {
+          const std::scoped_lock lock(mutex);
+          failure = std::current_exception();
+        }
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 1; i < std::min(options_.jobs, options_.seeds); ++i) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+    if (stop) throw common::InputError(common::Problem{{}, "", "was stopped before the search was over", ""});
+    std::vector<FlightScore> all;
+    for (auto& of_one : scores) all.insert(all.end(), of_one.begin(), of_one.end());
+    return all;
+  }
+
+  TrialConfig trial_;
+  System system_;
+  const TuneGainsOptions& options_;
+  fs::path folder_;
+  int sets_ = 0;
+  double best_ = 0.0;
+};
+
+std::vector<Gain> gainsToSearch(const System& system, const std::string& only) {
+  std::vector<Gain> gains;
+  for (const Gain& gain : control::gainsOf(system.config.autonomy.control))
+    if (gain.name.starts_with(only)) gains.push_back(gain);
+  if (gains.empty())
+    throw common::InputError(common::Problem{
+        {}, "--only", fmt::format("no gain of {} begins with `{}`", system.name, only), "see `swiftlet config`"});
+  return gains;
+}
+
+std::string comparison(const std::vector<Gain>& before, const std::vector<Gain>& after) {
+  std::string text;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    text += fmt::format("{:<28} {:8.4g} -> {:8.4g}\n", before[i].name, before[i].value, after[i].value);
+  return text;
+}
+
+}  // namespace
+
+int tuneGains(const TuneGainsOptions& options) {
+  const System system = loadSystem(options.system);
+  const std::vector<Gain> start = gainsToSearch(system, options.only);
+  if (options.flights < 2 * options.seeds)
+    throw common::InputError(
+        common::Problem{{}, "--flights", "is too few for two sets of gains", "each is flown with all --seeds"});
+  const TrialConfig trial = trialToFly(options);
+  const fs::path folder = trialFolder("", "tune", {"results.json", "\"trials\""});
+  GainFlights flights(trial, system, options, folder);
+  control::GainSearchOptions search_options;
+  search_options.evaluations = options.flights / options.seeds;
+  const control::GainSearch search =
+      control::searchGains(start, search_options, [&](const std::vector<Gain>& gains) { return flights.cost(gains); });
+  show(fmt::format("\n{} of {}, {} sets of gains in {} flights, seeds {} to {}\ncost {:.4f} -> {:.4f}\n{}",
+                   control::sectionOfGains(system.config.autonomy.control.controller.kind), system.name,
+                   search.evaluations, search.evaluations * options.seeds, options.seed,
+                   options.seed + options.seeds - 1, search.before, search.after, comparison(start, search.gains)));
+  if (!options.out.empty()) {
+    required(interfaces::writeAtomically(options.out, flights.systemWith(search.gains).toYaml(false)));
+    show(fmt::format("profile {}\n", options.out));
+  }
+  show(fmt::format("sets    {}\n", folder.string()));
+  return search.after < search.before ? kDone : kFailed;
+}
+
+}  // namespace swiftlet::apps
