@@ -110,6 +110,19 @@ void readTenThousandScripts(benchmark::State& state) {
 }
 BENCHMARK(readTenThousandScripts)->Unit(benchmark::kMillisecond);
 
+/// The same with no text twice.
+void readTenThousandDifferentScripts(benchmark::State& state) {
+  std::string inside = "<Sequence>\n<Script code=\"n := 1; limit := 3\"/>\n";
+  for (int i = 0; i < 2500; ++i) {
+    const std::string number = std::to_string(i);
+    inside += "  <Fallback _skipIf=\"n > limit + " + number + "\"><Script code=\"n = n + " + number +
+              "\"/><ScriptCondition code=\"n &lt; 3 &amp;&amp; limit == " + number +
+              "\"/><AlwaysFailure _onFailure=\"n -= " + number + "\"/></Fallback>\n";
+  }
+  readFor(state, fileOf(inside + "</Sequence>"));
+}
+BENCHMARK(readTenThousandDifferentScripts)->Unit(benchmark::kMillisecond);
+
 void readTenThousandNodes(benchmark::State& state) {
   std::string inside = "<Sequence>\n";
   for (int i = 0; i < 1666; ++i)

@@ -200,9 +200,9 @@ std::shared_ptr<Conditions> Builder::makeConditions(const Place& place, Scope& s
 /// The text compiles, because Checker has compiled it.
 std::shared_ptr<Script> Builder::makeScript(const Place& place, Scope& scope, const std::string& owner,
                                             const PortManifest& port, const std::string& text) {
-  ScriptResult result = scripts_.take(text);
-  if (!result.script) return nullptr;
-  std::shared_ptr<Script> script = std::move(result.script);
+  const ProgramResult& compiled = scripts_.compile(text);
+  if (!compiled.program) return nullptr;
+  auto script = std::make_shared<Script>(compiled.program);
   for (std::size_t i = 0; i < script->entries().size(); ++i) {
     Slot* slot = find(scope, script->entries()[i].name);
     script->bind(i, slot);
@@ -214,12 +214,12 @@ std::shared_ptr<Script> Builder::makeScript(const Place& place, Scope& scope, co
 
 void Builder::recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute) {
   for (const ScriptWrite& write : script.writes()) {
-    EntryFlow& flow = tree_->flows[script.entries()[write.entry].slot->id];
+    EntryFlow& flow = tree_->flows[script.slot(write.entry).id];
     flow.changes += write.makes ? 0 : 1;
     if (write.literal)
       flow.literals.push_back({*write.literal, origin, attribute});
     else if (write.copied)
-      flow.copied_from.push_back(script.entries()[*write.copied].slot->id);
+      flow.copied_from.push_back(script.slot(*write.copied).id);
     else
       flow.typed_writes.push_back(write.type);
   }

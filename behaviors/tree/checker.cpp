@@ -227,14 +227,12 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
 
 void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                           std::string owner, const PortManifest& port) {
-  ScriptResult result = Script::compile(attribute.value, registry_.constants());
-  if (!result.script)
+  const ProgramResult& result = scripts_.compile(attribute.value);
+  if (!result.program)
     report({document.at(element, attribute.name), std::move(owner), result.problem, {}});
-  else if (port.asked && result.script->assigns())
+  else if (port.asked && !result.program->writes.empty())
     report({document.at(element, attribute.name), std::move(owner), "it assigns to an entry, but is only asked",
             "use == to compare"});
-  else
-    scripts_.keep(attribute.value, std::move(result.script));
 }
 
 void Checker::checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest) {

@@ -1,12 +1,10 @@
-// The scripts of a file, compiled once: the checker compiles each of them, the builder takes it.
+// The programs of a file's scripts, each text compiled once: for the checker, and for all nodes that the builder makes.
 #pragma once
 
-#include <memory>
-#include <string>
+#include <string_view>
 #include <unordered_map>
-#include <utility>
 
-#include "behaviors/tree/script/script.hpp"
+#include "behaviors/tree/script/program.hpp"
 
 namespace swiftlet::tree {
 
@@ -15,20 +13,15 @@ class CompiledScripts {
   explicit CompiledScripts(const Constants& constants) : constants_(constants) {}
 
   /// `text` is the value of an attribute, which lives longer than this object.
-  void keep(const std::string& text, std::unique_ptr<Script> script) {
-    scripts_.insert_or_assign(&text, std::move(script));
-  }
-
-  /// Compiles it if it was not kept, or was taken before, for another use of the same subtree.
-  ScriptResult take(const std::string& text) {
-    auto kept = scripts_.extract(&text);
-    if (kept.empty()) return Script::compile(text, constants_);
-    return {std::move(kept.mapped()), {}};
+  const ProgramResult& compile(std::string_view text) {
+    const auto [known, is_new] = programs_.try_emplace(text);
+    if (is_new) known->second = ScriptProgram::compile(text, constants_);
+    return known->second;
   }
 
  private:
   const Constants& constants_;
-  std::unordered_map<const std::string*, std::unique_ptr<Script>> scripts_;
+  std::unordered_map<std::string_view, ProgramResult> programs_;
 };
 
 }  // namespace swiftlet::tree

@@ -21,23 +21,23 @@ std::string place(std::string_view text, const Token& token) {
 
 }  // namespace
 
-ScriptResult Script::compile(std::string_view text, const Constants& constants) {
+ProgramResult ScriptProgram::compile(std::string_view text, const Constants& constants) {
   return ScriptCompiler(text, constants).compile();
 }
 
-ScriptResult ScriptCompiler::compile() {
+ProgramResult ScriptCompiler::compile() {
   if (tokens_.size() > kMostTokens) problem_ = "it is longer than " + std::to_string(kMostTokens) + " words";
-  script_.expressions_.reserve(tokens_.size());
+  program_.expressions.reserve(tokens_.size());
   while (problem_.empty()) {
     while (take(";")) {}
     if (next().kind == TokenKind::kEnd) break;
-    script_.statements_.push_back(statement());
+    program_.statements.push_back(statement());
     if (problem_.empty() && next().kind != TokenKind::kEnd && !at(";")) fail(next(), "an operator or `;`");
   }
-  if (problem_.empty() && script_.statements_.empty()) problem_ = "it has no statement";
+  if (problem_.empty() && program_.statements.empty()) problem_ = "it has no statement";
   if (!problem_.empty()) return {nullptr, problem_};
-  script_.text_ = text_;
-  return {std::make_unique<Script>(std::move(script_)), {}};
+  program_.text = text_;
+  return {std::make_shared<const ScriptProgram>(std::move(program_)), {}};
 }
 
 ScriptCompiler::Index ScriptCompiler::statement() {
@@ -68,22 +68,22 @@ ScriptCompiler::Index ScriptCompiler::assignment(std::string_view name, std::str
   }
   if (!problem_.empty()) return 0;
   const std::size_t written = entry(name, !makes);
-  recordWrite(written, makes, script_.expressions_[value]);
+  recordWrite(written, makes, program_.expressions[value]);
   return add({.op = makes ? Op::kMake : Op::kAssign, .a = value, .of = static_cast<Index>(written)});
 }
 
-void ScriptCompiler::recordWrite(std::size_t entry, bool makes, const Script::Expression& value) {
-  script_.entries_[entry].set = true;
+void ScriptCompiler::recordWrite(std::size_t entry, bool makes, const ScriptProgram::Expression& value) {
+  program_.entries[entry].set = true;
   ScriptWrite write{.entry = entry, .makes = makes, .literal = {}, .copied = {}, .type = PortType::kAny};
   if (value.op == Op::kConstant)
-    write.literal = toString(script_.constants_[value.of]);
+    write.literal = toString(program_.constants[value.of]);
   else if (value.op == Op::kEntry)
     write.copied = value.of;
   else if (value.op >= Op::kEqual && value.op <= Op::kOr)
     write.type = PortType::kBool;
   else if (value.op == Op::kJoin)
     write.type = PortType::kString;
-  script_.writes_.push_back(std::move(write));
+  program_.writes.push_back(std::move(write));
 }
 
 ScriptCompiler::Index ScriptCompiler::choice() {
@@ -144,8 +144,8 @@ ScriptCompiler::Index ScriptCompiler::binary(std::size_t level) {
     if (sign == signs.end()) return left;
     ++position_;
     const Index right = binary(level + 1);
-    const auto buffer = static_cast<Index>(script_.joined_.size());
-    if (sign->second == Op::kJoin) script_.joined_.emplace_back();
+    const auto buffer = static_cast<Index>(program_.joins);
+    if (sign->second == Op::kJoin) ++program_.joins;
     left = add({.op = sign->second, .a = left, .b = right, .of = buffer});
   }
 }
@@ -194,18 +194,18 @@ ScriptCompiler::Index ScriptCompiler::name(const Token& token) {
   return add({.op = Op::kEntry, .of = static_cast<Index>(entry(token.text, true))});
 }
 
-ScriptCompiler::Index ScriptCompiler::add(Script::Expression expression) {
-  script_.expressions_.push_back(expression);
-  return static_cast<Index>(script_.expressions_.size() - 1);
+ScriptCompiler::Index ScriptCompiler::add(ScriptProgram::Expression expression) {
+  program_.expressions.push_back(expression);
+  return static_cast<Index>(program_.expressions.size() - 1);
 }
 
 ScriptCompiler::Index ScriptCompiler::constant(Value value) {
-  script_.constants_.push_back(std::move(value));
-  return add({.op = Op::kConstant, .of = static_cast<Index>(script_.constants_.size() - 1)});
+  program_.constants.push_back(std::move(value));
+  return add({.op = Op::kConstant, .of = static_cast<Index>(program_.constants.size() - 1)});
 }
 
 std::size_t ScriptCompiler::entry(std::string_view name, bool read) {
-  std::vector<ScriptEntry>& entries = script_.entries_;
+  std::vector<ScriptEntry>& entries = program_.entries;
   auto known = std::find_if(entries.begin(), entries.end(), [&](const auto& other) { return other.name == name; });
   if (known == entries.end()) known = entries.insert(entries.end(), {.name = std::string(name)});
   known->read = known->read || (read && !known->set);

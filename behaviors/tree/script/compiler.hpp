@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "behaviors/tree/script/lexer.hpp"
-#include "behaviors/tree/script/script.hpp"
+#include "behaviors/tree/script/program.hpp"
 
 namespace swiftlet::tree {
 
@@ -18,10 +18,10 @@ class ScriptCompiler {
   ScriptCompiler(std::string_view text, const Constants& constants)
       : text_(text), constants_(constants), tokens_(tokensOf(text)) {}
 
-  ScriptResult compile();
+  ProgramResult compile();
 
  private:
-  using Op = Script::Op;
+  using Op = ScriptProgram::Op;
   using Index = std::uint32_t;
   using Signs = std::initializer_list<std::pair<std::string_view, Op>>;
 
@@ -35,11 +35,11 @@ class ScriptCompiler {
   Index number(const Token& token);
   Index name(const Token& token);
 
-  Index add(Script::Expression expression);
+  Index add(ScriptProgram::Expression expression);
   Index constant(Value value);
   std::size_t entry(std::string_view name, bool read);
   Index assignment(std::string_view name, std::string_view sign);
-  void recordWrite(std::size_t entry, bool makes, const Script::Expression& value);
+  void recordWrite(std::size_t entry, bool makes, const ScriptProgram::Expression& value);
 
   const Token& next() const { return tokens_[position_]; }
   /// Signs have one or two characters.
@@ -58,7 +58,7 @@ class ScriptCompiler {
   std::size_t position_ = 0;
   int depth_ = 0;
   std::string problem_;
-  Script script_;
+  ScriptProgram program_;
 };
 
 }  // namespace swiftlet::tree

@@ -23,9 +23,18 @@ void append(std::string& text, const Operand& operand) {
 
 }  // namespace
 
+Script::Script(std::shared_ptr<const ScriptProgram> program)
+    : program_(std::move(program)), slots_(program_->entries.size()), joined_(program_->joins) {}
+
+ScriptResult Script::compile(std::string_view text, const Constants& constants) {
+  ProgramResult result = ScriptProgram::compile(text, constants);
+  if (!result.program) return {nullptr, std::move(result.problem)};
+  return {std::make_unique<Script>(std::move(result.program)), {}};
+}
+
 std::optional<Operand> Script::run() {
   std::optional<Operand> last;
-  for (const std::uint32_t statement : statements_) {
+  for (const std::uint32_t statement : program_->statements) {
     last = evaluate(statement);
     if (!last) return std::nullopt;
   }
@@ -46,14 +55,14 @@ std::nullopt_t Script::fail(std::string problem) {
 }
 
 std::optional<Operand> Script::evaluate(std::uint32_t index) {
-  const Expression& expression = expressions_[index];
+  const Expression& expression = program_->expressions[index];
   switch (expression.op) {
     case Op::kConstant:
-      return operandOf(constants_[expression.of]);
+      return operandOf(program_->constants[expression.of]);
     case Op::kEntry: {
-      const ScriptEntry& entry = entries_[expression.of];
-      if (!entry.slot->value) return fail("the entry {" + entry.name + "} is not set");
-      return operandOf(*entry.slot->value);
+      const Slot& slot = *slots_[expression.of];
+      if (!slot.value) return fail("the entry {" + program_->entries[expression.of].name + "} is not set");
+      return operandOf(*slot.value);
     }
     case Op::kAnd:
     case Op::kOr: {
@@ -175,15 +184,15 @@ std::optional<Operand> Script::join(std::uint32_t buffer, const Operand& a, cons
 std::optional<Operand> Script::assign(const Expression& expression) {
   const auto value = evaluate(expression.a);
   if (!value) return std::nullopt;
-  const ScriptEntry& entry = entries_[expression.of];
-  if (expression.op == Op::kAssign && !entry.slot->value)
-    return fail("the entry {" + entry.name + "} is not set; `:=` makes it");
+  Slot& slot = *slots_[expression.of];
+  if (expression.op == Op::kAssign && !slot.value)
+    return fail("the entry {" + program_->entries[expression.of].name + "} is not set; `:=` makes it");
   const auto* words = std::get_if<std::string_view>(&*value);
   if (words != nullptr)
-    entry.slot->writeText(*words);
+    slot.writeText(*words);
   else
-    entry.slot->write(valueOf(*value));
-  return operandOf(*entry.slot->value);
+    slot.write(valueOf(*value));
+  return operandOf(*slot.value);
 }
 
 }  // namespace swiftlet::tree

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,41 +24,25 @@
 
 #include "behaviors/tree/port.hpp"
 #include "behaviors/tree/script/operand.hpp"
+#include "behaviors/tree/script/program.hpp"
 
 namespace swiftlet::tree {
-
-/// Names with a number: the enumerators that an application gives to scripts.
-using Constants = std::map<std::string, std::int64_t, std::less<>>;
-
-/// An entry that a script uses.
-struct ScriptEntry {
-  std::string name;      ///< As written; with `@` for an entry of the main tree.
-  bool read = false;     ///< Its value is needed before the script sets it.
-  bool set = false;      ///< The script assigns to it.
-  Slot* slot = nullptr;  ///< Bound before the first run.
-};
-
-/// An assignment, as far as it is known before the script runs.
-struct ScriptWrite {
-  std::size_t entry = 0;               ///< Index into Script::entries.
-  bool makes = false;                  ///< By `:=`; the others change an entry that exists.
-  std::optional<std::string> literal;  ///< The text of the constant that is assigned.
-  std::optional<std::size_t> copied;   ///< The entry whose value is assigned unchanged.
-  PortType type = PortType::kAny;      ///< Of what is assigned, if it is known.
-};
 
 struct ScriptResult;
 
 class Script {
  public:
+  explicit Script(std::shared_ptr<const ScriptProgram> program);
   static ScriptResult compile(std::string_view text, const Constants& constants);
 
   /// As it was compiled.
-  const std::string& text() const { return text_; }
-  const std::vector<ScriptEntry>& entries() const { return entries_; }
-  const std::vector<ScriptWrite>& writes() const { return writes_; }
-  bool assigns() const { return !writes_.empty(); }
-  void bind(std::size_t entry, Slot* slot) { entries_[entry].slot = slot; }
+  const std::string& text() const { return program_->text; }
+  const std::vector<ScriptEntry>& entries() const { return program_->entries; }
+  const std::vector<ScriptWrite>& writes() const { return program_->writes; }
+  bool assigns() const { return !program_->writes.empty(); }
+  /// Each entry is bound before the first run.
+  void bind(std::size_t entry, Slot* slot) { slots_[entry] = slot; }
+  const Slot& slot(std::size_t entry) const { return *slots_[entry]; }
 
   /// The value of the last statement, valid until the next run or a write to an entry. Nothing if it cannot be
   /// evaluated; then `problem` says why. Statements before the one that fails have been carried out.
@@ -69,40 +52,8 @@ class Script {
   const std::string& problem() const { return problem_; }
 
  private:
-  friend class ScriptCompiler;
-
-  enum class Op : unsigned char {
-    kConstant,
-    kEntry,
-    kNegate,
-    kNot,
-    kInvertBits,
-    kAdd,
-    kSubtract,
-    kMultiply,
-    kDivide,
-    kJoin,
-    kAndBits,
-    kXorBits,
-    kOrBits,
-    kEqual,
-    kUnequal,
-    kLess,
-    kLessEqual,
-    kGreater,
-    kGreaterEqual,
-    kAnd,
-    kOr,
-    kChoice,
-    kMake,
-    kAssign,
-  };
-  /// A node of the expression; `a`, `b` and `c` are its operands, as indices of expressions.
-  struct Expression {
-    Op op = Op::kConstant;
-    std::uint32_t a = 0, b = 0, c = 0;
-    std::uint32_t of = 0;  ///< Of kConstant, kEntry, kMake, kAssign and kJoin: which one.
-  };
+  using Op = ScriptProgram::Op;
+  using Expression = ScriptProgram::Expression;
 
   std::optional<Operand> evaluate(std::uint32_t index);
   std::optional<Operand> evaluateUnary(const Expression& expression, const Operand& a);
@@ -115,13 +66,9 @@ class Script {
   std::optional<bool> truth(std::uint32_t index);
   std::nullopt_t fail(std::string problem);
 
-  std::string text_;
-  std::vector<Expression> expressions_;
-  std::vector<std::uint32_t> statements_;
-  std::vector<Value> constants_;
+  std::shared_ptr<const ScriptProgram> program_;
+  std::vector<Slot*> slots_;         ///< Of the entries.
   std::vector<std::string> joined_;  ///< Texts made by `..`, kept so that their memory is used again.
-  std::vector<ScriptEntry> entries_;
-  std::vector<ScriptWrite> writes_;
   std::string problem_;
 };
 
