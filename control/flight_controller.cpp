@@ -36,6 +36,7 @@ FlightController::FlightController(const Config& config, const common::VehicleCo
       follower_(config.path),
       position_(config.controller, config.position, vehicle, model),
       emergency_(config.emergency),
+      clearance_(config.clearance),
       dt_s_(common::kControlPeriod.seconds()),
       max_height_m_(vehicle.max_height_m) {}
 
@@ -130,6 +131,8 @@ common::Setpoint FlightController::tick(const FlightTick& given) {
   ticked_ = true;
   now_ = tick.now;
   if (tick.raw_height) emergency_.observe(*tick.raw_height);
+  if (tick.raw_height && tick.state.vertical_valid && isFinite(tick.state))
+    clearance_.observe(*tick.raw_height, tick.state.T_odom_body.position_m.z());
   if (isFinite(tick.state)) {
     keepPathInMap(tick.state);
     last_state_ = tick.state;
@@ -178,7 +181,17 @@ common::Setpoint FlightController::fly(const FlightTick& tick) {
     follower_.reset(last_state_.T_odom_body.position_m, common::yawOf(last_state_.T_odom_body.rotation));
     position_.reset();
   }
-  return track(tick, follower_.advance(dt_s_));
+  return track(tick, clearOfSurfaces(follower_.advance(dt_s_)));
+}
+
+/// A path leads across tables at one height; over them the vehicle flies higher.
+Reference FlightController::clearOfSurfaces(Reference reference) {
+  clearance_.advance(now_, reference.position_odom_m.z(), dt_s_);
+  const double height_m = std::min(reference.position_odom_m.z() + clearance_.lift_m(),
+                                   std::max(max_height_m_, reference.position_odom_m.z()));
+  if (height_m > reference.position_odom_m.z()) reference.velocity_odom_m_s.z() += clearance_.rate_m_s();
+  reference.position_odom_m.z() = height_m;
+  return reference;
 }
 
 /// The thrust is the emergency descent's. A horizontal estimate that is still good holds the place, or its velocity.
@@ -277,6 +290,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
       lifted_ = false;
       return;
     case FlightState::kFlying: {
+      clearance_.reset();
       Eigen::Vector3d hover = follower_.reference().position_odom_m;
       hover.z() = take_off_height_m_;
       follower_.reset(hover, follower_.reference().yaw_odom_rad);
@@ -285,7 +299,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
     case FlightState::kLanding:
       // During take-off the height reference moves by itself; in flight the path moves it.
       if (from == FlightState::kFlying) {
-        height_reference_m_ = follower_.reference().position_odom_m.z();
+        height_reference_m_ = follower_.reference().position_odom_m.z() + clearance_.lift_m();
         climb_reference_m_s_ = follower_.reference().velocity_odom_m_s.z();
       }
       follower_.stop();

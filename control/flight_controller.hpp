@@ -20,6 +20,7 @@
 #include "control/flight_state_machine.hpp"
 #include "control/margin_limits.hpp"
 #include "control/path_follower.hpp"
+#include "control/surface_clearance.hpp"
 #include "control/switched_controller.hpp"
 
 namespace swiftlet::control {
@@ -88,6 +89,7 @@ class FlightController {
     PositionController::Config position;
     ControllerChoiceConfig controller;
     EmergencyDescent::Config emergency;
+    SurfaceClearance::Config clearance;
 
     void describe(common::config::Fields& fields);
   };
@@ -111,6 +113,9 @@ class FlightController {
   ControllerKind controllerKind() const { return position_.kind(); }
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
+
+  /// How much higher than its path it flies, because of what is below.
+  double lift_m() const { return clearance_.lift_m(); }
 
   /// Greatest height over the take-off floor. A take-off to more is refused, and paths stay below.
   void setMaxHeight(double height_m) { max_height_m_ = height_m; }
@@ -159,6 +164,7 @@ class FlightController {
   common::Setpoint takeOff(const FlightTick& tick);
   std::optional<Eigen::Vector2d> pointToFace() const;
   common::Setpoint fly(const FlightTick& tick);
+  Reference clearOfSurfaces(Reference reference);
   common::Setpoint descend(const FlightTick& tick);
   common::Setpoint descendInEmergency(const FlightTick& tick);
   common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
@@ -175,6 +181,7 @@ class FlightController {
   PathFollower follower_;
   SwitchedController position_;
   EmergencyDescent emergency_;
+  SurfaceClearance clearance_;
   std::vector<common::Event> events_;
   std::string grounded_reason_;
 

@@ -36,6 +36,7 @@ void FlightController::Config::describe(common::config::Fields& fields) {
   fields.section("path", path, "References from paths.");
   fields.section("position", position, "Settings of the controller swiftlet, and the thrust model of all.");
   fields.section("controller", controller, "Which controller flies, and the settings of the others.");
+  fields.section("clearance", clearance, "The height over what paths lead across.");
   fields.section("emergency", emergency, "Emergency descent.");
 }
 

@@ -47,9 +47,10 @@ void PathFlight::abandon() {
 
 bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m) {
   const Eigen::Vector3d position_map_m = input.state.T_map_body().position_m;
-  const bool within = (position_map_m.head<2>() - goal_map_m).norm() < tolerance_m &&
-                      std::abs(position_map_m.z() - memory_.cruise_height_m) < std::max(0.10, tolerance_m) &&
-                      input.state.velocity_odom_m_s.norm() < config_.arrival_speed_m_s;
+  const bool within =
+      (position_map_m.head<2>() - goal_map_m).norm() < tolerance_m &&
+      std::abs(position_map_m.z() - memory_.cruise_height_m - controller_.lift_m()) < std::max(0.10, tolerance_m) &&
+      input.state.velocity_odom_m_s.norm() < config_.arrival_speed_m_s;
   if (!within) {
     within_since_.reset();
     return false;
