@@ -1,16 +1,21 @@
 // swiftlet consistency: whether the filter's errors agree with its covariance.
+#include <cmath>
 #include <memory>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"
 #include "common/error.hpp"
 #include "common/rounding.hpp"
+#include "interfaces/files/atomic_file.hpp"
 #include "perception/fusion/consistency.hpp"
+#include "perception/fusion/inertial_drift.hpp"
+#include "rendering/plot_svg.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -22,6 +27,7 @@ using perception::TapedFlight;
 struct ConsistencyOptions {
   std::vector<std::string> runs;
   std::string system = "swiftlet";
+  std::string drift;
   bool json = false;
 };
 
@@ -54,6 +60,31 @@ void print(const Consistency& consistency) {
                    consistency.relative_pose_nis, "heights", consistency.height_nis));
 }
 
+/// Fig. 3a of Bachrach 2009, of the first flight: what nothing but the accelerometer knows of the velocity.
+void plotDrift(const TapedFlight& flight, const System& system, const ConsistencyOptions& options) {
+  rendering::Plot plot;
+  plot.title = "Forward velocity";
+  plot.x_label = "time (s)";
+  plot.y_label = "velocity (m/s)";
+  rendering::Series truth{"truth", {}}, filter{"filter", {}}, integrated{"integrated acceleration", {}, true};
+  const auto velocities = perception::inertialDrift(flight, system.config.autonomy.estimator.fusion);
+  for (const perception::ForwardVelocity& v : velocities) {
+    truth.points.emplace_back(v.time_s, v.true_m_s);
+    filter.points.emplace_back(v.time_s, v.filtered_m_s);
+    integrated.points.emplace_back(v.time_s, v.integrated_m_s);
+  }
+  if (velocities.empty())
+    throw common::InputError(common::Problem{{options.runs.front()}, "--drift", "has no instant with the truth", ""});
+  plot.series = {std::move(integrated), std::move(filter), std::move(truth)};
+  required(interfaces::writeAtomically(options.drift, rendering::plotSvg(plot)));
+  if (options.json) return;
+  const perception::ForwardVelocity& last = velocities.back();
+  show(fmt::format(
+      "after {:.0f} s the integrated acceleration is off by {:.2f} m/s, the filter by {:.3f} m/s\nplot {}\n",
+      last.time_s, std::abs(last.integrated_m_s - last.true_m_s), std::abs(last.filtered_m_s - last.true_m_s),
+      options.drift));
+}
+
 int consistencyOfRuns(const ConsistencyOptions& options) {
   const System system = loadSystem(options.system);
   std::vector<TapedFlight> flights;
@@ -63,6 +94,7 @@ int consistencyOfRuns(const ConsistencyOptions& options) {
     showJson(jsonOf(consistency).dump(2) + "\n");
   else
     print(consistency);
+  if (!options.drift.empty()) plotDrift(flights.front(), system, options);
   return consistency.flights > 0 ? kDone : kFailed;
 }
 
@@ -75,6 +107,9 @@ void addConsistency(Command& program) {
       "Compare the errors of the filter with its covariance (NEES, NIS), in flights whose truth is known.");
   command.arguments("run", options->runs, "Folders of runs that were flown with --control-log.");
   command.option("--system", options->system, "The profile whose filter is replayed.");
+  command.option("--drift", options->drift,
+                 "File (SVG) for a plot of the first flight's velocity by integrated acceleration alone, by the filter "
+                 "and in truth.");
   command.flag("--json", options->json, "Print the figures as JSON.");
   command.footer("Example: swiftlet consistency runs/a runs/b runs/c");
   command.runs([options] { return consistencyOfRuns(*options); });

@@ -55,6 +55,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
+      inertial_check_(config.inertial_check),
       given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
       assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
@@ -89,8 +90,7 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
 void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
-    imu_watch_.add(*imu);
-    if (!imu_watch_.repeats()) estimator_.addImu(*imu);
+    take(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
@@ -107,6 +107,18 @@ void Autonomy::take(const common::SensorEvent& event) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
     assist_.pilotArrived(*pilot);
   }
+}
+
+void Autonomy::take(const common::ImuSample& sample) {
+  imu_watch_.add(sample);
+  if (imu_watch_.repeats()) return;
+  const bool fitted = inertial_check_.fault().empty();
+  estimator_.addImu(inertial_check_.checked(sample));
+  const std::string& fault = inertial_check_.fault();
+  if (fitted != fault.empty())
+    events_.push_back({sample.stamps.arrived, fault.empty() ? common::Severity::kInfo : common::Severity::kWarning,
+                       "imu", fault.empty() ? "the inertial samples fit again" : "inertial samples are replaced",
+                       fault});
 }
 
 /// The first scan that is left out leaves an event, all of them a figure of the run.
@@ -144,6 +156,7 @@ common::Setpoint Autonomy::tick(Time now) {
   assistPilot(flight);
   const common::Setpoint setpoint = controller_.tick(flight);
   last_thrust_ = setpoint.thrust;
+  tellInertialCheck(setpoint.thrust, flight.thrust_applies && !flight.pilot_flies);
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
@@ -151,6 +164,15 @@ common::Setpoint Autonomy::tick(Time now) {
   followMapHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;
+}
+
+void Autonomy::tellInertialCheck(double thrust, bool thrust_applies) {
+  // Where the ground may carry a part of the weight: the body stands this much lower than it flies.
+  constexpr double kNearGround_m = 0.45;
+  const FlightState state = controller_.state();
+  const bool near = estimator_.state().height_above_ground_m < kNearGround_m && state != FlightState::kFlying;
+  const double hover = config_.control.position.thrust.max_thrust / controller_.thrustMargin();
+  inertial_check_.vehicleIs({control::isAirborne(state), near, thrust_applies, thrust / hover});
 }
 
 /// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
@@ -295,6 +317,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   const double age_s = std::max(state.horizontalAge_s(now), condition.vertical_age_s);
   condition.position_measured =
       state.horizontal_valid && state.vertical_valid && age_s < config_.supervisor.unseen_hold_s;
+  if (inertial_check_.mustLand(now)) condition.sensor_lies = inertial_check_.fault();
   condition.drift_m = drift_m_;
   if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(state);
   return condition;

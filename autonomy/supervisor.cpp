@@ -86,6 +86,7 @@ bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
 const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition) {
   flight_ = condition.flight;
   blind_ = obey(now, sight_.watch(now, condition)).hold;
+  if (control::isAirborne(flight_) && !condition.sensor_lies.empty()) land(now, condition.sensor_lies);
   obey(now, energy_.watch(now, condition));
   back_ = supervision_.land ? 0 : obey(now, position_.watch(now, condition, !blind_.empty())).back;
 

@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/intent.hpp"
 
@@ -17,8 +18,8 @@ class ExplorePorts {
     return {clearancePort(),
             {.name = "bounds",
              .type = tree::PortType::kRectangle,
-             .description = "In the map frame, whose origin is the take-off pose; what lies outside is left "
-                            "unexplored. Not given: no bounds."},
+             .description = "In the map frame, whose origin is the take-off pose, or in a given map; what lies "
+                            "outside is left unexplored and is not flown to. Not given: no bounds."},
             {.name = "leave_building",
              .type = tree::PortType::kBool,
              .default_value = "false",
@@ -29,8 +30,9 @@ class ExplorePorts {
   explicit ExplorePorts(const tree::NodeSetup& setup)
       : clearance_m_(setup, "clearance_m"), bounds_(setup, "bounds"), leave_building_(setup, "leave_building") {}
 
-  /// The intent to explore in that mode, or which port has no value.
-  tl::expected<common::ExploreIntent, std::string> intent(common::FlightMode mode) const {
+  /// The intent to explore in that mode; or which port has no value, or that there are bounds in a given map whose pose
+  /// is not known.
+  tl::expected<common::ExploreIntent, std::string> intent(common::FlightMode mode, const common::World& world) const {
     const auto clearance_m = clearance_m_.get();
     if (!clearance_m) return tl::unexpected(clearance_m_.problem());
     const auto leave_building = leave_building_.get();
@@ -39,7 +41,10 @@ class ExplorePorts {
     if (bounds_.given()) {
       const auto bounds = bounds_.get();
       if (!bounds) return tl::unexpected(bounds_.problem());
-      intent.bounds = common::MapBounds{{bounds->x_min, bounds->y_min}, {bounds->x_max, bounds->y_max}};
+      const auto places = NamedPlaces::in(world);
+      if (!places) return tl::unexpected(places.error());
+      intent.bounds =
+          common::MapBounds{{bounds->x_min, bounds->y_min}, {bounds->x_max, bounds->y_max}, places->T_map_named()};
     }
     return intent;
   }

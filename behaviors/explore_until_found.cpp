@@ -30,7 +30,7 @@ Status ExploreUntilFound::act(tree::TickContext& context) {
   const auto name = name_.get();
   const auto count = count_.get();
   const auto range_m = range_m_.get();
-  const auto intent = ports_.intent(tick.mode);
+  const auto intent = ports_.intent(tick.mode, *tick.flight.world);
   if (!name) return fail(context, name_.problem());
   if (!count) return fail(context, count_.problem());
   if (!range_m) return fail(context, range_m_.problem());

@@ -14,7 +14,7 @@ tree::NodeManifest LookAround::manifest() {
 tree::Status LookAround::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   const auto range_m = range_m_.get();
-  const auto limits = ports_.intent(tick.mode);
+  const auto limits = ports_.intent(tick.mode, *tick.flight.world);
   if (!range_m) return fail(context, range_m_.problem());
   if (!limits) return fail(context, limits.error());
   see(tick, *range_m);

@@ -31,6 +31,7 @@ class NamedPlaces {
 
   /// True if the places are those of a given map.
   bool given() const { return T_map_given_.has_value(); }
+  common::Pose2 T_map_named() const { return T_map_given_.value_or(common::Pose2{}); }
   Eigen::Vector2d inMap_m(const Eigen::Vector2d& named_m) const {
     return T_map_given_ ? *T_map_given_ * named_m : named_m;
   }

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "common/flight_mode.hpp"
+#include "common/geometry.hpp"
 #include "common/polygon.hpp"
 
 namespace swiftlet::common {
@@ -23,12 +24,14 @@ struct LandIntent {};
 struct EmergencyLandIntent {};
 /// Stop and stay.
 struct HoldIntent {};
-/// A rectangle in the `map` frame.
+/// A rectangle along the axes of `map`, or of a given map.
 struct MapBounds {
-  Eigen::Vector2d min_map_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d max_map_m = Eigen::Vector2d::Zero();
-  bool contains(const Eigen::Vector2d& p) const {
-    return (p.array() >= min_map_m.array()).all() && (p.array() <= max_map_m.array()).all();
+  Eigen::Vector2d min_named_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max_named_m = Eigen::Vector2d::Zero();
+  Pose2 T_map_named;  ///< The frame of its corners: the given map, or `map` itself.
+  bool contains(const Eigen::Vector2d& point_map_m) const {
+    const Eigen::Vector2d p = T_map_named.inverse() * point_map_m;
+    return (p.array() >= min_named_m.array()).all() && (p.array() <= max_named_m.array()).all();
   }
 };
 struct ExploreIntent {

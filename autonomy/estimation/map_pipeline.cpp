@@ -17,7 +17,8 @@ MapPipeline::MapPipeline(const perception::SlamMethodConfig& config, common::Dur
       jobs_(jobs),
       slam_(makeSlam(config)),
       published_grid_(std::make_shared<common::OccupancyGrid>(slam_->snapshot())),
-      published_keys_(std::make_shared<common::KeyPoses>()) {}
+      published_keys_(std::make_shared<common::KeyPoses>()),
+      clears_left_places_(config.grid.glass_fade_scans == 1) {}
 
 MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
   covariance_since_map_ += mapped.step_covariance;
@@ -45,7 +46,9 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
 
 std::shared_ptr<const common::OccupancyGrid> MapPipeline::grid() {
   if (published_grid_version_ != grid_version_) {
-    published_grid_ = std::make_shared<common::OccupancyGrid>(slam_->snapshot());
+    auto grid = std::make_shared<common::OccupancyGrid>(slam_->snapshot());
+    vacated_.clear(*grid);
+    published_grid_ = std::move(grid);
     published_grid_version_ = grid_version_;
   }
   return published_grid_;

@@ -21,6 +21,15 @@ bool mayPass(const planning::PlanFailure& failure) {
          failure.reason != Reason::kGoalKeptOut;
 }
 
+/// A point of the path where something may stand that blocks it.
+std::optional<Eigen::Vector2d> pointAhead(const std::vector<Eigen::Vector2d>& path_map_m) {
+  constexpr double kAhead_m = 1.5;
+  if (path_map_m.empty()) return std::nullopt;
+  for (const Eigen::Vector2d& point : path_map_m)
+    if ((point - path_map_m.front()).norm() > kAhead_m) return point;
+  return path_map_m.back();
+}
+
 }  // namespace
 
 using common::Time;
@@ -49,12 +58,14 @@ std::string GoTo::reached() const {
 Progress GoTo::fly(const ManeuverInput& input) {
   if (flight_.arrived(input, place_map_m_, intent_.tolerance_m) && looksAsAsked(input.state))
     return Progress::done(reached());
+  if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());
   const bool replan = flight_.keep(input);
   if (no_path_) {
     const double patience_s = mayPass(no_path_->failure) ? setup_.config.give_up_s : kGrowing_s;
     if ((input.now - no_path_->since).seconds() > patience_s) return Progress::failed(no_path_->failure.text);
   }
   detour_.endWhenOver(input);
+  watchTheWay();
   if (!flight_.mayAsk()) return Progress::running();
   if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now)) {
     detour_.ask(input, intent_.goal_map_m);
@@ -63,6 +74,13 @@ Progress GoTo::fly(const ManeuverInput& input) {
     flight_.ask(input, GoalRequest{intent_.goal_map_m, std::max(intent_.tolerance_m, intent_.instead_within_m)});
   }
   return Progress::running();
+}
+
+/// The laser does not see behind the vehicle: one that has gone aside and waits there with its back to the blockage
+/// would never learn that the way is open.
+void GoTo::watchTheWay() {
+  const bool waits = no_path_ && !flight_.plan();
+  setup_.controller.lookAt(waits ? ahead_map_m_ : std::nullopt);
 }
 
 Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {

@@ -26,13 +26,15 @@ class GoTo final : public PathManeuver {
   std::string reached() const;
   bool looksAsAsked(const common::VehicleState& state) const;
   Progress fly(const ManeuverInput& input) override;
+  void watchTheWay();
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
 
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
-  Eigen::Vector2d place_map_m_;  ///< The goal, or the free place that is flown to instead.
-  common::Time asked_;           ///< When the path to the goal was last requested.
+  Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
+  std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.
+  common::Time asked_;                          ///< When the path to the goal was last requested.
 };
 
 }  // namespace swiftlet::autonomy

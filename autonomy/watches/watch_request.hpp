@@ -21,6 +21,8 @@ struct VehicleCondition {
   bool walls_around = true;
   /// Whether the state is valid and some sensor has just measured the position and the height.
   bool position_measured = false;
+  /// Why the vehicle must land while its other sensors hold it, for people; empty if it need not.
+  std::string sensor_lies;
 };
 
 /// The answer of a watch to one tick. Each reason is for people; it is empty if the watch does not ask for that.

@@ -35,7 +35,7 @@ struct ExplorationInput {
   common::Pose2 pose_map;
   std::optional<Viewpoint> current;  ///< The one being flown to; kept unless another is clearly better.
   std::vector<ExplorationAttempt> attempts;
-  std::optional<common::MapBounds> bounds;  ///< Frontiers outside are not explored.
+  std::optional<common::MapBounds> bounds;  ///< Frontiers outside are not explored, nor looked at from outside.
   /// Targets during whose approach the position became uncertain; frontiers near them are not explored.
   std::vector<Eigen::Vector2d> lost_map_m = {};
   /// Whether frontiers with too few walls around to know the position there are explored as well.

@@ -20,7 +20,7 @@ ExplorationResult NearestFrontierExplorer::explore(const ExplorationInput& input
   FrontierSurvey survey(input, config_);
   if (survey.shutIn()) return survey.finish(std::nullopt, false);
   const CostMap& map = survey.map();
-  const Scout scout(map, survey.field(), config_);
+  const Scout scout(map, survey.field(), config_, input.bounds ? &*input.bounds : nullptr);
   const std::vector<SeenFrontier> seen = survey.seenBy(scout);
   if (seen.empty()) return survey.finish(std::nullopt, false);
 

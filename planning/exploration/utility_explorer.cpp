@@ -30,7 +30,7 @@ class Choice {
         config_(config),
         survey_(input, config),
         map_(survey_.map()),
-        scout_(map_, survey_.field(), config) {}
+        scout_(map_, survey_.field(), config, input.bounds ? &*input.bounds : nullptr) {}
 
   ExplorationResult run() {
     if (survey_.shutIn()) return survey_.finish(std::nullopt, false);

@@ -44,10 +44,12 @@ double bestHeading(const std::array<double, kGainRays>& gains, double field_of_v
 
 }  // namespace
 
-Scout::Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config)
+Scout::Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config,
+             const common::MapBounds* bounds)
     : map_(map),
       field_(from_vehicle),
       config_(config),
+      bounds_(bounds),
       coarse_(kCoarse),
       fine_(kFine),
       gain_(kGainRays),
@@ -72,6 +74,7 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
     castRay(map_, unknown, ray, max_steps, [&](int index, int step) {
       if (map_.state(index) != CellState::kFree) return false;
       if (!field_.reached(index)) return true;
+      if (bounds_ != nullptr && !bounds_->contains(map_.centerOf(map_.cellOf(index)))) return true;
       const double distance_m = step * ray.step_cells * resolution_m;
       std::size_t ring = 0;
       while (distance_m > kRings_m[ring]) ++ring;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/intent.hpp"
 #include "planning/costs/sight.hpp"
 #include "planning/exploration/exploration_config.hpp"
 #include "planning/exploration/frontiers.hpp"
@@ -28,7 +29,9 @@ struct Lookout {
 /// Casts rays over one map. Refers to its arguments, which must outlive it. Not thread-safe.
 class Scout {
  public:
-  Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config);
+  /// Nobody looks from outside of `bounds`; null: there are none.
+  Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config,
+        const common::MapBounds* bounds);
 
   /// For each of a few rings of distance around the frontier, the place that is cheapest to reach. The nearest ring is
   /// first. Empty when no reachable place sees any of it. A line of sight passes through free cells only.
@@ -49,6 +52,7 @@ class Scout {
   const CostMap& map_;
   const CostField& field_;
   const ExplorationConfig& config_;
+  const common::MapBounds* bounds_;
   Directions coarse_;
   Directions fine_;
   Directions gain_;

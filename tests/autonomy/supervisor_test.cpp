@@ -19,7 +19,7 @@ class SupervisorStory : public testing::Test {
   }
   const Supervision& during(double t_s, common::FlightState flight) {
     return supervisor_.tick(Time::fromSeconds(t_s),
-                            {flight, energy_, vertical_age_s_, drift_m_, walls_around_, measured_});
+                            {flight, energy_, vertical_age_s_, drift_m_, walls_around_, measured_, sensor_lies_});
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
@@ -29,6 +29,7 @@ class SupervisorStory : public testing::Test {
   double drift_m_ = 0.0;
   bool walls_around_ = true;
   bool measured_ = false;
+  std::string sensor_lies_;
 };
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
@@ -279,6 +280,15 @@ TEST_F(SupervisorStory, LandPressedTwiceIsStillALandingByTheOperator) {
   EXPECT_TRUE(at(1.1).land);
   (void)supervisor_.take({2, common::LandCommand{}}, Time::fromSeconds(1.2));
   EXPECT_TRUE(supervisor_.landedByOperator());
+}
+
+TEST_F(SupervisorStory, LandsWhenASensorLiesInTheAir) {
+  sensor_lies_ = "the accelerometer contradicts the thrust";
+  EXPECT_FALSE(at(1.0, false).land) << "on the ground it does not matter";
+  EXPECT_TRUE(at(1.1).land);
+  sensor_lies_.clear();
+  EXPECT_TRUE(at(1.2).land) << "for good";
+  EXPECT_EQ(at(1.2).land_reason, "the accelerometer contradicts the thrust");
 }
 
 TEST_F(SupervisorStory, EachChangeIsAnEventWithItsReason) {

@@ -31,6 +31,23 @@ const Kind& kindOf(const Flight& flight) {
   return std::get<Kind>(flight.context.intent->kind);
 }
 
+TEST(GivenMap, BoundsOfExploreLieInTheGivenMap) {
+  Flight flight(R"(<Explore bounds="0;0;4;2"/>)");
+  placed(flight, 1.0);
+  flight.tick();
+  const auto bounds = kindOf<common::ExploreIntent>(flight).bounds;
+  ASSERT_TRUE(bounds);
+  EXPECT_TRUE(bounds->contains({0.0, 4.0})) << "(2, 1) of the given map";
+  EXPECT_FALSE(bounds->contains({2.0, 1.0}));
+}
+
+TEST(GivenMap, BoundsOfAnUnknownPlaceFail) {
+  Flight flight(R"(<Explore bounds="0;0;4;2"/>)");
+  lost(flight);
+  EXPECT_EQ(flight.tick(), "FAILED");
+  EXPECT_EQ(flight.context.intent, std::nullopt);
+}
+
 TEST(GivenMap, FollowPathPassesItsPointsThereAndFollowsTheMap) {
   Flight flight(R"(<FollowPath points="3;-1 | 3;1"/>)");
   placed(flight, 1.0);

@@ -50,8 +50,8 @@ TEST(Explore, PassesOnItsBoundsIfItHasSome) {
   flight.tick();
   const auto bounds = std::get<common::ExploreIntent>(flight.context.intent->kind).bounds;
   ASSERT_TRUE(bounds);
-  EXPECT_EQ(bounds->min_map_m, Eigen::Vector2d(-2, -1.5));
-  EXPECT_EQ(bounds->max_map_m, Eigen::Vector2d(4, 5));
+  EXPECT_EQ(bounds->min_named_m, Eigen::Vector2d(-2, -1.5));
+  EXPECT_EQ(bounds->max_named_m, Eigen::Vector2d(4, 5));
 }
 
 TEST(Localize, ExploresUntilTheVehicleIsLocalized) {

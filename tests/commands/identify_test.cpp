@@ -80,6 +80,15 @@ TEST_F(Identify, TuneRefusesAFlightWithoutTheTruth) {
   expectRefused(runSwiftlet({"tune", run, "--held-out", run}), "fusion.tsv:1:1: is no input of the filter");
 }
 
+TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {
+  const std::string run = hop("run");
+  const ProgramEnd end = runSwiftlet({"consistency", run, "--drift", path("drift.svg")});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out,
+              ContainsRegex("the integrated acceleration is off by [0-9.]+ m/s, the filter by 0\\.[0-9]+ m/s"));
+  EXPECT_THAT(readText(path("drift.svg")), HasSubstr("integrated acceleration"));
+}
+
 TEST_F(Identify, TuneSearchesGainsThatCanBeNamed) {
   const std::string out = path("found.yaml");
   const auto tune = [&](const std::vector<std::string>& more) {

@@ -165,6 +165,23 @@ TEST_F(TwoRooms, AFrontierBeyondTheBoundsIsReportedAsOutOfBounds) {
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOutOfBounds);
 }
 
+TEST_F(TwoRooms, NobodyLooksFromOutsideTheBounds) {
+  const ExplorationResult free = look(24);
+  ASSERT_TRUE(free.next);
+  ExplorationInput input;
+  input.bounds = common::MapBounds{{free.next->pose_map.x_m + 0.2, 0}, {6, 5}};
+  const ExplorationResult bounded = look(24, input);
+  ASSERT_TRUE(bounded.next);
+  EXPECT_TRUE(input.bounds->contains(bounded.next->pose_map.position_m())) << bounded.next->pose_map.x_m;
+}
+
+TEST(MapBounds, MayLieInAGivenMap) {
+  const common::MapBounds bounds{{0, 0}, {4, 2}, common::Pose2{10.0, 5.0, 0.5 * std::numbers::pi}};
+  EXPECT_TRUE(bounds.contains({9.0, 8.0}));
+  EXPECT_FALSE(bounds.contains({3.0, 1.0}));
+  EXPECT_FALSE(bounds.contains({11.0, 8.0}));
+}
+
 TEST_F(TwoRooms, AFrontierIsBlacklistedAfterEnoughLooks) {
   ExplorationInput input;
   for (int i = 0; i < ExplorationConfig{}.max_attempts; ++i) {

@@ -1,0 +1,55 @@
+// Places that something has just left. Who stands somewhere for a while is drawn into the slices of the map at every
+// height that a tilting laser meets, and a hovering vehicle, whose beams stay in one slice, would clear these only in
+// half a minute. Where level beams ended before and pass now, what stood there is gone, at every height of the hull
+// (Grzonka 2012, V-E: the vehicle follows a detour once a person has moved out of its way).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "common/geometry.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/time.hpp"
+#include "perception/projection/scan_projection.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. An obstacle that level beams never met, such as a shelf, is not affected.
+class VacatedPlaces {
+ public:
+  /// Takes in the beams of a scan. Passing beams count only while the vehicle hovers: in flight the slices are cleared
+  /// by the changing tilt. Returns true if clear() now clears other cells than before.
+  bool update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
+              const common::OccupancyGrid& grid);
+
+  /// Makes the cells of left places free.
+  void clear(common::OccupancyGrid& grid) const;
+
+ private:
+  using Cell = std::pair<int, int>;
+  /// A cell that level beams met.
+  struct Met {
+    int hits = 0;
+    common::Time seen;                         ///< When it was last met or passed.
+    std::optional<common::Time> passed_since;  ///< From when on beams have passed it and none has ended near it.
+    common::Time passed_last;
+    int passes = 0;  ///< Scans since then.
+    bool left() const;
+  };
+  struct Beams {
+    std::set<Cell> ended, passed;
+  };
+  bool hovers(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
+  Beams levelBeams(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
+                   const common::OccupancyGrid& grid, bool hovers) const;
+  bool pass(const Beams& beams, common::Time now);
+  bool meet(const Beams& beams, common::Time now);
+
+  std::map<Cell, Met> met_;
+  std::optional<common::Time> last_;
+  common::Pose2 last_pose_;
+};
+
+}  // namespace swiftlet::autonomy

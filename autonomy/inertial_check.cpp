@@ -1,0 +1,158 @@
+#include "autonomy/inertial_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "common/config_fields.hpp"
+#include "common/geometry.hpp"
+#include "common/validation.hpp"
+#include "control/thrust_table.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::ImuSample;
+using common::Time;
+using common::config::kPositive;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kPause_s = 0.1;  ///< After a pause the windows begin anew.
+
+/// The mean of `value` over the newest samples of `window` that span `span_s`; none if they do not span it yet.
+template <typename Window, typename Value>
+auto meanOver(const Window& window, double span_s, Value value) -> std::optional<decltype(value(window.back()))> {
+  auto sum = value(window.back());
+  const Time newest = window.back().sample.stamps.measured;
+  int count = 1;
+  for (auto it = std::next(window.rbegin()); it != window.rend(); ++it) {
+    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) return sum / count;
+    sum += value(*it);
+    ++count;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void InertialCheckConfig::describe(common::config::Fields& fields) {
+  fields("rate_deg_s", rate_deg_s, kPositive,
+         "Mean difference between the gyroscopes and the change of the AHRS' attitude from which they are not used.");
+  fields("rate_window_s", rate_window_s, {0.02, 1}, "Time over which rates are compared.");
+  fields("vertical_m_s2", vertical_m_s2, kPositive,
+         "Mean difference between the specific force along the rotors' axis and that of the given thrust from which "
+         "the accelerometer is not used.");
+  fields("vertical_window_s", vertical_window_s, {0.02, 1}, "Time over which forces along the axis are compared.");
+  fields("horizontal_m_s2", horizontal_m_s2, kPositive,
+         "Mean specific force across the rotors' axis from which the accelerometer is not used.");
+  fields("horizontal_window_s", horizontal_window_s, {0.02, 1},
+         "Time over which forces across the axis are averaged: longer than a push of a hand.");
+  fields("thrust_lag_s", thrust_lag_s, {0.0, 0.5}, "Lag of the thrust behind its command.");
+  fields("trusted_again_s", trusted_again_s, kPositive,
+         "Samples are used again once nothing has contradicted them for this long.");
+  fields("land_after_s", land_after_s, kPositive, "A contradiction that has lasted this long ends in a landing.");
+}
+
+std::vector<std::string> InertialCheckConfig::validate() const {
+  return common::Validation().atMost("trusted_again_s", trusted_again_s, "land_after_s", land_after_s).problems();
+}
+
+ImuSample InertialCheck::checked(const ImuSample& sample) {
+  const bool finite = sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&
+                      sample.rotation_ahrs_body.coeffs().allFinite();
+  if (!finite) return sample;
+  const Time now = sample.stamps.measured;
+  const bool continues = last_ && now > *last_ && (now - *last_).seconds() < kPause_s;
+  const double expected_m_s2 = expectedForce_m_s2(now);
+  last_ = now;
+  if (!continues || !context_.airborne) window_.clear();
+  if (!context_.airborne) {
+    rates_wrong_.reset(), force_wrong_.reset(), since_.reset();
+    fault_.clear();
+    return sample;
+  }
+  window_.push_back({sample, expected_m_s2, context_.thrust_applies && !context_.near_ground});
+  const double longest_s = std::max({config_.rate_window_s, config_.vertical_window_s, config_.horizontal_window_s});
+  while ((now - window_.front().sample.stamps.measured).seconds() > longest_s + 0.02) window_.pop_front();
+  compare(now);
+  ImuSample used = sample;
+  if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
+  // Near the ground the weight is carried, and the vehicle sinks at an even speed or stands.
+  if (force_wrong_)
+    used.specific_force_body_m_s2 = {0.0, 0.0, window_.back().known ? expected_m_s2 : control::kGravity_m_s2};
+  return used;
+}
+
+double InertialCheck::expectedForce_m_s2(Time now) {
+  const double dt_s = last_ ? std::clamp((now - *last_).seconds(), 0.0, kPause_s) : 0.0;
+  const double share = config_.thrust_lag_s > 0.0 ? 1.0 - std::exp(-dt_s / config_.thrust_lag_s) : 1.0;
+  thrust_over_hover_ += share * (context_.thrust_over_hover - thrust_over_hover_);
+  return control::kGravity_m_s2 * thrust_over_hover_;
+}
+
+/// Over the window of the rates, or as much of it as there is.
+Vector3d InertialCheck::ahrsRate_rad_s() const {
+  const ImuSample& newest = window_.back().sample;
+  auto oldest = window_.rbegin();
+  for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
+    oldest = it;
+    if ((newest.stamps.measured - it->sample.stamps.measured).seconds() > config_.rate_window_s - 1e-6) break;
+  }
+  const double span_s = (newest.stamps.measured - oldest->sample.stamps.measured).seconds();
+  if (span_s <= 0.0) return Vector3d::Zero();
+  const Eigen::AngleAxisd turned(oldest->sample.rotation_ahrs_body.conjugate() * newest.rotation_ahrs_body);
+  return turned.angle() / span_s * turned.axis();
+}
+
+void InertialCheck::compare(Time now) {
+  fault_.clear();
+  compareRates(now);
+  compareForces(now);
+  const auto forgive = [&](std::optional<Time>& wrong) {
+    if (wrong && (now - *wrong).seconds() > config_.trusted_again_s) wrong.reset();
+  };
+  forgive(rates_wrong_);
+  forgive(force_wrong_);
+  if (!rates_wrong_ && !force_wrong_) {
+    since_.reset();
+  } else {
+    if (!since_) since_ = now;
+    if (fault_.empty())
+      fault_ = fmt::format("the {} contradicted the {} a moment ago", rates_wrong_ ? "gyroscopes" : "accelerometer",
+                           rates_wrong_ ? "AHRS" : "thrust");
+  }
+}
+
+void InertialCheck::compareRates(Time now) {
+  const auto mean = meanOver(window_, config_.rate_window_s,
+                             [](const Compared& one) { return Vector3d(one.sample.angular_velocity_body_rad_s); });
+  if (!mean) return;
+  const double off_deg_s = (*mean - ahrsRate_rad_s()).norm() / common::kRadPerDeg;
+  if (off_deg_s < config_.rate_deg_s) return;
+  rates_wrong_ = now;
+  fault_ = fmt::format("the gyroscopes contradict the AHRS by {:.0f} deg/s", off_deg_s);
+}
+
+void InertialCheck::compareForces(Time now) {
+  const auto say = [&](double off_m_s2, const char* where) {
+    force_wrong_ = now;
+    fault_ = fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 {} its axis", off_m_s2, where);
+  };
+  const auto across = meanOver(window_, config_.horizontal_window_s, [](const Compared& one) {
+    return Vector3d(one.sample.specific_force_body_m_s2.x(), one.sample.specific_force_body_m_s2.y(), 0.0);
+  });
+  if (across && across->norm() > config_.horizontal_m_s2) say(across->norm(), "across");
+  const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
+  if (!known) return;
+  const auto along = meanOver(window_, config_.vertical_window_s, [](const Compared& one) {
+    return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
+  });
+  if (along && std::abs(*along) > config_.vertical_m_s2) say(std::abs(*along), "along");
+}
+
+bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > config_.land_after_s; }
+
+}  // namespace swiftlet::autonomy

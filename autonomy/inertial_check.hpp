@@ -1,0 +1,79 @@
+// Notices inertial samples that contradict the attitude of the AHRS and the thrust that was given, and puts these in
+// the place of what they contradict, so that the filter goes on with laser and height (Tomic 2012, "Action", asks for a
+// fall-back when the fusion diverges; here the fusion is kept from it).
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "common/config_fwd.hpp"
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::autonomy {
+
+struct InertialCheckConfig {
+  double rate_deg_s = 25.0;
+  double rate_window_s = 0.1;
+  double vertical_m_s2 = 3.5;
+  double vertical_window_s = 0.05;
+  double horizontal_m_s2 = 2.5;
+  double horizontal_window_s = 0.3;
+  double thrust_lag_s = 0.05;
+  double trusted_again_s = 1.0;
+  double land_after_s = 1.5;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// What the vehicle does, as far as it decides what a sample must be.
+struct InertialContext {
+  bool airborne = false;     ///< Flying, taking off or landing; on the ground nothing is compared.
+  bool near_ground = false;  ///< The ground may carry a part of the weight: the thrust says nothing.
+  bool thrust_applies = true;
+  double thrust_over_hover = 1.0;  ///< Command given over the command that carries the weight.
+};
+
+/// A rotor pushes along the body's z axis and little else acts on a slow vehicle, so the specific force along it is
+/// gravity times the share of the hover thrust, whatever the tilt, and that across it is small. The means over windows
+/// are compared: vibration is ten times as large as the bias of a good sensor. One thread.
+class InertialCheck {
+ public:
+  explicit InertialCheck(const InertialCheckConfig& config) : config_(config) {}
+
+  /// Call at each tick of the control.
+  void vehicleIs(const InertialContext& context) { context_ = context; }
+  /// The sample to be used: the same one, or one whose rates are those of the AHRS, or whose specific force is that of
+  /// the thrust. A sample that is not finite is returned as it is and counts as none.
+  common::ImuSample checked(const common::ImuSample& sample);
+  /// What contradicts what, with figures, for people; empty while all fits.
+  const std::string& fault() const { return fault_; }
+  /// The fault has lasted for land_after_s: the vehicle must come down while the other sensors hold it.
+  bool mustLand(common::Time now) const;
+
+ private:
+  struct Compared {
+    common::ImuSample sample;
+    double expected_m_s2 = 0.0;  ///< Specific force along z.
+    bool known = false;          ///< Whether the thrust says it.
+  };
+  double expectedForce_m_s2(common::Time now);
+  Eigen::Vector3d ahrsRate_rad_s() const;
+  void compare(common::Time now);
+  void compareRates(common::Time now);
+  void compareForces(common::Time now);
+
+  InertialCheckConfig config_;
+  InertialContext context_;
+  std::deque<Compared> window_;  ///< The last samples, at most as long as the longest window.
+  double thrust_over_hover_ = 1.0;
+  std::optional<common::Time> last_, since_;
+  std::optional<common::Time> rates_wrong_, force_wrong_;  ///< When they last were.
+  std::string fault_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,104 @@
+// Inertial samples that contradict the AHRS and the thrust.
+#include "autonomy/inertial_check.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "common/geometry.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::ImuSample;
+using common::Time;
+using Eigen::Vector3d;
+
+/// A vehicle that hovers, with samples at 200 Hz whose noise is that of shaking rotors.
+class InertialCheckStory : public testing::Test {
+ protected:
+  ImuSample feed(double seconds, const Vector3d& force_off_m_s2 = Vector3d::Zero(), double rate_off_rad_s = 0.0) {
+    ImuSample used;
+    for (const double end_s = now_s_ + seconds; now_s_ < end_s - 1e-9;) {
+      now_s_ += 0.005;
+      yaw_rad_ += 0.005 * turn_rad_s_;
+      const double shake = std::sin(613.0 * now_s_);
+      sample_.stamps = {Time::fromSeconds(now_s_), Time::fromSeconds(now_s_ + 0.002)};
+      sample_.angular_velocity_body_rad_s = {rate_off_rad_s, 0.01 * shake, turn_rad_s_ + rate_off_rad_s};
+      sample_.specific_force_body_m_s2 =
+          Vector3d(0.7 * shake, -0.7 * shake, 9.81 * context_.thrust_over_hover + 0.7 * shake) + force_off_m_s2;
+      sample_.rotation_ahrs_body = common::quaternionFrom({0.001 * shake, 0.0, yaw_rad_});
+      check_.vehicleIs(context_);
+      used = check_.checked(sample_);
+    }
+    return used;
+  }
+  bool mustLand() const { return check_.mustLand(Time::fromSeconds(now_s_)); }
+
+  InertialCheck check_{InertialCheckConfig{}};
+  InertialContext context_{true, false, true, 1.0};
+  ImuSample sample_;
+  double now_s_ = 0.0, yaw_rad_ = 0.0, turn_rad_s_ = 0.0;
+};
+
+TEST_F(InertialCheckStory, GoodSamplesAreUsedAsTheyAre) {
+  feed(1.0);
+  turn_rad_s_ = 1.0;
+  ImuSample used = feed(1.0);
+  EXPECT_EQ(used.angular_velocity_body_rad_s, sample_.angular_velocity_body_rad_s);
+  context_.thrust_over_hover = 1.3;
+  used = feed(1.0);
+  EXPECT_EQ(used.specific_force_body_m_s2, sample_.specific_force_body_m_s2);
+  EXPECT_EQ(check_.fault(), "");
+}
+
+TEST_F(InertialCheckStory, APushOfAHandIsMotionAndNoFault) {
+  feed(1.0);
+  feed(0.1, {4.0, 0.0, 0.0});
+  EXPECT_EQ(check_.fault(), "");
+  feed(0.3);
+  EXPECT_EQ(check_.fault(), "");
+}
+
+TEST_F(InertialCheckStory, AWrongAccelerometerIsReplacedByTheThrust) {
+  feed(1.0);
+  const ImuSample used = feed(0.08, {0.0, 0.0, 6.0});
+  EXPECT_NEAR(used.specific_force_body_m_s2.z(), 9.81, 0.3);
+  EXPECT_NE(check_.fault().find("the accelerometer contradicts the thrust by"), std::string::npos) << check_.fault();
+  EXPECT_FALSE(mustLand());
+  feed(2.0, {0.0, 0.0, 6.0});
+  EXPECT_TRUE(mustLand());
+}
+
+TEST_F(InertialCheckStory, WrongGyroscopesAreReplacedByTheAhrs) {
+  turn_rad_s_ = 0.5;
+  feed(1.0);
+  const ImuSample used = feed(0.15, Vector3d::Zero(), 1.0);
+  EXPECT_NEAR(used.angular_velocity_body_rad_s.z(), 0.5, 0.05);
+  EXPECT_NEAR(used.angular_velocity_body_rad_s.x(), 0.0, 0.05);
+  feed(0.5);
+  EXPECT_NE(check_.fault(), "") << "trusted again only after a while";
+  feed(1.0);
+  EXPECT_EQ(check_.fault(), "");
+  EXPECT_FALSE(mustLand());
+}
+
+TEST_F(InertialCheckStory, OnTheGroundAndNearItTheThrustSaysNothing) {
+  context_.near_ground = true;
+  feed(1.0);
+  feed(0.5, {0.0, 0.0, 5.0});
+  EXPECT_EQ(check_.fault(), "");
+  context_.airborne = false;
+  feed(0.5, {5.0, 0.0, 5.0}, 2.0);
+  EXPECT_EQ(check_.fault(), "");
+}
+
+TEST_F(InertialCheckStory, WhatIsNotFiniteCountsAsNone) {
+  feed(1.0);
+  feed(0.1, {NAN, 0.0, 0.0});
+  feed(0.1);
+  EXPECT_EQ(check_.fault(), "");
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
