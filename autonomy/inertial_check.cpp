@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -36,6 +37,22 @@ auto meanOver(const Window& window, double span_s, Value value) -> std::optional
   return std::nullopt;
 }
 
+/// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
+/// than half of that leaves it as it is.
+template <typename Window>
+std::optional<double> medianOver(const Window& window, double span_s, int component) {
+  const Time newest = window.back().sample.stamps.measured;
+  if ((newest - window.front().sample.stamps.measured).seconds() < span_s - 1e-6) return std::nullopt;
+  std::vector<double> values;
+  for (auto it = window.rbegin(); it != window.rend(); ++it) {
+    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) break;
+    values.push_back(it->sample.specific_force_body_m_s2[component]);
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 void InertialCheckConfig::describe(common::config::Fields& fields) {
@@ -43,13 +60,13 @@ void InertialCheckConfig::describe(common::config::Fields& fields) {
          "Mean difference between the gyroscopes and the change of the AHRS' attitude from which they are not used.");
   fields("rate_window_s", rate_window_s, {0.02, 1}, "Time over which rates are compared.");
   fields("vertical_m_s2", vertical_m_s2, kPositive,
-         "Mean difference between the specific force along the rotors' axis and that of the given thrust from which "
-         "the accelerometer is not used.");
+         "Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is "
+         "not used; less force than that is a vehicle that sinks.");
   fields("vertical_window_s", vertical_window_s, {0.02, 1}, "Time over which forces along the axis are compared.");
   fields("horizontal_m_s2", horizontal_m_s2, kPositive,
-         "Mean specific force across the rotors' axis from which the accelerometer is not used.");
+         "Median specific force across the rotors' axis from which the accelerometer is not used.");
   fields("horizontal_window_s", horizontal_window_s, {0.02, 1},
-         "Time over which forces across the axis are averaged: longer than a push of a hand.");
+         "Time over which the median of forces across the axis is taken: more than twice that of a push of a hand.");
   fields("thrust_lag_s", thrust_lag_s, {0.0, 0.5}, "Lag of the thrust behind its command.");
   fields("trusted_again_s", trusted_again_s, kPositive,
          "Samples are used again once nothing has contradicted them for this long.");
@@ -141,16 +158,16 @@ void InertialCheck::compareForces(Time now) {
     force_wrong_ = now;
     fault_ = fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 {} its axis", off_m_s2, where);
   };
-  const auto across = meanOver(window_, config_.horizontal_window_s, [](const Compared& one) {
-    return Vector3d(one.sample.specific_force_body_m_s2.x(), one.sample.specific_force_body_m_s2.y(), 0.0);
-  });
-  if (across && across->norm() > config_.horizontal_m_s2) say(across->norm(), "across");
+  const auto x = medianOver(window_, config_.horizontal_window_s, 0),
+             y = medianOver(window_, config_.horizontal_window_s, 1);
+  if (x && y && std::hypot(*x, *y) > config_.horizontal_m_s2) say(std::hypot(*x, *y), "across");
   const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
   if (!known) return;
   const auto along = meanOver(window_, config_.vertical_window_s, [](const Compared& one) {
     return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
   });
-  if (along && std::abs(*along) > config_.vertical_m_s2) say(std::abs(*along), "along");
+  // Less force than the thrust gives is a vehicle that sinks: a motor or a battery gives way. More cannot be.
+  if (along && *along > config_.vertical_m_s2) say(*along, "along");
 }
 
 bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > config_.land_after_s; }

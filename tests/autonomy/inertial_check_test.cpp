@@ -54,7 +54,7 @@ TEST_F(InertialCheckStory, GoodSamplesAreUsedAsTheyAre) {
 
 TEST_F(InertialCheckStory, APushOfAHandIsMotionAndNoFault) {
   feed(1.0);
-  feed(0.1, {4.0, 0.0, 0.0});
+  feed(0.1, {15.0, 0.0, 0.0});
   EXPECT_EQ(check_.fault(), "");
   feed(0.3);
   EXPECT_EQ(check_.fault(), "");
@@ -68,6 +68,13 @@ TEST_F(InertialCheckStory, AWrongAccelerometerIsReplacedByTheThrust) {
   EXPECT_FALSE(mustLand());
   feed(2.0, {0.0, 0.0, 6.0});
   EXPECT_TRUE(mustLand());
+}
+
+TEST_F(InertialCheckStory, AVehicleThatLosesThrustIsBelieved) {
+  feed(1.0);
+  const ImuSample used = feed(1.0, {0.0, 0.0, -4.4});
+  EXPECT_EQ(used.specific_force_body_m_s2, sample_.specific_force_body_m_s2);
+  EXPECT_EQ(check_.fault(), "");
 }
 
 TEST_F(InertialCheckStory, WrongGyroscopesAreReplacedByTheAhrs) {

@@ -161,7 +161,7 @@ TEST_F(TwoRooms, ACrackIsReportedAsTooSmall) {
 
 TEST_F(TwoRooms, AFrontierBeyondTheBoundsIsReportedAsOutOfBounds) {
   ExplorationInput input;
-  input.bounds = common::MapBounds{{0, 0}, {4.5, 5}};
+  input.bounds = common::MapBounds{{0, 0}, {4.5, 5}, {}};
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOutOfBounds);
 }
 
@@ -169,7 +169,7 @@ TEST_F(TwoRooms, NobodyLooksFromOutsideTheBounds) {
   const ExplorationResult free = look(24);
   ASSERT_TRUE(free.next);
   ExplorationInput input;
-  input.bounds = common::MapBounds{{free.next->pose_map.x_m + 0.2, 0}, {6, 5}};
+  input.bounds = common::MapBounds{{free.next->pose_map.x_m + 0.2, 0}, {6, 5}, {}};
   const ExplorationResult bounded = look(24, input);
   ASSERT_TRUE(bounded.next);
   EXPECT_TRUE(input.bounds->contains(bounded.next->pose_map.position_m())) << bounded.next->pose_map.x_m;
