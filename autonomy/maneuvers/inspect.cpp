@@ -15,7 +15,7 @@ constexpr int kPlaces = 24;
 /// Passing a place this near counts, and the vehicle is on its circle.
 constexpr double kOnCircle_m = 0.15;
 /// From then on the vehicle may leave its first place.
-constexpr double kTurned_rad = 3.0 * common::kRadPerDeg;
+constexpr double kFacesPoint_rad = 3.0 * common::kRadPerDeg;
 
 /// The height of the body from which the camera's axis meets the point.
 double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pose3& T_body_camera) {
@@ -62,7 +62,7 @@ bool Inspect::ready(const ManeuverInput& input) {
   if (passed() != 1) return true;
   const Eigen::Vector2d look = intent_.point_map_m - input.position_map_m();
   return std::abs(common::wrapAngle(std::atan2(look.y(), look.x()) - input.state.T_map_body_planar().yaw_rad)) <
-         kTurned_rad;
+         kFacesPoint_rad;
 }
 
 }  // namespace swiftlet::autonomy
