@@ -265,8 +265,8 @@ perception::ProjectedScan Estimator::project(const common::LaserScan& scan) cons
   return laser_.project(scan, [&](Time t) { return history.at(t).value_or(newest); });
 }
 
-/// Points on a moving person bias the match, so points where the tracker predicts people are removed. A position that is
-/// known less well than the tolerance of that comparison tells nothing: what the map does not explain may be a wall.
+/// Points on a moving person bias the match, so points where the tracker predicts people are removed. A position that
+/// is known less well than the tolerance of that comparison tells nothing: what the map does not explain may be a wall.
 perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedScan& scan, Time measured) const {
   if (drift_m_ > explained_within_m_) return scan;
   return perception::withoutPeople(people_.expectedAt(measured), map_.T_map_odom() * planar(scan.T_odom_body), scan);
