@@ -28,7 +28,7 @@ bool isInside(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector
 Eigen::Vector3d nearestPoint(const std::array<Eigen::Vector3d, 3>& triangle_m, const Eigen::Vector3d& point_m) {
   const Eigen::Vector3d normal = (triangle_m[1] - triangle_m[0]).cross(triangle_m[2] - triangle_m[0]);
   if (const double squared = normal.squaredNorm(); squared > 0.0) {
-    const Eigen::Vector3d projected = point_m - normal * (normal.dot(point_m - triangle_m[0]) / squared);
+    Eigen::Vector3d projected = point_m - normal * (normal.dot(point_m - triangle_m[0]) / squared);
     if (isInside(triangle_m, normal, projected)) return projected;
   }
   Eigen::Vector3d nearest = triangle_m[0];

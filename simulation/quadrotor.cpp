@@ -218,7 +218,7 @@ void Quadrotor::push(const Vector3d& impulse_world_n_s) {
 
 Vector3d Quadrotor::takePush(double step_s) {
   if (push_left_s_ <= 0.0) return Vector3d::Zero();
-  const Vector3d force = push_world_n_s_ / std::max(push_left_s_, step_s);
+  Vector3d force = push_world_n_s_ / std::max(push_left_s_, step_s);
   push_world_n_s_ -= step_s * force;
   push_left_s_ -= step_s;
   return force;

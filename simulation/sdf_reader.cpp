@@ -168,7 +168,7 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
     sorted.warnings.push_back(toString(problem));
   }
   // These are echoes: the original message was printed, with its line.
-  if (sorted.problems.empty() && first_echo != nullptr && !(sorted.warnings.size() > 0 && console.empty())) {
+  if (sorted.problems.empty() && first_echo != nullptr && (sorted.warnings.empty() || !console.empty())) {
     std::string message = trimmed(first_echo->Message());
     for (const std::string& line : console) message += ": " + line;
     sorted.problems.push_back({locate(*first_echo, file, text), "", message, ""});

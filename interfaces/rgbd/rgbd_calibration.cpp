@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/config_fields.hpp"
+#include "common/row_major.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -49,12 +50,13 @@ Image undistorted(const LensCalibration& lens, const PinholeCamera& camera, cons
       if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image.width_px - 1 && at.y() < image.height_px - 1)) continue;
       const auto left = static_cast<int>(at.x()), top = static_cast<int>(at.y());
       const double fu = at.x() - left, fv = at.y() - top;
-      const std::uint8_t* upper = image.rgb.data() + top * row_bytes + 3 * left;
+      const std::uint8_t* upper =
+          image.rgb.data() + static_cast<std::ptrdiff_t>(top) * row_bytes + static_cast<std::ptrdiff_t>(3) * left;
       const std::uint8_t* lower = upper + row_bytes;
       for (int c = 0; c < 3; ++c) {
         const double above = upper[c] + fu * (upper[c + 3] - upper[c]),
                      below = lower[c] + fu * (lower[c + 3] - lower[c]);
-        out[c] = static_cast<std::uint8_t>(above + fv * (below - above) + 0.5);
+        out[c] = static_cast<std::uint8_t>(std::lround(above + fv * (below - above)));
       }
     }
   return straight;
@@ -67,9 +69,9 @@ DepthImage undistorted(const LensCalibration& lens, const PinholeCamera& camera,
   for (int v = 0; v < depth.height_px; ++v)
     for (int u = 0; u < depth.width_px; ++u, ++i) {
       const Eigen::Vector2d at = distorted(lens, camera, u, v);
-      if (!(at.x() >= -0.5 && at.y() >= -0.5 && at.x() < depth.width_px - 0.5 && at.y() < depth.height_px - 0.5))
+      if (!(at.x() > -0.5 && at.y() > -0.5 && at.x() < depth.width_px - 0.5 && at.y() < depth.height_px - 0.5))
         continue;
-      straight.depth_m[i] = depth.at(static_cast<int>(at.x() + 0.5), static_cast<int>(at.y() + 0.5));
+      straight.depth_m[i] = depth.at(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())));
     }
   return straight;
 }
@@ -112,8 +114,8 @@ DepthImage registered(const DepthImage& depth, const PinholeCamera& depth_camera
       if (!(left >= 0.0 && top >= 0.0 && left + size_px <= seen.width_px && top + size_px <= seen.height_px)) continue;
       for (int dv = 0; dv < size_px; ++dv)
         for (int du = 0; du < size_px; ++du) {
-          float& there = seen.depth_m[static_cast<std::size_t>((static_cast<int>(top) + dv) * seen.width_px +
-                                                               static_cast<int>(left) + du)];
+          float& there =
+              seen.depth_m[common::rowMajor(static_cast<int>(top) + dv, seen.width_px, static_cast<int>(left) + du)];
           if (there == DepthImage::kUnknown || point.x() < static_cast<double>(there))
             there = static_cast<float>(point.x());
         }

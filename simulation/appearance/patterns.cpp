@@ -8,6 +8,7 @@
 
 #include "common/check.hpp"
 #include "common/random.hpp"
+#include "common/row_major.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -37,9 +38,7 @@ class GridNoise {
     const float share = static_cast<float>(offset) / static_cast<float>(cell);
     return share * share * (3.0F - 2.0F * share);
   }
-  float node(int column, int row) const {
-    return values_[static_cast<std::size_t>((row % rows_) * columns_ + column % columns_)];
-  }
+  float node(int column, int row) const { return values_[common::rowMajor(row % rows_, columns_, column % columns_)]; }
   int columns_, rows_;
   std::vector<float> values_;
 };
@@ -70,7 +69,7 @@ class Canvas {
   Texture take() { return {kSide, std::move(texels_)}; }
 
  private:
-  Texel& at(int x, int y) { return texels_[static_cast<std::size_t>((y & (kSide - 1)) * kSide + (x & (kSide - 1)))]; }
+  Texel& at(int x, int y) { return texels_[common::rowMajor(y & (kSide - 1), kSide, x & (kSide - 1))]; }
 
   std::string name_;
   std::uint64_t variant_;
@@ -94,7 +93,7 @@ void drawWood(Canvas& canvas) {
   canvas.fill([&](int x, int y) {
     const int row = y / kPlank, shifted = (x + (row % 3) * kLength / 3) % kSide;
     if (y % kPlank == 0 || shifted % kLength == 0) return 0.45F;
-    const float plank = tone[static_cast<std::size_t>(2 * row + shifted / kLength)];
+    const float plank = tone[common::rowMajor(row, 2, shifted / kLength)];
     return plank * (1.0F + 0.18F * figure.at(x, y) + 0.10F * grain.at(x, y));
   });
 }
@@ -110,7 +109,7 @@ void drawBrick(Canvas& canvas) {
     const int row = y / kHeight, shifted = (x + (row % 2) * kLength / 2) % kSide;
     const float rough = 1.0F + 0.08F * grain.at(x, y);
     if (y % kHeight < kJoint || shifted % kLength < kJoint) return 1.45F * rough;
-    return tone[static_cast<std::size_t>(8 * row + shifted / kLength)] * rough;
+    return tone[common::rowMajor(row, 8, shifted / kLength)] * rough;
   });
 }
 
@@ -122,8 +121,7 @@ void drawCarpet(Canvas& canvas) {
   std::array<float, 64> tone{};
   for (float& one : tone) one = static_cast<float>(random.uniform(0.7, 1.3));
   canvas.fill([&](int x, int y) {
-    return tone[static_cast<std::size_t>(8 * (y / kSquare) + x / kSquare)] * (1.0F + 0.2F * weave.at(x, y)) +
-           0.08F * wear.at(x, y);
+    return tone[common::rowMajor(y / kSquare, 8, x / kSquare)] * (1.0F + 0.2F * weave.at(x, y)) + 0.08F * wear.at(x, y);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "common/check.hpp"
+#include "common/row_major.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -15,14 +16,14 @@ std::vector<Texel> halved(const std::vector<Texel>& texels, int side) {
   std::vector<Texel> smaller(static_cast<std::size_t>(half) * static_cast<std::size_t>(half));
   for (int row = 0; row < half; ++row)
     for (int column = 0; column < half; ++column) {
-      const Texel* top = &texels[static_cast<std::size_t>(2 * row * side + 2 * column)];
+      const Texel* top = &texels[common::rowMajor(2 * row, side, 2 * column)];
       const Texel* bottom = top + side;
       const auto mean = [&](std::uint8_t Texel::*channel) {
         return static_cast<std::uint8_t>(
             (top[0].*channel + top[1].*channel + bottom[0].*channel + bottom[1].*channel + 2) / 4);
       };
-      smaller[static_cast<std::size_t>(row * half + column)] = {mean(&Texel::red), mean(&Texel::green),
-                                                                mean(&Texel::blue), mean(&Texel::paint)};
+      smaller[common::rowMajor(row, half, column)] = {mean(&Texel::red), mean(&Texel::green), mean(&Texel::blue),
+                                                      mean(&Texel::paint)};
     }
   return smaller;
 }

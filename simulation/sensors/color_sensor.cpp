@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/random.hpp"
+#include "common/row_major.hpp"
 #include "simulation/sensors/pixel_noise.hpp"
 
 namespace swiftlet::simulation {
@@ -49,7 +50,7 @@ void ColorSensor::blur(const SeenImage& seen) {
       for (int i = 0; i < samples; ++i, x += step_px.x(), y += step_px.y()) {
         const int column = std::clamp(static_cast<int>(x), 0, seen.width_px - 1);
         const int row = std::clamp(static_cast<int>(y), 0, seen.height_px - 1);
-        sum += seen.light[static_cast<std::size_t>(row * seen.width_px + column)];
+        sum += seen.light[common::rowMajor(row, seen.width_px, column)];
       }
       blurred_[pixel] = sum * per_sample;
     }

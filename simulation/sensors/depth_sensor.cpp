@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/random.hpp"
+#include "common/row_major.hpp"
 #include "simulation/sensors/pixel_noise.hpp"
 
 namespace swiftlet::simulation {
@@ -43,7 +44,7 @@ common::DepthImage DepthSensor::measure(std::uint64_t number, const SeenImage& s
 void DepthSensor::dropShadows(const SeenImage& seen, std::vector<float>& depth_m) const {
   const auto disparity_px_m = static_cast<float>(config_.camera().fx_px * config_.baseline_m);
   for (int v = 0; v < seen.height_px; ++v) {
-    const auto row = static_cast<std::size_t>(v * seen.width_px);
+    const std::size_t row = common::rowMajor(v, seen.width_px, 0);
     float leftmost_px = std::numeric_limits<float>::infinity();
     for (int u = seen.width_px - 1; u >= 0; --u) {
       const std::size_t pixel = row + static_cast<std::size_t>(u);
@@ -77,7 +78,7 @@ void DepthSensor::addNoise(std::uint64_t number, std::vector<float>& depth_m) co
   constexpr float kMost = 1e8F;
   const auto rounded = [](float value, float step) {
     const float count = value / step;
-    return step > 0.0F && count < kMost ? step * static_cast<float>(static_cast<int>(count + 0.5F)) : value;
+    return step > 0.0F && count < kMost ? step * static_cast<float>(std::lround(count)) : value;
   };
   for (float& depth : depth_m) {
     const float inverse_1_m = rounded(std::max(0.0F, 1.0F / depth + bias_1_m + noise.next()), step_1_m);

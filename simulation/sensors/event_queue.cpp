@@ -24,7 +24,8 @@ void EventQueue::send(Sensor sensor, std::uint64_t frame, common::Time ready, Se
   const auto index = static_cast<std::size_t>(sensor);
   auto arrived = links_[index].arrival(frame, ready);
   if (!arrived) return;
-  event = restamped(std::move(event), {stampsOf(event).measured, *arrived});
+  const common::Time measured = stampsOf(event).measured;
+  event = restamped(std::move(event), {measured, *arrived});
   if (const FaultConfig* fault = faults_.of(sensor, stampsOf(event).measured)) {
     auto faulty = withFault(*fault, event, last_good_[index], laser_);
     if (!faulty) return;
