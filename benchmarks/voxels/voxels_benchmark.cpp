@@ -24,9 +24,6 @@ struct View {
   common::DepthImage depth;
 };
 
-/// The Xtion of config/sensors.
-common::PinholeCamera camera() { return {320, 240, 288.65, 288.65, 159.5, 119.5}; }
-
 /// A flight through a room with boxes, a view each few degrees.
 std::vector<View> flight(unsigned seed) {
   std::mt19937 random(seed);
@@ -35,20 +32,20 @@ std::vector<View> flight(unsigned seed) {
   std::vector<View> views;
   for (int i = 0; i < kFrames; ++i) {
     const Eigen::Quaterniond turned = common::quaternionFrom({0.02, 0.1, 0.157 * i});
-    views.push_back({{turned, pose.position_m}, {}});
-    views.back().depth = depthImage(room, camera(), views.back().T_map_camera, random, 0.05, 0.0);
+    const common::Pose3 T_room_camera{turned, pose.position_m};
+    views.push_back({T_map_room * T_room_camera, depthImage(room, xtion(), T_room_camera, random, 0.05, 0.0)});
   }
   return views;
 }
 
 octomap::Pointcloud cloudOf(const View& view) {
   octomap::Pointcloud cloud;
-  for (int v = 0; v < camera().height_px; ++v)
-    for (int u = 0; u < camera().width_px; ++u) {
+  for (int v = 0; v < xtion().height_px; ++v)
+    for (int u = 0; u < xtion().width_px; ++u) {
       const float depth_m = view.depth.at(u, v);
       if (!common::isMeasured(depth_m)) continue;
       const Eigen::Vector3f point_m =
-          (view.T_map_camera * camera().point_camera_m(u, v, static_cast<double>(depth_m))).cast<float>();
+          (view.T_map_camera * xtion().point_camera_m(u, v, static_cast<double>(depth_m))).cast<float>();
       cloud.push_back(point_m.x(), point_m.y(), point_m.z());
     }
   return cloud;
@@ -62,7 +59,7 @@ void swiftletVoxels(benchmark::State& state) {
   std::size_t bytes = 0;
   for (auto _ : state) {
     VoxelMapper mapper(config);
-    for (const View& view : views) mapper.insert(view.depth, camera(), view.T_map_camera);
+    for (const View& view : views) mapper.insert(view.depth, xtion(), view.T_map_camera);
     bytes = mapper.map().bytes();
   }
   state.counters["MB"] = static_cast<double>(bytes) * 1e-6;

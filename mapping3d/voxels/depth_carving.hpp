@@ -15,12 +15,11 @@ namespace swiftlet::mapping3d {
 
 /// A depth image has many more rays than it has voxels in its view, so cubes of voxels are projected into the image
 /// instead of walking along each ray, from coarse to fine, as wavemap does (Reijgwart et al. 2023, section IV). A cube
-/// is decided as a whole where all rays that may meet it end beyond it (each voxel is crossed, since the rays are close
-/// enough together) or before it (none is). What remains are single voxels, each decided by
-///   1. rays through the ball within it, of which the deepest ends beyond the voxel: crossed,
-///   2. rays that may meet it, of which the deepest ends before the voxel: not crossed,
-///   3. otherwise each of the rays of 2 by itself.
-/// The result is that of walking along each ray. One thread.
+/// is decided as a whole where all rays that may meet it end beyond it (each voxel is crossed) or before it (none is).
+/// Where cubes of 4 x 4 x 4 voxels are not, a voxel counts as crossed if the deepest ray through a square in its
+/// middle, about as wide as the voxel, goes on beyond it. Rays that only touch a corner of a voxel may be missed, and
+/// pixels are looked at in groups where a voxel spans several: tests compare the result with that of walking along each
+/// ray. One thread.
 class DepthCarving {
  public:
   DepthCarving(double range_max_m, double resolution_m);
@@ -31,7 +30,7 @@ class DepthCarving {
              ScanWindow& window);
 
  private:
-  /// Pixels of the image; empty: last < first.
+  /// Groups of the image; empty: last < first.
   struct Rectangle {
     int u_first, v_first, u_last, v_last;
     bool cut = false;  ///< Whether parts of it lie outside the image.
@@ -39,13 +38,12 @@ class DepthCarving {
   };
   enum class Crossed { kNone, kSome, kAll };
 
+  void follow(const common::PinholeCamera& camera, const common::Pose3& T_map_camera);
   void carveNear(ScanWindow& window) const;
-  void carveCube(common::VoxelIndex first, int side, const Eigen::Vector3f& center_camera_m, VoxelBits& crossed) const;
+  void carveBlock(const Eigen::Vector3f& center_camera_m, VoxelBits& crossed) const;
+  void carveVoxels(int offset, const Eigen::Vector3f& center_camera_m, VoxelBits& crossed) const;
   Crossed cubeCrossed(int side, const Eigen::Vector3f& center_camera_m) const;
-  bool voxelCrossed(common::VoxelIndex voxel, const Eigen::Vector3f& center_camera_m) const;
-  bool anyRayCrosses(common::VoxelIndex voxel, const Rectangle& pixels, float nearest_m) const;
-  Rectangle pixelsOf(int side, const Eigen::Vector3f& center_camera_m) const;
-  Rectangle pixelsAround(float u, float v, float half_u_px, float half_v_px) const;
+  Rectangle groupsOf(int side, const Eigen::Vector3f& center_camera_m) const;
 
   double range_max_m_;
   double resolution_m_;
@@ -53,13 +51,16 @@ class DepthCarving {
 
   // Of the present image:
   common::PinholeCamera camera_;
-  float fx_px_ = 0, fy_px_ = 0, cx_px_ = 0, cy_px_ = 0;
+  int group_px_ = 1;  ///< Pixels are looked at in squares of this side.
+  int width_ = 0, height_ = 0;
+  float fu_ = 0, fv_ = 0, cu_ = 0, cv_ = 0;  ///< Of the image of groups.
   Eigen::Vector3d origin_map_m_;
   Eigen::Matrix3d rotation_map_camera_;
   Eigen::Matrix3f rotation_camera_map_;
-  Eigen::Vector3f half_extent_m_;  ///< Half of the extent of a voxel along the axes of the camera.
-  float dense_m_ = 0;              ///< Up to this depth the rays are close enough to cross every voxel.
-  DepthPyramid deepest_;           ///< Of the depths up to which rays are free.
+  Eigen::Vector3f half_extent_m_;                  ///< Half of the extent of a voxel along the axes of the camera.
+  Eigen::Array2f first_ray_, last_ray_;            ///< Of the outermost pixels, in groups.
+  Eigen::Array2f beside_first_m_, beside_last_m_;  ///< Divided by the depth: how far beside them a voxel may lie.
+  DepthPyramid deepest_;                           ///< Of the depths up to which rays are free.
   DepthPyramid shallowest_;
 };
 

@@ -5,6 +5,8 @@
 #include <bit>
 #include <vector>
 
+#include "common/row_major.hpp"
+
 namespace swiftlet::mapping3d {
 
 /// Level k holds, for each pixel, the least or the greatest value of the square of side 2^k whose top left it is;
@@ -16,19 +18,24 @@ class DepthPyramid {
   /// Squares have sides of up to `side_max`.
   DepthPyramid(Of of, int side_max);
 
-  /// Another image, row by row. The memory of the last one is used again.
-  void build(const std::vector<float>& image_m, int width_px, int height_px);
+  /// Another image, row by row, of which each square of `group_px` by `group_px` pixels (1 or 2) is one here. The
+  /// memory of the last one is used again.
+  void build(const std::vector<float>& image_m, int width_px, int height_px, int group_px);
 
-  float at(int u, int v) const { return levels_.front()[index(u, v)]; }
-
-  /// The value of a square within [u_first, u_last] x [v_first, v_last], which must be pixels of the image and not
-  /// empty. Its corner is the first pixel, and its side at least half of the rectangle's shorter one up to `side_max`.
-  float inSquareWithin(int u_first, int v_first, int u_last, int v_last) const {
-    const int level = levelOf(std::min(u_last - u_first, v_last - v_first) + 1);
-    return levels_[static_cast<std::size_t>(level)][index(u_first, v_first)];
+  /// The squares of one side.
+  struct Squares {
+    const float* values;
+    int width;
+    int side;
+    float at(int u, int v) const { return values[v * width + u]; }
+  };
+  /// Those of the greatest side that is not above this one, which must be at least 1.
+  Squares squaresOf(int side) const {
+    const int level = levelOf(side);
+    return {levels_[static_cast<std::size_t>(level)].data(), width_px_, 1 << level};
   }
 
-  /// The value of the rectangle, under the same conditions.
+  /// The value of the rectangle [u_first, u_last] x [v_first, v_last], which must be pixels of the image and not empty.
   float inRectangle(int u_first, int v_first, int u_last, int v_last) const {
     const int level = levelOf(std::min(u_last - u_first, v_last - v_first) + 1), side = 1 << level;
     const std::vector<float>& squares = levels_[static_cast<std::size_t>(level)];
@@ -44,9 +51,9 @@ class DepthPyramid {
   }
 
  private:
-  std::size_t index(int u, int v) const {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px_) + static_cast<std::size_t>(u);
-  }
+  template <typename MoreExtreme>
+  void buildWith(const std::vector<float>& image_m, int width_px, int height_px, int group_px, MoreExtreme extreme);
+  std::size_t index(int u, int v) const { return common::rowMajor(v, width_px_, u); }
   int levelOf(int side) const {
     const auto level = static_cast<int>(std::bit_width(static_cast<unsigned>(side))) - 1;
     return std::min(level, static_cast<int>(levels_.size()) - 1);

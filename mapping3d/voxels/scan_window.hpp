@@ -14,6 +14,13 @@ namespace swiftlet::mapping3d {
 class VoxelBits {
  public:
   void set(int offset) { words_[static_cast<std::size_t>(offset >> 6)] |= std::uint64_t{1} << (offset & 63); }
+  void setAll() { words_.fill(~std::uint64_t{0}); }
+  /// Sets those of four voxels in a row along x whose bit is set in `four`; the first is at `offset`, a multiple of 4.
+  void setFour(int offset, unsigned four) {
+    words_[static_cast<std::size_t>(offset >> 6)] |= std::uint64_t{four} << (offset & 63);
+  }
+  /// The voxels of a layer: x varies fastest, then y.
+  std::uint64_t layer(int z) const { return words_[static_cast<std::size_t>(z)]; }
   bool has(int offset) const { return (words_[static_cast<std::size_t>(offset >> 6)] >> (offset & 63) & 1) != 0; }
   bool any() const {
     std::uint64_t all = 0;

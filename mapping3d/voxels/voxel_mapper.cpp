@@ -1,7 +1,9 @@
 #include "mapping3d/voxels/voxel_mapper.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "common/check.hpp"
@@ -16,15 +18,46 @@ using common::VoxelMap;
 
 int steps(double log_odds) { return static_cast<int>(std::lround(log_odds / VoxelMap::kLogOddsStep)); }
 
-/// Much faster than std::floor, which is a call without newer instructions than those of every x86-64.
-int roundedDown(double number) {
-  const int towards_zero = static_cast<int>(number);
-  return towards_zero - (static_cast<double>(towards_zero) > number ? 1 : 0);
+constexpr int kLayer = VoxelBlock::kSide * VoxelBlock::kSide;
+using Layer = std::array<std::int8_t, kLayer>;
+using Row = std::array<std::int8_t, VoxelBlock::kSide>;
+
+/// All bits of those voxels of a row whose bit is set in the index.
+constexpr std::array<Row, 256> kRowMasks = [] {
+  std::array<Row, 256> masks{};
+  for (std::size_t bits = 0; bits < masks.size(); ++bits)
+    for (std::size_t x = 0; x < masks[bits].size(); ++x)
+      masks[bits][x] = (bits >> x & 1U) != 0 ? std::int8_t{-1} : std::int8_t{0};
+  return masks;
+}();
+
+Layer maskOf(std::uint64_t layer) {
+  Layer mask;
+  for (int y = 0; y < VoxelBlock::kSide; ++y)
+    std::memcpy(&mask[static_cast<std::size_t>(VoxelBlock::kSide * y)],
+                kRowMasks[layer >> (VoxelBlock::kSide * y) & 0xFFU].data(), VoxelBlock::kSide);
+  return mask;
 }
 
 bool isOnPerson(const Eigen::Vector3d& point_map_m, std::span<const common::Disc> people) {
   return std::any_of(people.begin(), people.end(),
                      [&](const common::Disc& person) { return person.covers(point_map_m.head<2>()); });
+}
+
+/// What ends on a person is no surface.
+constexpr int kOnPerson = -3;
+
+void leaveOut(std::span<const common::Disc> people, const common::PinholeCamera& camera,
+              const common::Pose3& T_map_camera, int u, int v, int count, const float* depth_m,
+              DepthEnds::Chunk& chunk) {
+  const Eigen::Matrix3d rotation = T_map_camera.rotation.toRotationMatrix();
+  for (int i = 0; i < count; ++i) {
+    int& x = chunk.x[static_cast<std::size_t>(i)];
+    if (x < 0) continue;
+    const Eigen::Vector3d end_map_m =
+        T_map_camera.position_m + rotation * camera.point_camera_m(u + i, v, static_cast<double>(depth_m[i]));
+    if (isOnPerson(end_map_m, people)) x = kOnPerson;
+  }
 }
 
 }  // namespace
@@ -50,33 +83,16 @@ InsertionCounts VoxelMapper::insert(const common::DepthImage& depth, const commo
   window_.moveTo(map_.voxelAt(T_map_camera.position_m));
   followCamera(camera);
   InsertionCounts counts;
-  free_m_.assign(depth.depth_m.size(), 0.0F);
-  // In voxels, so that the numbers of a point's voxel are those of its coordinates rounded down.
-  const Eigen::Matrix3d rotation = T_map_camera.rotation.toRotationMatrix() / config_.resolution_m;
-  const Eigen::Vector3d origin = T_map_camera.position_m / config_.resolution_m;
-  VoxelIndex last_hit{};
-  std::size_t pixel = 0;
+  free_m_.resize(depth.depth_m.size());
+  const DepthEnds ends(camera, T_map_camera, VoxelMap::firstOf(window_.first()), config_.resolution_m);
+  DepthEnds::Chunk chunk;
   for (int v = 0; v < camera.height_px; ++v) {
-    for (int u = 0; u < camera.width_px; ++u, ++pixel) {
-      const float depth_m = depth.depth_m[pixel];
-      const bool too_far = depth_m == common::DepthImage::kTooFar;
-      if (!too_far && !common::isMeasured(depth_m)) {
-        ++counts.unknown;
-        continue;
-      }
-      free_m_[pixel] = std::min(depth_m, range_depths_m_[pixel]);
-      if (depth_m > range_depths_m_[pixel]) {
-        ++counts.too_far;
-        continue;
-      }
-      const Eigen::Vector3d end = origin + rotation * camera.point_camera_m(u, v, static_cast<double>(depth_m));
-      const bool on_person = isOnPerson(end * config_.resolution_m, people);
-      ++(on_person ? counts.ignored : counts.hits);
-      if (on_person) continue;
-      // Neighbouring pixels mostly end in the same voxel.
-      const VoxelIndex hit{roundedDown(end.x()), roundedDown(end.y()), roundedDown(end.z())};
-      if (counts.hits == 1 || hit != last_hit) markHit(hit);
-      last_hit = hit;
+    for (int u = 0; u < camera.width_px; u += DepthEnds::kChunk) {
+      const int count = std::min(DepthEnds::kChunk, camera.width_px - u);
+      const auto pixel = static_cast<std::size_t>(v * camera.width_px + u);
+      ends.find(u, v, count, &depth.depth_m[pixel], &range_depths_m_[pixel], &free_m_[pixel], chunk);
+      if (!people.empty()) leaveOut(people, camera, T_map_camera, u, v, count, &depth.depth_m[pixel], chunk);
+      mark(chunk, count, counts);
     }
   }
   carving_.carve(free_m_, camera, T_map_camera, window_);
@@ -114,6 +130,27 @@ InsertionCounts VoxelMapper::insert(std::span<const Ray> rays_map, std::span<con
   return counts;
 }
 
+void VoxelMapper::mark(const DepthEnds::Chunk& chunk, int count, InsertionCounts& counts) {
+  const VoxelIndex first = VoxelMap::firstOf(window_.first());
+  int last_x = -1, last_y = -1, last_z = -1;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const int x = chunk.x[i], y = chunk.y[i], z = chunk.z[i];
+    if (x < 0) {
+      ++(x == DepthEnds::Chunk::kUnknown  ? counts.unknown
+         : x == DepthEnds::Chunk::kTooFar ? counts.too_far
+                                          : counts.ignored);
+      continue;
+    }
+    ++counts.hits;
+    // Neighbouring pixels mostly end in the same voxel.
+    if (x == last_x && y == last_y && z == last_z) continue;
+    markHit({first.x + x, first.y + y, first.z + z});
+    last_x = x;
+    last_y = y;
+    last_z = z;
+  }
+}
+
 /// The depths at the end of the range, anew for another camera only.
 void VoxelMapper::followCamera(const common::PinholeCamera& camera) {
   if (camera == camera_) return;
@@ -141,13 +178,29 @@ void VoxelMapper::apply() {
     if (seen.crossed.any() || seen.hit.any()) applyTo(map_.mutableBlock(seen.block), seen);
 }
 
+/// Layer by layer, in numbers of eight bits: evidence is limited before it is added to, so that no sum leaves them.
 void VoxelMapper::applyTo(VoxelBlock& block, const SeenBlock& seen) const {
-  for (int offset = 0; offset < VoxelBlock::kVoxels; ++offset) {
-    const bool hit = seen.hit.has(offset);
-    if (!hit && !seen.crossed.has(offset)) continue;
-    std::int8_t& evidence = block.evidence[static_cast<std::size_t>(offset)];
-    const int before = evidence == VoxelBlock::kUnknown ? 0 : evidence;
-    evidence = static_cast<std::int8_t>(std::clamp(before + (hit ? hit_ : miss_), least_, greatest_));
+  const auto hit = static_cast<std::int8_t>(hit_), miss = static_cast<std::int8_t>(miss_);
+  const auto ceiling = static_cast<std::int8_t>(greatest_ - hit_), floor = static_cast<std::int8_t>(least_ - miss_);
+  for (int z = 0; z < VoxelBlock::kSide; ++z) {
+    std::int8_t* evidence = &block.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({0, 0, z}))];
+    const std::uint64_t ends = seen.hit.layer(z), touched = seen.crossed.layer(z) | ends;
+    if (touched == 0) continue;
+    if (~touched == 0 && ends == 0) {
+      for (int i = 0; i < kLayer; ++i) {
+        const std::int8_t before = evidence[i] == VoxelBlock::kUnknown ? std::int8_t{0} : evidence[i];
+        evidence[i] = static_cast<std::int8_t>((before > floor ? before : floor) + miss);
+      }
+      continue;
+    }
+    const Layer end_mask = maskOf(ends), touched_mask = maskOf(touched);
+    for (std::size_t i = 0; i < kLayer; ++i) {
+      const std::int8_t before = evidence[i] == VoxelBlock::kUnknown ? std::int8_t{0} : evidence[i];
+      const auto lowered = static_cast<std::int8_t>((before > floor ? before : floor) + miss);
+      const auto raised = static_cast<std::int8_t>((before < ceiling ? before : ceiling) + hit);
+      const auto after = static_cast<std::int8_t>((raised & end_mask[i]) | (lowered & ~end_mask[i]));
+      evidence[i] = static_cast<std::int8_t>((after & touched_mask[i]) | (evidence[i] & ~touched_mask[i]));
+    }
   }
 }
 

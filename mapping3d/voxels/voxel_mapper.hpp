@@ -11,6 +11,7 @@
 #include "common/rgbd_frame.hpp"
 #include "common/voxel_map.hpp"
 #include "mapping3d/voxels/depth_carving.hpp"
+#include "mapping3d/voxels/depth_ends.hpp"
 #include "mapping3d/voxels/scan_window.hpp"
 #include "mapping3d/voxels/voxel_config.hpp"
 
@@ -54,6 +55,7 @@ class VoxelMapper {
  private:
   void followCamera(const common::PinholeCamera& camera);
   void addRay(const Eigen::Vector3d& origin_map_m, const Eigen::Vector3d& end_map_m, bool hit);
+  void mark(const DepthEnds::Chunk& chunk, int count, InsertionCounts& counts);
   void markHit(common::VoxelIndex voxel);
   void apply();
   void applyTo(common::VoxelBlock& block, const SeenBlock& seen) const;

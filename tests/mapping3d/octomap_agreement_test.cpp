@@ -55,17 +55,16 @@ Agreement agreementOf(const VoxelMap& map, octomap::OcTree& tree) {
 
 enum class Given { kDepths, kPoints };
 
-/// The walls do not lie on boundaries of voxels, where rounding decides.
-const common::Pose3 T_map_room{common::quaternionFrom({0.0, 0.0, 0.3}), {0.013, 0.021, 0.017}};
-
 Agreement agreementAfterFrames(unsigned seed, Given given, double shift_m = 0.0) {
   std::mt19937 random(seed);
   const Room room = randomRoom(random);
+  // Depth images are drawn for the camera that flies; points have no pixels.
+  const common::PinholeCamera camera = given == Given::kDepths ? xtion() : smallCamera();
   VoxelMapper mapper(VoxelConfig{});
   octomap::OcTree tree(0.05);
   for (int frame = 0; frame < 4; ++frame) {
     const common::Pose3 T_room_camera = randomView(room, random);
-    const common::DepthImage depth = depthImage(room, smallCamera(), T_room_camera, random, 0.02, 0.0);
+    const common::DepthImage depth = depthImage(room, camera, T_room_camera, random, 0.02, 0.0);
     const common::Pose3 T_map_camera = T_map_room * T_room_camera;
     std::vector<Eigen::Vector3d> points_map_m;
     octomap::Pointcloud cloud;
@@ -74,12 +73,12 @@ Agreement agreementAfterFrames(unsigned seed, Given given, double shift_m = 0.0)
         const float depth_m = depth.at(u, v);
         if (!common::isMeasured(depth_m)) continue;
         const Eigen::Vector3f point_m =
-            (T_map_camera * smallCamera().point_camera_m(u, v, static_cast<double>(depth_m))).cast<float>();
+            (T_map_camera * camera.point_camera_m(u, v, static_cast<double>(depth_m))).cast<float>();
         points_map_m.emplace_back(point_m.cast<double>());
         cloud.push_back(point_m.x() + static_cast<float>(shift_m), point_m.y(), point_m.z());
       }
     if (given == Given::kDepths)
-      mapper.insert(depth, smallCamera(), T_map_camera);
+      mapper.insert(depth, camera, T_map_camera);
     else
       mapper.insert(raysFrom(T_map_camera.position_m, points_map_m));
     const Eigen::Vector3f origin_m = T_map_camera.position_m.cast<float>();
@@ -92,7 +91,7 @@ class AgreesWithOctomap : public testing::TestWithParam<Given> {};
 INSTANTIATE_TEST_SUITE_P(Given, AgreesWithOctomap, testing::Values(Given::kDepths, Given::kPoints));
 
 TEST_P(AgreesWithOctomap, InEachClass) {
-  for (unsigned seed = 31; seed <= 36; ++seed) {
+  for (unsigned seed = 31; seed <= 34; ++seed) {
     const Agreement agreement = agreementAfterFrames(seed, GetParam());
     EXPECT_GE(agreement.free.in_both, 50'000) << seed;
     EXPECT_GE(agreement.occupied.in_both, 2'000) << seed;

@@ -28,6 +28,8 @@ double uniform(std::mt19937& random, double low, double high) {
 
 common::PinholeCamera smallCamera() { return {160, 120, 131.25, 131.25, 79.5, 59.5}; }
 
+common::PinholeCamera xtion() { return {320, 240, 288.65, 288.65, 159.5, 119.5}; }
+
 Room randomRoom(std::mt19937& random) {
   Room room;
   for (int i = 0; i < 5; ++i) {

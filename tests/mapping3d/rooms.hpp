@@ -19,6 +19,10 @@ struct Room {
 
 /// As Xtion and Kinect at a quarter of their resolution.
 common::PinholeCamera smallCamera();
+/// The Xtion of config/sensors: at the end of its range a voxel of 5 cm is three pixels wide.
+common::PinholeCamera xtion();
+/// A frame in which the walls do not lie on boundaries of voxels, where rounding decides.
+inline const common::Pose3 T_map_room{common::quaternionFrom({0.0, 0.0, 0.3}), {0.013, 0.021, 0.017}};
 Room randomRoom(std::mt19937& random);
 /// A pose in free space, looking anywhere.
 common::Pose3 randomView(const Room& room, std::mt19937& random);
