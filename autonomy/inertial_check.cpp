@@ -67,6 +67,9 @@ void InertialCheckConfig::describe(common::config::Fields& fields) {
          "Median specific force across the rotors' axis from which the accelerometer is not used.");
   fields("horizontal_window_s", horizontal_window_s, {0.02, 1},
          "Time over which the median of forces across the axis is taken: more than twice that of a push of a hand.");
+  fields("implied_spread_m_s2", implied_spread_m_s2, {0, 20},
+         "What takes the place of a specific force alternates by this much from sample to sample, so that the filter "
+         "trusts laser and height more.");
   fields("thrust_lag_s", thrust_lag_s, {0.0, 0.5}, "Lag of the thrust behind its command.");
   fields("trusted_again_s", trusted_again_s, kPositive,
          "Samples are used again once nothing has contradicted them for this long.");
@@ -97,10 +100,21 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   compare(now);
   ImuSample used = sample;
   if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
-  // Near the ground the weight is carried, and the vehicle sinks at an even speed or stands.
-  if (force_wrong_)
-    used.specific_force_body_m_s2 = {0.0, 0.0, window_.back().known ? expected_m_s2 : control::kGravity_m_s2};
+  if (force_wrong_) {
+    // The filter measures the noise of its samples by their differences. What stands in for a measurement is off by a
+    // few percent of gravity for seconds, which is worth this much noise.
+    spread_m_s2_ = spread_m_s2_ > 0.0 ? -config_.implied_spread_m_s2 : config_.implied_spread_m_s2;
+    used.specific_force_body_m_s2 =
+        Vector3d(0.0, 0.0, impliedForce_m_s2(expected_m_s2)) + Vector3d::Constant(spread_m_s2_);
+  }
   return used;
+}
+
+/// Near the ground so little thrust is that of a vehicle which stands, whose weight the ground carries.
+double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
+  constexpr double kStands = 0.85;
+  const bool stands = context_.near_ground && expected_m_s2 < kStands * control::kGravity_m_s2;
+  return stands || !context_.thrust_applies ? control::kGravity_m_s2 : expected_m_s2;
 }
 
 double InertialCheck::expectedForce_m_s2(Time now) {

@@ -22,6 +22,7 @@ struct InertialCheckConfig {
   double vertical_window_s = 0.05;
   double horizontal_m_s2 = 2.5;
   double horizontal_window_s = 0.3;
+  double implied_spread_m_s2 = 4.0;
   double thrust_lag_s = 0.05;
   double trusted_again_s = 1.0;
   double land_after_s = 1.5;
@@ -62,6 +63,7 @@ class InertialCheck {
     bool known = false;          ///< Whether the thrust says it.
   };
   double expectedForce_m_s2(common::Time now);
+  double impliedForce_m_s2(double expected_m_s2) const;
   Eigen::Vector3d ahrsRate_rad_s() const;
   void compare(common::Time now);
   void compareRates(common::Time now);
@@ -71,6 +73,7 @@ class InertialCheck {
   InertialContext context_;
   std::deque<Compared> window_;  ///< The last samples, at most as long as the longest window.
   double thrust_over_hover_ = 1.0;
+  double spread_m_s2_ = 0.0;  ///< Of the last force that was replaced.
   std::optional<common::Time> last_, since_;
   std::optional<common::Time> rates_wrong_, force_wrong_;  ///< When they last were.
   std::string fault_;

@@ -91,22 +91,22 @@ TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {
 
 TEST_F(Identify, TuneSearchesGainsThatCanBeNamed) {
   const std::string out = path("found.yaml");
-  const auto tune = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {
-        "tune", "--gains", "trials/papers/gains.yaml", "--system", "unb", "--flights", "2", "--out", out};
-    words.insert(words.end(), more.begin(), more.end());
+  const auto tune = [&](const std::string& flights, const std::string& only) {
     test_support::ProgramOptions options;
     options.working_folder = path(".");
-    return runSwiftlet(words, options);
+    return runSwiftlet({"tune", "--gains", "trials/papers/gains.yaml", "--system", "unb", "--seeds", "1", "--flights",
+                        flights, "--only", only, "--out", out},
+                       options);
   };
-  const ProgramEnd end = tune({"--seeds", "1", "--only", "horizontal"});
+  const ProgramEnd end = tune("2", "horizontal");
   EXPECT_NE(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.out, ContainsRegex("set   2  cost [0-9.]+  best [0-9.]+\n"));
   EXPECT_THAT(end.out, testing::Not(HasSubstr("set   3")));
   EXPECT_THAT(end.out, testing::Not(HasSubstr("vertical")));
   EXPECT_EQ(runSwiftlet({"config", "--system", out}).exit_code, 0);
-  expectRefused(tune({"--seeds", "1", "--only", "sideways"}), "--only: no gain of unb begins with `sideways`");
-  expectRefused(tune({"--seeds", "3"}), "--flights: is too few for two sets of gains");
+  expectRefused(tune("2", "sideways"), "--only: no gain of unb begins with `sideways`");
+  expectRefused(runSwiftlet({"tune", "--gains", "trials/papers/gains.yaml", "--system", "unb", "--flights", "5"}),
+                "--flights: is too few for two sets of gains");
   expectRefused(runSwiftlet({"tune", "--gains", "trials/papers/unb_case1.yaml"}), "phases: is missing");
   expectRefused(runSwiftlet({"tune"}), "run: names no flight");
 }
