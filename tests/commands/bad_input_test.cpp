@@ -341,7 +341,7 @@ TEST_P(FullDisk, IsReportedWithTheFileAndEndsNoFlight) {
 }
 
 // The configuration is written first and has about 75 kB; a report with pictures has more than 90.
-INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 90'000));
+INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 110'000));
 
 TEST_F(BadInput, AnOutputFolderThatCannotBeCreatedIsRefused) {
   const ProgramEnd end =
