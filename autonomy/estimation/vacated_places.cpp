@@ -19,7 +19,13 @@ constexpr float kLevel_m = 0.10F;
 constexpr int kHits = 5;  ///< Fewer may be noise.
 constexpr double kPassed_s = 0.35;
 constexpr int kPasses = 4;
-constexpr double kForgotten_s = 90.0;
+constexpr double kForgotten_s = 90.0, kForgetEvery_s = 1.0;
+
+template <typename Cells>
+void sortOnce(Cells& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
 
 }  // namespace
 
@@ -33,10 +39,20 @@ bool VacatedPlaces::update(const perception::ProjectedScan& scan, const common::
   const bool still = hovers(scan, T_map_body);
   last_ = scan.stamp;
   last_pose_ = T_map_body;
-  std::erase_if(met_, [&](const auto& entry) { return (scan.stamp - entry.second.seen).seconds() > kForgotten_s; });
+  forget(scan.stamp);
   const Beams beams = levelBeams(scan, T_map_body, grid, still);
   const bool left = pass(beams, scan.stamp);
   return meet(beams, scan.stamp) || left;
+}
+
+void VacatedPlaces::forget(Time now) {
+  if (forgot_ && (now - *forgot_).seconds() < kForgetEvery_s) return;
+  forgot_ = now;
+  std::erase_if(met_, [&](const auto& entry) {
+    const bool old = (now - entry.second.seen).seconds() > kForgotten_s;
+    if (old) left_.erase(entry.first);
+    return old;
+  });
 }
 
 bool VacatedPlaces::hovers(const perception::ProjectedScan& scan, const common::Pose2& T_map_body) {
@@ -59,14 +75,16 @@ VacatedPlaces::Beams VacatedPlaces::levelBeams(const perception::ProjectedScan& 
     const Eigen::Vector2d end = (from_m + share * beam_m) / cell_m;
     if (share >= 1.0) {
       const CellIndex last = perception::cellOf(end);
-      beams.ended.insert({last.x, last.y});
+      beams.ended.emplace_back(last.x, last.y);
     }
     if (!hovers) continue;
     perception::visitCrossed(from_m / cell_m, end, [&](const CellIndex& cell, double, double) {
-      if (common::occupancy::isOccupied(grid.at(cell))) beams.passed.insert({cell.x, cell.y});
+      if (common::occupancy::isOccupied(grid.at(cell))) beams.passed.emplace_back(cell.x, cell.y);
       return true;
     });
   }
+  sortOnce(beams.ended);
+  sortOnce(beams.passed);
   return beams;
 }
 
@@ -75,7 +93,8 @@ bool VacatedPlaces::pass(const Beams& beams, Time now) {
   const auto endsNear = [&](const Cell& cell) {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
-        if (beams.ended.contains({cell.first + dx, cell.second + dy})) return true;
+        if (std::binary_search(beams.ended.begin(), beams.ended.end(), Cell(cell.first + dx, cell.second + dy)))
+          return true;
     return false;
   };
   bool changed = false;
@@ -84,16 +103,15 @@ bool VacatedPlaces::pass(const Beams& beams, Time now) {
     if (found == met_.end()) continue;
     Met& met = found->second;
     if (endsNear(cell)) {
-      changed = changed || met.left();
+      changed = left_.erase(cell) > 0 || changed;
       met.passed_since.reset();
       met.passes = 0;
       continue;
     }
-    const bool before = met.left();
     if (!met.passed_since) met.passed_since = now;
     ++met.passes;
     met.seen = met.passed_last = now;
-    changed = changed || met.left() != before;
+    if (met.left()) changed = left_.insert(cell).second || changed;
   }
   return changed;
 }
@@ -108,7 +126,7 @@ bool VacatedPlaces::meet(const Beams& beams, Time now) {
         met.hits = std::min(met.hits + 1, kHits);
         met.seen = now;
         if (dx != 0 || dy != 0) continue;
-        changed = changed || met.left();
+        changed = left_.erase(cell) > 0 || changed;
         met.passed_since.reset();
         met.passes = 0;
       }
@@ -117,9 +135,8 @@ bool VacatedPlaces::meet(const Beams& beams, Time now) {
 }
 
 void VacatedPlaces::clear(common::OccupancyGrid& grid) const {
-  for (const auto& [cell, met] : met_)
-    if (met.left() && common::occupancy::isOccupied(grid.at({cell.first, cell.second})))
-      grid.set({cell.first, cell.second}, 0);
+  for (const auto& [x, y] : left_)
+    if (common::occupancy::isOccupied(grid.at({x, y}))) grid.set({x, y}, 0);
 }
 
 }  // namespace swiftlet::autonomy

@@ -4,10 +4,13 @@
 // (Grzonka 2012, V-E: the vehicle follows a detour once a person has moved out of its way).
 #pragma once
 
-#include <map>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
@@ -38,8 +41,15 @@ class VacatedPlaces {
     int passes = 0;  ///< Scans since then.
     bool left() const;
   };
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+      return std::hash<std::uint64_t>()(std::uint64_t{static_cast<std::uint32_t>(cell.first)} << 32U |
+                                        static_cast<std::uint32_t>(cell.second));
+    }
+  };
+  /// The cells of a scan, each once, in order.
   struct Beams {
-    std::set<Cell> ended, passed;
+    std::vector<Cell> ended, passed;
   };
   bool hovers(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
   Beams levelBeams(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
@@ -47,8 +57,11 @@ class VacatedPlaces {
   bool pass(const Beams& beams, common::Time now);
   bool meet(const Beams& beams, common::Time now);
 
-  std::map<Cell, Met> met_;
-  std::optional<common::Time> last_;
+  void forget(common::Time now);
+
+  std::unordered_map<Cell, Met, CellHash> met_;
+  std::set<Cell> left_;  ///< Those of `met_` that something has left.
+  std::optional<common::Time> last_, forgot_;
   common::Pose2 last_pose_;
 };
 
