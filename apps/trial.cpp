@@ -5,13 +5,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
 #include "apps/envelope.hpp"
 #include "apps/flight.hpp"
+#include "apps/flights_in_parallel.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
@@ -78,32 +78,17 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const Vehicle
   const int first_seed = options.seed.value_or(trial.scenario.seed);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::vector<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
   std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (int i = next++; i < count && !stop; i = next++) {
-      try {
-        const int seed = first_seed + i;
-        auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop,
-                            {memory, options.control_log});
-        const std::scoped_lock lock(mutex);
-        if (!options.json)
-          for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
-        scores[static_cast<std::size_t>(i)] = std::move(flown);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < std::min(options.jobs, count); ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  flyInParallel(count, options.jobs, stop, [&](int i) {
+    const int seed = first_seed + i;
+    auto flown =
+        flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop, {memory, options.control_log});
+    const std::scoped_lock lock(mutex);
+    if (!options.json)
+      for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
+    scores[static_cast<std::size_t>(i)] = std::move(flown);
+  });
   for (auto& flown : scores) std::move(flown.begin(), flown.end(), std::back_inserter(result.flights));
-  if (failure) std::rethrow_exception(failure);
 }
 
 interfaces::TrialReport reportOf(const TrialResults& results) {

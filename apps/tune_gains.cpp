@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <filesystem>
-#include <mutex>
-#include <thread>
 
 #include <fmt/core.h>
 
 #include "apps/command_line.hpp"
+#include "apps/flights_in_parallel.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
@@ -78,26 +76,11 @@ class GainFlights {
   std::vector<FlightScore> flown(const TrialConfig& trial) {
     const std::atomic<bool>& stop = stopOnSignals().first;
     std::vector<std::vector<FlightScore>> scores(static_cast<std::size_t>(options_.seeds));
-    std::atomic<int> next{0};
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto work = [&] {
-      for (int i = next++; i < options_.seeds; i = next++) {
-        try {
-          const fs::path run = folder_ / fmt::format("run-{}", i);
-          scores[static_cast<std::size_t>(i)] = flyOne(trial, nullptr, options_.seed + i, run, stop);
-          fs::remove_all(run);
-        } catch (...) {
-          const std::scoped_lock lock(mutex);
-          failure = std::current_exception();
-        }
-      }
-    };
-    std::vector<std::thread> threads;
-    for (int i = 1; i < std::min(options_.jobs, options_.seeds); ++i) threads.emplace_back(work);
-    work();
-    for (std::thread& thread : threads) thread.join();
-    if (failure) std::rethrow_exception(failure);
+    flyInParallel(options_.seeds, options_.jobs, stop, [&](int i) {
+      const fs::path run = folder_ / fmt::format("run-{}", i);
+      scores[static_cast<std::size_t>(i)] = flyOne(trial, nullptr, options_.seed + i, run, stop);
+      fs::remove_all(run);
+    });
     if (stop) throw common::InputError(common::Problem{{}, "", "was stopped before the search was over", ""});
     std::vector<FlightScore> all;
     for (auto& of_one : scores) all.insert(all.end(), of_one.begin(), of_one.end());

@@ -1,5 +1,5 @@
 // What has changed since the given map was made: things that stand where it has free space, and things of it that are
-// gone. Each is reported once, with its place in the given map, so that whoever keeps the map knows where to look.
+// gone. Each is reported once, with its place in the given map, so that the map can be corrected there.
 #pragma once
 
 #include <map>

@@ -4,42 +4,21 @@
 #include <functional>
 
 #include "common/check.hpp"
+#include "common/config_numbers.hpp"
 
 namespace swiftlet::control {
 namespace {
 
 using common::config::Bounds;
 
-/// Visits the numbers of one section.
-class NumberVisitor final : public common::config::Fields {
- public:
-  using Visit = std::function<void(std::string_view name, double& value, const Bounds& bounds)>;
-  explicit NumberVisitor(Visit visit) : visit_(std::move(visit)) {}
+using Visit = std::function<void(const std::string& name, double& value, const Bounds& bounds)>;
 
-  using Fields::choice;
-  void operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view) override {
-    visit_(name, value, bounds);
-  }
-  void operator()(std::string_view, int&, const Bounds&, std::string_view) override {}
-  void operator()(std::string_view, bool&, std::string_view) override {}
-  void operator()(std::string_view, std::string&, std::string_view) override {}
-  void operator()(std::string_view, std::vector<double>&, const Bounds&, std::string_view) override {}
-  void operator()(std::string_view, std::vector<std::string>&, std::string_view) override {}
-  void choice(std::string_view, int&, const std::vector<std::string>&, std::string_view) override {}
-
- protected:
-  bool beginSection(std::string_view, std::string_view) override { return false; }
-  void endSection(std::vector<std::string>) override {}
-  int beginList(std::string_view, int, std::string_view) override { return 0; }
-  void beginItem(int) override {}
-  void endList() override {}
-
- private:
-  Visit visit_;
-};
-
-void visitGains(FlightController::Config& config, NumberVisitor::Visit visit) {
-  NumberVisitor visitor(std::move(visit));
+/// The numbers of a law's own section: no counts, and nothing of the sections in it.
+void visitGains(FlightController::Config& config, const Visit& visit) {
+  common::config::NumberVisitor visitor(
+      [&visit](const std::string& key, double& value, const Bounds& bounds, bool whole) {
+        if (!whole && key.find('.') == std::string::npos) visit(key, value, bounds);
+      });
   switch (config.controller.kind) {
     case ControllerKind::kCascadedPid:
       return config.controller.cascaded_pid.describe(visitor);
@@ -63,15 +42,15 @@ std::string sectionOfGains(ControllerKind kind) {
 std::vector<Gain> gainsOf(const FlightController::Config& config) {
   FlightController::Config copy = config;
   std::vector<Gain> gains;
-  visitGains(copy, [&](std::string_view name, double& value, const Bounds& bounds) {
-    if (value > 0.0) gains.push_back({std::string(name), value, bounds});
+  visitGains(copy, [&](const std::string& name, double& value, const Bounds& bounds) {
+    if (value > 0.0) gains.push_back({name, value, bounds});
   });
   return gains;
 }
 
 FlightController::Config withGains(FlightController::Config config, const std::vector<Gain>& gains) {
   std::size_t set = 0;
-  visitGains(config, [&](std::string_view name, double& value, const Bounds&) {
+  visitGains(config, [&](const std::string& name, double& value, const Bounds&) {
     const auto found = std::find_if(gains.begin(), gains.end(), [&](const Gain& gain) { return gain.name == name; });
     if (found == gains.end()) return;
     value = found->value;

@@ -7,14 +7,15 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// The same path with fewer corners, none of its points further than this from it. A trail has every small motion of a
-/// hover; flown point by point the vehicle would turn with each of them instead of looking where it came from.
+/// The same path with fewer corners; none of the points left out is further than kWithin_m from it. A trail has every
+/// small motion of a hover; flown point by point the vehicle would turn with each of them instead of looking where it
+/// came from.
 std::vector<Eigen::Vector2d> straightened(const std::vector<Eigen::Vector2d>& path) {
   constexpr double kWithin_m = 0.06, kLongest_m = 1.0;
   std::vector<Eigen::Vector2d> corners;
   for (std::size_t from = 0; from < path.size();) {
     corners.push_back(path[from]);
-    std::size_t to = std::min(from + 1, path.size());
+    std::size_t to = from + 1;
     const auto straightTo = [&](std::size_t end) {
       if ((path[end] - path[from]).norm() > kLongest_m) return false;
       return std::all_of(path.begin() + from + 1, path.begin() + end, [&](const Eigen::Vector2d& between) {

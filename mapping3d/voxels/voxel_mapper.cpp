@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/check.hpp"
+#include "common/row_major.hpp"
 #include "mapping3d/voxels/ray_walk.hpp"
 
 namespace swiftlet::mapping3d {
@@ -89,7 +90,7 @@ InsertionCounts VoxelMapper::insert(const common::DepthImage& depth, const commo
   for (int v = 0; v < camera.height_px; ++v) {
     for (int u = 0; u < camera.width_px; u += DepthEnds::kChunk) {
       const int count = std::min(DepthEnds::kChunk, camera.width_px - u);
-      const auto pixel = static_cast<std::size_t>(v * camera.width_px + u);
+      const std::size_t pixel = common::rowMajor(v, camera.width_px, u);
       ends.find(u, v, count, &depth.depth_m[pixel], &range_depths_m_[pixel], &free_m_[pixel], chunk);
       if (!people.empty()) leaveOut(people, camera, T_map_camera, u, v, count, &depth.depth_m[pixel], chunk);
       mark(chunk, count, counts);
