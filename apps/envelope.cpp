@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include "apps/command_line.hpp"
 #include "apps/envelope_page.hpp"
 #include "apps/flight.hpp"
+#include "apps/flights_in_parallel.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
@@ -106,43 +106,31 @@ class EnvelopeRun {
 
   /// What keeps a flight from being flown at all ends the search, and is thrown once the files have what was flown.
   void run() {
-    onThreads(static_cast<std::size_t>(results_.config.seeds), [this](std::size_t i) { flyBase(i); });
-    for (auto& flown : base_)
-      if (flown) results_.base.flights.push_back(std::move(*flown));
-    for (EnvelopeEntry& entry : results_.entries) entry.finding.steps = {at(entry.finding.from)};
-    if (results_.base.acceptable() && !stop_ && !failure_)
-      onThreads(results_.entries.size(), [this](std::size_t i) { search(results_.entries[i].finding); });
+    std::exception_ptr failure;
+    try {
+      search();
+    } catch (...) {
+      failure = std::current_exception();
+    }
     progress_.close();
     write();
     removeEmptyFolders();
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure) std::rethrow_exception(failure);
   }
 
   const evaluation::EnvelopeResults& results() const { return results_; }
 
  private:
-  /// Calls `work` for 0 to `count` - 1, as many at a time as there are jobs.
-  template <typename Work>
-  void onThreads(std::size_t count, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    const auto loop = [&] {
-      for (std::size_t i = next++; i < count && !ended(); i = next++) {
-        try {
-          work(i);
-        } catch (...) {
-          const std::scoped_lock lock(mutex_);
-          failure_ = std::current_exception();
-          failed_ = true;
-        }
-      }
-    };
-    std::vector<std::thread> threads;
-    for (int i = 1; i < options_.jobs; ++i) threads.emplace_back(loop);
-    loop();
-    for (std::thread& thread : threads) thread.join();
+  void search() {
+    const auto fly = [&](int count, auto&& work) { flyInParallel(count, options_.jobs, stop_, work); };
+    fly(results_.config.seeds, [this](int i) { flyBase(i); });
+    for (auto& flown : base_)
+      if (flown) results_.base.flights.push_back(std::move(*flown));
+    for (EnvelopeEntry& entry : results_.entries) entry.finding.steps = {at(entry.finding.from)};
+    if (!results_.base.acceptable() || stop_) return;
+    fly(static_cast<int>(results_.entries.size()),
+        [this](int i) { search(results_.entries[static_cast<std::size_t>(i)].finding); });
   }
-
-  bool ended() const { return stop_ || failed_; }
 
   EnvelopeStep at(double value) const { return {value, results_.base.flights}; }
 
@@ -155,12 +143,12 @@ class EnvelopeRun {
     return stopped ? std::nullopt : std::optional(std::move(flight));
   }
 
-  void flyBase(std::size_t number) {
-    const int seed = results_.first_seed + static_cast<int>(number);
+  void flyBase(int number) {
+    const int seed = results_.first_seed + number;
     auto flight = fly(trial_, seed, out_ / "base" / fmt::format("{}", seed));
     const std::scoped_lock lock(mutex_);
     base_.resize(static_cast<std::size_t>(results_.config.seeds));
-    base_[number] = std::move(flight);
+    base_[static_cast<std::size_t>(number)] = std::move(flight);
     ++flown_;
     progress_.update(fmt::format("base: {} of {} flights", flown_, results_.config.seeds), secondsSince(begin_));
   }
@@ -231,12 +219,10 @@ class EnvelopeRun {
   ProgressLine progress_;
   std::shared_ptr<const FlightMap> map_;
   const Clock::time_point begin_ = Clock::now();
-  std::mutex mutex_;  ///< Of results, progress and failure.
+  std::mutex mutex_;  ///< Of results and progress.
   std::vector<std::optional<EnvelopeFlight>> base_;
   int flown_ = 0;
   int searched_ = 0;
-  std::exception_ptr failure_;
-  std::atomic<bool> failed_{false};
 };
 
 void showEnd(const evaluation::EnvelopeResults& results, const fs::path& out) {

@@ -54,8 +54,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, camera != nullptr, map_shelf_)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
-      imu_watch_(config.imu),
-      inertial_check_(config.inertial_check),
+      inertial_(config.inertial),
       given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
       assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
@@ -90,7 +89,7 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
 void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
-    take(*imu);
+    if (const auto sample = inertial_.take(*imu)) estimator_.addImu(*sample);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
@@ -109,18 +108,6 @@ void Autonomy::take(const common::SensorEvent& event) {
   }
 }
 
-void Autonomy::take(const common::ImuSample& sample) {
-  imu_watch_.add(sample);
-  if (imu_watch_.repeats()) return;
-  const bool fitted = inertial_check_.fault().empty();
-  estimator_.addImu(inertial_check_.checked(sample));
-  const std::string& fault = inertial_check_.fault();
-  if (fitted != fault.empty())
-    events_.push_back({sample.stamps.arrived, fault.empty() ? common::Severity::kInfo : common::Severity::kWarning,
-                       "imu", fault.empty() ? "the inertial samples fit again" : "inertial samples are replaced",
-                       fault});
-}
-
 /// The first scan that is left out leaves an event, all of them a figure of the run.
 void Autonomy::take(const std::shared_ptr<const common::LaserScan>& scan) {
   if (scans_.add(scan) || scans_.lateScans() > 1) return;
@@ -133,6 +120,7 @@ void Autonomy::take(const std::shared_ptr<const common::LaserScan>& scan) {
 }
 
 common::Setpoint Autonomy::tick(Time now) {
+  while (const auto sample = inertial_.predicted(now)) estimator_.addImu(*sample, true);
   processDueScans(now);
   estimator_.updateMap3d(now);
 
@@ -151,12 +139,12 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.battery_v = battery_v_;
   flight.pilot_flies = supervisor_.pilotFlies();
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
-  flight.inertial_fault = imu_watch_.fault(now);
+  flight.inertial_fault = inertial_.fault(now);
   flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
   assistPilot(flight);
   const common::Setpoint setpoint = controller_.tick(flight);
   last_thrust_ = setpoint.thrust;
-  tellInertialCheck(setpoint.thrust, flight.thrust_applies && !flight.pilot_flies);
+  tellInertialInput(setpoint, flight.thrust_applies && !flight.pilot_flies);
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
@@ -166,13 +154,16 @@ common::Setpoint Autonomy::tick(Time now) {
   return setpoint;
 }
 
-void Autonomy::tellInertialCheck(double thrust, bool thrust_applies) {
-  // Where the ground may carry a part of the weight: the body stands this much lower than it flies.
+void Autonomy::tellInertialInput(const common::Setpoint& setpoint, bool thrust_applies) {
+  // Where the ground may carry a part of the weight: the body stands this much lower than it flies. A vehicle that
+  // comes down without a measured height may have reached it, whatever the estimate says.
   constexpr double kNearGround_m = 0.45;
-  const FlightState state = controller_.state();
-  const bool near = estimator_.state().height_above_ground_m < kNearGround_m && state != FlightState::kFlying;
+  const common::VehicleState state = estimator_.state();
+  const bool low = state.height_above_ground_m < kNearGround_m || !state.vertical_valid ||
+                   state.verticalAge_s(setpoint.stamp) > config_.control.emergency.blind_after_s;
+  const bool near = low && controller_.state() != FlightState::kFlying;
   const double hover = config_.control.position.thrust.max_thrust / controller_.thrustMargin();
-  inertial_check_.vehicleIs({control::isAirborne(state), near, thrust_applies, thrust / hover});
+  inertial_.flown(setpoint, {control::isAirborne(controller_.state()), near, thrust_applies, setpoint.thrust / hover});
 }
 
 /// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
@@ -189,6 +180,7 @@ bool Autonomy::finished() const {
 }
 
 std::vector<common::Event> Autonomy::takeEvents() {
+  collect(inertial_.takeEvents());
   collect(scan_watch_.takeEvents());
   collect(estimator_.takeEvents());
   collect(given_map_.takeEvents());
@@ -258,6 +250,9 @@ void Autonomy::tickBehaviors(Time now) {
                            estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
                            drift_m_, supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(),
                            &estimator_.people().seen(), requests_.keepOut().zones()});
+  const bool knows_walls = drift_m_ < config_.supervisor.drift_back_m;
+  controller_.setWayWhenLost(knows_walls ? executor_.wayToOpenPlace_m(estimator_.state())
+                                         : Eigen::Vector2d(Eigen::Vector2d::Zero()));
 }
 
 /// The supervisor's intent comes before the mission's.
@@ -317,7 +312,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   const double age_s = std::max(state.horizontalAge_s(now), condition.vertical_age_s);
   condition.position_measured =
       state.horizontal_valid && state.vertical_valid && age_s < config_.supervisor.unseen_hold_s;
-  if (inertial_check_.mustLand(now)) condition.sensor_lies = inertial_check_.fault();
+  condition.sensor_lies = inertial_.mustLandFor(now);
   condition.drift_m = drift_m_;
   if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(state);
   return condition;

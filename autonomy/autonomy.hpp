@@ -13,8 +13,7 @@
 #include "autonomy/executor.hpp"
 #include "autonomy/flight_requests.hpp"
 #include "autonomy/given_map_overlay.hpp"
-#include "autonomy/imu_watch.hpp"
-#include "autonomy/inertial_check.hpp"
+#include "autonomy/inertial_input.hpp"
 #include "autonomy/input.hpp"
 #include "autonomy/map_shelf.hpp"
 #include "autonomy/mission_desk.hpp"
@@ -49,8 +48,7 @@ struct AutonomyConfig {
   EnergyConfig energy;
   double behavior_rate_hz = 20.0;
   ScanQueueConfig scans;
-  ImuWatchConfig imu;
-  InertialCheckConfig inertial_check;
+  InertialInputConfig inertial;  ///< Its sections are on the level of these.
   PilotAssistConfig assist;
 
   void describe(common::config::Fields& fields);
@@ -130,7 +128,6 @@ class Autonomy {
 
  private:
   void take(const common::SensorEvent& event);
-  void take(const common::ImuSample& sample);
   void take(const std::shared_ptr<const common::LaserScan>& scan);
   void take(const common::OperatorCommand& command, common::Time now);
   common::CommandResult switchController(std::uint64_t id, const common::ControllerCommand& command);
@@ -140,7 +137,7 @@ class Autonomy {
   void processDueScans(common::Time now);
   void processScan(const common::LaserScan& scan, common::Time now);
   void followMapHeight(double height_m);
-  void tellInertialCheck(double thrust, bool thrust_applies);
+  void tellInertialInput(const common::Setpoint& setpoint, bool thrust_applies);
   void prepare();
   void tickBehaviors(common::Time now);
   common::Intent nextIntent(common::Time now);
@@ -171,8 +168,7 @@ class Autonomy {
 
   ScanQueue scans_;
   ScanWatch scan_watch_;
-  ImuWatch imu_watch_;
-  InertialCheck inertial_check_;
+  InertialInput inertial_;
   GivenMapOverlay given_map_;
   CameraObstacles camera_obstacles_;
   PilotAssist assist_;

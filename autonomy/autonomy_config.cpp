@@ -15,9 +15,7 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
   fields.section("energy", energy, "Consumption, and the charge for the flight home.");
   fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
   fields.section("scans", scans, "Scans that arrive late or out of order.");
-  fields.section("imu", imu, "Inertial samples that cannot be used.");
-  fields.section("inertial_check", inertial_check,
-                 "Inertial samples that contradict the AHRS and the thrust; these then take their place.");
+  inertial.describe(fields);
   fields.section("assist", assist, "Assistance for a pilot who flies by hand.");
 }
 

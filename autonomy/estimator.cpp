@@ -61,7 +61,12 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       targets_(camera && !config.targets.classes.empty() ? std::make_unique<TargetPipeline>(config.targets, jobs)
                                                          : nullptr) {}
 
-void Estimator::addImu(const common::ImuSample& sample) {
+void Estimator::addImu(const common::ImuSample& sample, bool predicted) {
+  if (predicted != predicted_) {
+    hear(perception::TapedPredicted{predicted});
+    filter_.setPredicted(predicted);
+  }
+  predicted_ = predicted;
   hear(sample);
   filter_.predict(sample);
   if (sample.rotation_ahrs_body.coeffs().allFinite()) last_imu_ = sample;

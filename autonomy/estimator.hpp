@@ -80,7 +80,8 @@ class Estimator {
             const GivenMap* given, common::JobRunner& jobs, const common::RgbdCameraConfig* camera = nullptr,
             const common::LaserConfig* vertical_laser = nullptr);
 
-  void addImu(const common::ImuSample& sample);
+  /// A `predicted` sample was not measured; see ErrorStateFilter::setPredicted.
+  void addImu(const common::ImuSample& sample, bool predicted = false);
   /// Processes a scan at `now`. The first scans, taken while the vehicle stands still, only initialize the filter and
   /// return nothing.
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
@@ -166,6 +167,7 @@ class Estimator {
   perception::ErrorStateFilter filter_;
   perception::FilterListener* listener_ = nullptr;
   bool at_rest_ = false;
+  bool predicted_ = false;     ///< The last sample was.
   double explained_within_m_;  ///< Of the people tracker.
   perception::PeopleTracker people_;
   LaserPipeline laser_;

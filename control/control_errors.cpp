@@ -22,9 +22,8 @@ ControlErrors errorsOf(const ControlInput& input, const ControlLimits& limits) {
   errors.velocity_odom_m_s.z() = reference.velocity_odom_m_s.z() - state.velocity_odom_m_s.z();
   errors.acceleration_odom_m_s2.z() = reference.acceleration_odom_m_s2.z();
   if (input.horizontal == Horizontal::kLevel) return errors;
-  errors.velocity_odom_m_s.head<2>() = -state.velocity_odom_m_s.head<2>();
+  errors.velocity_odom_m_s.head<2>() = (reference.velocity_odom_m_s - state.velocity_odom_m_s).head<2>();
   if (input.horizontal == Horizontal::kVelocity) return errors;
-  errors.velocity_odom_m_s.head<2>() += reference.velocity_odom_m_s.head<2>();
   errors.position_odom_m.head<2>() = limited(
       reference.position_odom_m.head<2>() - state.T_odom_body.position_m.head<2>(), limits.max_position_error_m);
   errors.acceleration_odom_m_s2.head<2>() = reference.acceleration_odom_m_s2.head<2>();

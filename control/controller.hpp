@@ -31,7 +31,7 @@ std::optional<ControllerKind> controllerNamed(std::string_view word);
 /// What of the horizontal state a controller may use.
 enum class Horizontal {
   kPosition,  ///< Hold the reference.
-  kVelocity,  ///< The position is unknown: only damp the velocity.
+  kVelocity,  ///< The position is unknown: only the velocity of the reference is held.
   kLevel,     ///< Neither is known: keep the trim learned so far.
 };
 

@@ -122,9 +122,9 @@ void FlightController::hold(std::optional<double> yaw_map_rad) {
 
 common::Setpoint FlightController::tick(const FlightTick& given) {
   FlightTick tick = given;
-  if (tick.inertial_fault.empty() && tick.state.inertialAge_s(tick.now) > config_.inertial_age_s)
-    tick.inertial_fault = "the estimate is old";
-  if (!tick.inertial_fault.empty() || !isFinite(tick.state)) tick.state.horizontal_valid = false;
+  const bool old = tick.state.inertialAge_s(tick.now) > config_.inertial_age_s;
+  if (tick.inertial_fault.empty() && old) tick.inertial_fault = "the estimate is old";
+  if (old || !isFinite(tick.state)) tick.state.horizontal_valid = false;
   // The first ticks after a pause must not integrate over it.
   constexpr double kPeriod_s = common::kControlPeriod.seconds();
   dt_s_ = ticked_ ? std::clamp((tick.now - now_).seconds(), 1e-3, 5.0 * kPeriod_s) : kPeriod_s;
@@ -281,6 +281,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
   switch (entered) {
     case FlightState::kTakingOff:
       grounded_reason_.clear();
+      blind_until_.reset();
       standing_height_m_ = position_m.z();
       standing_raw_m_ = emergency_.filter().ready() ? emergency_.filter().height_m() : position_m.z();
       follower_.reset(position_m, yaw_rad);
@@ -302,9 +303,10 @@ void FlightController::enter(FlightState from, FlightState entered) {
         height_reference_m_ = follower_.reference().position_odom_m.z() + clearance_.lift_m();
         climb_reference_m_s_ = follower_.reference().velocity_odom_m_s.z();
       }
-      follower_.stop();
+      if (!blind_until_) follower_.stop();
       return;
     case FlightState::kEmergencyLanding:
+      blind_until_.reset();
       follower_.stop();
       // The trim of a vehicle that flies fast balances drag, which ends with the braking.
       emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(),

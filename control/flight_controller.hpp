@@ -53,7 +53,7 @@ struct FlightTick {
   double battery_v = 0.0;               ///< Latest voltage; 0 while unknown.
   bool fusion_diverged = false;
   /// Why the inertial samples cannot be used, for example "the inertial samples repeat"; empty if they can. The state
-  /// is then too old to fly by.
+  /// is then one that setpoints predict, with a horizontal part that other sensors support or none.
   std::string inertial_fault;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
@@ -81,6 +81,8 @@ class FlightController {
     double touchdown_s = 0.3;
     double stopped_speed_m_s = 0.10;
     double horizontal_loss_s = 1.0;
+    double blind_speed_m_s = 0.3;
+    double blind_acceleration_m_s2 = 0.6;
     double vertical_loss_s = 0.3;
     double inertial_age_s = 0.1;
     double inertial_loss_s = 0.2;
@@ -111,6 +113,9 @@ class FlightController {
   /// Changes the controller in any state, in flight without a step. Fails, with the reason, for one without its model.
   tl::expected<void, std::string> switchController(ControllerKind kind);
   ControllerKind controllerKind() const { return position_.kind(); }
+  /// The way, in `map`, that the vehicle flies by its velocity alone if the horizontal estimate is lost now; zero to
+  /// brake and stay.
+  void setWayWhenLost(const Eigen::Vector2d& way_map_m) { way_when_lost_map_m_ = way_map_m; }
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
@@ -159,6 +164,7 @@ class FlightController {
   void watch(const FlightTick& tick);
   void watchInertial(const std::string& fault);
   void watchHorizontal(const FlightTick& tick);
+  void flyBlind();
   void keepPathInMap(const common::VehicleState& state);
   common::Setpoint setpointFor(const FlightTick& tick);
   common::Setpoint takeOff(const FlightTick& tick);
@@ -201,6 +207,8 @@ class FlightController {
   common::Time state_since_;
   std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
   std::optional<common::Time> horizontal_lost_;
+  Eigen::Vector2d way_when_lost_map_m_ = Eigen::Vector2d::Zero();
+  std::optional<common::Time> blind_until_;  ///< Flies the way when lost until then.
   std::optional<common::Time> vertical_lost_;
   std::optional<common::Time> inertial_lost_;
   std::string inertial_fault_;

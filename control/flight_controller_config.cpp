@@ -26,6 +26,9 @@ void FlightController::Config::describe(common::config::Fields& fields) {
   fields("stopped_speed_m_s", stopped_speed_m_s, kPositive, "Slower than this the vehicle has stopped.");
   fields("horizontal_loss_s", horizontal_loss_s, kPositive,
          "Without a horizontal estimate for this long the vehicle lands level.");
+  fields("blind_speed_m_s", blind_speed_m_s, {0.05, 1.0},
+         "Speed at which a vehicle that has lost its horizontal estimate leaves the walls, by its velocity alone.");
+  fields("blind_acceleration_m_s2", blind_acceleration_m_s2, {0.1, 3.0}, "Acceleration to that speed.");
   fields("vertical_loss_s", vertical_loss_s, kPositive,
          "Without a vertical estimate for this long the emergency descent begins.");
   fields("inertial_age_s", inertial_age_s, kPositive,

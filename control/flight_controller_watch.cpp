@@ -42,6 +42,10 @@ void FlightController::watchInertial(const std::string& fault) {
 }
 
 void FlightController::watchHorizontal(const FlightTick& tick) {
+  if (blind_until_ && (tick.state.horizontal_valid || now_ >= *blind_until_)) {
+    blind_until_.reset();
+    follower_.stop();
+  }
   if (tick.state.horizontal_valid) {
     if (horizontal_lost_) {
       // The present height, not the reference, which may be far away.
@@ -55,11 +59,26 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
   }
   if (!horizontal_lost_) {
     horizontal_lost_ = now_;
-    follower_.stop();
-    say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
+    flyBlind();
   }
   if (state() != FlightState::kLanding && (now_ - *horizontal_lost_).seconds() >= config_.horizontal_loss_s)
     transition(FlightInput::kLand, fmt::format("no horizontal estimate for {:.1f} s", config_.horizontal_loss_s));
+}
+
+/// The velocity is known for longer than the position. So the vehicle brakes, or leaves the walls that it would drift
+/// into on its way down.
+void FlightController::flyBlind() {
+  const double way_m = way_when_lost_map_m_.norm();
+  if (state() != FlightState::kFlying || way_m < config_.blind_speed_m_s * dt_s_) {
+    follower_.stop();
+    return say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
+  }
+  const Eigen::Vector2d velocity_m_s =
+      Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * (config_.blind_speed_m_s / way_m * way_when_lost_map_m_);
+  follower_.setVelocity({velocity_m_s.x(), velocity_m_s.y(), 0.0}, config_.blind_acceleration_m_s2,
+                        common::yawOf(last_state_.T_odom_body.rotation));
+  blind_until_ = now_ + common::Duration::fromSeconds(way_m / config_.blind_speed_m_s);
+  say(Severity::kWarning, "horizontal estimate lost", fmt::format("flying {:.1f} m away from the walls", way_m));
 }
 
 void FlightController::keepPathInMap(const common::VehicleState& state) {

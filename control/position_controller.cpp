@@ -59,7 +59,7 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
 
   const Eigen::Vector2d velocity_m_s = state.velocity_odom_m_s.head<2>();
   if (!lagged_.point()) {
-    missing_m_s.head<2>() = -velocity_m_s;
+    missing_m_s.head<2>() = reference.velocity_odom_m_s.head<2>() - velocity_m_s;
     return missing_m_s;
   }
   const Eigen::Vector2d position_error_m = lagged_.point()->position_odom_m - state.T_odom_body.position_m.head<2>();

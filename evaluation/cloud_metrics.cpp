@@ -118,8 +118,9 @@ Cloud surfacesInView(const common::RgbdCameraConfig& camera, const std::vector<P
   std::vector<Cubes::Key> order;  // The map's own order differs between libraries.
   for (std::size_t pose = 0; pose < T_world_camera.size(); ++pose)
     for (int ray = 0; ray < kColumns * kRows; ++ray) {
-      const double u_px = (ray % kColumns + 0.5) / kColumns * pinhole.width_px - 0.5;
-      const double v_px = (ray / kColumns + 0.5) / kRows * pinhole.height_px - 0.5;
+      const int column = ray % kColumns, row = ray / kColumns;
+      const double u_px = (column + 0.5) / kColumns * pinhole.width_px - 0.5;
+      const double v_px = (row + 0.5) / kRows * pinhole.height_px - 0.5;
       const Eigen::Vector3d along = pinhole.point_camera_m(u_px, v_px, 1.0);
       const Eigen::Vector3d direction = T_world_camera[pose].rotation * along.normalized();
       const simulation::Hit hit =

@@ -44,6 +44,7 @@ GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
 }
 
 bool GoTo::looksAsAsked(const common::VehicleState& state) const {
+  // Three times the yaw's error in a hover, so that the wait for it ends.
   constexpr double kNear_rad = 3.0 * common::kRadPerDeg;
   if (!intent_.yaw_map_rad) return true;
   return std::abs(common::wrapAngle(state.T_map_body_planar().yaw_rad - *intent_.yaw_map_rad)) < kNear_rad;

@@ -14,7 +14,8 @@ namespace {
 constexpr int kPlaces = 24;
 /// Passing a place this near counts, and the vehicle is on its circle.
 constexpr double kOnCircle_m = 0.15;
-/// From then on the vehicle may leave its first place.
+/// From then on the vehicle may leave its first place: well within half of a camera's opening angle, and above the
+/// yaw's error in a hover, 1 deg.
 constexpr double kFacesPoint_rad = 3.0 * common::kRadPerDeg;
 
 /// The height of the body from which the camera's axis meets the point.

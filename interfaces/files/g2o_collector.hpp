@@ -90,10 +90,10 @@ class G2oCollector {
   /// The information of an edge, if it is valid: see indefiniteError.
   Information definite(G2oFields& fields) {
     const int column = fields.column();
-    const Information information = fields.template information<Information>();
+    Information information = fields.template information<Information>();
     if (isPositiveDefinite(information)) return information;
     ++indefinite_edges_;
-    const Information diagonal = information.diagonal().asDiagonal();
+    Information diagonal = information.diagonal().asDiagonal();
     if (options_.ignore_cross_terms && isPositiveDefinite(diagonal)) return diagonal;
     if (++refused_edges_ == 1)
       first_problem_ = fields.problem(column, "the information is not positive definite").problems().front();

@@ -73,6 +73,7 @@ struct ErrorStateFilter::Impl {
   StateHistory history;
   RestEstimator rest;
   bool at_rest = false;
+  bool predicted = false;
   Time newest_seen;
   bool any_seen = false;
   FusionCounts counters;
@@ -126,7 +127,7 @@ void ErrorStateFilter::predict(const common::ImuSample& sample) {
   f.newest_seen = now;
   f.any_seen = true;
   f.rest.add(sample);
-  if (!f.history.empty()) f.history.push(sample, f.at_rest);
+  if (!f.history.empty()) f.history.push(sample, f.at_rest, f.predicted);
 }
 
 tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m) {
@@ -145,6 +146,8 @@ tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m) {
 bool ErrorStateFilter::initialized() const { return !impl_->history.empty(); }
 
 void ErrorStateFilter::setAtRest(bool at_rest) { impl_->at_rest = at_rest; }
+
+void ErrorStateFilter::setPredicted(bool predicted) { impl_->predicted = predicted; }
 
 Insertion ErrorStateFilter::addClone(Time time) {
   Measurement m;

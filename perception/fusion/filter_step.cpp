@@ -38,6 +38,10 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
   at.stamp = before.imu.stamp;
   ImuNoise noise = noise_;
   noise.accelerometer_m_s2_rthz = std::max(noise.accelerometer_m_s2_rthz, now.accelerometer_noise_m_s2_rthz);
+  if (now.predicted) {
+    noise.accelerometer_m_s2_rthz = config_.predicted_force_noise_m_s2_rthz;
+    noise.gyroscope_rad_s_rthz = config_.predicted_rate_noise_rad_s_rthz;
+  }
   const auto advanceTo = [&](Time time) {
     if (time <= at.stamp) return;
     ImuValue next = now.imu;
@@ -150,7 +154,7 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
 void FilterStep::accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const {
   DragStretch& stretch = state.drag_stretch;
   const double dt_s = (now.imu.stamp - before.imu.stamp).seconds();
-  if (now.at_rest || dt_s > kLongestDragStep_s) {
+  if (now.at_rest || now.predicted || dt_s > kLongestDragStep_s) {
     stretch = {};
     return;
   }

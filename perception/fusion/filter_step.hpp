@@ -20,6 +20,7 @@ struct Slot {
   Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();  ///< From the AHRS.
   bool attitude_due = false;
   bool at_rest = false;
+  bool predicted = false;  ///< From the commands, not measured.
   /// As measured from the samples before; propellers shake some vehicles far more than others.
   double accelerometer_noise_m_s2_rthz = 0.0;
   FilterState state;

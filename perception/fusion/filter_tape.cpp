@@ -14,6 +14,7 @@ struct Tell {
   void operator()(const common::ImuSample& sample) const { filter.predict(sample); }
   void operator()(const TapedStart& start) const { (void)filter.initialize(start.height_m); }
   void operator()(const TapedRest& rest) const { filter.setAtRest(rest.at_rest); }
+  void operator()(const TapedPredicted& p) const { filter.setPredicted(p.predicted); }
   void operator()(const TapedClone& clone) const { (void)filter.addClone(clone.time); }
   void operator()(const TapedRelativePose& m) const {
     (void)filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unseen_direction);
@@ -34,6 +35,7 @@ struct Print {
   }
   std::string operator()(const TapedStart& s) const { return fmt::format("start {}\n", s.height_m); }
   std::string operator()(const TapedRest& r) const { return fmt::format("rest {:d}\n", r.at_rest); }
+  std::string operator()(const TapedPredicted& p) const { return fmt::format("predicted {:d}\n", p.predicted); }
   std::string operator()(const TapedClone& c) const { return fmt::format("clone {}\n", c.time.nanoseconds()); }
   std::string operator()(const TapedRelativePose& m) const {
     const Eigen::Vector2d unseen = m.unseen_direction.value_or(Eigen::Vector2d::Zero());
@@ -103,6 +105,7 @@ TapedRelativePose poseOf(Numbers& n) {
 FilterInput shortOf(std::string_view name, Numbers& n) {
   if (name == "start") return TapedStart{n.number()};
   if (name == "rest") return TapedRest{n.number() != 0.0};
+  if (name == "predicted") return TapedPredicted{n.number() != 0.0};
   if (name == "clone") return TapedClone{n.time()};
   const Time time = n.time();
   const double value = n.number(), variance = n.number();
@@ -121,8 +124,8 @@ std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& wo
     std::string_view name;
     std::size_t numbers;
   };
-  constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1}, {"clone", 1},
-                             {"pose", 14}, {"height", 4}, {"climb", 3}};
+  constexpr Form kForms[] = {{"imu", 12},  {"start", 1}, {"rest", 1},   {"predicted", 1},
+                             {"clone", 1}, {"pose", 14}, {"height", 4}, {"climb", 3}};
   if (words.empty()) return std::nullopt;
   Numbers numbers(words);
   for (const Form& form : kForms) {

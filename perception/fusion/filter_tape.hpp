@@ -22,6 +22,9 @@ struct TapedStart {
 struct TapedRest {
   bool at_rest = false;
 };
+struct TapedPredicted {
+  bool predicted = false;
+};
 struct TapedClone {
   common::Time time;
 };
@@ -40,8 +43,8 @@ struct TapedClimb {
   double speed_m_s = 0.0, variance_m2_s2 = 0.0;
 };
 /// Relative poses in space, of a camera, are not taped: such flights are replayed without them.
-using FilterInput =
-    std::variant<common::ImuSample, TapedStart, TapedRest, TapedClone, TapedRelativePose, TapedHeight, TapedClimb>;
+using FilterInput = std::variant<common::ImuSample, TapedStart, TapedRest, TapedPredicted, TapedClone,
+                                 TapedRelativePose, TapedHeight, TapedClimb>;
 
 class FilterListener {
  public:

@@ -12,6 +12,10 @@ void FusionConfig::describe(common::config::Fields& fields) {
   fields("accelerometer_noise_m_s2_rthz", accelerometer_noise_m_s2_rthz, kPositive,
          "Least noise density of the accelerometer; what the samples show counts where it is more.");
   fields("gyroscope_noise_rad_s_rthz", gyroscope_noise_rad_s_rthz, kPositive, "Noise density of the gyroscope.");
+  fields("predicted_force_noise_m_s2_rthz", predicted_force_noise_m_s2_rthz, kPositive,
+         "Noise density of a specific force that the thrust predicts: 5 % of gravity for a second.");
+  fields("predicted_rate_noise_rad_s_rthz", predicted_rate_noise_rad_s_rthz, kPositive,
+         "Noise density of a rate of rotation that the setpoints predict: 2 deg after a tenth of a second.");
   fields("accelerometer_bias_walk_m_s3_rthz", accelerometer_bias_walk_m_s3_rthz, kPositive,
          "Random walk of the accelerometer's bias.");
   fields("gyroscope_bias_walk_rad_s2_rthz", gyroscope_bias_walk_rad_s2_rthz, kPositive,

@@ -13,6 +13,8 @@ struct FusionConfig {
   double gravity_m_s2 = 9.81;
   double accelerometer_noise_m_s2_rthz = 0.02;
   double gyroscope_noise_rad_s_rthz = 0.002;
+  double predicted_force_noise_m_s2_rthz = 0.5;
+  double predicted_rate_noise_rad_s_rthz = 0.1;
   double accelerometer_bias_walk_m_s3_rthz = 0.003;
   double gyroscope_bias_walk_rad_s2_rthz = 0.0005;
   double accelerometer_bias_sigma_m_s2 = 0.2;

@@ -51,7 +51,7 @@ void StateHistory::start(const Slot& first) {
   diverged_ = false;
 }
 
-void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
+void StateHistory::push(const common::ImuSample& sample, bool at_rest, bool predicted) {
   const Time now = sample.stamps.measured;
   replay(count_);  // The oldest state must be up to date before it may be dropped.
   if (count_ == ring_.size()) dropOldest();
@@ -64,6 +64,7 @@ void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
   measureNoise(slot(count_ - 1).imu, s.imu);
   s.accelerometer_noise_m_s2_rthz = std::sqrt(accelerometer_noise2_m2_s3_);
   s.at_rest = at_rest;
+  s.predicted = predicted;
   s.up_body = sample.rotation_ahrs_body.conjugate() * Eigen::Vector3d::UnitZ();
   s.attitude_due = (now - last_attitude_).seconds() >= attitude_period_s_ - 1e-6;
   if (s.attitude_due) last_attitude_ = now;

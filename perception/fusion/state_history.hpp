@@ -25,7 +25,7 @@ class StateHistory {
   bool empty() const { return count_ == 0; }
 
   /// Adds the next sample. Only after start().
-  void push(const common::ImuSample& sample, bool at_rest);
+  void push(const common::ImuSample& sample, bool at_rest, bool predicted);
   /// Returns kTaken, kTooOld (also if there is no room) or kTooNew.
   Insertion insert(const Measurement& measurement);
 

@@ -211,7 +211,7 @@ TEST(Autonomy, HoldEndsWhenScansReturn) {
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kRunning);
 }
 
-/// The descent begins within half a second, is named, and ends softly on the ground.
+/// The descent begins within half a second, is named, is steered by the laser, and ends softly on the ground.
 void landsWithoutInertialSamples(const HandledVehicle::Hand& hand, const std::string& fault) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());
@@ -223,6 +223,12 @@ void landsWithoutInertialSamples(const HandledVehicle::Hand& hand, const std::st
   ASSERT_NE(noticed, story.events.end());
   EXPECT_LE((noticed->stamp - since).seconds(), 0.15);
   EXPECT_EQ(noticed->reason, fault);
+  ASSERT_TRUE(story.fly(1.0));
+  const common::VehicleState state = story.autonomy().state();
+  EXPECT_TRUE(state.horizontal_valid) << "laser and setpoints no longer carry the position";
+  EXPECT_LT(state.horizontalAge_s(story.now()), 0.2);
+  EXPECT_LT(state.inertialAge_s(story.now()), 0.05);
+  EXPECT_LT(state.velocity_odom_m_s.head<2>().norm(), 0.15) << "it has not braked";
   EXPECT_TRUE(story.until([&] { return story.autonomy().finished(); }, 20.0)) << "it crashes";
 }
 

@@ -177,12 +177,14 @@ TEST(ControlErrors, UseOnlyWhatMayBeUsed) {
   input.state.velocity_odom_m_s = {1, 2, 3};
   input.reference.position_odom_m = {5, 0, 5};
   input.reference.velocity_odom_m_s = {4, 4, 4};
+  input.reference.acceleration_odom_m_s2 = {1, 1, 0};
   const ControlLimits limits;
   EXPECT_NEAR(errorsOf(input, limits).position_odom_m.x(), limits.max_position_error_m, 1e-12);
   EXPECT_NEAR(errorsOf(input, limits).velocity_odom_m_s.x(), 3.0, 1e-12);
   input.horizontal = Horizontal::kVelocity;
   EXPECT_EQ(errorsOf(input, limits).position_odom_m.x(), 0.0);
-  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), -1.0);
+  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), 3.0);
+  EXPECT_EQ(errorsOf(input, limits).acceleration_odom_m_s2.x(), 0.0);
   input.horizontal = Horizontal::kLevel;
   EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), 0.0);
   EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.z(), 1.0);

@@ -181,6 +181,18 @@ TEST(Flight, WithoutAHeightItComesDownOverThePlaceThatItStillKnows) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
 }
 
+TEST(Flight, WithoutAPositionItFliesItsBlindWayAndLands) {
+  Flight flight;
+  flight.hover(1.0);
+  flight.controller.setWayWhenLost({0.0, 0.5});
+  const Eigen::Vector3d before_m = flight.model.position_m;
+  flight.horizontal_valid = false;
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 20.0));
+  EXPECT_NEAR(flight.model.position_m.x() - before_m.x(), 0.0, 0.15);
+  EXPECT_NEAR(flight.model.position_m.y() - before_m.y(), 0.5, 0.15);
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
+}
+
 TEST(Flight, WithoutInertialSamplesItBrakesAndComesDown) {
   Flight flight;
   flight.hover(1.5);

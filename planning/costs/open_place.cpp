@@ -1,0 +1,42 @@
+#include "planning/costs/open_place.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace swiftlet::planning {
+
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr int kDirections = 32;
+/// A metre of the way is worth a quarter of a metre of distance to the walls: an estimate that is no longer measured
+/// is wrong by about that share of the way.
+constexpr double kWayCost = 0.25;
+
+}  // namespace
+
+Vector2d wayToOpenPlace_m(const CostMap& map, const Vector2d& from_map_m, double reach_m) {
+  Vector2d best_m = Vector2d::Zero();
+  double best_score_m = map.obstacleDistance_m(map.cellAt(from_map_m));
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const double angle_rad = 2.0 * std::numbers::pi * direction / kDirections;
+    const Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+    double before_m = map.obstacleDistance_m(map.cellAt(from_map_m));
+    for (double way_m = map.resolution_m(); way_m <= reach_m; way_m += map.resolution_m()) {
+      const common::CellIndex cell = map.cellAt(from_map_m + way_m * along);
+      const double distance_m = map.obstacleDistance_m(cell);
+      // Out of a place that is too near to a wall only away from it.
+      if (map.costAt(cell) == CostMap::kLethal && (distance_m <= before_m || map.stateAt(cell) != CellState::kFree))
+        break;
+      before_m = distance_m;
+      const double score_m = distance_m - kWayCost * way_m;
+      if (score_m <= best_score_m + 1e-9) continue;
+      best_score_m = score_m;
+      best_m = way_m * along;
+    }
+  }
+  return best_m;
+}
+
+}  // namespace swiftlet::planning
