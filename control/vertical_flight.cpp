@@ -72,7 +72,11 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
   const double wrong_m_s =
       carried ? kCarriedSpeed_m_s2 * std::min(kCarriedLimit_s, last_state_.verticalAge_s(now_)) : 0.0;
-  const double descent_m_s = margin_.speed() * (near ? config_.touchdown_descent_m_s : config_.descent_m_s);
+  // Without a position the vehicle drifts, the more the longer it takes.
+  const bool drifts = !tick.state.horizontal_valid;
+  const double far_m_s = drifts ? config_.emergency.descent_m_s : config_.descent_m_s;
+  const double near_m_s = drifts ? config_.emergency.touchdown_descent_m_s : config_.touchdown_descent_m_s;
+  const double descent_m_s = margin_.speed() * (near ? near_m_s : far_m_s);
   moveVertically(-std::numeric_limits<double>::infinity(), descent_m_s + wrong_m_s, height_m);
   const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_));
 
