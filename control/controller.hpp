@@ -47,6 +47,9 @@ struct ControlInput {
   /// The vehicle stands: the tilt and the yaw rate stay zero, and neither the horizontal integrals nor the learned
   /// hover command change. `horizontal` is then kLevel.
   bool on_ground = false;
+  /// Share of the horizontal gains to use; less than 1 while roll and pitch swing. The controllers of the papers keep
+  /// theirs.
+  double horizontal_share = 1.0;
 };
 
 /// One thread; called each kControlPeriod while the vehicle is in control. tick() allocates nothing and never throws.

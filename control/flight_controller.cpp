@@ -37,6 +37,7 @@ FlightController::FlightController(const Config& config, const common::VehicleCo
       position_(config.controller, config.position, vehicle, model),
       emergency_(config.emergency),
       clearance_(config.clearance),
+      oscillation_(config.oscillation),
       dt_s_(common::kControlPeriod.seconds()),
       max_height_m_(vehicle.max_height_m) {}
 
@@ -235,7 +236,9 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
     // A velocity that is measured no longer would be damped beyond its end.
     if (!tick.inertial_fault.empty()) horizontal = Horizontal::kLevel;
   }
-  const ControlInput input{now_, dt_s_, tick.state, target, tick.acceleration_odom_m_s2, horizontal, on_ground};
+  if (!on_ground) oscillation_.observe(tick.state.T_odom_body.rotation, dt_s_);
+  const ControlInput input{now_,       dt_s_,     tick.state,          target, tick.acceleration_odom_m_s2,
+                           horizontal, on_ground, oscillation_.share()};
   return position_.tick(input, tick.battery_v);
 }
 
@@ -282,6 +285,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
     case FlightState::kTakingOff:
       grounded_reason_.clear();
       blind_until_.reset();
+      oscillation_.reset();
       standing_height_m_ = position_m.z();
       standing_raw_m_ = emergency_.filter().ready() ? emergency_.filter().height_m() : position_m.z();
       follower_.reset(position_m, yaw_rad);

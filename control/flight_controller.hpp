@@ -19,6 +19,7 @@
 #include "control/emergency_descent.hpp"
 #include "control/flight_state_machine.hpp"
 #include "control/margin_limits.hpp"
+#include "control/oscillation_guard.hpp"
 #include "control/path_follower.hpp"
 #include "control/surface_clearance.hpp"
 #include "control/switched_controller.hpp"
@@ -92,6 +93,7 @@ class FlightController {
     ControllerChoiceConfig controller;
     EmergencyDescent::Config emergency;
     SurfaceClearance::Config clearance;
+    OscillationGuard::Config oscillation;
 
     void describe(common::config::Fields& fields);
   };
@@ -188,6 +190,7 @@ class FlightController {
   SwitchedController position_;
   EmergencyDescent emergency_;
   SurfaceClearance clearance_;
+  OscillationGuard oscillation_;
   std::vector<common::Event> events_;
   std::string grounded_reason_;
 

@@ -40,6 +40,7 @@ void FlightController::Config::describe(common::config::Fields& fields) {
   fields.section("position", position, "Settings of the controller swiftlet, and the thrust model of all.");
   fields.section("controller", controller, "Which controller flies, and the settings of the others.");
   fields.section("clearance", clearance, "The height over what paths lead across.");
+  fields.section("oscillation", oscillation, "Horizontal gains of the controller swiftlet while roll and pitch swing.");
   fields.section("emergency", emergency, "Emergency descent.");
 }
 

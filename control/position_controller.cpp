@@ -23,13 +23,14 @@ void PositionController::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const Th
 }
 
 common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel& thrust) {
-  const auto& [now, dt_s, state, reference, measured_m_s2, horizontal, on_ground] = input;
+  const auto& [now, dt_s, state, reference, measured_m_s2, horizontal, on_ground, share] = input;
   if (horizontal == Horizontal::kPosition)
     lagged_.advance(reference, config_.attitude_lag_s, dt_s);
   else
     lagged_.reset();
-  const Eigen::Vector3d missing_m_s = missingVelocity(state, reference, horizontal);
-  const Eigen::Vector3d gain_1_s(config_.horizontal_v_1_s, config_.horizontal_v_1_s, config_.vertical_v_1_s);
+  const Eigen::Vector3d missing_m_s = missingVelocity(state, reference, horizontal, share);
+  const Eigen::Vector3d gain_1_s(share * config_.horizontal_v_1_s, share * config_.horizontal_v_1_s,
+                                 config_.vertical_v_1_s);
   Eigen::Vector3d wanted_m_s2 = gain_1_s.cwiseProduct(missing_m_s) + integral_m_s2_;
   wanted_m_s2.z() += reference.acceleration_odom_m_s2.z();
   if (horizontal == Horizontal::kPosition) wanted_m_s2.head<2>() += reference.acceleration_odom_m_s2.head<2>();
@@ -48,7 +49,7 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
 }
 
 Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& state, const Reference& reference,
-                                                    Horizontal horizontal) const {
+                                                    Horizontal horizontal, double share) const {
   Eigen::Vector3d missing_m_s = Eigen::Vector3d::Zero();
   const double climb_error_m = reference.position_odom_m.z() - state.T_odom_body.position_m.z();
   const double climb_velocity_error_m_s = reference.velocity_odom_m_s.z() - state.velocity_odom_m_s.z();
@@ -63,7 +64,8 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
     return missing_m_s;
   }
   const Eigen::Vector2d position_error_m = lagged_.point()->position_odom_m - state.T_odom_body.position_m.head<2>();
-  const Eigen::Vector2d correction = limited(config_.horizontal_p_1_s * position_error_m, config_.max_correction_m_s);
+  const Eigen::Vector2d correction =
+      limited(share * config_.horizontal_p_1_s * position_error_m, config_.max_correction_m_s);
   missing_m_s.head<2>() =
       limited(lagged_.point()->velocity_odom_m_s + correction, config_.max_speed_m_s) - velocity_m_s;
   return missing_m_s;

@@ -51,7 +51,7 @@ struct Part {
 
 class Telemetry {
  public:
-  Telemetry(WebServer::Sources sources, std::function<common::Time()> unix_time)
+  Telemetry(const WebServer::Sources& sources, std::function<common::Time()> unix_time)
       : sources_(sources), unix_time_(std::move(unix_time)) {}
 
   common::Time now() const { return unix_time_(); }

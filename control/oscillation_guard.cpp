@@ -1,0 +1,49 @@
+#include "control/oscillation_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/config_fields.hpp"
+#include "common/geometry.hpp"
+
+namespace swiftlet::control {
+
+using common::config::kPositive;
+
+namespace {
+
+double blend(double dt_s, double constant_s) { return 1.0 - std::exp(-dt_s / constant_s); }
+
+}  // namespace
+
+void OscillationGuard::reset() {
+  mean_rad_.reset();
+  square_rad2_ = 0.0;
+  share_ = 1.0;
+}
+
+void OscillationGuard::observe(const Eigen::Quaterniond& rotation_odom_body, double dt_s) {
+  const common::RollPitchYaw attitude = common::rollPitchYaw(rotation_odom_body);
+  const Eigen::Vector2d tilt_rad(attitude.roll_rad, attitude.pitch_rad);
+  if (!mean_rad_) mean_rad_ = tilt_rad;
+  *mean_rad_ += blend(dt_s, config_.mean_s) * (tilt_rad - *mean_rad_);
+  square_rad2_ += blend(dt_s, config_.rms_s) * ((tilt_rad - *mean_rad_).squaredNorm() - square_rad2_);
+  const double calm_rad = config_.calm_deg * common::kRadPerDeg;
+  const double share = std::clamp(calm_rad / std::max(swing_rad(), 1e-9), config_.least_share, 1.0);
+  // Down at once and up slowly: gains that return as soon as the swing has ended would begin it anew.
+  share_ = share < share_ ? share : share_ + blend(dt_s, config_.recovery_s) * (share - share_);
+}
+
+double OscillationGuard::swing_rad() const { return std::sqrt(square_rad2_); }
+
+void OscillationGuard::Config::describe(common::config::Fields& fields) {
+  fields("mean_s", mean_s, kPositive, "Time constant of the mean that roll and pitch swing around.");
+  fields("rms_s", rms_s, kPositive, "Time constant of the RMS of their swing.");
+  fields("calm_deg", calm_deg, {0.5, 45},
+         "Up to this RMS the gains are used in full; the flights of many natures stay below 5.4 deg where nothing "
+         "swings.");
+  fields("least_share", least_share, {0.05, 1}, "Least share of the horizontal gains.");
+  fields("recovery_s", recovery_s, kPositive, "Time constant with which the gains return.");
+}
+
+}  // namespace swiftlet::control
