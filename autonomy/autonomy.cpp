@@ -112,13 +112,13 @@ void Autonomy::take(const common::SensorEvent& event) {
 void Autonomy::take(const common::ImuSample& sample) {
   imu_watch_.add(sample);
   if (imu_watch_.repeats()) return;
-  const bool fitted = inertial_check_.fault().empty();
+  const bool before = inertial_check_.contradicted();
   estimator_.addImu(inertial_check_.checked(sample));
-  const std::string& fault = inertial_check_.fault();
-  if (fitted != fault.empty())
-    events_.push_back({sample.stamps.arrived, fault.empty() ? common::Severity::kInfo : common::Severity::kWarning,
-                       "imu", fault.empty() ? "the inertial samples fit again" : "inertial samples are replaced",
-                       fault});
+  const bool contradicted = inertial_check_.contradicted();
+  if (contradicted != before)
+    events_.push_back({sample.stamps.arrived, contradicted ? common::Severity::kWarning : common::Severity::kInfo,
+                       "imu", contradicted ? "inertial samples are replaced" : "the inertial samples fit again",
+                       inertial_check_.fault()});
 }
 
 /// The first scan that is left out leaves an event, all of them a figure of the run.
@@ -329,10 +329,12 @@ void Autonomy::tickMission() {
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
   for (const common::MissionRequest& request : std::exchange(context_.requests, {}))
-    if (auto answer = map_shelf_.take(request, estimator_, given_map_))
+    if (auto answer = map_shelf_.take(request, estimator_, given_map_)) {
+      if (given_map_.given()) missions_.mapIsGiven();
       requests_.answered(std::move(*answer), context_.now);
-    else
+    } else {
       requests_.take(request, *world_);
+    }
   collect(std::exchange(context_.events, {}));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());
