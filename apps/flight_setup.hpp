@@ -32,7 +32,8 @@ struct FlightSetup {
   std::vector<evaluation::OperatorStep> operator_steps = {};
   std::vector<evaluation::PhaseConfig> phases = {};
   VehicleMemorySetup memory;
-  bool control_log = false;  ///< Whether the run keeps control.tsv.
+  bool visual_odometry_alone = false;  ///< The RGB-D camera is tracked without any other sensor, too, for the score.
+  bool control_log = false;            ///< Whether the run keeps control.tsv.
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
   bool wait = false;             ///< On the ground, until the operator starts a mission.

@@ -208,7 +208,8 @@ int fly(const FlyOptions& options) {
                                    std::filesystem::path(setup.scenario.world).stem().string());
     web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m,
                                     vehicleNames(setup.scenario),
-                                    std::make_unique<FolderShelf>(setup.mission_file, shippedMissions()));
+                                    std::make_unique<FolderShelf>(setup.mission_file, shippedMissions(),
+                                                                  static_cast<std::uint64_t>(setup.scenario.seed)));
     const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
     if (options.json)
       showError(page);  // The token is in it, and standard output is the outcome alone.

@@ -1,9 +1,12 @@
 #include "apps/mission_shelf.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/given_map.hpp"
+#include "behaviors/mission.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/parameters.hpp"
 #include "common/data_paths.hpp"
@@ -25,6 +28,18 @@ std::string firstComment(const std::string& text) {
   const std::string comment = text.substr(begin + 4, end - begin - 4);
   const std::size_t first = comment.find_first_not_of(" \n\r\t"), last = comment.find_last_not_of(" \n\r\t");
   return first == std::string::npos ? std::string() : comment.substr(first, last - first + 1);
+}
+
+/// The maps that a mission may load, read now: in flight nothing reads a file. Those of a text that is no mission are
+/// none; why it is none is said where missions are judged. Throws common::InputError for a map that cannot be used.
+std::vector<common::OfferedMap> mapsOf(const std::string& text, const std::string& file, std::uint64_t seed) {
+  std::optional<behaviors::Mission> mission;
+  try {
+    mission = behaviors::Mission::fromText(text, file);
+  } catch (const common::InputError&) {
+    return {};
+  }
+  return offeredMaps(mission->mapFiles(), file, seed);
 }
 
 nlohmann::json parametersJson(const std::string& text, const std::string& file) {
@@ -87,7 +102,8 @@ tl::expected<common::StartMissionCommand, std::string> FolderShelf::take(
     tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file,
                                                  behaviors::missionRegistry(), parameters);
     if (!changed.problems.empty()) return tl::unexpected(toString(changed.problems.front()));
-    return common::StartMissionCommand{file, std::move(changed.text)};
+    std::vector<common::OfferedMap> maps = mapsOf(changed.text, file, map_seed_);
+    return common::StartMissionCommand{file, std::move(changed.text), std::move(maps)};
   } catch (const common::InputError& error) {
     return tl::unexpected(std::string(error.what()));
   }

@@ -1,6 +1,7 @@
 // The mission files of a folder, for the page.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace swiftlet::apps {
 class FolderShelf final : public web::MissionShelf {
  public:
   /// `first` is a mission of its own, listed before those of `folder`; a folder that does not exist has none.
-  FolderShelf(std::filesystem::path first, std::filesystem::path folder)
-      : first_(std::move(first)), folder_(std::move(folder)) {}
+  /// `map_seed`: of the particles, in the maps that missions load.
+  FolderShelf(std::filesystem::path first, std::filesystem::path folder, std::uint64_t map_seed)
+      : first_(std::move(first)), folder_(std::move(folder)), map_seed_(map_seed) {}
 
   std::string list() override;
   tl::expected<common::StartMissionCommand, std::string> take(
@@ -24,6 +26,7 @@ class FolderShelf final : public web::MissionShelf {
 
   std::filesystem::path first_;
   std::filesystem::path folder_;
+  std::uint64_t map_seed_;
 };
 
 /// The folder of missions that findData finds; one that does not exist if there is none.

@@ -44,6 +44,7 @@ FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const Flight
   setup.time_limit_s = trial.time_limit_s;
   setup.operator_steps = trial.operator_steps;
   setup.phases = trial.phases;
+  setup.visual_odometry_alone = trial.visual_odometry_alone;
   setup.out = folder;
   return setup;
 }

@@ -44,6 +44,12 @@ void addCameraFigures(const common::CameraEstimate& camera, std::vector<interfac
   add("camera_clock_sigma_s", camera.clock_sigma_s);
 }
 
+std::unique_ptr<VisualOdometrySink> visualOdometryOf(const FlightSetup& setup) {
+  if (!setup.visual_odometry_alone || !setup.system.rgbd_camera) return nullptr;
+  return std::make_unique<VisualOdometrySink>(setup.system.config.autonomy.estimator.rgbd.mapper,
+                                              setup.system.rgbd_camera->mount.pose());
+}
+
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
                             const std::string& mission_file) {
   interfaces::RunInfo info;
@@ -84,6 +90,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       map3d_(folder_),
       control_log_(setup.control_log ? std::make_unique<ControlLogSink>(folder_.path(), *vehicle_) : nullptr),
+      visual_odometry_(visualOdometryOf(setup)),
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, commands(), sinks()) {
   if (setup.wait) autonomy_.waitForStart();
@@ -110,6 +117,7 @@ std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
   std::vector<autonomy::FlightSink*> all;
   for (const auto& sink : sinks_) all.push_back(sink.get());
   if (control_log_) all.push_back(control_log_.get());
+  if (visual_odometry_) all.push_back(visual_odometry_.get());
   all.push_back(&pictures_);
   all.push_back(&map3d_);
   return all;
@@ -193,6 +201,7 @@ void VehicleFlight::finish(double wall_s) {
   end.ground_truth_map = recorder_.record().truth_map;
   evaluation::FlightRecord record = recorder_.finish();
   record.operator_answers = script_.answers();
+  if (visual_odometry_) record.visual_odometry = visual_odometry_->record();
   if (hooks_.score) hooks_.score(record, *vehicle_, end);
   end.figures.push_back({"late_scans", static_cast<double>(autonomy_.lateScans())});
   if (const auto radio = autonomy_.radioCounts()) {

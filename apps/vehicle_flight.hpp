@@ -11,6 +11,7 @@
 #include "apps/flight_setup.hpp"
 #include "apps/map3d_sink.hpp"
 #include "apps/picture_sink.hpp"
+#include "apps/visual_odometry_sink.hpp"
 #include "autonomy/autonomy.hpp"
 #include "autonomy/flight_loop.hpp"
 #include "common/mailbox.hpp"
@@ -71,7 +72,8 @@ class VehicleFlight {
   interfaces::RunFolder folder_;
   PictureSink pictures_;
   Map3dSink map3d_;
-  std::unique_ptr<ControlLogSink> control_log_;  ///< Null unless it is asked for.
+  std::unique_ptr<ControlLogSink> control_log_;          ///< Null unless it is asked for.
+  std::unique_ptr<VisualOdometrySink> visual_odometry_;  ///< Null unless it is asked for.
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;

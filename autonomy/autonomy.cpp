@@ -324,10 +324,12 @@ void Autonomy::tickMission() {
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
   for (const common::MissionRequest& request : std::exchange(context_.requests, {}))
-    if (auto answer = map_shelf_.take(request, estimator_, given_map_))
+    if (auto answer = map_shelf_.take(request, estimator_, given_map_)) {
+      if (given_map_.given()) missions_.mapIsGiven();
       requests_.answered(std::move(*answer), context_.now);
-    else
+    } else {
       requests_.take(request, *world_);
+    }
   collect(std::exchange(context_.events, {}));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());

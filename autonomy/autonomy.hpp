@@ -79,7 +79,7 @@ class Autonomy {
   /// The mission begins when the operator starts it, or another one. Call it before the first input.
   void waitForStart() { missions_.waitForStart(); }
 
-  /// The maps that missions may load. Call it before the first input.
+  /// The maps that the first mission may load; every other one brings its own. Call it before the first input.
   void offerMaps(std::vector<OfferedMap> maps) { map_shelf_.offer(std::move(maps)); }
 
   /// Returns a setpoint for a tick, and nothing for any other input. The delivered job must be outstanding (awaits).
@@ -130,6 +130,8 @@ class Autonomy {
   void take(const common::SensorEvent& event);
   void take(const std::shared_ptr<const common::LaserScan>& scan);
   void take(const common::OperatorCommand& command, common::Time now);
+  std::string resolvePlaces(common::OperatorCommand& command) const;
+  std::optional<common::CommandResult> takeMission(const common::OperatorCommand& command);
   common::CommandResult switchController(std::uint64_t id, const common::ControllerCommand& command);
   void answer(const common::OperatorCommand& command, common::CommandResult result, common::Time now);
   common::Setpoint tick(common::Time now);

@@ -3,20 +3,23 @@
 #include <utility>
 
 #include "autonomy/autonomy.hpp"
-#include "common/mission_request.hpp"
+#include "behaviors/named_places.hpp"
 #include "control/controller_choice.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::Time;
 
-void Autonomy::take(const common::OperatorCommand& command, Time now) {
+void Autonomy::take(const common::OperatorCommand& asked, Time now) {
+  common::OperatorCommand command = asked;
   if (!std::holds_alternative<common::LandCommand>(command.kind)) {
     std::string refusal = supervisor_.refusal();
     if (refusal.empty() && missionOver()) refusal = "the mission has ended";
     if (!refusal.empty()) return answer(command, {command.id, false, std::move(refusal)}, now);
   }
-  if (auto result = missions_.take(command)) return answer(command, std::move(*result), now);
+  if (std::string refusal = resolvePlaces(command); !refusal.empty())
+    return answer(command, {command.id, false, std::move(refusal)}, now);
+  if (auto result = takeMission(command)) return answer(command, std::move(*result), now);
   if (const auto* other = std::get_if<common::ControllerCommand>(&command.kind))
     return answer(command, switchController(command.id, *other), now);
   if (auto result = supervisor_.take(command, now)) {
@@ -29,6 +32,35 @@ void Autonomy::take(const common::OperatorCommand& command, Time now) {
   if (std::holds_alternative<common::HomeCommand>(command.kind) && !missions_.mission().acceptsGoals())
     return answer(command, supervisor_.goHome(command), now);
   context_.commands.push_back(command);
+}
+
+/// Places in the given map get their places in `map`; or why they have none. Empty if all have.
+std::string Autonomy::resolvePlaces(common::OperatorCommand& command) const {
+  auto* goal = std::get_if<common::GoalCommand>(&command.kind);
+  auto* zone = std::get_if<common::KeepOutCommand>(&command.kind);
+  const bool goal_given = goal != nullptr && goal->goal_given_m;
+  const bool zone_given = zone != nullptr && !zone->corners_given_m.empty();
+  if (!goal_given && !zone_given) return {};
+  const auto places = behaviors::NamedPlaces::in(*world_);
+  if (!places) return places.error();
+  if (!places->given()) return "the flight was given no map";
+  if (goal_given) goal->goal_map_m = places->inMap_m(*goal->goal_given_m);
+  if (!zone_given) return {};
+  zone->area.corners_map_m.clear();
+  for (const Eigen::Vector2d& corner_given_m : zone->corners_given_m)
+    zone->area.corners_map_m.push_back(places->inMap_m(corner_given_m));
+  return {};
+}
+
+/// The maps of a mission that is refused are not kept.
+std::optional<common::CommandResult> Autonomy::takeMission(const common::OperatorCommand& command) {
+  const auto* mission = std::get_if<common::StartMissionCommand>(&command.kind);
+  if (mission == nullptr) return missions_.take(command);
+  const MapShelf before = map_shelf_;
+  map_shelf_.offer(mission->maps);
+  auto result = missions_.take(command);
+  if (!result->accepted) map_shelf_ = before;
+  return result;
 }
 
 common::CommandResult Autonomy::switchController(std::uint64_t id, const common::ControllerCommand& command) {

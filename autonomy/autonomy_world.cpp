@@ -33,7 +33,9 @@ void Autonomy::takeSnapshot(Time now) {
                executor_.desk().exploredArea_m2(),
                estimator_.localization(),
                given_map_.T_map_given(),
-               requests_.keepOut().zones()};
+               requests_.keepOut().zones(),
+               given_map_.flown(),
+               given_map_.given()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   parts.people.followed_map_m = executor_.followedPerson_map_m();

@@ -1,6 +1,7 @@
 #include "autonomy/given_map_overlay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -32,6 +33,19 @@ Pose2 between(const Pose2& a, const Pose2& b, double share) {
           common::wrapAngle(a.yaw_rad + share * common::wrapAngle(b.yaw_rad - a.yaw_rad))};
 }
 
+/// What the given map has at the free side of an occupied cell behind which its wall goes on for two cells: the
+/// outermost cell of a thick wall, or the end of any at a door. None for any other cell, so that no wall vanishes.
+std::optional<occupancy::Cell> beforeFace(const OccupancyGrid& grid, CellIndex cell) {
+  constexpr std::array<CellIndex, 4> kSides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  for (const CellIndex side : kSides) {
+    const occupancy::Cell before = grid.at({cell.x + side.x, cell.y + side.y});
+    if (occupancy::isFree(before) && occupancy::isOccupied(grid.at({cell.x - side.x, cell.y - side.y})) &&
+        occupancy::isOccupied(grid.at({cell.x - 2 * side.x, cell.y - 2 * side.y})))
+      return before;
+  }
+  return std::nullopt;
+}
+
 /// A grid in the cells of another frame: each cell that the corners of the source reach takes the value at its centre.
 OccupancyGrid resampled(const OccupancyGrid& source, const Pose2& T_target_source, double resolution_m) {
   OccupancyGrid target = common::makeOccupancyGrid(resolution_m);
@@ -57,11 +71,11 @@ OccupancyGrid resampled(const OccupancyGrid& source, const Pose2& T_target_sourc
 }  // namespace
 
 GivenMapOverlay::GivenMapOverlay(const GivenMap* given) : laid_(common::makeOccupancyGrid(1.0)) {
-  if (given != nullptr) given_ = *given;
+  if (given != nullptr) given_ = std::make_shared<const GivenMap>(*given);
 }
 
 void GivenMapOverlay::load(const GivenMap& given) {
-  given_ = given;
+  given_ = std::make_shared<const GivenMap>(given);
   smoothed_.reset();
   changes_.forget();
   if (std::exchange(T_map_given_, std::nullopt)) lay();
@@ -108,9 +122,11 @@ void GivenMapOverlay::lay() {
   const int same_wall = static_cast<int>(std::lround(kSameWall_m / flown_->resolution_m()));
   auto both = std::make_shared<OccupancyGrid>(laid_.snapshot());
   laid_.forEachCell([&](CellIndex cell, occupancy::Cell value) {
-    if (occupancy::isOccupied(value) && occupancy::isUnknown(flown_->at(cell)) &&
-        common::occupiedNear(*flown_, cell, same_wall))
-      both->set(cell, 0);
+    if (!occupancy::isOccupied(value) || !occupancy::isUnknown(flown_->at(cell))) return;
+    // A wall that only the given map has is known to a cell at best. Its outermost cell is not counted: at both sides
+    // of a door it would shut what is open, and the flight sees the wall itself before it is there.
+    if (const auto before = beforeFace(laid_, cell)) both->set(cell, *before);
+    if (common::occupiedNear(*flown_, cell, same_wall)) both->set(cell, 0);
   });
   flown_->forEachCell([&](CellIndex cell, occupancy::Cell value) {
     if (!occupancy::isUnknown(value)) both->set(cell, value);

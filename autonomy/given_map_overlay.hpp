@@ -7,14 +7,16 @@
 #include <optional>
 #include <vector>
 
-#include "autonomy/estimation/flight_localizer.hpp"
 #include "autonomy/map_changes.hpp"
 #include "common/geometry.hpp"
+#include "common/given_map.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::autonomy {
+
+using common::GivenMap;
 
 /// One thread. Without a given map the grid stays the same object.
 class GivenMapOverlay {
@@ -32,6 +34,10 @@ class GivenMapOverlay {
 
   /// The map of the flight over the given one; null before the first update.
   std::shared_ptr<const common::OccupancyGrid> grid() const { return grid_; }
+  /// The map of the flight alone; null before the first update.
+  const std::shared_ptr<const common::OccupancyGrid>& flown() const { return flown_; }
+  /// The given map; null if there is none.
+  const std::shared_ptr<const GivenMap>& given() const { return given_; }
   /// The frame of the given map, smoothed, and moved in steps of some centimetres at the vehicle, so that plans live
   /// longer than a scan. None while the vehicle is not localized.
   const std::optional<common::Pose2>& T_map_given() const { return T_map_given_; }
@@ -42,7 +48,7 @@ class GivenMapOverlay {
   bool follow(common::Time now, const common::Pose2& T_map_body, const common::Pose2& T_map_given);
   void lay();
 
-  std::optional<GivenMap> given_;
+  std::shared_ptr<const GivenMap> given_;
   std::optional<common::Pose2> smoothed_;  ///< T_map_given.
   std::optional<common::Pose2> T_map_given_;
   common::Time updated_;

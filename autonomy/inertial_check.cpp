@@ -22,6 +22,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kPause_s = 0.1;  ///< After a pause the windows begin anew.
+/// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
+constexpr std::size_t kUsualSamples = 320;
 
 /// The mean of `value` over the newest samples of `window` that span `span_s`; none if they do not span it yet.
 template <typename Window, typename Value>
@@ -35,22 +37,6 @@ auto meanOver(const Window& window, double span_s, Value value) -> std::optional
     ++count;
   }
   return std::nullopt;
-}
-
-/// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
-/// than half of that leaves it as it is.
-template <typename Window>
-std::optional<double> medianOver(const Window& window, double span_s, int component) {
-  const Time newest = window.back().sample.stamps.measured;
-  if ((newest - window.front().sample.stamps.measured).seconds() < span_s - 1e-6) return std::nullopt;
-  std::vector<double> values;
-  for (auto it = window.rbegin(); it != window.rend(); ++it) {
-    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) break;
-    values.push_back(it->sample.specific_force_body_m_s2[component]);
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -76,6 +62,11 @@ void InertialCheckConfig::describe(common::config::Fields& fields) {
   fields("land_after_s", land_after_s, kPositive, "A contradiction that has lasted this long ends in a landing.");
 }
 
+InertialCheck::InertialCheck(const InertialCheckConfig& config) : config_(config) {
+  window_.reserve(kUsualSamples);
+  sorted_m_s2_.reserve(kUsualSamples);
+}
+
 std::vector<std::string> InertialCheckConfig::validate() const {
   return common::Validation().atMost("trusted_again_s", trusted_again_s, "land_after_s", land_after_s).problems();
 }
@@ -91,12 +82,15 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   if (!continues || !context_.airborne) window_.clear();
   if (!context_.airborne) {
     rates_wrong_.reset(), force_wrong_.reset(), since_.reset();
-    fault_.clear();
+    fault_ = Fault::kNone;
     return sample;
   }
   window_.push_back({sample, expected_m_s2, context_.thrust_applies && !context_.near_ground});
   const double longest_s = std::max({config_.rate_window_s, config_.vertical_window_s, config_.horizontal_window_s});
-  while ((now - window_.front().sample.stamps.measured).seconds() > longest_s + 0.02) window_.pop_front();
+  const auto kept = std::find_if(window_.begin(), window_.end(), [&](const Compared& one) {
+    return (now - one.sample.stamps.measured).seconds() <= longest_s + 0.02;
+  });
+  window_.erase(window_.begin(), kept);
   compare(now);
   ImuSample used = sample;
   if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
@@ -139,7 +133,7 @@ Vector3d InertialCheck::ahrsRate_rad_s() const {
 }
 
 void InertialCheck::compare(Time now) {
-  fault_.clear();
+  fault_ = Fault::kNone;
   compareRates(now);
   compareForces(now);
   const auto forgive = [&](std::optional<Time>& wrong) {
@@ -147,14 +141,41 @@ void InertialCheck::compare(Time now) {
   };
   forgive(rates_wrong_);
   forgive(force_wrong_);
-  if (!rates_wrong_ && !force_wrong_) {
+  if (!contradicted())
     since_.reset();
-  } else {
-    if (!since_) since_ = now;
-    if (fault_.empty())
-      fault_ = fmt::format("the {} contradicted the {} a moment ago", rates_wrong_ ? "gyroscopes" : "accelerometer",
-                           rates_wrong_ ? "AHRS" : "thrust");
+  else if (!since_)
+    since_ = now;
+}
+
+std::string InertialCheck::fault() const {
+  if (!contradicted()) return {};
+  switch (fault_) {
+    case Fault::kRates:
+      return fmt::format("the gyroscopes contradict the AHRS by {:.0f} deg/s", fault_size_);
+    case Fault::kAcross:
+      return fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 across its axis", fault_size_);
+    case Fault::kAlong:
+      return fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 along its axis", fault_size_);
+    case Fault::kNone:
+      break;
   }
+  return rates_wrong_ ? "the gyroscopes contradicted the AHRS a moment ago"
+                      : "the accelerometer contradicted the thrust a moment ago";
+}
+
+/// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
+/// than half of that leaves it as it is. None if they do not span it yet.
+std::optional<double> InertialCheck::medianForce_m_s2(double span_s, int component) {
+  const Time newest = window_.back().sample.stamps.measured;
+  if ((newest - window_.front().sample.stamps.measured).seconds() < span_s - 1e-6) return std::nullopt;
+  sorted_m_s2_.clear();
+  for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
+    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) break;
+    sorted_m_s2_.push_back(it->sample.specific_force_body_m_s2[component]);
+  }
+  const auto middle = sorted_m_s2_.begin() + static_cast<std::ptrdiff_t>(sorted_m_s2_.size() / 2);
+  std::nth_element(sorted_m_s2_.begin(), middle, sorted_m_s2_.end());
+  return *middle;
 }
 
 void InertialCheck::compareRates(Time now) {
@@ -164,24 +185,25 @@ void InertialCheck::compareRates(Time now) {
   const double off_deg_s = (*mean - ahrsRate_rad_s()).norm() / common::kRadPerDeg;
   if (off_deg_s < config_.rate_deg_s) return;
   rates_wrong_ = now;
-  fault_ = fmt::format("the gyroscopes contradict the AHRS by {:.0f} deg/s", off_deg_s);
+  fault_ = Fault::kRates;
+  fault_size_ = off_deg_s;
 }
 
 void InertialCheck::compareForces(Time now) {
-  const auto say = [&](double off_m_s2, const char* where) {
+  const auto distrust = [&](double off_m_s2, Fault fault) {
     force_wrong_ = now;
-    fault_ = fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 {} its axis", off_m_s2, where);
+    fault_ = fault;
+    fault_size_ = off_m_s2;
   };
-  const auto x = medianOver(window_, config_.horizontal_window_s, 0),
-             y = medianOver(window_, config_.horizontal_window_s, 1);
-  if (x && y && std::hypot(*x, *y) > config_.horizontal_m_s2) say(std::hypot(*x, *y), "across");
+  const auto x = medianForce_m_s2(config_.horizontal_window_s, 0), y = medianForce_m_s2(config_.horizontal_window_s, 1);
+  if (x && y && std::hypot(*x, *y) > config_.horizontal_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
   const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
   if (!known) return;
   const auto along = meanOver(window_, config_.vertical_window_s, [](const Compared& one) {
     return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
   });
   // Less force than the thrust gives is a vehicle that sinks: a motor or a battery gives way. More cannot be.
-  if (along && *along > config_.vertical_m_s2) say(*along, "along");
+  if (along && *along > config_.vertical_m_s2) distrust(*along, Fault::kAlong);
 }
 
 bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > config_.land_after_s; }

@@ -3,9 +3,9 @@
 // fall-back when the fusion diverges; here the fusion is kept from it).
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -41,18 +41,21 @@ struct InertialContext {
 
 /// A rotor pushes along the body's z axis and little else acts on a slow vehicle, so the specific force along it is
 /// gravity times the share of the hover thrust, whatever the tilt, and that across it is small. The means over windows
-/// are compared: vibration is ten times as large as the bias of a good sensor. One thread.
+/// are compared: vibration is ten times as large as the bias of a good sensor. One thread. Once the windows are full,
+/// a sample allocates nothing.
 class InertialCheck {
  public:
-  explicit InertialCheck(const InertialCheckConfig& config) : config_(config) {}
+  explicit InertialCheck(const InertialCheckConfig& config);
 
   /// Call at each tick of the control.
   void vehicleIs(const InertialContext& context) { context_ = context; }
   /// The sample to be used: the same one, or one whose rates are those of the AHRS, or whose specific force is that of
   /// the thrust. A sample that is not finite is returned as it is and counts as none.
   common::ImuSample checked(const common::ImuSample& sample);
+  /// Samples are being replaced.
+  bool contradicted() const { return rates_wrong_ || force_wrong_; }
   /// What contradicts what, with figures, for people; empty while all fits.
-  const std::string& fault() const { return fault_; }
+  std::string fault() const;
   /// The fault has lasted for land_after_s: the vehicle must come down while the other sensors hold it.
   bool mustLand(common::Time now) const;
 
@@ -65,18 +68,23 @@ class InertialCheck {
   double expectedForce_m_s2(common::Time now);
   double impliedForce_m_s2(double expected_m_s2) const;
   Eigen::Vector3d ahrsRate_rad_s() const;
+  std::optional<double> medianForce_m_s2(double span_s, int component);
   void compare(common::Time now);
   void compareRates(common::Time now);
   void compareForces(common::Time now);
 
   InertialCheckConfig config_;
   InertialContext context_;
-  std::deque<Compared> window_;  ///< The last samples, at most as long as the longest window.
+  std::vector<Compared> window_;     ///< The last samples, oldest first, at most as long as the longest window.
+  std::vector<double> sorted_m_s2_;  ///< Scratch of the median.
   double thrust_over_hover_ = 1.0;
   double spread_m_s2_ = 0.0;  ///< Of the last force that was replaced.
   std::optional<common::Time> last_, since_;
   std::optional<common::Time> rates_wrong_, force_wrong_;  ///< When they last were.
-  std::string fault_;
+  /// What the last sample contradicts; none if it is only mistrusted because of earlier ones.
+  enum class Fault { kNone, kRates, kAcross, kAlong };
+  Fault fault_ = Fault::kNone;
+  double fault_size_ = 0.0;  ///< In deg/s or m/s^2.
 };
 
 }  // namespace swiftlet::autonomy

@@ -21,12 +21,13 @@ void InertialInputConfig::describe(common::config::Fields& fields) {
 std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
   watch_.add(sample);
   if (watch_.repeats() || (airborne_ && !watch_.fault(sample.stamps.arrived).empty())) return std::nullopt;
-  const bool fitted = check_.fault().empty();
+  const bool before = check_.contradicted();
   const ImuSample used = check_.checked(sample);
-  const std::string& fault = check_.fault();
-  if (fitted != fault.empty())
-    events_.push_back({sample.stamps.arrived, fault.empty() ? Severity::kInfo : Severity::kWarning, "imu",
-                       fault.empty() ? "the inertial samples fit again" : "inertial samples are replaced", fault});
+  const bool contradicted = check_.contradicted();
+  if (contradicted != before)
+    events_.push_back({sample.stamps.arrived, contradicted ? Severity::kWarning : Severity::kInfo, "imu",
+                       contradicted ? "inertial samples are replaced" : "the inertial samples fit again",
+                       check_.fault()});
   if (used.rotation_ahrs_body.coeffs().allFinite()) substitute_.measured(used);
   return used;
 }

@@ -1,11 +1,19 @@
 #include "autonomy/map_shelf.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "autonomy/estimator.hpp"
 #include "autonomy/given_map_overlay.hpp"
 
 namespace swiftlet::autonomy {
+
+void MapShelf::offer(std::vector<OfferedMap> maps) {
+  for (OfferedMap& map : maps) {
+    std::erase_if(maps_, [&](const OfferedMap& earlier) { return earlier.file == map.file; });
+    maps_.push_back(std::move(map));
+  }
+}
 
 const OfferedMap* MapShelf::find(const std::string& file) const {
   const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const OfferedMap& map) { return map.file == file; });
@@ -13,7 +21,7 @@ const OfferedMap* MapShelf::find(const std::string& file) const {
 }
 
 std::string MapShelf::problemOf(const std::string& file) const {
-  return find(file) != nullptr ? std::string() : "the map `" + file + "` was not read before the flight";
+  return find(file) != nullptr ? std::string() : "the map `" + file + "` was not read before the mission";
 }
 
 std::optional<common::MissionAnswer> MapShelf::take(const common::MissionRequest& request, Estimator& estimator,

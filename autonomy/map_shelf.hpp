@@ -1,11 +1,12 @@
-// The maps that a mission may load, read before the flight, and what it asks for about them: LoadMap and Relocalize.
+// The maps that missions may load, and what they ask for about them: LoadMap and Relocalize. Every map was read before
+// the mission that names it begins.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "autonomy/estimation/flight_localizer.hpp"
+#include "common/given_map.hpp"
 #include "common/mission_request.hpp"
 
 namespace swiftlet::autonomy {
@@ -13,15 +14,13 @@ namespace swiftlet::autonomy {
 class Estimator;
 class GivenMapOverlay;
 
-struct OfferedMap {
-  std::string file;  ///< As missions name it.
-  GivenMap map;
-};
+using common::OfferedMap;
 
 /// One thread; called at the ticks of the behaviours.
 class MapShelf {
  public:
-  void offer(std::vector<OfferedMap> maps) { maps_ = std::move(maps); }
+  /// Adds the maps; one with the name of an earlier map takes its place.
+  void offer(std::vector<OfferedMap> maps);
   /// Why a mission cannot load that map; empty if it can.
   std::string problemOf(const std::string& file) const;
 

@@ -25,6 +25,8 @@ class MissionDesk {
 
   /// The mission begins only when the operator starts it, or another one. Call it before the first tick.
   void waitForStart() { waits_ = true; }
+  /// From now on the flight has a given map, for missions that need one.
+  void mapIsGiven() { limits_.has_map = true; }
   /// Nothing is flown until the operator starts a mission.
   bool waits() const { return waits_; }
 

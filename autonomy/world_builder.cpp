@@ -1,6 +1,8 @@
 #include "autonomy/world_builder.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "control/flight_state_machine.hpp"
 
@@ -14,17 +16,24 @@ bool same(const common::Pose2& a, const common::Pose2& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.yaw_rad == b.yaw_rad;
 }
 
+bool same(const std::vector<common::PlaceCandidate>& a, const std::vector<common::PlaceCandidate>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.weight == other.weight && same(one.T_given_body, other.T_given_body);
+  });
+}
+
 bool same(const std::optional<common::Localization>& a, const std::optional<common::Localization>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->state == b->state && a->stamp == b->stamp && same(a->T_given_odom, b->T_given_odom) &&
          same(a->T_given_body, b->T_given_body) && a->covariance == b->covariance && a->explained == b->explained &&
-         a->places == b->places;
+         a->places == b->places && same(a->candidates, b->candidates);
 }
 
 /// The pointed-to values are immutable, so comparing pointers is enough.
 bool same(const common::MapLayer& a, const common::MapLayer& b) {
   return a.grid == b.grid && a.levels == b.levels && a.frontiers == b.frontiers &&
-         a.explored_area_m2 == b.explored_area_m2 && a.keep_out == b.keep_out && same(a.localization, b.localization);
+         a.explored_area_m2 == b.explored_area_m2 && a.keep_out == b.keep_out && a.flown == b.flown &&
+         a.given == b.given && same(a.localization, b.localization);
 }
 
 template <typename Layer>

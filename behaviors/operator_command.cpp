@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -30,6 +31,7 @@ tree::Status OperatorCommand::act(tree::TickContext& context) {
   if (!clearance_m_.get()) return fail(context, clearance_m_.problem());
   finish(tick);
   take(tick);
+  followGivenMap(tick);
   if (goal_)
     emitIntent(tick, *goal_);
   else
@@ -44,8 +46,22 @@ void OperatorCommand::take(FlightTick& tick) {
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m());
+  if (point != nullptr) goal_->goal_given_m = point->goal_given_m;
   goal_->mode = tick.mode;
   renewIntent();
+}
+
+void OperatorCommand::followGivenMap(FlightTick& tick) {
+  if (!goal_ || !hasMoved(*goal_, *tick.flight.world)) return;
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  renewIntent();
+  if (places) {
+    goal_->goal_map_m = places->inMap_m(*goal_->goal_given_m);
+    return;
+  }
+  tick.say(common::Severity::kWarning, toString(*command_) + " given up", places.error());
+  command_.reset();
+  goal_.reset();
 }
 
 /// Checks the present goal before a new one replaces it, so that a goal that was reached is reported as reached.

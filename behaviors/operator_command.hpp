@@ -2,6 +2,7 @@
 // above it must end the mission.
 //
 //   a new goal: replaces the present one
+//   a goal in the given map: followed when the localization moves the map; given up, then hold, when it loses the place
 //   a goal is reached, or cannot be reached: an event, then hold
 //   suspended and resumed: continues to its goal
 #pragma once
@@ -31,6 +32,7 @@ class OperatorCommand final : public FlightLeaf {
   void onStart(tree::TickContext& context) override;
   void take(FlightTick& tick);
   void finish(FlightTick& tick);
+  void followGivenMap(FlightTick& tick);
 
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "common/given_map.hpp"
 #include "common/polygon.hpp"
 
 namespace swiftlet::common {
@@ -17,20 +20,26 @@ struct ResumeCommand {};
 struct HomeCommand {};
 struct LandCommand {};
 struct GoalCommand {
+  /// Set by the autonomy from `goal_given_m`, if there is one.
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+  /// The place in the given map, which the goal then follows; refused while the vehicle does not know its own there.
+  std::optional<Eigen::Vector2d> goal_given_m = std::nullopt;
 };
 
 /// Flies another mission, or the one that waits. The text comes along, so that a recording needs no file.
 struct StartMissionCommand {
   std::string name;  ///< The file, for messages.
   std::string xml;
+  std::vector<OfferedMap> maps = {};  ///< Those that it may load, with the names that it gives them.
 };
 /// The vehicle holds until another mission is started, or it lands.
 struct StopMissionCommand {};
 
 /// The vehicle keeps out of the area from now on.
 struct KeepOutCommand {
+  /// Set by the autonomy from `corners_given_m`, if there are any. It stays where it was made.
   Polygon area;
+  std::vector<Eigen::Vector2d> corners_given_m = {};  ///< Places in the given map; empty: `area` lies in `map`.
 };
 /// Takes back all areas of KeepOutCommands; those of the mission stay.
 struct ClearKeepOutCommand {};

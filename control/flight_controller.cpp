@@ -190,7 +190,8 @@ Reference FlightController::clearOfSurfaces(Reference reference) {
   clearance_.advance(now_, reference.position_odom_m.z(), dt_s_);
   const double height_m = std::min(reference.position_odom_m.z() + clearance_.lift_m(),
                                    std::max(max_height_m_, reference.position_odom_m.z()));
-  if (height_m > reference.position_odom_m.z()) reference.velocity_odom_m_s.z() += clearance_.rate_m_s();
+  lift_m_ = height_m - reference.position_odom_m.z();
+  if (lift_m_ > 0.0) reference.velocity_odom_m_s.z() += clearance_.rate_m_s();
   reference.position_odom_m.z() = height_m;
   return reference;
 }
@@ -296,6 +297,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
       return;
     case FlightState::kFlying: {
       clearance_.reset();
+      lift_m_ = 0.0;
       Eigen::Vector3d hover = follower_.reference().position_odom_m;
       hover.z() = take_off_height_m_;
       follower_.reset(hover, follower_.reference().yaw_odom_rad);
@@ -304,7 +306,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
     case FlightState::kLanding:
       // During take-off the height reference moves by itself; in flight the path moves it.
       if (from == FlightState::kFlying) {
-        height_reference_m_ = follower_.reference().position_odom_m.z() + clearance_.lift_m();
+        height_reference_m_ = follower_.reference().position_odom_m.z() + lift_m_;
         climb_reference_m_s_ = follower_.reference().velocity_odom_m_s.z();
       }
       if (!blind_until_) follower_.stop();

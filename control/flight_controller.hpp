@@ -121,8 +121,8 @@ class FlightController {
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
-  /// How much higher than its path it flies, because of what is below.
-  double lift_m() const { return clearance_.lift_m(); }
+  /// How much higher than its path it flies because of what is below, within the greatest height.
+  double lift_m() const { return lift_m_; }
 
   /// Greatest height over the take-off floor. A take-off to more is refused, and paths stay below.
   void setMaxHeight(double height_m) { max_height_m_ = height_m; }
@@ -191,6 +191,7 @@ class FlightController {
   EmergencyDescent emergency_;
   SurfaceClearance clearance_;
   OscillationGuard oscillation_;
+  double lift_m_ = 0.0;  ///< Of the last reference.
   std::vector<common::Event> events_;
   std::string grounded_reason_;
 

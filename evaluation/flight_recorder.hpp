@@ -23,6 +23,7 @@
 #include "evaluation/ending_recorder.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
+#include "evaluation/visual_odometry_score.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -97,10 +98,11 @@ struct FlightRecord {
   std::vector<PhaseScore> phases;
   std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
   simulation::Truth last_truth;
-  std::shared_ptr<const common::OccupancyGrid> map;  ///< The last map; null if there was none.
-  std::shared_ptr<const common::Map3dLayer> map3d;   ///< The last 3D map; null if there was none.
-  std::vector<common::Pose3> T_world_body_views;     ///< True poses, 5 Hz while airborne: where the camera looked.
-  common::Trajectory truth_map;                      ///< In the `map` frame, 20 Hz while airborne, for pictures.
+  std::shared_ptr<const common::OccupancyGrid> map;     ///< The last map; null if there was none.
+  std::shared_ptr<const common::Map3dLayer> map3d;      ///< The last 3D map; null if there was none.
+  std::optional<VisualOdometryRecord> visual_odometry;  ///< None unless the trial asks for it; filled in by the flight.
+  std::vector<common::Pose3> T_world_body_views;        ///< True poses, 5 Hz while airborne: where the camera looked.
+  common::Trajectory truth_map;                         ///< In the `map` frame, 20 Hz while airborne, for pictures.
 };
 
 /// The flight loop calls it; each call is cheap enough for every tick. Calls come in the order of time.

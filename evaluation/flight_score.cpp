@@ -150,6 +150,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   scoreCollision(record.last_truth, score);
   scoreMap(record, world, score);
   score.map3d = scoreMap3d(record, world);
+  if (record.visual_odometry) score.visual_odometry = scoreOf(*record.visual_odometry, record.truth_map);
   score.conduct = scoreOf(record.conduct, world);
   score.behaviors = scoreOf(record.behaviors, world, record.T_world_map, record.T_world_body_views);
   if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
@@ -211,6 +212,10 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
       add("camera_mount_error_of_data_sheet_rad", camera->sheet_rad);
       add("camera_clock_error_s", camera->clock_s);
     }
+  }
+  if (score.visual_odometry) {
+    add("visual_odometry_rms_m", score.visual_odometry->rms_m);
+    add("visual_odometry_lost_share", score.visual_odometry->lost_share);
   }
   if (score.localization) {
     add("localization_path_length_m", score.localization->path_length_m);

@@ -76,8 +76,9 @@ struct FlightScore {
   std::optional<double> map_wall_error_median_raw_m;
   ConductScore conduct;
   BehaviorScore behaviors;
-  std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
-  std::optional<Map3dScore> map3d;                ///< None if it made no 3D map.
+  std::optional<LocalizationScore> localization;       ///< None if the flight was given no map.
+  std::optional<Map3dScore> map3d;                     ///< None if it made no 3D map.
+  std::optional<VisualOdometryScore> visual_odometry;  ///< None unless the trial asks for it.
 
   int collisions = 0;
   /// Those that the verdict does not excuse: forced ones, glass that no beam had seen, and walkers that ran into a

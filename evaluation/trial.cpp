@@ -69,6 +69,8 @@ void TrialConfig::describe(common::config::Fields& fields) {
          "The world's archive below the folder of data sets; empty when the world is with the software.");
   fields("repeat", repeat, {1, 10'000}, "Flights, each with the next seed.");
   fields("time_limit_s", time_limit_s, {1, 100'000}, "Simulated time after which a flight is ended.");
+  fields("visual_odometry_alone", visual_odometry_alone,
+         "Track the RGB-D camera without any other sensor beside the flight, and score its trajectory, too.");
   fields("clearance_m", clearance_m, {0, 5},
          "The mission's distance between hull and obstacle; where it does not fit is not reachable.");
   fields("reachable_area_max_m2", reachable_area_max_m2, {1, 20'000},

@@ -48,6 +48,7 @@ struct TrialConfig {
   std::vector<std::string> natures = {"real"};
   std::vector<double> batteries;
   bool each_fault = false;
+  bool visual_odometry_alone = false;
   std::string archive;
   int repeat = 1;
   double time_limit_s = 600.0;

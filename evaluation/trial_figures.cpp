@@ -40,6 +40,12 @@ std::optional<double> ofMap3d(const FlightScore& flight) {
 std::optional<double> map3dCoverage(const FlightScore& flight) {
   return flight.map3d ? flight.map3d->coverage : std::nullopt;
 }
+std::optional<double> visualOdometryRms_m(const FlightScore& flight) {
+  return flight.visual_odometry ? flight.visual_odometry->rms_m : std::nullopt;
+}
+std::optional<double> visualOdometryLostShare(const FlightScore& flight) {
+  return flight.visual_odometry ? std::optional(flight.visual_odometry->lost_share) : std::nullopt;
+}
 template <Verdict kVerdict>
 std::optional<double> is(const FlightScore& flight) {
   return flight.verdict == kVerdict ? 1.0 : 0.0;
@@ -73,6 +79,8 @@ const std::vector<TrialFigure>& trialFigures() {
       {"map3d_aligned_error_max_m", kMax, ofMap3d<&Map3dScore::aligned_median_m>},
       {"map3d_aligned_p95_max_m", kMax, ofMap3d<&Map3dScore::aligned_p95_m>},
       {"map3d_coverage_min", kMin, map3dCoverage},
+      {"visual_odometry_rms_median_m", kMedian, visualOdometryRms_m},
+      {"visual_odometry_lost_share_max", kMax, visualOdometryLostShare},
       {"localized_flights", kMean, localizedInTime},
       {"localization_path_length_median_m", kMedian, localizationPathLength_m},
       {"localization_path_length_max_m", kMax, localizationPathLength_m},

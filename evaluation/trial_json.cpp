@@ -116,6 +116,9 @@ ordered_json flightJson(const FlightScore& flight) {
   for (const auto& [name, figure] : figuresOf(flight.behaviors))
     if (figure) json[name] = orNull(figure);
   if (flight.map3d) json["map3d"] = map3dJson(*flight.map3d);
+  if (flight.visual_odometry)
+    json["visual_odometry"] = {{"rms_m", orNull(flight.visual_odometry->rms_m)},
+                               {"lost_share", orNull(flight.visual_odometry->lost_share)}};
   if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
   if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
   return json;

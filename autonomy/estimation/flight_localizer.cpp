@@ -29,6 +29,7 @@ void FlightLocalizer::forget() {
   localizer_.forget();
   localization_.state = localizer_.state();
   localization_.places = 0;
+  localization_.candidates.clear();
   localization_.refuted = false;
 }
 
@@ -58,6 +59,7 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.covariance = estimate.covariance;
   localization_.explained = estimate.explained;
   localization_.places = estimate.places;
+  localization_.candidates = estimate.candidates;
   if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
     events_.push_back({now, common::Severity::kWarning, "localization", "this is not the map of this place",
                        "many of its places explain a part of what is seen, and none of them stands out"});

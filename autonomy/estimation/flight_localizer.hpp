@@ -7,29 +7,20 @@
 // The vehicle does not fly by this pose, but by the map that it makes itself.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
+#include "common/given_map.hpp"
 #include "common/jobs.hpp"
 #include "common/localization.hpp"
-#include "common/occupancy_grid.hpp"
 #include "perception/localization/localizer.hpp"
 #include "perception/localization/scan_turns.hpp"
 #include "perception/projection/scan_projection.hpp"
 
 namespace swiftlet::autonomy {
 
-/// A map of the place that was made before the flight.
-struct GivenMap {
-  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Must be usable (perception::Localizer::whyUnusable).
-  common::Pose2 T_given_grid;                         ///< Places the grid in `given`, the frame of the map's file.
-  std::uint64_t seed = 1;                             ///< Seed of the particles.
-};
+using common::GivenMap;
 
 struct FlightLocalizerConfig {
   perception::LocalizerConfig localizer;

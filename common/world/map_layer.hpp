@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/given_map.hpp"
 #include "common/level_map.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
@@ -13,7 +14,7 @@
 
 namespace swiftlet::common {
 
-/// The pointers are null only in a layer under construction, never in a World of the autonomy.
+/// The pointers, but for `given`, are null only in a layer under construction, never in a World of the autonomy.
 struct MapLayer {
   /// Made by the flight; while the vehicle is localized, over the given map.
   std::shared_ptr<const OccupancyGrid> grid;
@@ -24,6 +25,8 @@ struct MapLayer {
   /// The frame of the given map. None without one, and while the vehicle is not localized in it.
   std::optional<Pose2> T_map_given;
   std::shared_ptr<const std::vector<Polygon>> keep_out = std::make_shared<const std::vector<Polygon>>();
+  std::shared_ptr<const OccupancyGrid> flown;  ///< What this flight has seen; without a given map the same as `grid`.
+  std::shared_ptr<const GivenMap> given;       ///< Null: the flight was given no map.
 };
 
 }  // namespace swiftlet::common

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/check.hpp"
+#include "perception/localization/candidate_places.hpp"
 #include "perception/localization/greatest_sigma.hpp"
 #include "perception/localization/localization_task_data.hpp"
 #include "perception/localization/map_doubt.hpp"
@@ -77,6 +78,7 @@ struct Localizer::Impl {
     double path_length_m = 0.0;  ///< Path length at which it first was the only place.
   };
   std::optional<Candidate> candidate;
+  CandidatePlaces likely;
   std::optional<double> searched_path_length_m;  ///< Path length at the last search.
   SearchPatience patience;
   double nowhere_path_length_m = 0.0;  ///< Path length since which the local map fits nowhere.
@@ -116,6 +118,7 @@ void Localizer::Impl::forgetAll() {
   local_map.clear();
   forgetSearches();
   candidate.reset();
+  likely.clear();
   lost_test.reset();
 }
 
@@ -218,6 +221,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
     places = 0;
     fits_nowhere = false;
     candidate.reset();
+    likely.clear();
     tracker.particles().spreadOverFreeSpace();
     enter(LocalizationState::kAmbiguous, "more places explain what was seen than can be told apart");
     return;
@@ -230,6 +234,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
   const LikelyPlace& best = found.places.front();
   if (found.complete) patience.found(found.task->path_length_m, found.places.size());
   const Pose2& T_odom_middle = found.whole.T_odom_middle;
+  likely.set(found.places, T_odom_middle);
   fits_nowhere = false;
   const Pose2 T_middle_body = T_odom_middle.inverse() * tracker.T_odom_body();
   std::vector<PoseHypothesis> hypotheses;
@@ -258,6 +263,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
 void Localizer::Impl::fitsNowhere() {
   places = 0;
   candidate.reset();
+  likely.clear();
   if (!fits_nowhere) nowhere_path_length_m = tracker.path_length_m();
   fits_nowhere = true;
   tracker.particles().spreadOverFreeSpace();
@@ -295,7 +301,10 @@ LocalizationEstimate Localizer::Impl::estimate() {
   if (estimate.event) estimate.event->stamp = now;
   estimate.refuted = map_doubt.refuted();
   estimate.places = state == LocalizationState::kLocalized ? 1 : places;
-  if (state != LocalizationState::kLocalized) return estimate;
+  if (state != LocalizationState::kLocalized) {
+    estimate.candidates = likely.at(T_map_grid, tracker.T_odom_body());
+    return estimate;
+  }
   estimate.T_map_odom = T_map_grid * tracker.T_grid_odom();
   estimate.T_map_body = estimate.T_map_odom * tracker.T_odom_body();
   estimate.covariance = common::turned(tracker.covariance(), T_map_grid.yaw_rad);

@@ -51,10 +51,11 @@ struct LocalizationEstimate {
   common::Pose2 T_map_body;
   /// Covariance of T_map_body: (x_m, y_m, yaw_rad) along the map's axes.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double explained = 0.0;                  ///< Share of the scan that the map explains at the pose.
-  int places = 0;                          ///< Number of places that explain the scans; 1 when localized.
-  bool refuted = false;                    ///< The map is most likely that of another place.
-  std::optional<LocalizationEvent> event;  ///< Set when the state changed.
+  double explained = 0.0;                          ///< Share of the scan that the map explains at the pose.
+  int places = 0;                                  ///< Number of places that explain the scans; 1 when localized.
+  std::vector<common::PlaceCandidate> candidates;  ///< See common::Localization; `given` is the map frame.
+  bool refuted = false;                            ///< The map is most likely that of another place.
+  std::optional<LocalizationEvent> event;          ///< Set when the state changed.
 };
 
 /// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map can take a few hundred

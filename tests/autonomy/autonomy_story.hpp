@@ -57,10 +57,10 @@ class HandledVehicle final : public common::Vehicle {
 class AutonomyStory {
  public:
   /// `leaves` are flown one after the other, below AvoidObstacle and Hold.
-  explicit AutonomyStory(const std::string& leaves)
+  explicit AutonomyStory(const std::string& leaves, const GivenMap* given = nullptr)
       : vehicle_(room(), scenario()),
         autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, mission(leaves),
-                  common::makeLockstepJobs(0)) {}
+                  common::makeLockstepJobs(0), given) {}
 
   double thrust_share = 1.0;  ///< Of each commanded thrust that reaches the motors.
   /// Is called with every sensor event before the autonomy gets it; false drops the event.

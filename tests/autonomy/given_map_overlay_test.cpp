@@ -106,6 +106,31 @@ TEST_F(GivenMapOverlayStory, AnotherMapTakesItsPlace) {
   EXPECT_TRUE(isOccupied(at(T_map_given, 0.02, 0.02)));
 }
 
+/// The wall at x = 5 m with a door from y = 1.5 m to 2.5 m.
+TEST_F(GivenMapOverlayStory, ADoorThatOnlyTheGivenMapHasIsNotNarrowedByRounding) {
+  auto walls = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
+  given_.grid->forEachCell([&](common::CellIndex cell, common::occupancy::Cell value) { walls->set(cell, value); });
+  for (double y_m = 1.52; y_m < 2.5; y_m += kCell_m)
+    for (double x_m = 4.8; x_m < 5.2; x_m += kCell_m) walls->set(walls->cellAt(x_m, y_m), -100);
+  given_.grid = walls;
+  given_.T_given_grid = {};
+  overlay_.emplace(&given_);
+  step(Pose2{});
+  const auto column = [&](double x_m) {
+    int occupied = 0;
+    for (double y_m = 0.02; y_m < 4.0; y_m += kCell_m) occupied += isOccupied(at(Pose2{}, x_m, y_m)) ? 1 : 0;
+    return occupied;
+  };
+  EXPECT_TRUE(isFree(at(Pose2{}, 5.02, 1.48))) << "the end of the wall at the door";
+  EXPECT_TRUE(isFree(at(Pose2{}, 5.02, 2.52)));
+  EXPECT_EQ(column(4.97), 58);
+  EXPECT_EQ(column(5.02), 58) << "the wall of two cells stands, but for its ends";
+  // Seen, the same end counts.
+  flown_.set(flown_.cellAt(5.02, 1.48), 100);
+  step(Pose2{});
+  EXPECT_TRUE(isOccupied(at(Pose2{}, 5.02, 1.48)));
+}
+
 TEST_F(GivenMapOverlayStory, SaysWhatHasChanged) {
   const Pose2 T_map_given{0.0, 0.0, 0.0};
   for (double x_m = 2.0; x_m < 2.5; x_m += 0.5 * kCell_m)

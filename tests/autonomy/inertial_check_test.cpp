@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/geometry.hpp"
+#include "tests/support/counted_allocations.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -101,6 +102,16 @@ TEST_F(InertialCheckStory, OnTheGroundAndNearItTheThrustSaysNothing) {
   context_.airborne = false;
   feed(0.5, {5.0, 0.0, 5.0}, 2.0);
   EXPECT_EQ(check_.fault(), "");
+}
+
+TEST_F(InertialCheckStory, ASampleAllocatesNothing) {
+  feed(1.0);
+  const long before = test_support::allocations;
+  feed(1.0);
+  feed(1.0, {0.0, 0.0, 6.0}, 1.0);
+  feed(3.0);
+  EXPECT_EQ(test_support::allocations - before, 0) << "good, contradicted, and trusted again";
+  EXPECT_FALSE(check_.contradicted());
 }
 
 TEST_F(InertialCheckStory, WhatIsNotFiniteCountsAsNone) {

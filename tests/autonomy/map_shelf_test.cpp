@@ -23,7 +23,7 @@ TEST(MapShelf, LoadsWhatWasReadAndNothingElse) {
   const auto other = shelf.take({4, common::LoadMapRequest{"other.yaml"}}, story.estimator, overlay);
   ASSERT_TRUE(other);
   EXPECT_FALSE(other->done);
-  EXPECT_EQ(other->reason, "the map `other.yaml` was not read before the flight");
+  EXPECT_EQ(other->reason, "the map `other.yaml` was not read before the mission");
   EXPECT_FALSE(story.estimator.localization());
   EXPECT_EQ(shelf.problemOf("other.yaml"), other->reason);
   EXPECT_EQ(shelf.problemOf("flat.yaml"), "");

@@ -98,6 +98,28 @@ TEST(GivenMap, ConditionsAskThere) {
   EXPECT_EQ(flight.tick(), "DONE");
 }
 
+TEST(GivenMap, AGoalOfTheOperatorFollowsTheMapAndIsGivenUpWithItsPlace) {
+  Flight flight("<Sequence><TakeOff/><OperatorCommand/></Sequence>");
+  flight.tick();
+  flight.succeeds().tick();
+  flight.events();
+  placed(flight, 1.0);
+  const common::GoalCommand goal{{2.0, 5.0}, Eigen::Vector2d(3.0, -1.0)};
+  EXPECT_EQ(flight.command({0, goal}).tick(), "RUNNING 3 go to (3.00, -1.00) in the given map");
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 3 go to (3.00, -1.00) in the given map");
+  placed(flight, 1.3);
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 4 go to (3.00, -1.00) in the given map");
+  const auto& intent = std::get<common::GoToIntent>(flight.context.intent->kind);
+  EXPECT_TRUE(intent.goal_map_m.isApprox(Eigen::Vector2d(2.3, 5.0), 1e-9));
+  flight.runs().localization(common::LocalizationState::kLost).change([](auto& layers) {
+    layers.map.T_map_given.reset();
+  });
+  EXPECT_EQ(flight.tick(), "RUNNING 5 hold");
+  EXPECT_THAT(flight.events(),
+              ElementsAre("goal (3.00, -1.00) in the given map given up (its place in the given map is "
+                          "not known)"));
+}
+
 TEST(GivenMap, NothingIsFlownToWhileThePlaceIsNotKnown) {
   for (const char* leaf : {R"(<FollowPath points="3;-1"/>)", R"(<Survey polygon="0;0 | 2;0 | 2;1"/>)",
                            R"(<Inspect point="3;-1"/>)", R"(<TurnTo yaw_deg="10"/>)", R"(<IsAt place="3;-1"/>)",

@@ -52,6 +52,7 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   server_ =
       std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});
   if (setup_.maps3d) flight_.carryCamera();
+  if (setup_.given) giveMap();
   if (setup_.flies) {
     flight_.layers().mission.status.state = common::MissionState::kRunning;
     flight_.layers().mission.status.name = "ExploreAndReturn";
@@ -83,19 +84,42 @@ double FakeBackend::serverCpu_s() const {
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
+/// A hall of 14 m by 10 m, whose frame lies turned by 40 degrees in `map`. The map of the flight lies inside it.
+void FakeBackend::giveMap() {
+  auto hall = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 280; ++x) hall->set({x, y}, x < 3 || y < 3 || x > 276 || y > 196 ? 100 : -100);
+  common::MapLayer& map = flight_.layers().map;
+  map.given = std::make_shared<const common::GivenMap>(common::GivenMap{std::move(hall), {-7.0, -5.0, 0.0}, 1});
+  map.T_map_given = common::Pose2{1.0, -0.5, 40.0 * common::kRadPerDeg};
+  common::Localization& localization = map.localization.emplace();
+  localization.state = common::LocalizationState::kLocalized;
+  localization.T_given_body = {0.5, 0.25, 0.0};
+  localization.covariance.diagonal() << 0.0009, 0.0016, 0.0004;
+  localization.explained = 0.92;
+  localization.places = 1;
+}
+
 common::CommandResult FakeBackend::carryOut(const common::OperatorCommand& command) {
   test::Layers& layers = flight_.layers();
   const auto say = [&](common::Severity severity, const std::string& text, const std::string& reason) {
     server_->postEvent({layers.stamp, severity, "mission", text, reason});
   };
   if (const auto* goal = std::get_if<common::GoalCommand>(&command.kind)) {
-    if (!flight_.isKnownFree(goal->goal_map_m)) {
+    const Eigen::Vector2d place_map_m =
+        goal->goal_given_m ? *layers.map.T_map_given * *goal->goal_given_m : goal->goal_map_m;
+    if (!flight_.isKnownFree(place_map_m)) {
       const std::string reason =
-          fmt::format("({:.2f}, {:.2f}) is not known to be free", goal->goal_map_m.x(), goal->goal_map_m.y());
+          fmt::format("({:.2f}, {:.2f}) is not known to be free", place_map_m.x(), place_map_m.y());
       say(common::Severity::kWarning, common::toString(command) + " refused", reason);
       return {command.id, false, reason};
     }
-    flight_.flyTo(goal->goal_map_m);
+    flight_.flyTo(place_map_m);
+  } else if (const auto* zone = std::get_if<common::KeepOutCommand>(&command.kind)) {
+    common::Polygon area = zone->area;
+    for (const Eigen::Vector2d& corner : zone->corners_given_m)
+      area.corners_map_m.push_back(*layers.map.T_map_given * corner);
+    layers.map.keep_out = std::make_shared<const std::vector<common::Polygon>>(1, area);
   } else if (std::holds_alternative<common::HoldCommand>(command.kind)) {
     layers.mission.status.state = common::MissionState::kHeld;
   } else if (std::holds_alternative<common::ResumeCommand>(command.kind)) {

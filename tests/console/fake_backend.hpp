@@ -35,6 +35,7 @@ class FakeBackend {
     bool answers = true;  ///< If false, commands are not answered.
     bool flies = true;    ///< If false, no world is ever posted.
     bool maps3d = false;  ///< If true, the vehicle carries an RGB-D camera.
+    bool given = false;   ///< If true, the flight has a given map and knows its place in it.
     int tree_nodes = 0;   ///< If not 0, the mission's tree has so many nodes, and some of them change in each world.
     double stall_timeout_s = 10.0;
     int max_connections = 256;
@@ -55,6 +56,7 @@ class FakeBackend {
   void fly(const std::stop_token& stop);
   void postWorld(bool moves, double seconds);
   void growTree();
+  void giveMap();
   common::CommandResult carryOut(const common::OperatorCommand& command);
 
   Setup setup_;

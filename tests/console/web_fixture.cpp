@@ -1,6 +1,6 @@
 // Serves the operator's page with a made-up flight until its standard input ends: web_fixture [PORT [TOKEN
-// [silent|map3d|tree]]]. `silent`: its commands are never answered. `map3d`: it makes a 3D map. `tree`: its mission has
-// 500 nodes, some of which change in each world.
+// [silent|map3d|tree|given]]]. `silent`: its commands are never answered. `map3d`: it makes a 3D map. `tree`: its
+// mission has 500 nodes, some of which change in each world. `given`: it knows its place in a given map.
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -14,6 +14,7 @@ int main(int count, char** arguments) {
   setup.answers = count < 4 || std::string_view(arguments[3]) != "silent";
   if (count > 3 && std::string_view(arguments[3]) == "tree") setup.tree_nodes = 500;
   setup.maps3d = count > 3 && std::string_view(arguments[3]) == "map3d";
+  setup.given = count > 3 && std::string_view(arguments[3]) == "given";
   swiftlet::testing::FakeBackend backend(setup);
   std::cout << backend.server().operatorUrl() << std::endl;
   std::string line;

@@ -279,6 +279,20 @@ TEST(Flight, ASilentLaserLeadsToHoldAndThenToLanding) {
   EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
 }
 
+/// 0.4 m over a table of 0.75 m would be 0.15 m above the path, but no more than 0.05 m is allowed.
+TEST(Flight, TheLiftOverATableIsThatWhichIsFlown) {
+  Flight flight;
+  flight.hover();
+  flight.controller.setMaxHeight(1.05);
+  flight.model.floor_m = 0.75;
+  flight.run(3.0);
+  EXPECT_NEAR(flight.controller.lift_m(), 0.05, 1e-9);
+  EXPECT_NEAR(flight.model.position_m.z(), 1.05, 0.03);
+  flight.controller.setMaxHeight(2.0);
+  flight.run(3.0);
+  EXPECT_NEAR(flight.controller.lift_m(), 0.15, 0.03);
+}
+
 TEST(Flight, RefusesCommandsThatTheStateDoesNotAllow) {
   Flight flight;
   flight.tick();

@@ -116,7 +116,7 @@ void ExampleFlight::describe() {
   layers_.vehicle.state.T_odom_body = common::lifted(pose_, 1.0 + 0.02 * std::sin(time_s_));
   layers_.vehicle.state.height_above_ground_m = 1.0;
   layers_.vehicle.state.position_covariance_m2 = Eigen::Vector3d(4e-4, 3e-4, 1e-4).asDiagonal();
-  layers_.map.grid = std::make_shared<const common::OccupancyGrid>(grid_.snapshot());
+  layers_.map.flown = layers_.map.grid = std::make_shared<const common::OccupancyGrid>(grid_.snapshot());
   layers_.vehicle.trail = trail_.trail();
   layers_.vehicle.plan_map_m.clear();
   if (layers_.mission.goal_map_m) {

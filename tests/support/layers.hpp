@@ -28,6 +28,7 @@ struct Layers {
   /// Default values, with a map in which everything is unknown.
   Layers() {
     map.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+    map.flown = map.grid;
     map.levels = std::make_shared<const common::LevelMap>();
     map.frontiers = std::make_shared<const std::vector<common::Frontier>>();
   }

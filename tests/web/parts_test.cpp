@@ -81,7 +81,7 @@ struct Page {
 TEST(TileFeedTest, APageThatReadsAllMessagesHasTheMapWheneverItJoins) {
   testing::ExampleFlight flight;
   TileFeed feed;
-  TileReader early, late;
+  TileReader early(TileReader::Map::kFlown), late(TileReader::Map::kFlown);
   Page early_page, late_page;
   std::shared_ptr<const common::World> world;
   for (int i = 0; i < 8; ++i) {
@@ -101,7 +101,7 @@ TEST(TileFeedTest, TilesRemovedFromTheMapAreRemovedFromThePage) {
   first.set({500, 3}, 50);
   second.set({0, 0}, 50);
   TileFeed feed;
-  TileReader reader;
+  TileReader reader(TileReader::Map::kFlown);
   Page page;
   feed.update(std::make_shared<const common::OccupancyGrid>(first));
   page.take(reader.next(feed, 1000));
@@ -117,7 +117,7 @@ TEST(TileFeedTest, UnchangedShadesSendNothing) {
   auto grid = common::makeOccupancyGrid(0.05);
   grid.set({3, 3}, 99);
   TileFeed feed;
-  TileReader reader;
+  TileReader reader(TileReader::Map::kFlown);
   feed.update(std::make_shared<const common::OccupancyGrid>(grid.snapshot()));
   EXPECT_FALSE(reader.next(feed, 1000).empty());
   grid.set({3, 3}, 100);
@@ -188,10 +188,17 @@ TEST(StateJsonTest, ContainsThePoseInTheGivenMapOnceItIsKnown) {
   common::Localization& localization = layers.map.localization.emplace();
   localization.state = common::LocalizationState::kAmbiguous;
   localization.places = 3;
+  localization.candidates = {{{1.0, 0.5, 0.2}, 0.6}, {{-2.0, 0.5, 3.0}, 0.25}};
   const auto unknown = nlohmann::json::parse(completeJson(layers.world(), {}, {}))["localization"];
   EXPECT_EQ(unknown["state"], "ambiguous");
   EXPECT_EQ(unknown["places"], 3);
   EXPECT_TRUE(unknown["x_m"].is_null());
+  EXPECT_TRUE(unknown["T_map_given"].is_null());
+  ASSERT_EQ(unknown["candidates"].size(), 2u);
+  EXPECT_EQ(unknown["candidates"][1]["x_m"], -2.0);
+  EXPECT_EQ(unknown["candidates"][1]["weight"], 0.25);
+  localization.candidates.clear();
+  layers.map.T_map_given = common::Pose2{1.0, 2.0, -0.5};
   localization.state = common::LocalizationState::kLocalized;
   localization.T_given_body = {3.0, -1.5, 0.5};
   localization.covariance.diagonal() << 0.0009, 0.0016, 0.01;
@@ -201,6 +208,8 @@ TEST(StateJsonTest, ContainsThePoseInTheGivenMapOnceItIsKnown) {
   EXPECT_EQ(known["yaw_rad"], 0.5);
   EXPECT_EQ(known["deviation_m"], 0.05);
   EXPECT_EQ(known["explained"], 0.875);
+  EXPECT_EQ(known["deviation_yaw_rad"], 0.1);
+  EXPECT_EQ(known["T_map_given"]["yaw_rad"], -0.5);
 }
 
 /// A flight at any speed that the telemetry observes only when the test asks for it.

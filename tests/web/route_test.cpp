@@ -162,6 +162,29 @@ TEST(RouteTest, GoalsAreReadStrictly) {
   EXPECT_EQ(statusOf(route(post("/api/goal", std::string(4000, '[')), kPolicy)), 400);
 }
 
+TEST(RouteTest, PlacesMayLieInTheGivenMap) {
+  const auto kindOf = [](const char* path, const char* body) {
+    return std::get<GiveCommand>(route(post(path, body), kPolicy)).kind;
+  };
+  const auto goal = std::get<common::GoalCommand>(kindOf("/api/goal", R"({"x_m": 3, "y_m": -1.5, "frame": "given"})"));
+  ASSERT_TRUE(goal.goal_given_m);
+  EXPECT_EQ(*goal.goal_given_m, Eigen::Vector2d(3.0, -1.5));
+  const auto own = std::get<common::GoalCommand>(kindOf("/api/goal", R"({"x_m": 3, "y_m": -1.5, "frame": "map"})"));
+  EXPECT_FALSE(own.goal_given_m);
+  EXPECT_EQ(own.goal_map_m, Eigen::Vector2d(3.0, -1.5));
+  const auto zone = std::get<common::KeepOutCommand>(
+      kindOf("/api/keep_out", R"({"corners_m": [[0, 1], [2, 1], [2, 3.5]], "frame": "given"})"));
+  EXPECT_TRUE(zone.area.corners_map_m.empty()) << "the autonomy knows where they are in map";
+  ASSERT_EQ(zone.corners_given_m.size(), 3u);
+  EXPECT_EQ(zone.corners_given_m[2], Eigen::Vector2d(2.0, 3.5));
+  for (const char* bad : {R"({"x_m":1,"y_m":2,"frame":"world"})", R"({"x_m":1,"y_m":2,"frame":3})"})
+    EXPECT_EQ(statusOf(route(post("/api/goal", bad), kPolicy)), 400) << bad;
+  EXPECT_EQ(
+      statusOf(route(post("/api/keep_out", R"({"corners_m": [[0, 0], [2, 2], [2, 0], [0, 2]], "frame": "given"})"),
+                     kPolicy)),
+      400);
+}
+
 TEST(RouteTest, MissionsAreStartedByTheirFileAndParameters) {
   const auto start = std::get<StartMission>(
       route(post("/api/mission", R"({"file": "missions/a.xml", "parameters": {"M/Go.height_m": "1.2"}})"), kPolicy));

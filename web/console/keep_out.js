@@ -18,6 +18,13 @@ export class KeepOutPen {
     if (drawing && corners_m.length >= kLeastCorners) this.send(corners_m);
   }
 
+  /** Drops the corners that were tapped; true if there were any. */
+  forget() {
+    const some = this.corners_m.length > 0;
+    this.corners_m = [];
+    return some;
+  }
+
   /** True if the tap was a corner. */
   tap({ x_m, y_m }) {
     if (this.drawing) this.corners_m.push([x_m, y_m]);

@@ -41,7 +41,8 @@ function decodeBinary(buffer) {
     });
     at += 6 + length;
   }
-  return { type: 'tiles', forget: view.getUint8(1) === 1, resolution_m: view.getFloat32(4, true), tiles };
+  const type = view.getUint8(0) === 3 ? 'given_tiles' : 'tiles';
+  return { type, forget: view.getUint8(1) === 1, resolution_m: view.getFloat32(4, true), tiles };
 }
 
 /** A connection that is silent for longer is given up: it may have died without a word. */

@@ -1,5 +1,6 @@
 // The operator's page: wires the link, the map, the panels and the commands.
 import { Commands } from './commands.js';
+import { GivenMapPanel } from './given_map_panel.js';
 import { KeepOutPen } from './keep_out.js';
 import { Link } from './link.js';
 import { Map3dPanel } from './map3d_panel.js';
@@ -22,10 +23,16 @@ const buttons = [...document.querySelectorAll('[data-command]')];
 const view = new MapView(element('map'), store, {
   onTap: (place) => pen.tap(place) || sendGoal(place),
   onMode: () => showMode(),
+  onFrame: (frame) => {
+    element('given-legend').hidden = frame !== 'given';
+    if (pen.forget()) toast('Corners forgotten', kOtherFrame, false);
+  },
 });
 
 const pen = new KeepOutPen(element('keep-out'), () => view.draw(), sendZone);
 view.pen = pen;
+
+const given = new GivenMapPanel(element('given-card'), store);
 
 const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
 
@@ -49,10 +56,11 @@ const link = new Link((message) => {
     document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
   }
   if (message.type === 'hello' || message.type === 'state') showAccess();
-  if (message.type === 'frontiers') showFrontiers(message.frontiers);
+  if (message.type === 'frontiers') showFrontiers(message.frontiers, store.shown().T_shown_map);
   if (message.type === 'tree') tree.take(message);
   if (message.type === 'events') showEvents(message.events);
   view.draw();
+  given.draw();
   map3d.draw();
 }, (path) => commands.withToken(path));
 
@@ -79,6 +87,7 @@ function showAccess() {
   disable(element('keep-out'), nothing, nothing ? '' : kDraw);
 }
 
+const kOtherFrame = 'The map is shown in another frame now: draw the zone again.';
 const kDraw = 'Tap the corners of a keep-out zone, then press again.';
 const kOwnGoals = 'This mission flies its own goals.';
 const kNoToken = 'Open the operator’s link, printed when the flight starts, to send goals.';
@@ -94,7 +103,7 @@ function showAnswer(name, title, { outcome, reason }) {
 }
 
 async function sendGoal(goal) {
-  const where = `(${goal.x_m.toFixed(2)}, ${goal.y_m.toFixed(2)})`;
+  const where = `(${goal.x_m.toFixed(2)}, ${goal.y_m.toFixed(2)})${view.frameShown === 'given' ? ' in the given map' : ''}`;
   if (!commands.allowed) {
     toast('View only', commands.refused ? kOldToken : kNoToken, false);
     return;
@@ -105,14 +114,14 @@ async function sendGoal(goal) {
     return;
   }
   view.showMarker({ ...goal, state: 'asked' });
-  const answer = await commands.give('goal', goal);
+  const answer = await commands.give('goal', { ...goal, frame: view.frameShown });
   view.showMarker(answer.outcome === 'accepted' ? null : { ...goal, state: 'refused' });
   if (answer.outcome === 'accepted') answer.reason = [where, answer.reason].filter(Boolean).join(', ');
   showAnswer('Goal', 'Goal accepted', answer);
 }
 
 async function sendZone(corners_m) {
-  showAnswer('Keep-out zone', 'Keep-out zone set', await commands.give('keep_out', { corners_m }));
+  showAnswer('Keep-out zone', 'Keep-out zone set', await commands.give('keep_out', { corners_m, frame: view.frameShown }));
 }
 
 /** What the mission waits for the operator to confirm. */

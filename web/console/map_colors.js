@@ -12,7 +12,7 @@ const mix = (a, b, t) => a.map((value, i) => Math.round(value + t * (b[i] - valu
 
 export function readColors() {
   const color = {};
-  for (const name of ['unknown', 'free', 'wall', 'grid', 'text', 'trail', 'plan', 'goal', 'home', 'vehicle', 'laser', 'level'])
+  for (const name of ['unknown', 'free', 'wall', 'grid', 'text', 'trail', 'plan', 'goal', 'home', 'vehicle', 'laser', 'level', 'given-free', 'given-wall'])
     color[name] = style(`--map-${name}`);
   color.card = style('--card');
   color.frontier = Object.fromEntries(
@@ -21,9 +21,11 @@ export function readColors() {
       style(`--frontier-${reason.replaceAll(' ', '-')}`),
     ]),
   );
-  const [unknown, free, wall] = [color.unknown, color.free, color.wall].map(parseHex);
+  const unknown = parseHex(color.unknown);
   // Shades 1 (surely) to 4 are free, 5 to 8 (surely) occupied; see web/server/tile_codec.hpp.
-  color.shades = [unknown, ...[1, 0.9, 0.75, 0.6].map((t) => mix(unknown, free, t)),
-    ...[0.6, 0.75, 0.9, 1].map((t) => mix(unknown, wall, t))];
+  const shades = (free, wall) => [unknown, ...[1, 0.9, 0.75, 0.6].map((t) => mix(unknown, parseHex(free), t)),
+    ...[0.6, 0.75, 0.9, 1].map((t) => mix(unknown, parseHex(wall), t))];
+  color.shades = shades(color.free, color.wall);
+  color.givenShades = shades(color['given-free'], color['given-wall']);
   return color;
 }

@@ -1,4 +1,4 @@
-// Touch, mouse and keys over the map: one finger moves it, two zoom, a tap is reported in map coordinates.
+// Touch, mouse and keys over the map: one finger moves it, two zoom, a tap is reported in the frame that is shown.
 
 const kTapSlack_px = 9;
 
@@ -37,7 +37,7 @@ function listenToPointers(view, onTap) {
     pointers.set(event.pointerId, next);
   });
   const release = (event, tap) => {
-    if (pointers.delete(event.pointerId) && tap && pointers.size === 0 && !press.moved) onTap(view.toMap(press.x, press.y));
+    if (pointers.delete(event.pointerId) && tap && pointers.size === 0 && !press.moved) onTap(view.toShown(press.x, press.y));
   };
   canvas.addEventListener('pointerup', (event) => release(event, true));
   canvas.addEventListener('pointercancel', (event) => release(event, false));

@@ -1,5 +1,6 @@
 // The page's copy of the world, updated by the link's messages.
 import { kTileSize } from './link.js';
+import { inverse, kIdentity, moved } from './pose2.js';
 
 const kFarthest_m = 100;
 
@@ -19,12 +20,16 @@ function knownRect(shades) {
 
 export class MapStore {
   constructor() {
-    this.tiles = new Map(); // "x,y" -> {x, y, shades, known, picture}
+    /** "x,y" -> {x, y, shades, known, picture}: of the map of the flight, and of the given map in its own cells. */
+    this.tiles = new Map();
+    this.given = { tiles: new Map(), resolution_m: 0.05, T_given_grid: null };
     this.reset();
   }
 
   reset() {
     this.tiles.clear();
+    this.given.tiles.clear();
+    this.given.T_given_grid = null;
     this.resolution_m = 0.05;
     this.state = null;
     this.previousPose = null;
@@ -45,10 +50,13 @@ export class MapStore {
         this.hullDiameter_m = message.hull_diameter_m;
         break;
       case 'tiles':
-        if (message.forget) this.tiles.clear();
-        this.resolution_m = message.resolution_m;
-        for (const tile of message.tiles)
-          this.tiles.set(`${tile.x},${tile.y}`, { ...tile, known: knownRect(tile.shades), picture: null });
+        this.takeTiles(this, message);
+        break;
+      case 'given_tiles':
+        this.takeTiles(this.given, message);
+        break;
+      case 'given_map':
+        this.given.T_given_grid = message.T_given_grid;
         break;
       case 'laser':
         this.laser = message.points;
@@ -73,6 +81,21 @@ export class MapStore {
     }
   }
 
+  takeTiles(map, { forget, resolution_m, tiles }) {
+    if (forget) map.tiles.clear();
+    map.resolution_m = resolution_m;
+    for (const tile of tiles) map.tiles.set(`${tile.x},${tile.y}`, { ...tile, known: knownRect(tile.shades), picture: null });
+  }
+
+  /**
+   * The frame that the page shows, in which places are sent: the given map's while the vehicle knows its place there,
+   * else `map`.
+   */
+  shown() {
+    const T_map_given = this.state?.localization?.T_map_given;
+    return T_map_given ? { frame: 'given', T_shown_map: inverse(T_map_given) } : { frame: 'map', T_shown_map: kIdentity };
+  }
+
   /** The pose to draw now: between the last two states, so that the vehicle glides. */
   pose() {
     const next = this.state?.pose;
@@ -88,27 +111,36 @@ export class MapStore {
     };
   }
 
-  /** {x0, y0, x1, y1} in metres of all that is known, with vehicle, home and goal. */
+  /** {x0, y0, x1, y1} in metres of all that is known, with vehicle, home and goal, in the frame that is shown. */
   bounds_m() {
+    const { frame, T_shown_map } = this.shown();
     const box = { x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity };
-    const include = (x, y) => {
+    const include = (T, point) => {
+      const [x, y] = moved(T, point);
       box.x0 = Math.min(box.x0, x);
       box.y0 = Math.min(box.y0, y);
       box.x1 = Math.max(box.x1, x);
       box.y1 = Math.max(box.y1, y);
     };
-    for (const { x, y, known } of this.tiles.values()) {
-      if (!known) continue;
-      include((x * kTileSize + known.x0) * this.resolution_m, (y * kTileSize + known.y0) * this.resolution_m);
-      include((x * kTileSize + known.x1) * this.resolution_m, (y * kTileSize + known.y1) * this.resolution_m);
-    }
-    if (box.x0 > box.x1) include(0, 0);
+    const includeTiles = (T, { tiles, resolution_m: cell_m }) => {
+      for (const { x, y, known } of tiles.values()) {
+        if (!known) continue;
+        for (const cx of [known.x0, known.x1])
+          for (const cy of [known.y0, known.y1])
+            include(T, [(x * kTileSize + cx) * cell_m, (y * kTileSize + cy) * cell_m]);
+      }
+    };
+    includeTiles(T_shown_map, this);
+    if (frame === 'given' && this.given.T_given_grid) includeTiles(this.given.T_given_grid, this.given);
+    if (box.x0 > box.x1) include(T_shown_map, [0, 0]);
     // A diverged estimate must not shrink the map to a dot.
     const { x0, y0, x1, y1 } = box;
-    const near = ({ x_m: x, y_m: y }) =>
-      x !== null && y !== null && x > x0 - kFarthest_m && x < x1 + kFarthest_m && y > y0 - kFarthest_m && y < y1 + kFarthest_m;
-    for (const point of [this.state?.pose, this.state?.home, this.state?.goal])
-      if (point && near(point)) include(point.x_m, point.y_m);
+    const near = ([x, y]) => x > x0 - kFarthest_m && x < x1 + kFarthest_m && y > y0 - kFarthest_m && y < y1 + kFarthest_m;
+    for (const place of [this.state?.pose, this.state?.home, this.state?.goal]) {
+      if (!place || place.x_m === null || place.y_m === null) continue;
+      const point = [place.x_m, place.y_m];
+      if (near(moved(T_shown_map, point))) include(T_shown_map, point);
+    }
     return box;
   }
 }

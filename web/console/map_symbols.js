@@ -11,9 +11,9 @@ export function paintHome(view, { x_m, y_m }) {
   context.fill();
 }
 
-export function paintGoal(view, { x_m, y_m }, color, crossed) {
+/** At a place on the canvas. */
+export function paintGoal(view, [x, y], color, crossed) {
   const { context } = view;
-  const [x, y] = view.toScreen(x_m, y_m);
   context.lineCap = 'round';
   view.paintRing(x, y, 10, 6, view.colors.free);
   view.paintRing(x, y, 10, 3, color);
@@ -55,13 +55,24 @@ export function paintVehicle(view, { x_m, y_m, yaw_rad }) {
   view.paintRing(x, y, radius, Math.min(3, Math.max(1.8, 0.12 * radius)), colors.vehicle);
   context.save();
   context.translate(x, y);
-  context.rotate(-yaw_rad);
+  context.rotate(-(yaw_rad + view.T_shown_map.yaw_rad));
   context.beginPath();
   for (const [ahead, left] of [[0.78, 0], [-0.52, 0.48], [-0.26, 0], [-0.52, -0.48]])
     context.lineTo(radius * ahead, radius * left);
   context.fillStyle = colors.vehicle;
   context.fill();
   context.restore();
+}
+
+/** The place in the given map is within the ring with 95 %: 2.45 deviations of a plane's Gaussian. */
+export function paintCertainty(view, pose, { state, deviation_m }) {
+  if (state !== 'localized' || deviation_m === null) return;
+  const { context, colors } = view;
+  // `deviation_m` is the root of the trace, of two axes.
+  const radius = (2.45 * deviation_m * view.scale) / Math.SQRT2;
+  context.setLineDash([3, 3]);
+  view.paintRing(...view.toScreen(pose.x_m, pose.y_m), Math.max(2, radius), 1.6, colors.goal);
+  context.setLineDash([]);
 }
 
 export function paintScale(view) {

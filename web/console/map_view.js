@@ -1,16 +1,20 @@
-// The map on a canvas: which part of it is shown, and its layers from the tiles up.
-import { kTileSize } from './link.js';
+// The map on a canvas: which part of it is shown, and its layers from the tiles up. Two frames: `map`, in which the
+// flight reports, and the one that is shown (see MapStore.shown), in which the canvas lies and places are sent.
 import { readColors } from './map_colors.js';
 import { listenToGestures } from './map_gestures.js';
-import { paintGoal, paintHome, paintScale, paintTarget, paintVehicle } from './map_symbols.js';
+import { paintCertainty, paintGoal, paintHome, paintScale, paintTarget, paintVehicle } from './map_symbols.js';
+import { paintTiles } from './map_tiles.js';
+import { composed, inverse, kIdentity, moved } from './pose2.js';
 
 /** Space covered by the tools at the right, and by scale and legend at the bottom. */
 const kInsets_px = { left: 20, right: 68, top: 20, bottom: 52 };
 
 export class MapView {
-  /** `onTap({x_m, y_m})`; `onMode("fit" | "follow" | "free")`. */
-  constructor(canvas, store, { onTap, onMode }) {
-    Object.assign(this, { canvas, store, onMode });
+  /** `onTap({x_m, y_m})` in the frame that is shown; `onMode("fit" | "follow" | "free")`; `onFrame("map" | "given")`. */
+  constructor(canvas, store, { onTap, onMode, onFrame }) {
+    Object.assign(this, { canvas, store, onMode, onFrame });
+    this.frameShown = 'map';
+    this.T_shown_map = kIdentity;
     this.context = canvas.getContext('2d', { alpha: false });
     this.center = { x_m: 0, y_m: 0 };
     this.scale = 60; // CSS pixels a metre.
@@ -21,7 +25,7 @@ export class MapView {
     this.wanted = false;
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
       this.colors = readColors();
-      for (const tile of store.tiles.values()) tile.picture = null;
+      for (const { tiles } of [store, store.given]) for (const tile of tiles.values()) tile.picture = null;
       this.draw();
     });
     new ResizeObserver(() => this.draw()).observe(canvas);
@@ -51,14 +55,19 @@ export class MapView {
     this.draw();
   }
 
+  /** Where a place in `map` is on the canvas. */
   toScreen(x_m, y_m) {
+    return this.shownToScreen(...moved(this.T_shown_map, [x_m, y_m]));
+  }
+
+  shownToScreen(x_m, y_m) {
     return [
       this.width / 2 + (x_m - this.center.x_m) * this.scale,
       this.height / 2 - (y_m - this.center.y_m) * this.scale,
     ];
   }
 
-  toMap(x_px, y_px) {
+  toShown(x_px, y_px) {
     return {
       x_m: this.center.x_m + (x_px - this.width / 2) / this.scale,
       y_m: this.center.y_m - (y_px - this.height / 2) / this.scale,
@@ -66,11 +75,11 @@ export class MapView {
   }
 
   zoom(factor, x_px = this.width / 2, y_px = this.height / 2) {
-    const fixed = this.toMap(x_px, y_px);
+    const fixed = this.toShown(x_px, y_px);
     this.scale = Math.min(600, Math.max(4, this.scale * factor));
-    const moved = this.toMap(x_px, y_px);
-    this.center.x_m += fixed.x_m - moved.x_m;
-    this.center.y_m += fixed.y_m - moved.y_m;
+    const now = this.toShown(x_px, y_px);
+    this.center.x_m += fixed.x_m - now.x_m;
+    this.center.y_m += fixed.y_m - now.y_m;
     if (this.mode === 'fit') this.setMode('free');
     this.draw();
   }
@@ -93,11 +102,28 @@ export class MapView {
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     this.ratio = ratio;
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.followFrame();
     if (this.mode === 'fit') this.fit();
     const pose = this.store.pose();
-    if (this.mode === 'follow' && pose) this.center = { x_m: pose.x_m, y_m: pose.y_m };
+    if (this.mode === 'follow' && pose) this.setCenter(moved(this.T_shown_map, [pose.x_m, pose.y_m]));
     // For programs that look for a place of the map on the screen: the point in the middle, and CSS pixels a metre.
     this.canvas.dataset.view = `${this.center.x_m} ${this.center.y_m} ${this.scale}`;
+  }
+
+  setCenter([x_m, y_m]) {
+    this.center = { x_m, y_m };
+  }
+
+  /** What is in the middle stays there when another frame is shown. */
+  followFrame() {
+    const { frame, T_shown_map } = this.store.shown();
+    const before = this.T_shown_map;
+    this.T_shown_map = T_shown_map;
+    if (frame === this.frameShown) return;
+    this.frameShown = frame;
+    this.setCenter(moved(composed(T_shown_map, inverse(before)), [this.center.x_m, this.center.y_m]));
+    this.marker = null;
+    this.onFrame(frame);
   }
 
   fit() {
@@ -116,7 +142,7 @@ export class MapView {
     const { context, colors, store } = this;
     context.fillStyle = colors.unknown;
     context.fillRect(0, 0, this.width, this.height);
-    this.paintTiles();
+    this.paintMaps();
     this.paintGrid();
     this.paintLevels();
     this.paintFrontiers();
@@ -125,11 +151,12 @@ export class MapView {
     const { state } = store;
     const pose = store.pose();
     if (state) {
-      if (pose) this.paintLine([...store.trail, [pose.x_m, pose.y_m]], colors.trail, 2.5, []);
+      if (pose) this.paintLine(this.allToScreen([...store.trail, [pose.x_m, pose.y_m]]), colors.trail, 2.5, []);
       if (pose && state.plan.length > 0) this.paintPlan([[pose.x_m, pose.y_m], ...state.plan]);
       paintHome(this, state.home);
       for (const target of state.targets ?? []) paintTarget(this, target);
-      if (state.goal) paintGoal(this, state.goal, colors.goal, false);
+      if (state.goal) paintGoal(this, this.toScreen(state.goal.x_m, state.goal.y_m), colors.goal, false);
+      if (pose && state.localization) paintCertainty(this, pose, state.localization);
     }
     this.paintMarker();
     if (pose) paintVehicle(this, pose);
@@ -138,58 +165,37 @@ export class MapView {
     if (pose && performance.now() - store.stateReceived_ms < 130) this.draw();
   }
 
-  picture(tile) {
-    if (tile.picture) return tile.picture;
-    const picture = document.createElement('canvas');
-    picture.width = picture.height = kTileSize;
-    const context = picture.getContext('2d');
-    const data = context.createImageData(kTileSize, kTileSize);
-    for (let i = 0; i < tile.shades.length; ++i) {
-      const [red, green, blue] = this.colors.shades[tile.shades[i]];
-      const row = kTileSize - 1 - ((i / kTileSize) | 0);
-      const at = 4 * (row * kTileSize + (i % kTileSize));
-      data.data[at] = red;
-      data.data[at + 1] = green;
-      data.data[at + 2] = blue;
-      data.data[at + 3] = 255;
-    }
-    context.putImageData(data, 0, 0);
-    tile.picture = picture;
-    return picture;
-  }
-
-  paintTiles() {
-    const { context, ratio } = this;
-    const size_m = kTileSize * this.store.resolution_m;
-    // On whole device pixels, so that no seam shows between tiles.
-    const snap = (value) => Math.round(value * ratio) / ratio;
-    context.imageSmoothingEnabled = this.scale * this.store.resolution_m * ratio < 2;
-    for (const tile of this.store.tiles.values()) {
-      const [x0, y1] = this.toScreen(tile.x * size_m, tile.y * size_m);
-      const [x1, y0] = this.toScreen((tile.x + 1) * size_m, (tile.y + 1) * size_m);
-      if (!tile.known || x1 < 0 || y1 < 0 || x0 > this.width || y0 > this.height) continue;
-      context.drawImage(this.picture(tile), snap(x0), snap(y0), snap(x1) - snap(x0), snap(y1) - snap(y0));
-    }
+  /** The given map under that of the flight, while the vehicle knows its place in it. */
+  paintMaps() {
+    const { store, colors, scale, T_shown_map } = this;
+    const { given } = store;
+    if (this.frameShown === 'given' && given.T_given_grid)
+      paintTiles(this, given, colors.givenShades, scale, this.shownToScreen(given.T_given_grid.x_m, given.T_given_grid.y_m),
+        given.T_given_grid.yaw_rad);
+    paintTiles(this, store, colors.shades, scale, this.toScreen(0, 0), T_shown_map.yaw_rad);
   }
 
   paintGrid() {
     const { context } = this;
     const every = this.scale >= 18 ? 1 : this.scale >= 5 ? 5 : 20;
-    const low = this.toMap(0, this.height), high = this.toMap(this.width, 0);
+    const low = this.toShown(0, this.height), high = this.toShown(this.width, 0);
     context.fillStyle = this.colors.grid;
     for (let x = Math.ceil(low.x_m / every) * every; x <= high.x_m; x += every)
-      context.fillRect(Math.round(this.toScreen(x, 0)[0]), 0, 1, this.height);
+      context.fillRect(Math.round(this.shownToScreen(x, 0)[0]), 0, 1, this.height);
     for (let y = Math.ceil(low.y_m / every) * every; y <= high.y_m; y += every)
-      context.fillRect(0, Math.round(this.toScreen(0, y)[1]), this.width, 1);
+      context.fillRect(0, Math.round(this.shownToScreen(0, y)[1]), this.width, 1);
   }
 
   /** Rows of cells [x, y, length]. */
   paintRuns(runs, resolution_m, grow_px) {
+    const { context } = this;
     const size = this.scale * resolution_m;
-    for (const [x, y, length] of runs) {
-      const [left, top] = this.toScreen(x * resolution_m, (y + 1) * resolution_m);
-      this.context.fillRect(left - grow_px, top - grow_px, length * size + 2 * grow_px, size + 2 * grow_px);
-    }
+    context.save();
+    context.translate(...this.toScreen(0, 0));
+    context.rotate(-this.T_shown_map.yaw_rad);
+    for (const [x, y, length] of runs)
+      context.fillRect(x * size - grow_px, -(y + 1) * size - grow_px, length * size + 2 * grow_px, size + 2 * grow_px);
+    context.restore();
   }
 
   paintLevels() {
@@ -236,11 +242,11 @@ export class MapView {
   /** The keep-out zones, and the corners of one that is being drawn. */
   paintZones() {
     const { context } = this;
-    const drawn = this.pen?.corners_m ?? [];
-    for (const zone of [...(this.store.state?.keep_out ?? []), drawn]) {
+    const drawn = (this.pen?.corners_m ?? []).map(([x, y]) => this.shownToScreen(x, y));
+    for (const zone of [...(this.store.state?.keep_out ?? []).map((corners) => this.allToScreen(corners)), drawn]) {
       if (zone.length === 0) continue;
       context.beginPath();
-      for (const [x, y] of zone) context.lineTo(...this.toScreen(x, y));
+      for (const [x, y] of zone) context.lineTo(x, y);
       context.closePath();
       context.fillStyle = this.colors.frontier.blacklisted;
       context.globalAlpha = 0.18;
@@ -248,14 +254,20 @@ export class MapView {
       context.globalAlpha = 1;
       this.paintLine([...zone, zone[0]], this.colors.frontier.blacklisted, 1.8, [4, 4]);
     }
-    for (const [x, y] of drawn) this.paintDisc(...this.toScreen(x, y), 4, this.colors.frontier.blacklisted);
+    for (const [x, y] of drawn) this.paintDisc(x, y, 4, this.colors.frontier.blacklisted);
   }
 
+  /** Points [x, y] of `map` that are known. */
+  allToScreen(points_m) {
+    return points_m.filter(([x, y]) => x !== null && y !== null).map(([x, y]) => this.toScreen(x, y));
+  }
+
+  /** `points`: on the canvas. */
   paintLine(points, color, width, dash) {
     const { context } = this;
     if (points.length < 2) return;
     context.beginPath();
-    for (const [x, y] of points) if (x !== null && y !== null) context.lineTo(...this.toScreen(x, y));
+    for (const [x, y] of points) context.lineTo(x, y);
     Object.assign(context, { strokeStyle: color, lineWidth: width, lineJoin: 'round', lineCap: 'round' });
     context.setLineDash(dash);
     context.stroke();
@@ -263,9 +275,9 @@ export class MapView {
   }
 
   paintPlan(points) {
-    this.paintLine(points, this.colors.plan, 2.8, [7, 7]);
-    const [x, y] = this.toScreen(...points.at(-1));
-    this.paintDisc(x, y, 4, this.colors.plan);
+    const line = this.allToScreen(points);
+    this.paintLine(line, this.colors.plan, 2.8, [7, 7]);
+    if (line.length > 0) this.paintDisc(...line.at(-1), 4, this.colors.plan);
   }
 
   paintDisc(x, y, radius, color) {
@@ -285,16 +297,17 @@ export class MapView {
   paintMarker() {
     if (!this.marker) return;
     const age_s = (performance.now() - this.marker.since_ms) / 1000;
+    const at = this.shownToScreen(this.marker.x_m, this.marker.y_m);
     if (this.marker.state === 'refused') {
       if (age_s > 4) {
         this.marker = null;
         return;
       }
       this.context.globalAlpha = Math.min(1, 4 - age_s);
-      paintGoal(this, this.marker, this.colors.frontier.blacklisted, true);
+      paintGoal(this, at, this.colors.frontier.blacklisted, true);
     } else {
       this.context.globalAlpha = 0.55 + 0.35 * Math.sin(8 * age_s);
-      paintGoal(this, this.marker, this.colors.goal, false);
+      paintGoal(this, at, this.colors.goal, false);
     }
     this.context.globalAlpha = 1;
     this.draw();

@@ -1,5 +1,6 @@
 // The figures and lists beside the map.
 import { hasEnded, reasonText } from './mission.js';
+import { moved } from './pose2.js';
 
 const element = (id) => document.getElementById(id);
 
@@ -59,12 +60,15 @@ export function showState(state) {
   setText('age', `${Math.round(1000 * state.age_s)} ms`);
 }
 
-export function showFrontiers(frontiers) {
+/** The places are shown in the frame of the map beside. */
+export function showFrontiers(frontiers, T_shown_map) {
   const open = frontiers.filter(({ reason }) => reason === 'open').length;
   setText('frontier-count', frontiers.length === 0 ? 'none' : `${open} open, ${frontiers.length - open} left out`);
-  const rows = frontiers.map(({ reason, explanation, centroid_m: [x, y], length_m }) =>
-    make('li', {}, make('i', { className: `dot ${reason.replaceAll(' ', '-')}`, title: reason }),
-      make('span', { textContent: `${explanation || reason} · ${length_m.toFixed(1)} m at (${x.toFixed(1)}, ${y.toFixed(1)})` })));
+  const rows = frontiers.map(({ reason, explanation, centroid_m, length_m }) => {
+    const [x, y] = moved(T_shown_map, centroid_m);
+    return make('li', {}, make('i', { className: `dot ${reason.replaceAll(' ', '-')}`, title: reason }),
+      make('span', { textContent: `${explanation || reason} · ${length_m.toFixed(1)} m at (${x.toFixed(1)}, ${y.toFixed(1)})` }));
+  });
   element('frontiers').replaceChildren(...(rows.length ? rows : [make('li', { className: 'empty', textContent: 'None.' })]));
 }
 

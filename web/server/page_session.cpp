@@ -36,9 +36,10 @@ class PageSession final : public WebSocket {
     if (!telemetry.world().value) return;
     if (map_beat_.due(now)) {
       map_beat_.done(now);
-      std::string tiles = tiles_.next(telemetry.tiles(), kMostTileBytes);
-      if (!tiles.empty()) queue(std::make_shared<const std::string>(std::move(tiles)), true);
+      queueTiles(tiles_.next(telemetry.tiles(), kMostTileBytes));
+      queueTiles(given_tiles_.next(telemetry.givenTiles(), kMostTileBytes));
     }
+    queuePart(telemetry.givenMap(), given_map_version_, false);
     queuePart(telemetry.levels(), levels_version_, false);
     queuePart(telemetry.frontiers(), frontiers_version_, false);
     collectTrail(telemetry);
@@ -48,6 +49,10 @@ class PageSession final : public WebSocket {
     }
     queuePart(telemetry.laser(), laser_version_, true);
     queue(telemetry.state(), false);
+  }
+
+  void queueTiles(std::string tiles) {
+    if (!tiles.empty()) queue(std::make_shared<const std::string>(std::move(tiles)), true);
   }
 
   void collectTrail(const Telemetry& telemetry) {
@@ -64,8 +69,9 @@ class PageSession final : public WebSocket {
 
   WatchedVehicle& vehicle_;
   Beat map_beat_{kMapsPerSecond};
-  TileReader tiles_;
-  std::uint64_t frontiers_version_ = 0, levels_version_ = 0, laser_version_ = 0, trail_version_ = 0, tree_version_ = 0;
+  TileReader tiles_{TileReader::Map::kFlown}, given_tiles_{TileReader::Map::kGiven};
+  std::uint64_t frontiers_version_ = 0, levels_version_ = 0, laser_version_ = 0, trail_version_ = 0, tree_version_ = 0,
+                given_map_version_ = 0;
   std::size_t trail_sent_ = 0;
   std::uint64_t last_event_ = 0;
 };

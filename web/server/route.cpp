@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -85,12 +86,23 @@ double coordinate(const nlohmann::json& body, const char* key) {
   return value;
 }
 
+/// Whether the body's places lie in the given map: "frame": "given". Otherwise, and without a frame, they lie in `map`.
+bool inGivenMap(const nlohmann::json& body) {
+  const auto it = body.find("frame");
+  if (it == body.end() || *it == "map") return false;
+  if (*it == "given") return true;
+  refuse(400, "frame: expected \"map\", the frame of the flight, or \"given\", that of the given map");
+}
+
 Action goal(const Request& request, std::size_t vehicle) {
   const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
   if (!body.is_object()) refuse(400, "the body is not a JSON object; send {\"x_m\": 1.0, \"y_m\": 2.0}");
   for (const auto& [key, value] : body.items())
-    if (key != "x_m" && key != "y_m") refuse(400, fmt::format("unknown key {}; send x_m and y_m", shown(key)));
-  return GiveCommand{common::GoalCommand{{coordinate(body, "x_m"), coordinate(body, "y_m")}}, vehicle};
+    if (key != "x_m" && key != "y_m" && key != "frame")
+      refuse(400, fmt::format("unknown key {}; send x_m, y_m and perhaps frame", shown(key)));
+  const Eigen::Vector2d place(coordinate(body, "x_m"), coordinate(body, "y_m"));
+  if (inGivenMap(body)) return GiveCommand{common::GoalCommand{{}, place}, vehicle};
+  return GiveCommand{common::GoalCommand{place}, vehicle};
 }
 
 /// {"file": "missions/patrol.xml", "parameters": {"Main/Sequence/TakeOff.height_m": "1.2"}}.
@@ -119,13 +131,15 @@ Eigen::Vector2d corner(const nlohmann::json& pair) {
 
 Action keepOut(const Request& request, std::size_t vehicle) {
   const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
-  if (!body.is_object() || body.size() != 1 || !body.contains("corners_m") || !body["corners_m"].is_array())
+  const std::size_t keys = body.is_object() && body.contains("frame") ? 2 : 1;
+  if (!body.is_object() || body.size() != keys || !body.contains("corners_m") || !body["corners_m"].is_array())
     refuse(400, "send {\"corners_m\": [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]]}");
   if (body["corners_m"].size() > common::kMostCorners)
     refuse(400, fmt::format("corners_m: more than {} corners", common::kMostCorners));
   common::KeepOutCommand zone;
   for (const nlohmann::json& pair : body["corners_m"]) zone.area.corners_map_m.push_back(corner(pair));
   if (const std::string problem = problemOf(zone.area); !problem.empty()) refuse(400, "corners_m: " + problem);
+  if (inGivenMap(body)) zone.corners_given_m = std::exchange(zone.area.corners_map_m, {});
   return GiveCommand{std::move(zone), vehicle};
 }
 

@@ -76,18 +76,36 @@ Json missionOf(const common::MissionLayer& layer) {
           {"question", mission.question}};
 }
 
-Json localizationOf(const std::optional<common::Localization>& localization) {
+Json planarPose(const common::Pose2& pose) {
+  return {{"x_m", number(pose.x_m)}, {"y_m", number(pose.y_m)}, {"yaw_rad", number(pose.yaw_rad, 4)}};
+}
+
+Json candidatesOf(const common::Localization& localization) {
+  Json list = Json::array();
+  for (const common::PlaceCandidate& candidate : localization.candidates) {
+    list.push_back(planarPose(candidate.T_given_body));
+    list.back()["weight"] = number(candidate.weight);
+  }
+  return list;
+}
+
+Json localizationOf(const common::MapLayer& map) {
+  const auto& localization = map.localization;
   if (!localization) return nullptr;
   const bool known = localization->localized();
   const common::Pose2& at = localization->T_given_body;
   const double deviation_m = std::sqrt(std::max(0.0, localization->covariance.topLeftCorner<2, 2>().trace()));
+  const double deviation_yaw_rad = std::sqrt(std::max(0.0, localization->covariance(2, 2)));
   return {{"state", common::toString(localization->state)},
           {"x_m", known ? number(at.x_m) : Json(nullptr)},
           {"y_m", known ? number(at.y_m) : Json(nullptr)},
           {"yaw_rad", known ? number(at.yaw_rad, 4) : Json(nullptr)},
           {"deviation_m", known ? number(deviation_m) : Json(nullptr)},
           {"explained", known ? number(localization->explained) : Json(nullptr)},
-          {"places", localization->places}};
+          {"deviation_yaw_rad", known ? number(deviation_yaw_rad, 4) : Json(nullptr)},
+          {"places", localization->places},
+          {"candidates", candidatesOf(*localization)},
+          {"T_map_given", map.T_map_given ? planarPose(*map.T_map_given) : Json(nullptr)}};
 }
 
 Json avoidanceOf(const common::AvoidanceStatus& avoidance) {
@@ -148,7 +166,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
       {"position_deviation_m",
        number(std::sqrt(std::max(0.0, state.position_covariance_m2.topLeftCorner<2, 2>().trace())))},
       {"drift_m", number(vehicle.drift_m)},
-      {"localization", localizationOf(world.map->localization)},
+      {"localization", localizationOf(*world.map)},
       {"horizontal_valid", state.horizontal_valid},
       {"vertical_valid", state.vertical_valid},
       {"flight_state", common::toString(vehicle.flight_state)},
@@ -228,6 +246,15 @@ std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double
 }
 
 std::string levelsJson(const common::LevelMap& levels) { return dump(levelsOf(levels)); }
+
+std::string givenMapJson(const common::GivenMap* given) {
+  Json json = {{"type", "given_map"}, {"resolution_m", nullptr}, {"T_given_grid", nullptr}};
+  if (given != nullptr) {
+    json["resolution_m"] = given->grid->resolution_m();
+    json["T_given_grid"] = planarPose(given->T_given_grid);
+  }
+  return dump(json);
+}
 
 std::string trailJson(std::span<const Eigen::Vector2d> trail_map_m, std::size_t from) {
   return dump({{"type", "trail"}, {"from", from}, {"points", points(trail_map_m, from)}});

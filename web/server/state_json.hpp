@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "common/event.hpp"
+#include "common/given_map.hpp"
 #include "common/level_map.hpp"
 #include "common/world/frontier.hpp"
 
@@ -39,6 +40,8 @@ struct NumberedEvent {
 std::string stateJson(const common::World& world, const Observation& observation);
 std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double resolution_m);
 std::string levelsJson(const common::LevelMap& levels);
+/// Where the tiles of the given map lie in its frame; null without one.
+std::string givenMapJson(const common::GivenMap* given);
 /// The points from `from` on; the page puts them after the first `from` it has.
 std::string trailJson(std::span<const Eigen::Vector2d> trail_map_m, std::size_t from);
 std::string eventsJson(std::span<const NumberedEvent> events);

@@ -100,7 +100,9 @@ void Telemetry::encodeMap(const common::MapLayer& map) {
   if (!encoded_map_ || encoded_map_->frontiers != map.frontiers)
     frontiers_.set(frontiersJson(*map.frontiers, map.grid->resolution_m()));
   if (!encoded_map_ || encoded_map_->levels != map.levels) levels_.set(levelsJson(*map.levels));
-  tiles_.update(map.grid);
+  tiles_.update(map.flown);
+  if (!encoded_map_ || encoded_map_->given != map.given) given_map_.set(givenMapJson(map.given.get()));
+  if (map.given) given_tiles_.update(map.given->grid);
   encoded_map_ = world_.value->map;
 }
 

@@ -70,7 +70,11 @@ class Telemetry {
   const SharedText& state() const { return state_; }
   const Part& frontiers() const { return frontiers_; }
   const Part& levels() const { return levels_; }
+  /// The map of this flight alone.
   const TileFeed& tiles() const { return tiles_; }
+  /// The given map, in its own cells; empty without one.
+  const TileFeed& givenTiles() const { return given_tiles_; }
+  const Part& givenMap() const { return given_map_; }
   const TreeFeed& tree() const { return tree_; }
   /// encodeMap3d(), which the tick of a page with a 3D view calls, updates it.
   void encodeMap3d();
@@ -99,10 +103,10 @@ class Telemetry {
 
   std::uint64_t encoded_sequence_ = 0;
   SharedText state_;
-  Part frontiers_, levels_, laser_;
+  Part frontiers_, levels_, laser_, given_map_;
   std::shared_ptr<const common::MapLayer> encoded_map_;
   std::shared_ptr<const common::LaserPoints> encoded_laser_;
-  TileFeed tiles_;
+  TileFeed tiles_, given_tiles_;
   TreeFeed tree_;
   std::shared_ptr<const common::MissionLayer> encoded_mission_;
   SubmapFeed submaps_;

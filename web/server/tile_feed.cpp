@@ -69,7 +69,7 @@ std::string TileReader::next(const TileFeed& feed, std::size_t most_bytes) {
   }
   if (count == 0 && !forget) return {};
   std::string message;
-  appendInteger(message, 1, 1);
+  appendInteger(message, static_cast<std::uint32_t>(map_), 1);
   appendInteger(message, forget ? 1 : 0, 1);
   appendInteger(message, count, 2);
   appendInteger(message, std::bit_cast<std::uint32_t>(static_cast<float>(resolution_m_)), 4);

@@ -2,6 +2,7 @@
 // own.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -32,12 +33,16 @@ class TileFeed {
 /// The tiles that one page has.
 class TileReader {
  public:
+  enum class Map : std::uint8_t { kFlown = 1, kGiven = 3 };
+  explicit TileReader(Map map) : map_(map) {}
+
   /// The next message of at most about `most_bytes`, or an empty text when the page has everything. Little endian:
-  /// u8 1, u8 forget everything first, u16 number of tiles, f32 resolution_m, then for each tile i16 x, i16 y (in
+  /// u8 the map, u8 forget everything first, u16 number of tiles, f32 resolution_m, then for each tile i16 x, i16 y (in
   /// tiles), u16 length, bytes.
   std::string next(const TileFeed& feed, std::size_t most_bytes);
 
  private:
+  Map map_;
   TileFeed::Tiles has_;
   double resolution_m_ = 0.0;
 };

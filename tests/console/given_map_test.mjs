@@ -1,0 +1,141 @@
+// The page of a flight in a given map, in Chromium against a made-up flight: what it shows lies in the frame of that map,
+// and what is tapped is sent in it. node given_map_test.mjs WEB_FIXTURE WORK_FOLDER
+import assert from 'node:assert/strict';
+
+import { eventually, kPatience, launch, onScreen, run, serve } from './browser.mjs';
+
+const [fixture, folder] = process.argv.slice(2);
+const browser = await launch(folder);
+const server = await serve(fixture, 0, 'operator-token', 'given');
+const state = async () => (await fetch(`${server.url.origin}/api/state`)).json();
+/** As the fixture places it. */
+const kTMapGiven = { x_m: 1.0, y_m: -0.5, yaw_rad: (40 * Math.PI) / 180 };
+
+function inMap({ x_m, y_m }) {
+  const cos = Math.cos(kTMapGiven.yaw_rad), sin = Math.sin(kTMapGiven.yaw_rad);
+  return { x_m: kTMapGiven.x_m + cos * x_m - sin * y_m, y_m: kTMapGiven.y_m + sin * x_m + cos * y_m };
+}
+
+/** Opens the page and lets `change` modify every state before the page gets it. */
+async function open(change = () => {}) {
+  const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, hasTouch: true });
+  await context.routeWebSocket(/\/api\/ws/, (page) => {
+    const vehicle = page.connectToServer();
+    vehicle.onMessage((message) => {
+      const state = typeof message === 'string' && message.includes('"type":"state"') ? JSON.parse(message) : null;
+      if (state) change(state);
+      page.send(state ? JSON.stringify(state) : message);
+    });
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(60_000 * kPatience);
+  page.problems = [];
+  page.on('pageerror', (error) => page.problems.push(error.message));
+  await page.goto(String(server.url));
+  await page.locator('#link[data-level=good]').waitFor();
+  return page;
+}
+
+function beUnsure(state) {
+  Object.assign(state.localization, { state: 'ambiguous', places: 3, x_m: null, y_m: null, yaw_rad: null,
+    deviation_m: null, deviation_yaw_rad: null, explained: null, T_map_given: null,
+    candidates: [{ x_m: -4, y_m: 2, yaw_rad: 0.5, weight: 0.6 }, { x_m: 4, y_m: -2, yaw_rad: -2.6, weight: 0.3 },
+      { x_m: 0, y_m: -3, yaw_rad: 1.6, weight: 0.1 }] });
+}
+
+/** Whether enough pixels around a place of a canvas have that colour of the style sheet. */
+const shows = (page, id, { x, y }, name, half = 8) => page.locator(`#${id}`).evaluate((canvas, [px, py, style, reach]) => {
+  const ratio = canvas.width / canvas.clientWidth;
+  const wanted = getComputedStyle(document.documentElement).getPropertyValue(style).trim();
+  const [red, green, blue] = [1, 3, 5].map((i) => parseInt(wanted.slice(i, i + 2), 16));
+  const near = canvas.getContext('2d').getImageData((px - reach) * ratio, (py - reach) * ratio, 2 * reach * ratio, 2 * reach * ratio).data;
+  let count = 0;
+  for (let i = 0; i < near.length; i += 4)
+    count += Math.abs(near[i] - red) + Math.abs(near[i + 1] - green) + Math.abs(near[i + 2] - blue) < 40;
+  return count > 12;
+}, [x, y, name, half]);
+
+const tests = {
+  async 'the map is shown in the frame of the given one, under that of the flight'() {
+    const page = await open();
+    await page.locator('#given-legend').waitFor();
+    assert.equal(await page.locator('#given-sure').innerText(), '± 5 cm, ± 1.1°, 92 % explained');
+    // The corner of the given hall, upright on the page, where the flight has seen nothing.
+    await eventually('the wall', async () => shows(page, 'map', await onScreen(page, -6.9, 0.0), '--map-given-wall'));
+    await eventually('its floor', async () => shows(page, 'map', await onScreen(page, -5.5, -2.0), '--map-given-free'));
+    await page.screenshot({ path: `${folder}/given_map.png` });
+    return page;
+  },
+
+  async 'a tapped goal is sent and shown in the given map'() {
+    const page = await open();
+    await page.locator('#given-legend').waitFor();
+    await page.locator('#zoom-out').tap(); // The fit would move the map while it grows.
+    const goal = { x_m: -0.6, y_m: 0.4 };
+    const request = page.waitForRequest((asked) => asked.url().endsWith('/api/goal'));
+    await page.locator('#map').tap({ position: await onScreen(page, goal.x_m, goal.y_m) });
+    const sent = (await request).postDataJSON();
+    assert.equal(sent.frame, 'given');
+    assert.ok(Math.hypot(sent.x_m - goal.x_m, sent.y_m - goal.y_m) < 0.05, JSON.stringify(sent));
+    await page.getByText('in the given map').first().waitFor();
+    const expected = inMap(sent);
+    await eventually('the goal', async () => {
+      const { goal: flown } = await state();
+      return flown && Math.hypot(flown.x_m - expected.x_m, flown.y_m - expected.y_m) < 0.01;
+    });
+    await eventually('its mark', async () => shows(page, 'map', await onScreen(page, sent.x_m, sent.y_m), '--map-goal', 14));
+    return page;
+  },
+
+  async 'a keep-out zone lies where it was tapped in the given map'() {
+    const page = await open();
+    await page.locator('#given-legend').waitFor();
+    await page.locator('#zoom-out').tap();
+    const corners = [[-5, -3], [-3, -3], [-3, -1]];
+    await page.locator('#keep-out').tap();
+    for (const [x, y] of corners) await page.locator('#map').tap({ position: await onScreen(page, x, y) });
+    await page.locator('#keep-out').tap();
+    await page.getByText('Keep-out zone set').waitFor();
+    await eventually('the zone', async () => (await state()).keep_out.length === 1);
+    (await state()).keep_out[0].forEach(([x, y], i) => {
+      const expected = inMap({ x_m: corners[i][0], y_m: corners[i][1] });
+      assert.ok(Math.hypot(x - expected.x_m, y - expected.y_m) < 0.06, `${i}: ${x}, ${y}`);
+    });
+    await eventually('its mark', async () => shows(page, 'map', await onScreen(page, -3, -2), '--frontier-blacklisted', 20));
+    return page;
+  },
+
+  async 'while several places fit, each is shown with its weight, and taps are places of the flight'() {
+    let unsure = true;
+    const page = await open((state) => { if (unsure) beUnsure(state); });
+    await page.locator('#given-sure').getByText('ambiguous: 3 places, the likeliest 60 %').waitFor();
+    assert.equal(await page.locator('#given-legend').isVisible(), false);
+    // The likeliest one, where the card shows (-4, 2) of a hall of 14 m by 10 m.
+    const place = await page.locator('#given').evaluate((canvas) => {
+      const scale = Math.min((canvas.clientWidth - 20) / 14, (canvas.clientHeight - 20) / 10);
+      return { x: canvas.clientWidth / 2 - 4 * scale, y: canvas.clientHeight / 2 - 2 * scale };
+    });
+    await page.locator('#given').scrollIntoViewIfNeeded();
+    await eventually('the arrow', () => page.locator('#given').evaluate((canvas, { x, y }) => {
+      const ratio = canvas.width / canvas.clientWidth;
+      const [red, green] = canvas.getContext('2d').getImageData(x * ratio, y * ratio, 1, 1).data;
+      return red - green > 80; // The colour of goals over the floor.
+    }, place));
+    await page.screenshot({ path: `${folder}/given_map_unsure.png` });
+
+    const request = page.waitForRequest((asked) => asked.url().endsWith('/api/goal'));
+    await page.locator('#map').tap({ position: await onScreen(page, 0.5, 0.5) });
+    assert.equal((await request).postDataJSON().frame, 'map');
+    await page.locator('#keep-out').tap();
+    await page.locator('#map').tap({ position: await onScreen(page, 0.5, 0.5) });
+    unsure = false;
+    await page.getByText('draw the zone again').waitFor();
+    await page.locator('#given-legend').waitFor();
+    return page;
+  },
+};
+
+const failed = await run(tests);
+await browser.close();
+await server.stop();
+process.exit(failed ? 1 : 0);
