@@ -5,19 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/maneuvers/pursuit_path.hpp"
 #include "common/geometry.hpp"
-#include "common/line_of_sight.hpp"
-#include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
 
-/// Between two paths, and by how much the place to fly to moves meanwhile: each new path costs speed.
-constexpr double kReplan_s = 0.3, kReplan_m = 0.4;
-/// The place to fly to is that behind the person after this time: a path takes as long to begin and to end.
-constexpr double kLead_s = 0.6;
-/// Nearer to the wanted distance than this it stays where it is.
-constexpr double kSlack_m = 0.2;
+/// Between two paths, and by how much the place to fly to moves before it is planned anew: each new path costs speed.
+constexpr double kReplan_s = 0.4, kReplan_m = 0.4;
+/// If he is seen with a smaller probability at the end of the best path, that path is none.
+constexpr double kInSight = 0.3;
 /// Unseen for longer he is lost, also if he is believed to stand still where he was; the vehicle goes to look.
 constexpr double kLost_s = 3.0;
 constexpr double kNear_s = 1.0;
@@ -25,10 +22,6 @@ constexpr double kNear_s = 1.0;
 /// themselves.
 constexpr double kLooksAhead_s = 8.0, kLooksAround_rad_s = 25.0 * common::kRadPerDeg;
 constexpr double kPersonTolerance_m = 0.5;
-/// It flies behind him before a corner hides him: the place where he is after this time stays in sight.
-constexpr double kInSight_s = 1.5;
-/// What the map shows so near to him may be himself.
-constexpr double kHimself_m = 0.4;
 
 }  // namespace
 
@@ -37,21 +30,21 @@ using common::Time;
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "follow a person", intent.mode), intent_(intent) {}
 
-Progress Follow::fly(const ManeuverInput& input) {
+void Follow::watch(const ManeuverInput& input) {
   if (!since_) since_ = input.now;
   if (!person_.known() && setup_.memory.person_map_m && intent_.until_near)
     person_.remember(*setup_.memory.person_map_m, *since_);
   person_.choose(input.people, input.position_map_m(), HiddenPerson::kTracked_m);
   person_.update(input.people, {input.grid, input.seen}, input.now);
+}
+
+Progress Follow::fly(const ManeuverInput& input) {
   if (!person_.known()) return search(input);
   const Eigen::Vector2d place_map_m = person_.place_map_m(input.now);
   setup_.memory.person_map_m = place_map_m;
   setup_.controller.lookAt(place_map_m);
   (void)flight_.keep(input);
-  const auto target = wanted(input);
-  const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
-  const bool elsewhere = target && target_map_m_ && (*target - *target_map_m_).norm() > kReplan_m;
-  if (target && (!under_way || elsewhere) && (input.now - asked_).seconds() >= kReplan_s) flyTo(input, *target);
+  if ((input.now - asked_).seconds() >= kReplan_s) pursue(input);
   return progress(input);
 }
 
@@ -89,45 +82,47 @@ Progress Follow::progress(const ManeuverInput& input) {
   return Progress::running(lost_ ? "looking for the person" : fmt::format("following, {:.1f} m", distance_m));
 }
 
-std::optional<Eigen::Vector2d> Follow::wanted(const ManeuverInput& input) const {
-  const Eigen::Vector2d here = input.position_map_m();
-  const Eigen::Vector2d place = person_.place_map_m(input.now) + kLead_s * person_.velocity_map_m_s();
-  const Eigen::Vector2d away = here - place;
+void Follow::pursue(const ManeuverInput& input) {
   const auto map = setup_.desk.costMap();
-  if (!map || away.norm() < 1e-3) return std::nullopt;
-  // Flying to where he may be, the vehicle comes to see whether he is there.
-  if (person_.hidden())
-    return away.norm() > intent_.distance_m || segmentCost(*map, here, place).lethal ? std::optional(place)
-                                                                                     : std::nullopt;
-  const bool soon_hidden = !common::isInSight(
-      *input.grid, here, person_.place_map_m(input.now) + kInSight_s * person_.velocity_map_m_s(), kHimself_m);
-  if (!soon_hidden && std::abs(away.norm() - intent_.distance_m) < kSlack_m) return std::nullopt;
-  const Eigen::Vector2d straight = place + intent_.distance_m * away.normalized();
-  if (!soon_hidden && (!segmentCost(*map, here, straight).lethal || away.norm() < intent_.distance_m)) return straight;
-  // The place on his way that is as far behind him along it.
-  const auto& trail = person_.trail_map_m();
-  double behind_m = 0.0;
-  for (std::size_t i = trail.size(); i-- > 1;) {
-    behind_m += (trail[i] - trail[i - 1]).norm();
-    if (behind_m >= intent_.distance_m) return trail[i - 1];
+  if (!map) return;
+  asked_ = input.now;
+  const std::vector<PossibleWalk> walks = person_.walks(input.now);
+  const PursuitPath path = pursuitPath({*map, *input.grid, input.position_map_m(), walks, person_.trail_map_m(),
+                                        intent_.distance_m, setup_.controller.speed_m_s(intent_.mode)});
+  // From nowhere near is he seen: to the place where he probably is.
+  if (path.in_sight < kInSight) return flyTo(input, person_.hidden() ? person_.place_map_m(input.now) : placeBehind());
+  const Eigen::Vector2d end = path.points_map_m.back();
+  if (path.points_map_m.size() == 1) {
+    if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
+    target_map_m_.reset();
+    return;
   }
-  return trail.front();
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.points_map_m.size(); ++i)
+    length_m += (path.points_map_m[i] - path.points_map_m[i - 1]).norm();
+  target_map_m_ = end;
+  flight_.release();
+  flight_.offer({path.points_map_m, length_m, path.cost_m}, input.now, input.state);
 }
 
-void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m) {
-  const auto map = setup_.desk.costMap();
-  const Eigen::Vector2d here = input.position_map_m();
-  const planning::SegmentCost leg = segmentCost(*map, here, target_map_m);
-  if (!leg.lethal) {
-    target_map_m_ = target_map_m;
-    asked_ = input.now;
-    flight_.release();
-    flight_.offer({{here, target_map_m}, (target_map_m - here).norm(), leg.cost_m}, input.now, input.state);
-  } else if (flight_.mayAsk()) {
-    target_map_m_ = target_map_m;
-    asked_ = input.now;
-    flight_.ask(input, GoalRequest{target_map_m, kPersonTolerance_m});
+/// The place on his way that is as far behind him along it.
+Eigen::Vector2d Follow::placeBehind() const {
+  const auto& trail_map_m = person_.trail_map_m();
+  double behind_m = 0.0;
+  for (std::size_t i = trail_map_m.size(); i-- > 1;) {
+    behind_m += (trail_map_m[i] - trail_map_m[i - 1]).norm();
+    if (behind_m >= intent_.distance_m) return trail_map_m[i - 1];
   }
+  return trail_map_m.front();
+}
+
+/// Along a planned path, unless one leads there.
+void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m) {
+  const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
+  const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < kReplan_m;
+  if ((under_way && same) || !flight_.mayAsk()) return;
+  target_map_m_ = target_map_m;
+  flight_.ask(input, GoalRequest{target_map_m, kPersonTolerance_m});
 }
 
 Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {

@@ -1,5 +1,5 @@
-// Follow: stays behind a walking person at a distance, with the nose on him. Where the straight line to him is not free
-// it flies along the way that he walked.
+// Follow: keeps a distance from a walking person, with the nose on him, and flies where he stays in sight whatever he
+// is likely to do.
 #pragma once
 
 #include <optional>
@@ -21,11 +21,13 @@ class Follow final : public PathManeuver {
   std::optional<Eigen::Vector2d> goal_map_m() const override { return target_map_m_; }
 
  private:
+  void watch(const ManeuverInput& input) override;
   Progress fly(const ManeuverInput& input) override;
   Progress search(const ManeuverInput& input);
   Progress progress(const ManeuverInput& input);
-  /// Where it wants to be now; none if it is well where it is.
-  std::optional<Eigen::Vector2d> wanted(const ManeuverInput& input) const;
+  /// Flies so that he stays in sight.
+  void pursue(const ManeuverInput& input);
+  Eigen::Vector2d placeBehind() const;
   void flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m);
 
   common::FollowIntent intent_;

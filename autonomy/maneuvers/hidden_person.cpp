@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -24,17 +23,16 @@ constexpr double kSlow_m_s = 0.3, kFast_m_s = 1.1;
 constexpr double kBody_m = 0.35;
 /// A person in sight is tracked within this time.
 constexpr double kTracked_s = 0.4;
+/// An end point this near to something that the map showed before is explained by it.
+constexpr double kExplained_m = 0.12;
+/// Somebody else, and his width.
+constexpr double kOther_m = 0.5;
+/// Particles that stood for the same place and walk spread anew (Gordon 1993).
+constexpr double kSpread_m = 0.03, kSpread_m_s = 0.05;
+/// The longest step of the particles.
+constexpr double kStep_s = 0.1;
 /// Places so near to each other are one.
 constexpr double kOnePlace_m = 0.6;
-
-/// Whether the map shows something near a place that it did not show before.
-bool appearedNear(const common::OccupancyGrid& grid, const common::OccupancyGrid& before,
-                  const Eigen::Vector2d& place_map_m) {
-  const int reach = static_cast<int>(kBody_m / grid.resolution_m());
-  return common::anyNear(grid.cellAt(place_map_m), reach, [&](common::CellIndex cell) {
-    return common::occupancy::isOccupied(grid.at(cell)) && !common::occupancy::isOccupied(before.at(cell));
-  });
-}
 
 /// The degree of the bearing.
 std::size_t degreeOf(const Eigen::Vector2d& way_m) {
@@ -59,20 +57,23 @@ HiddenPerson::HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vect
   for (int i = 0; i < kParticles; ++i) {
     const Eigen::Vector2d place = scattered(place_map_m, kPlaceSigma_m);
     const Eigen::Vector2d velocity = scattered(velocity_map_m_s, kVelocitySigma_m_s);
-    particles_.push_back({place, stands ? Eigen::Vector2d(0.0, 0.0) : velocity, stands});
+    particles_.push_back({place, stands ? Eigen::Vector2d(0.0, 0.0) : velocity});
   }
 }
 
 void HiddenPerson::advance(const Sight& sight, common::Time now) {
-  const double dt_s = (now - now_).seconds();
-  if (dt_s <= 0.0) return;
+  const double since_s = (now - now_).seconds();
+  if (since_s <= 0.0) return;
   now_ = now;
   if (sight.seen != nullptr) view_.take(*sight.seen);
-  for (Particle& particle : particles_) {
-    walk(particle, *sight.grid, dt_s);
-    lookFor(particle, *sight.grid, dt_s);
+  const int steps = static_cast<int>(std::ceil(since_s / kStep_s));
+  for (int i = 0; i < steps; ++i) {
+    for (Particle& particle : particles_) {
+      walk(particle, *sight.grid, since_s / steps);
+      lookFor(particle, sight, since_s / steps);
+    }
+    resample();
   }
-  resample();
   findLikeliest();
 }
 
@@ -80,7 +81,6 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
   const auto turn = [&] {
     const double angle_rad = random_.uniform(-std::numbers::pi, std::numbers::pi);
     const double speed_m_s = random_.uniform(kSlow_m_s, kFast_m_s);
-    particle.stays = false;
     particle.velocity_map_m_s = speed_m_s * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
   };
   if (random_.chance(std::min(1.0, kTurns_1_s * dt_s))) {
@@ -97,15 +97,21 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
     particle.place_map_m = step_map_m;
 }
 
-/// Beams that pass a place show that nobody is there. What they end on at the place where he stood is him, if the map
-/// did not show it before: a person who stands long enough is mapped.
-void HiddenPerson::lookFor(Particle& particle, const common::OccupancyGrid& grid, double dt_s) const {
+/// Beams that pass a place show that nobody is there. What they end on, if the map did not show it before him and it is
+/// nobody else, is himself: a person who stands long enough is mapped, and the track of one who sets off again begins
+/// some steps later.
+void HiddenPerson::lookFor(Particle& particle, const Sight& sight, double dt_s) const {
   const Eigen::Vector2d way_m = particle.place_map_m - view_.from_map_m;
   const double distance_m = way_m.norm(), range_m = view_.range_m(way_m);
   particle.shown = false;
   if (distance_m > kTracked_m || range_m < distance_m - kBody_m) return;  // Out of sight.
+  const Eigen::Vector2d end_map_m = view_.from_map_m + range_m / std::max(1e-3, distance_m) * way_m;
+  const int reach = static_cast<int>(std::lround(kExplained_m / before_->resolution_m()));
   const bool passed = range_m > distance_m + kBody_m;
-  particle.shown = !passed && particle.stays && appearedNear(grid, *before_, particle.place_map_m);
+  const bool somebody_else = std::any_of(sight.others_map_m.begin(), sight.others_map_m.end(), [&](const auto& other) {
+    return (other - particle.place_map_m).norm() < kOther_m;
+  });
+  particle.shown = !passed && !somebody_else && !common::occupiedNear(*before_, before_->cellAt(end_map_m), reach);
   particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / kTracked_s);
 }
 
@@ -139,6 +145,9 @@ void HiddenPerson::resample() {
   for (const std::size_t chosen : perception::resampled(weights, random_)) {
     drawn.push_back(particles_[chosen]);
     drawn.back().weight = 1.0;
+    const double x_m = random_.gaussian(kSpread_m), x_m_s = random_.gaussian(kSpread_m_s);
+    drawn.back().place_map_m += Eigen::Vector2d(x_m, random_.gaussian(kSpread_m));
+    drawn.back().velocity_map_m_s += Eigen::Vector2d(x_m_s, random_.gaussian(kSpread_m_s));
   }
   particles_ = std::move(drawn);
 }
@@ -161,15 +170,27 @@ void HiddenPerson::findLikeliest() {
     most = weight;
     place_map_m_ = place / weight;
     velocity_map_m_s_ = velocity / weight;
-    stands_in_sight_ = shown > 0.5 * weight;
+    in_sight_ = shown > 0.5 * weight;
   }
 }
 
-double HiddenPerson::distanceTo_m(const Eigen::Vector2d& place_map_m) const {
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Particle& particle : particles_)
-    nearest_m = std::min(nearest_m, (particle.place_map_m - place_map_m).norm());
-  return nearest_m;
+std::vector<PossibleWalk> HiddenPerson::walks() const {
+  constexpr std::size_t kEvery = 10;
+  std::vector<PossibleWalk> walks;
+  for (std::size_t i = 0; i < particles_.size(); i += kEvery) {
+    const Particle& one = particles_[i];
+    walks.push_back({one.place_map_m, one.velocity_map_m_s, std::max(1e-3, one.weight)});
+  }
+  return walks;
+}
+
+double HiddenPerson::share(const Eigen::Vector2d& place_map_m, double reach_m) const {
+  double near = 0.0, all = 0.0;
+  for (const Particle& particle : particles_) {
+    all += particle.weight;
+    if ((particle.place_map_m - place_map_m).norm() < reach_m) near += particle.weight;
+  }
+  return all > 0.0 ? near / all : 0.0;
 }
 
 }  // namespace swiftlet::autonomy

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "autonomy/maneuvers/pursuit_path.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
@@ -20,6 +21,7 @@ namespace swiftlet::autonomy {
 struct Sight {
   std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null.
   const perception::SeenPoints* seen = nullptr;       ///< Null: nothing is seen.
+  std::vector<Eigen::Vector2d> others_map_m = {};     ///< Where somebody else is tracked.
 };
 
 /// One thread. In the `map` frame.
@@ -40,21 +42,23 @@ class HiddenPerson {
   /// The likeliest place, and how he walks there.
   const Eigen::Vector2d& place_map_m() const { return place_map_m_; }
   const Eigen::Vector2d& velocity_map_m_s() const { return velocity_map_m_s_; }
-  /// The map shows him where he stood when he was last seen, and the vehicle sees that place.
-  bool standsInSight() const { return stands_in_sight_; }
-  /// How far a place is from the nearest one where he may be.
-  double distanceTo_m(const Eigen::Vector2d& place_map_m) const;
+  /// Some of the places where he may be, with their velocities.
+  std::vector<PossibleWalk> walks() const;
+  /// The vehicle sees something at the likeliest place that was not there before him. His track has ended, because he
+  /// stood until the map explained him.
+  bool inSight() const { return in_sight_; }
+  /// Probability that he is within `reach_m` of a place.
+  double share(const Eigen::Vector2d& place_map_m, double reach_m) const;
 
  private:
   struct Particle {
     Eigen::Vector2d place_map_m, velocity_map_m_s;
-    bool stays = false;  ///< It has stood there since he was last seen.
-    bool shown = false;  ///< It stays, in sight, where the map shows something that was not there before him.
+    bool shown = false;  ///< Beams end there on something that was not there before him.
     double weight = 1.0;
   };
 
   void walk(Particle& particle, const common::OccupancyGrid& grid, double dt_s);
-  void lookFor(Particle& particle, const common::OccupancyGrid& grid, double dt_s) const;
+  void lookFor(Particle& particle, const Sight& sight, double dt_s) const;
   void resample();
   void findLikeliest();
 
@@ -73,7 +77,7 @@ class HiddenPerson {
   common::RandomStream random_;
   common::Time now_;
   Eigen::Vector2d place_map_m_, velocity_map_m_s_;
-  bool stands_in_sight_ = false;
+  bool in_sight_ = false;
 };
 
 }  // namespace swiftlet::autonomy

@@ -11,6 +11,7 @@ PathManeuver::PathManeuver(const ManeuverSetup& setup, std::string purpose, comm
 
 Progress PathManeuver::step(const ManeuverInput& input) {
   if (setup_.controller.state() != common::FlightState::kFlying) return cannot(purpose_, setup_.controller);
+  watch(input);
   if (setup_.retreat.active()) return Progress::running();
   Progress progress = fly(input);
   if (progress.state == common::IntentState::kFailed) progress.reason = doubt(input.drift_m) + progress.reason;

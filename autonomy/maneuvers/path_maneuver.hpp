@@ -18,6 +18,8 @@ class PathManeuver : public Maneuver {
   /// `purpose` completes "cannot ...": "fly to a goal".
   PathManeuver(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode);
 
+  /// At each step, also while the reactive layer retreats: what must be watched without a gap.
+  virtual void watch(const ManeuverInput&) {}
   /// A step in flight without a retreat.
   virtual Progress fly(const ManeuverInput& input) = 0;
   /// Names an uncertain position as the cause before the reason of a failure; empty if the position is known.

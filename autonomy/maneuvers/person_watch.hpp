@@ -33,14 +33,17 @@ class PersonWatch {
   /// Known: where he is at `now`; the likeliest place while he is hidden.
   Eigen::Vector2d place_map_m(common::Time now) const;
   Eigen::Vector2d velocity_map_m_s() const;
+  /// Known: what he may do from `now` on.
+  std::vector<PossibleWalk> walks(common::Time now) const;
   /// His track has ended, and the map does not show him where he stood.
-  bool hidden() const { return hidden_ && !hidden_->standsInSight(); }
+  bool hidden() const { return hidden_ && !hidden_->inSight(); }
   /// Known: the time since he was seen, tracked or standing.
   double unseen_s(common::Time now) const { return (now - last_->last_seen).seconds(); }
   /// Where he walked, the newest place last, at most a few metres.
   const std::vector<Eigen::Vector2d>& trail_map_m() const { return trail_map_m_; }
 
  private:
+  const common::DynamicObstacle* likeliest(std::span<const common::DynamicObstacle> obstacles, common::Time now) const;
   void see(const common::DynamicObstacle& obstacle);
 
   std::optional<common::DynamicObstacle> last_;

@@ -92,6 +92,24 @@ TEST(Shipped, TheReferenceOfAllSettingsIsUpToDate) {
       << "update it: swiftlet config --reference > docs/configuration.md";
 }
 
+/// A mission that asks for targets of any of these colours can be flown with any profile that has a colour camera.
+TEST(Shipped, EachProfileWithAColourCameraNamesTheSameColours) {
+  int with_camera = 0;
+  for (const std::string& file : shipped("config/systems", ".yaml", 1)) {
+    const std::string name = fs::path(file).stem().string();
+    if (test_support::readText(kRoot / file).find("\nrgbd_camera:") == std::string::npos) continue;
+    ++with_camera;
+    const std::string printed = runSwiftlet({"config", "--system", name}).out;
+    for (const std::string colour : {"red", "yellow", "green", "blue"})
+      EXPECT_NE(printed.find("name: \"" + colour + "\""), std::string::npos) << name << ": " << colour;
+    for (const std::string mission : {"missions/find_target.xml", "missions/search_and_report.xml"}) {
+      const ProgramEnd end = runSwiftlet({"check", mission, "--system", name});
+      EXPECT_EQ(end.exit_code, 0) << name << ": " << describe(end);
+    }
+  }
+  EXPECT_GE(with_camera, 4);
+}
+
 class Profiles : public test_support::Scratch {};
 
 // "swiftlet config > mine.yaml" is where one's own profile begins.

@@ -156,6 +156,63 @@ TEST(Recording, RepeatsAFlightThatMapsIn3D) {
   }
 }
 
+std::string aMissionOf(const std::string& leaves) {
+  return R"(<root BTCPP_format="4"><BehaviorTree ID="Other"><Sequence>)" + leaves + "</Sequence></BehaviorTree></root>";
+}
+
+/// A flight whose mission is changed twice: once to one that cannot be flown, once to another one. The inputs end with
+/// the landing of the second mission.
+struct RecordedChange {
+  RecordedChange() {
+    const auto vehicle = makeVehicle(13);
+    Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
+    common::LosslessQueue<common::OperatorCommand> commands;
+    InputRecorder recorder;
+    FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
+    while (!autonomy.finished() && loop.now() < Time::fromSeconds(60)) {
+      if (loop.now() == Time::fromSeconds(7))
+        commands.push({1, common::StartMissionCommand{"broken.xml", aMissionOf("<Fly/>")}});
+      if (loop.now() == Time::fromSeconds(8))
+        commands.push({2, common::StartMissionCommand{
+                              "other.xml", aMissionOf("<TakeOff/><MoveToGoal goal=\"0.6;0.2;1.2\"/><Land/>")}});
+      if (!loop.step(loop.now() + common::kControlPeriod)) break;
+    }
+    finished = autonomy.finished();
+    recording = recorder.recording();
+  }
+
+  Witness witness;
+  Recording recording;
+  bool finished = false;
+};
+
+TEST(Recording, RepeatsAFlightWhoseMissionIsChanged) {
+  const RecordedChange flown;
+  ASSERT_TRUE(flown.finished);
+  ASSERT_EQ(flown.witness.results.size(), 2u);
+  EXPECT_FALSE(flown.witness.results[0].accepted);
+  EXPECT_TRUE(flown.witness.results[1].accepted) << flown.witness.results[1].reason;
+  EXPECT_NEAR(flown.witness.ticks.back().state.T_map_body().position_m.x(), 0.6, 0.15) << "flown to its goal";
+
+  Witness again, with_another;
+  Autonomy same = makeAutonomy(common::makeLockstepJobs(0));
+  const auto outcome = replay(flown.recording, same, {&again});
+  ASSERT_TRUE(outcome) << outcome.error();
+  EXPECT_EQ(difference(flown.witness, again), "");
+  EXPECT_TRUE(same.finished());
+
+  // The text of the command is the mission that is flown: with another text it is another flight.
+  Recording changed = flown.recording;
+  for (Input& input : changed)
+    if (auto* command = std::get_if<CommandInput>(&input))
+      if (auto* start = std::get_if<common::StartMissionCommand>(&command->command.kind))
+        start->xml = aMissionOf("<TakeOff/><Land/>");
+  Autonomy other = makeAutonomy(common::makeLockstepJobs(0));
+  if (replay(changed, other, {&with_another})) {
+    EXPECT_NE(difference(flown.witness, with_another), "");
+  }
+}
+
 /// The first seconds of a flight that starts from what another one has learned.
 TEST(Recording, RepeatsAFlightWithAVehiclesMemoryOnlyWithThatMemory) {
   VehicleMemory memory{VehicleMemory::kVersion, "cobra", {{10.0, 0.98, 30.0}, {12.6, 0.62, 30.0}}};

@@ -122,6 +122,29 @@ TEST_F(PersonInAHall, StandsWhereTheMapShowsHimUntilItDoesNot) {
   EXPECT_GT(watch.unseen_s(seenAt(12)), 2.5);
 }
 
+/// He stands until the map has him and his track ends; somebody else comes by; then he sets off without a track.
+TEST_F(PersonInAHall, IsSeenWithoutATrackAndNotTakenForSomebodyElse) {
+  PersonWatch watch;
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.3, 0})}, {5, 5}, 6.0);
+  watch.update(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.3, 0})}, sight(), seenAt(1));
+  const auto stand = [&](double x_m) {
+    planning::test::fill(grid_, {{0, 0}, {199, 199}}, planning::test::kFreeCell);
+    const int at = static_cast<int>(x_m / 0.05);
+    wall({{at - 3, 97}, {at + 3, 103}});
+  };
+  stand(7.0);
+  for (double t_s = 1.4; t_s < 8.0; t_s += 0.05)
+    watch.update(std::vector{person(2, 5.0 + 0.3 * (t_s - 1.4), 3.2, seenAt(t_s), {0.3, 0})}, sight(), seenAt(t_s));
+  EXPECT_FALSE(watch.hidden());
+  EXPECT_LT((watch.place_map_m(seenAt(8)) - Eigen::Vector2d(7.0, 5.0)).norm(), 0.4);
+  for (double t_s = 8.0; t_s < 10.0; t_s += 0.05) {
+    stand(7.0 + 0.4 * (t_s - 8.0));
+    watch.update({}, sight(), seenAt(t_s));
+  }
+  EXPECT_FALSE(watch.hidden());
+  EXPECT_LT((watch.place_map_m(seenAt(10)) - Eigen::Vector2d(7.8, 5.0)).norm(), 0.6);
+}
+
 class FollowInFlight : public ManeuverInFlight {
  protected:
   /// He walks to that place at that speed; the distances that the vehicle kept from him meanwhile.

@@ -1,0 +1,44 @@
+// The way to fly in the next seconds so that a person who walks on stays in sight and at the right distance, whatever
+// he is likely to do. Dynamic programming over places and time, with the expected loss over what he may do
+// [LaValle, Gonzalez-Banos, Becker, Latombe 1997, "Motion strategies for maintaining visibility of a moving target"].
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/occupancy_grid.hpp"
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::autonomy {
+
+/// What a person may do: walk on from a place with a velocity. In `map`.
+struct PossibleWalk {
+  Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity_map_m_s = Eigen::Vector2d::Zero();
+  double weight = 1.0;  ///< Positive.
+};
+
+/// References are read during the call only.
+struct PursuitQuestion {
+  const planning::CostMap& costs;
+  const common::OccupancyGrid& grid;
+  Eigen::Vector2d here_map_m;
+  std::span<const PossibleWalk> walks;  ///< At least one.
+  /// Where he walked lately: the map may still show him there.
+  std::span<const Eigen::Vector2d> walked_map_m;
+  double distance_m = 2.0;  ///< To be kept from him; from 0.5 m less to 1 m more is right.
+  double speed_m_s = 0.7;   ///< Of the vehicle.
+};
+
+struct PursuitPath {
+  std::vector<Eigen::Vector2d> points_map_m;  ///< From here; one point: it is best to stay.
+  double cost_m = 0.0;                        ///< Of the path in the cost map.
+  double in_sight = 0.0;                      ///< Probability that he is seen from its end, at the end.
+};
+
+/// A pure function; safe from any thread.
+PursuitPath pursuitPath(const PursuitQuestion& question);
+
+}  // namespace swiftlet::autonomy

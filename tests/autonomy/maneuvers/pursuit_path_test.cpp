@@ -1,0 +1,72 @@
+// The way that keeps a person in sight and at a distance: in a hall, at a box, too near, and too near to a wall.
+#include "autonomy/maneuvers/pursuit_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planning/flatland.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+/// A free hall of 10 x 10 m.
+class Pursuing : public testing::Test {
+ protected:
+  Pursuing() { planning::test::fill(grid_, {{0, 0}, {199, 199}}, planning::test::kFreeCell); }
+  void wall(const common::CellRect& cells) { planning::test::fill(grid_, cells, planning::test::kWallCell); }
+  PursuitPath from(const Point& here_map_m, const std::vector<PossibleWalk>& walks,
+                   const std::vector<Point>& walked_map_m = {}) {
+    planning::CostMap costs(planning::CostMap::Config{}, grid_.resolution_m());
+    costs.update(grid_.snapshot(), planning::Footprint{});
+    return pursuitPath({costs, grid_, here_map_m, walks, walked_map_m, 2.0, 0.73});
+  }
+
+  common::OccupancyGrid grid_ = common::makeOccupancyGrid(0.05);
+};
+
+TEST_F(Pursuing, StaysAtTheDistanceOfOneWhoStands) {
+  const PursuitPath path = from({3.0, 5.0}, {{{5.0, 5.0}, {0.0, 0.0}}});
+  EXPECT_EQ(path.points_map_m.size(), 1u);
+  EXPECT_NEAR(path.in_sight, 1.0, 1e-9);
+}
+
+TEST_F(Pursuing, FollowsOneWhoWalksAwayAndGivesWayToOneWhoComes) {
+  const PursuitPath behind = from({3.0, 5.0}, {{{5.0, 5.0}, {0.5, 0.0}}});
+  EXPECT_GT(behind.points_map_m.back().x(), 3.4);
+  const PursuitPath away = from({3.9, 5.0}, {{{5.0, 5.0}, {-0.1, 0.0}}});
+  ASSERT_GT(away.points_map_m.size(), 1u);
+  EXPECT_GT((away.points_map_m.back() - Point(5.0, 5.0)).norm(), 1.6);
+}
+
+/// He walks north behind a box, at whose south side the vehicle is: to see him it must fly round a corner before.
+TEST_F(Pursuing, FliesWhereABoxWillNotHideHim) {
+  wall({{100, 90}, {120, 140}});
+  const Point here(4.5, 4.2);
+  const std::vector<PossibleWalk> walks{{{6.4, 4.2}, {0.0, 0.5}}};
+  const PursuitPath path = from(here, walks);
+  ASSERT_GT(path.points_map_m.size(), 1u);
+  EXPECT_GT(path.in_sight, 0.9);
+  EXPECT_GT(path.points_map_m.back().x(), 5.0) << "round the south-east corner of the box";
+}
+
+TEST_F(Pursuing, WhatTheMapShowsWhereHeWalkedHidesNothing) {
+  wall({{84, 90}, {86, 110}});  // He stood there for long.
+  const std::vector<PossibleWalk> walks{{{5.0, 5.0}, {0.0, 0.0}}};
+  EXPECT_LT(from({3.0, 5.0}, walks).in_sight + 0.0, 1.1);
+  wall({{60, 0}, {62, 199}});
+  const Point here(2.0, 5.0);
+  EXPECT_EQ(from(here, walks).in_sight, 0.0) << "a wall across the hall";
+  EXPECT_EQ(from(here, walks, {{3.1, 5.0}, {4.3, 5.0}}).in_sight, 1.0);
+}
+
+TEST_F(Pursuing, LeavesAPlaceTooNearToAWallFirst) {
+  wall({{50, 0}, {55, 199}});
+  const PursuitPath path = from({3.0, 5.0}, {{{6.5, 5.0}, {0.4, 0.0}}});
+  ASSERT_GT(path.points_map_m.size(), 1u);
+  EXPECT_EQ(path.points_map_m.front(), Point(3.0, 5.0));
+  EXPECT_GT(path.points_map_m.back().x(), 3.5);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
