@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -111,6 +112,7 @@ class EnvelopeRun {
       search();
     } catch (...) {
       failure = std::current_exception();
+      collectBase();
     }
     progress_.close();
     write();
@@ -124,12 +126,16 @@ class EnvelopeRun {
   void search() {
     const auto fly = [&](int count, auto&& work) { flyInParallel(count, options_.jobs, stop_, work); };
     fly(results_.config.seeds, [this](int i) { flyBase(i); });
-    for (auto& flown : base_)
-      if (flown) results_.base.flights.push_back(std::move(*flown));
+    collectBase();
     for (EnvelopeEntry& entry : results_.entries) entry.finding.steps = {at(entry.finding.from)};
     if (!results_.base.acceptable() || stop_) return;
     fly(static_cast<int>(results_.entries.size()),
         [this](int i) { search(results_.entries[static_cast<std::size_t>(i)].finding); });
+  }
+
+  void collectBase() {
+    for (auto& flown : std::exchange(base_, {}))
+      if (flown) results_.base.flights.push_back(std::move(*flown));
   }
 
   EnvelopeStep at(double value) const { return {value, results_.base.flights}; }

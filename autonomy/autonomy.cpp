@@ -54,7 +54,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, camera != nullptr, map_shelf_)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
-      inertial_(config.inertial),
+      inertial_(config.inertial, config.control.position.attitude_lag_s),
       given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
       assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
@@ -155,8 +155,8 @@ common::Setpoint Autonomy::tick(Time now) {
 }
 
 void Autonomy::tellInertialInput(const common::Setpoint& setpoint, bool thrust_applies) {
-  // Where the ground may carry a part of the weight: the body stands this much lower than it flies. A vehicle that
-  // comes down without a measured height may have reached it, whatever the estimate says.
+  // Below this height over the ground, contact may carry a part of the weight. A vehicle that comes down without a
+  // measured height may have reached it, whatever the estimate says.
   constexpr double kNearGround_m = 0.45;
   const common::VehicleState state = estimator_.state();
   const bool low = state.height_above_ground_m < kNearGround_m || !state.vertical_valid ||
@@ -251,8 +251,8 @@ void Autonomy::tickBehaviors(Time now) {
                            drift_m_, supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(),
                            &estimator_.people().seen(), requests_.keepOut().zones()});
   const bool knows_walls = drift_m_ < config_.supervisor.drift_back_m;
-  controller_.setWayWhenLost(knows_walls ? executor_.wayToOpenPlace_m(estimator_.state())
-                                         : Eigen::Vector2d(Eigen::Vector2d::Zero()));
+  controller_.setEscape(knows_walls ? executor_.escape_map_m(estimator_.state())
+                                    : Eigen::Vector2d(Eigen::Vector2d::Zero()));
 }
 
 /// The supervisor's intent comes before the mission's.

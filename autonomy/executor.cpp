@@ -11,9 +11,6 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// Longest way that is flown by velocity alone: at 0.3 m/s, 2 s, in which a carried velocity drifts 0.2 m off.
-constexpr double kBlindWay_m = 0.6;
-
 /// The intent's own clearance, or `otherwise_m` if it has none.
 double clearanceOf(const common::IntentKind& kind, double otherwise_m) {
   return std::visit(
@@ -115,7 +112,7 @@ bool Executor::wallsAround(const common::VehicleState& state) const {
   return !map || planning::isHeld(*map, state.T_map_body_planar().position_m(), config_.exploration);
 }
 
-Eigen::Vector2d Executor::wayToOpenPlace_m(const common::VehicleState& state) const {
+Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const {
   const auto map = desk_.costMap();
   if (!map) return Eigen::Vector2d::Zero();
   const Eigen::Vector2d velocity_map_m_s =
@@ -124,7 +121,7 @@ Eigen::Vector2d Executor::wayToOpenPlace_m(const common::VehicleState& state) co
   Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
   if (speed_m_s > 0.0)
     stopped_m += controller_.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
-  return planning::wayToOpenPlace_m(*map, stopped_m, kBlindWay_m);
+  return planning::displacementToOpenPlace_m(*map, stopped_m, controller_.escapeReach_m());
 }
 
 std::vector<common::Event> Executor::takeEvents() { return std::exchange(memory_.events, {}); }

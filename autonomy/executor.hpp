@@ -49,8 +49,9 @@ class Executor {
   std::optional<Eigen::Vector2d> followedPerson_map_m() const;
   /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
   bool wallsAround(const common::VehicleState& state) const;
-  /// The way, in `map`, from where the vehicle can stop to the place near it that is farthest from the walls.
-  Eigen::Vector2d wayToOpenPlace_m(const common::VehicleState& state) const;
+  /// From where the vehicle can stop to the place near it that is farthest from the walls; see
+  /// FlightController::setEscape.
+  Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 

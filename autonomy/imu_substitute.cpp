@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "common/config_fields.hpp"
 #include "common/geometry.hpp"
 #include "control/thrust_table.hpp"
 
@@ -13,20 +12,16 @@ namespace swiftlet::autonomy {
 
 using common::ImuSample;
 using common::Time;
-using common::config::kPositive;
 
 namespace {
+
+/// Twice what an emergency descent from the greatest height, 2 m, takes.
+constexpr double kLongest_s = 15.0;
 
 /// The share of a step that a lag of first order lets through in that time.
 double followed(double dt_s, double lag_s) { return lag_s > 0.0 ? 1.0 - std::exp(-dt_s / lag_s) : 1.0; }
 
 }  // namespace
-
-void ImuSubstituteConfig::describe(common::config::Fields& fields) {
-  fields("attitude_lag_s", attitude_lag_s, {0.0, 1.0}, "Lag of roll and pitch behind their setpoints.");
-  fields("thrust_lag_s", thrust_lag_s, {0.0, 0.5}, "Lag of the thrust behind its command.");
-  fields("at_most_s", at_most_s, kPositive, "After this long nothing is predicted any more.");
-}
 
 void ImuSubstitute::measured(const ImuSample& sample) {
   last_ = sample;
@@ -43,14 +38,14 @@ void ImuSubstitute::flown(const common::Setpoint& setpoint, double thrust_over_h
 std::optional<ImuSample> ImuSubstitute::next(Time now) {
   if (!last_) return std::nullopt;
   const Time measured = last_->stamps.measured + common::kControlPeriod;
-  if (measured + delay_ > now || (measured - measured_).seconds() > config_.at_most_s) return std::nullopt;
+  if (measured + delay_ > now || (measured - measured_).seconds() > kLongest_s) return std::nullopt;
   constexpr double kStep_s = common::kControlPeriod.seconds();
   common::RollPitchYaw attitude = common::rollPitchYaw(last_->rotation_ahrs_body);
-  const double turned = followed(kStep_s, config_.attitude_lag_s);
+  const double turned = followed(kStep_s, lags_.attitude_s);
   attitude.roll_rad += turned * (setpoint_.roll_rad - attitude.roll_rad);
   attitude.pitch_rad += turned * (setpoint_.pitch_rad - attitude.pitch_rad);
   attitude.yaw_rad = common::wrapAngle(attitude.yaw_rad + setpoint_.yaw_rate_rad_s * kStep_s);
-  force_over_gravity_ += followed(kStep_s, config_.thrust_lag_s) * (thrust_over_hover_ - force_over_gravity_);
+  force_over_gravity_ += followed(kStep_s, lags_.thrust_s) * (thrust_over_hover_ - force_over_gravity_);
 
   ImuSample sample;
   sample.stamps = {measured, now};

@@ -6,36 +6,33 @@
 
 #include <optional>
 
-#include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 #include "common/vehicle.hpp"
 
 namespace swiftlet::autonomy {
 
-struct ImuSubstituteConfig {
-  double attitude_lag_s = 0.12;
-  double thrust_lag_s = 0.05;
-  double at_most_s = 20.0;
-
-  void describe(common::config::Fields& fields);
+/// First-order lags of the vehicle behind its setpoints.
+struct ActuationLags {
+  double attitude_s = 0.2;
+  double thrust_s = 0.05;
 };
 
 /// One thread.
 class ImuSubstitute {
  public:
-  explicit ImuSubstitute(const ImuSubstituteConfig& config) : config_(config) {}
+  explicit ImuSubstitute(const ActuationLags& lags) : lags_(lags) {}
 
   /// A sample that was used. What is predicted goes on from the last one.
   void measured(const common::ImuSample& sample);
   /// The setpoint that is flown from now on, and its thrust over that which carries the weight.
   void flown(const common::Setpoint& setpoint, double thrust_over_hover);
   /// The next sample, one control period after the last one; none if that is later than `now`, before the first
-  /// measured sample, and when that is longer ago than `at_most_s`.
+  /// measured sample, and when that is longer ago than any descent takes.
   std::optional<common::ImuSample> next(common::Time now);
 
  private:
-  ImuSubstituteConfig config_;
+  ActuationLags lags_;
   std::optional<common::ImuSample> last_;
   common::Time measured_;   ///< Stamp of the last measured sample.
   common::Duration delay_;  ///< From measurement to arrival, of the last measured sample.

@@ -14,7 +14,6 @@ void InertialInputConfig::describe(common::config::Fields& fields) {
   fields.section("imu", imu, "Inertial samples that cannot be used.");
   fields.section("inertial_check", inertial_check,
                  "Inertial samples that contradict the attitude or the thrust, and what takes their place.");
-  fields.section("imu_substitute", imu_substitute, "What the setpoints predict while no inertial sample can be used.");
 }
 
 /// On the ground a faulty sample goes to the filter as it is, which starts only if it makes sense.
@@ -33,12 +32,13 @@ std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
 }
 
 std::optional<ImuSample> InertialInput::predicted(Time now) {
-  if (!airborne_ || watch_.fault(now).empty()) return std::nullopt;
+  if (!airborne_ || !setpoints_apply_ || watch_.fault(now).empty()) return std::nullopt;
   return substitute_.next(now);
 }
 
 void InertialInput::flown(const common::Setpoint& setpoint, const InertialContext& context) {
   airborne_ = context.airborne;
+  setpoints_apply_ = context.thrust_applies;
   check_.vehicleIs(context);
   substitute_.flown(setpoint, context.thrust_over_hover);
 }

@@ -20,7 +20,6 @@ namespace swiftlet::autonomy {
 struct InertialInputConfig {
   ImuWatchConfig imu;
   InertialCheckConfig inertial_check;
-  ImuSubstituteConfig imu_substitute;
 
   void describe(common::config::Fields& fields);
 };
@@ -28,13 +27,16 @@ struct InertialInputConfig {
 /// One thread.
 class InertialInput {
  public:
-  explicit InertialInput(const InertialInputConfig& config)
-      : watch_(config.imu), check_(config.inertial_check), substitute_(config.imu_substitute) {}
+  /// The lag of the attitude is the one that the controllers believe.
+  InertialInput(const InertialInputConfig& config, double attitude_lag_s)
+      : watch_(config.imu),
+        check_(config.inertial_check),
+        substitute_({attitude_lag_s, config.inertial_check.thrust_lag_s}) {}
 
   /// What the filter is to be given for a sample that arrived; none if it tells nothing.
   std::optional<common::ImuSample> take(const common::ImuSample& sample);
-  /// The next sample that takes the place of measured ones; none while those can be used, and on the ground. To be
-  /// called at each tick until there is none.
+  /// The next sample that takes the place of measured ones; none while those can be used, on the ground, and while
+  /// somebody else flies than the setpoints. To be called at each tick until there is none.
   std::optional<common::ImuSample> predicted(common::Time now);
   /// Call at each tick of the control.
   void flown(const common::Setpoint& setpoint, const InertialContext& context);
@@ -51,6 +53,7 @@ class InertialInput {
   InertialCheck check_;
   ImuSubstitute substitute_;
   bool airborne_ = false;
+  bool setpoints_apply_ = true;
   std::vector<common::Event> events_;
 };
 

@@ -57,8 +57,8 @@ class EmergencyDescent {
  public:
   struct Config {
     double descent_m_s = 0.6;
-    double touchdown_descent_m_s = 0.3;
-    double touchdown_height_m = 0.35;
+    double touchdown_descent_m_s = 0.45;
+    double touchdown_height_m = 0.25;
     double gain_1_s = 2.5;
     double integral_1_s2 = 0.8;
     double alpha = 0.4;

@@ -22,6 +22,8 @@ constexpr double kCarriedSpeedSigma_m_s = 0.5;
 /// When the position is unknown, a velocity with at most this deviation is still damped.
 constexpr double kDampedVelocitySigma_m_s = 0.6;
 
+constexpr const char* kEscapes = "the vehicle leaves the walls without a position";
+
 Eigen::Vector3d inFrame(const common::Pose2& T, const Eigen::Vector3d& point_m) {
   const Eigen::Vector2d planar_m = T * Eigen::Vector2d(point_m.head<2>());
   return {planar_m.x(), planar_m.y(), point_m.z()};
@@ -84,6 +86,7 @@ tl::expected<void, std::string> FlightController::command(const FlightCommand& c
 tl::expected<void, std::string> FlightController::follow(const FlightPath& path) {
   if (!machine_.activation().waypoints)
     return tl::unexpected(fmt::format("no paths while {}", common::toString(state())));
+  if (escapes_until_) return tl::unexpected(std::string(kEscapes));
   const bool finite = std::all_of(path.points_map_m.begin(), path.points_map_m.end(),
                                   [](const Eigen::Vector3d& point) { return point.allFinite(); }) &&
                       std::isfinite(path.goal_yaw_map_rad.value_or(0.0));
@@ -107,6 +110,7 @@ tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Ve
                                                                  double climb_m_s) {
   if (!machine_.activation().waypoints)
     return tl::unexpected(fmt::format("no velocities while {}", common::toString(state())));
+  if (escapes_until_) return tl::unexpected(std::string(kEscapes));
   if (!velocity_map_m_s.allFinite() || !std::isfinite(yaw_map_rad) || !std::isfinite(climb_m_s) ||
       !(acceleration_m_s2 > 0.0))
     return tl::unexpected(std::string("the velocity is not finite"));
@@ -118,6 +122,7 @@ tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Ve
 }
 
 void FlightController::hold(std::optional<double> yaw_map_rad) {
+  if (escapes_until_) return;  // It ends in a hold by itself.
   follower_.stop(yaw_map_rad ? std::optional(common::wrapAngle(*yaw_map_rad - T_map_odom_.yaw_rad)) : std::nullopt);
 }
 
@@ -236,8 +241,10 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
                      : Horizontal::kLevel;
     // A velocity that is measured no longer would be damped beyond its end.
     if (!tick.inertial_fault.empty()) horizontal = Horizontal::kLevel;
+    // The velocities of a path need its positions.
+    if (!escapes_until_) target.velocity_odom_m_s.head<2>().setZero();
   }
-  if (!on_ground) oscillation_.observe(tick.state.T_odom_body.rotation, dt_s_);
+  if (!on_ground && isFinite(tick.state)) oscillation_.observe(tick.state.T_odom_body.rotation, dt_s_);
   const ControlInput input{now_,       dt_s_,     tick.state,          target, tick.acceleration_odom_m_s2,
                            horizontal, on_ground, oscillation_.share()};
   return position_.tick(input, tick.battery_v);
@@ -285,7 +292,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
   switch (entered) {
     case FlightState::kTakingOff:
       grounded_reason_.clear();
-      blind_until_.reset();
+      escapes_until_.reset();
       oscillation_.reset();
       standing_height_m_ = position_m.z();
       standing_raw_m_ = emergency_.filter().ready() ? emergency_.filter().height_m() : position_m.z();
@@ -309,10 +316,10 @@ void FlightController::enter(FlightState from, FlightState entered) {
         height_reference_m_ = follower_.reference().position_odom_m.z() + lift_m_;
         climb_reference_m_s_ = follower_.reference().velocity_odom_m_s.z();
       }
-      if (!blind_until_) follower_.stop();
+      if (!escapes_until_) follower_.stop();
       return;
     case FlightState::kEmergencyLanding:
-      blind_until_.reset();
+      escapes_until_.reset();
       follower_.stop();
       // The trim of a vehicle that flies fast balances drag, which ends with the braking.
       emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(),
@@ -324,6 +331,8 @@ void FlightController::enter(FlightState from, FlightState entered) {
     case FlightState::kPoweredOff:
     case FlightState::kLanded:
       follower_.reset(position_m, yaw_rad);
+      escapes_until_.reset();
+      lift_m_ = 0.0;
       return;
   }
 }

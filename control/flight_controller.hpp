@@ -84,6 +84,7 @@ class FlightController {
     double horizontal_loss_s = 1.0;
     double blind_speed_m_s = 0.3;
     double blind_acceleration_m_s2 = 0.6;
+    double blind_s = 2.0;
     double vertical_loss_s = 0.3;
     double inertial_age_s = 0.1;
     double inertial_loss_s = 0.2;
@@ -115,9 +116,10 @@ class FlightController {
   /// Changes the controller in any state, in flight without a step. Fails, with the reason, for one without its model.
   tl::expected<void, std::string> switchController(ControllerKind kind);
   ControllerKind controllerKind() const { return position_.kind(); }
-  /// The way, in `map`, that the vehicle flies by its velocity alone if the horizontal estimate is lost now; zero to
-  /// brake and stay.
-  void setWayWhenLost(const Eigen::Vector2d& way_map_m) { way_when_lost_map_m_ = way_map_m; }
+  /// The displacement, in `map`, that the vehicle flies by its velocity alone if the horizontal estimate is lost now,
+  /// at most escapeReach_m() long; zero to brake and stay. While it is flown, paths and velocities are refused.
+  void setEscape(const Eigen::Vector2d& displacement_map_m) { escape_map_m_ = displacement_map_m; }
+  double escapeReach_m() const { return config_.blind_s * config_.blind_speed_m_s; }
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
@@ -166,7 +168,7 @@ class FlightController {
   void watch(const FlightTick& tick);
   void watchInertial(const std::string& fault);
   void watchHorizontal(const FlightTick& tick);
-  void flyBlind();
+  void escape();
   void keepPathInMap(const common::VehicleState& state);
   common::Setpoint setpointFor(const FlightTick& tick);
   common::Setpoint takeOff(const FlightTick& tick);
@@ -211,8 +213,8 @@ class FlightController {
   common::Time state_since_;
   std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
   std::optional<common::Time> horizontal_lost_;
-  Eigen::Vector2d way_when_lost_map_m_ = Eigen::Vector2d::Zero();
-  std::optional<common::Time> blind_until_;  ///< Flies the way when lost until then.
+  Eigen::Vector2d escape_map_m_ = Eigen::Vector2d::Zero();
+  std::optional<common::Time> escapes_until_;  ///< Flies the escape until then.
   std::optional<common::Time> vertical_lost_;
   std::optional<common::Time> inertial_lost_;
   std::string inertial_fault_;

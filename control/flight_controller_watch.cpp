@@ -1,4 +1,6 @@
 // What the flight controller does about an estimate that can be used no longer.
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "control/flight_controller.hpp"
@@ -42,8 +44,8 @@ void FlightController::watchInertial(const std::string& fault) {
 }
 
 void FlightController::watchHorizontal(const FlightTick& tick) {
-  if (blind_until_ && (tick.state.horizontal_valid || now_ >= *blind_until_)) {
-    blind_until_.reset();
+  if (escapes_until_ && (tick.state.horizontal_valid || now_ >= *escapes_until_)) {
+    escapes_until_.reset();
     follower_.stop();
   }
   if (tick.state.horizontal_valid) {
@@ -59,7 +61,7 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
   }
   if (!horizontal_lost_) {
     horizontal_lost_ = now_;
-    flyBlind();
+    escape();
   }
   if (state() != FlightState::kLanding && (now_ - *horizontal_lost_).seconds() >= config_.horizontal_loss_s)
     transition(FlightInput::kLand, fmt::format("no horizontal estimate for {:.1f} s", config_.horizontal_loss_s));
@@ -67,18 +69,18 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
 
 /// The velocity is known for longer than the position. So the vehicle brakes, or leaves the walls that it would drift
 /// into on its way down.
-void FlightController::flyBlind() {
-  const double way_m = way_when_lost_map_m_.norm();
-  if (state() != FlightState::kFlying || way_m < config_.blind_speed_m_s * dt_s_) {
+void FlightController::escape() {
+  const double length_m = std::min(escape_map_m_.norm(), escapeReach_m());
+  if (state() != FlightState::kFlying || length_m < config_.blind_speed_m_s * dt_s_) {
     follower_.stop();
     return say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
   }
   const Eigen::Vector2d velocity_m_s =
-      Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * (config_.blind_speed_m_s / way_m * way_when_lost_map_m_);
+      Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * (config_.blind_speed_m_s * escape_map_m_.normalized());
   follower_.setVelocity({velocity_m_s.x(), velocity_m_s.y(), 0.0}, config_.blind_acceleration_m_s2,
                         common::yawOf(last_state_.T_odom_body.rotation));
-  blind_until_ = now_ + common::Duration::fromSeconds(way_m / config_.blind_speed_m_s);
-  say(Severity::kWarning, "horizontal estimate lost", fmt::format("flying {:.1f} m away from the walls", way_m));
+  escapes_until_ = now_ + common::Duration::fromSeconds(length_m / config_.blind_speed_m_s);
+  say(Severity::kWarning, "horizontal estimate lost", fmt::format("flying {:.1f} m away from the walls", length_m));
 }
 
 void FlightController::keepPathInMap(const common::VehicleState& state) {

@@ -1,5 +1,5 @@
 // Notices that roll and pitch swing, as they do where slow motors and the position controller together are near their
-// stability limit, and takes the horizontal gains back until they swing no more.
+// stability limit, and takes the horizontal gains back until the swing has ended.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace swiftlet::control {
 
-/// What counts is the RMS of roll and pitch above a slow mean. A manoeuvre tilts once and back, a limit cycle at once a
-/// second or faster does so again and again.
+/// What counts is the RMS of roll and pitch above a slow mean. A manoeuvre tilts once and returns; a limit
+/// cycle of 1 Hz or more repeats.
 class OscillationGuard {
  public:
   struct Config {

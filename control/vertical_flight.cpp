@@ -72,7 +72,7 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
   const double wrong_m_s =
       carried ? kCarriedSpeed_m_s2 * std::min(kCarriedLimit_s, last_state_.verticalAge_s(now_)) : 0.0;
-  // Without a position the vehicle drifts, the more the longer it takes.
+  // Without a position the drift grows with time, so the vehicle sinks faster.
   const bool drifts = !tick.state.horizontal_valid;
   const double far_m_s = drifts ? config_.emergency.descent_m_s : config_.descent_m_s;
   const double near_m_s = drifts ? config_.emergency.touchdown_descent_m_s : config_.touchdown_descent_m_s;

@@ -126,7 +126,7 @@ void ErrorStateFilter::predict(const common::ImuSample& sample) {
   }
   f.newest_seen = now;
   f.any_seen = true;
-  f.rest.add(sample);
+  if (!f.predicted) f.rest.add(sample);
   if (!f.history.empty()) f.history.push(sample, f.at_rest, f.predicted);
 }
 

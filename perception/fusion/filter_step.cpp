@@ -119,9 +119,12 @@ void FilterStep::updateBySpatialPose(FilterState& state, int clone, const Measur
 
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {
   if (!s.attitude_due) return;
-  if (config_.use_ahrs) updateByAhrs(state, s.up_body);
+  if (s.predicted)
+    update(state, upDirection(state, s.up_body, square(config_.predicted_tilt_sigma_deg * kRadPerDeg)));
+  else if (config_.use_ahrs)
+    updateByAhrs(state, s.up_body);
   if (config_.use_drag) updateByDrag(state, s.accelerometer_noise_m_s2_rthz);
-  if (config_.use_gravity) {
+  if (config_.use_gravity && !s.predicted) {
     update(state,
            gravity(state, s.imu.specific_force_body_m_s2, config_.gravity_m_s2, square(config_.gravity_sigma_m_s2)));
   }

@@ -16,6 +16,8 @@ void FusionConfig::describe(common::config::Fields& fields) {
          "Noise density of a specific force that the thrust predicts: 5 % of gravity for a second.");
   fields("predicted_rate_noise_rad_s_rthz", predicted_rate_noise_rad_s_rthz, kPositive,
          "Noise density of a rate of rotation that the setpoints predict: 2 deg after a tenth of a second.");
+  fields("predicted_tilt_sigma_deg", predicted_tilt_sigma_deg, {0.01, 30},
+         "Standard deviation of a roll or pitch that the setpoints predict, each time that attitudes are used.");
   fields("accelerometer_bias_walk_m_s3_rthz", accelerometer_bias_walk_m_s3_rthz, kPositive,
          "Random walk of the accelerometer's bias.");
   fields("gyroscope_bias_walk_rad_s2_rthz", gyroscope_bias_walk_rad_s2_rthz, kPositive,

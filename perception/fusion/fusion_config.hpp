@@ -15,6 +15,7 @@ struct FusionConfig {
   double gyroscope_noise_rad_s_rthz = 0.002;
   double predicted_force_noise_m_s2_rthz = 0.5;
   double predicted_rate_noise_rad_s_rthz = 0.1;
+  double predicted_tilt_sigma_deg = 5.0;
   double accelerometer_bias_walk_m_s3_rthz = 0.003;
   double gyroscope_bias_walk_rad_s2_rthz = 0.0005;
   double accelerometer_bias_sigma_m_s2 = 0.2;

@@ -61,7 +61,7 @@ void StateHistory::push(const common::ImuSample& sample, bool at_rest, bool pred
   measurements_.dropUntil(slot(0).imu.stamp);
   Slot& s = slot(count_);
   s.imu = {now, sample.angular_velocity_body_rad_s, sample.specific_force_body_m_s2};
-  measureNoise(slot(count_ - 1).imu, s.imu);
+  if (!predicted && !slot(count_ - 1).predicted) measureNoise(slot(count_ - 1).imu, s.imu);
   s.accelerometer_noise_m_s2_rthz = std::sqrt(accelerometer_noise2_m2_s3_);
   s.at_rest = at_rest;
   s.predicted = predicted;

@@ -7,9 +7,9 @@
 
 namespace swiftlet::planning {
 
-/// The way from `from_map_m` to the place whose obstacles are farthest, among those that are reached in a straight line
-/// of at most `reach_m` through cells where the vehicle may be. A shorter way is preferred where the gain is less than
-/// a quarter of the way. Zero if no place is better than this one.
-Eigen::Vector2d wayToOpenPlace_m(const CostMap& map, const Eigen::Vector2d& from_map_m, double reach_m);
+/// The displacement from `from_map_m` to the place whose obstacles are farthest, among those that are reached in a
+/// straight line of at most `reach_m` through cells where the vehicle may be. Of two places the nearer one is preferred
+/// where the gain is less than a quarter of the path length between. Zero if no place is better than this one.
+Eigen::Vector2d displacementToOpenPlace_m(const CostMap& map, const Eigen::Vector2d& from_map_m, double reach_m);
 
 }  // namespace swiftlet::planning

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <cstdio>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -292,6 +294,23 @@ TEST(Autonomy, ALaserThatRepeatsItsScanIsASilentOne) {
   ASSERT_NE(land, story.events.end());
   EXPECT_LT((said->stamp - since).seconds(), 0.15);
   EXPECT_THAT(land->reason, HasSubstr("no scan"));
+}
+
+TEST(Autonomy, WithoutTheLaserItEscapesTheWallsBeforeItLands) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(1.0));
+  story.hand = [](common::SensorEvent& event) { return !isScan(event); };
+  const common::VehicleState before = story.autonomy().state();
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 30.0));
+  const auto lost = story.event("flight", "horizontal estimate lost");
+  ASSERT_NE(lost, story.events.end());
+  double asked_m = 0.0;
+  ASSERT_EQ(std::sscanf(lost->reason.c_str(), "flying %lf m away from the walls", &asked_m), 1) << lost->reason;
+  const double flown_m =
+      (story.autonomy().state().T_odom_body.position_m - before.T_odom_body.position_m).head<2>().norm();
+  EXPECT_NEAR(flown_m, asked_m, 0.3) << "the landing cut it short, or something else was flown";
+  EXPECT_GT(flown_m, 0.5 * asked_m);
 }
 
 TEST(Autonomy, AVehicleThatSinksDoesNotMoveTheSliceOfTheMap) {

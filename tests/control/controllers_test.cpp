@@ -99,6 +99,7 @@ TEST_P(EachController, NeverPassesOnWhatIsNotANumber) {
   tick.now = flight.model.now + common::kControlPeriod;
   tick.state = flight.model.estimate();
   tick.state.T_odom_body.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  tick.state.T_odom_body.rotation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
   tick.acceleration_odom_m_s2 = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   const common::Setpoint setpoint = flight.controller.tick(tick);
   EXPECT_TRUE(std::isfinite(setpoint.roll_rad) && std::isfinite(setpoint.pitch_rad) &&

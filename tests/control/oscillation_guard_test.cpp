@@ -1,6 +1,7 @@
 // Gains are taken back where roll and pitch swing, and only there.
 #include "control/oscillation_guard.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

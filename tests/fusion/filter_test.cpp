@@ -264,6 +264,39 @@ TEST(ErrorStateFilter, SurvivesLostImuSamples) {
   EXPECT_EQ(filter.health().status, FusionStatus::kOk) << filter.health().reason;
 }
 
+/// Samples from 8 s on that are no better than a prediction: rates off by 17 deg/s, an attitude by 3 deg and the force
+/// by 5 % of gravity. Returns the filter after 12 s.
+ErrorStateFilter toldPredictions(bool says_so) {
+  SyntheticFlight flight(21, 12.0);
+  auto imu = flight.imuSamples();
+  for (common::ImuSample& sample : imu) {
+    const double t = sample.stamps.measured.seconds();
+    if (t < 8.0) continue;
+    sample.angular_velocity_body_rad_s.z() += 0.3 * std::sin(3.0 * t);
+    sample.specific_force_body_m_s2.z() *= 1.05;
+    sample.rotation_ahrs_body = common::expSO3({0.05 * std::sin(2.0 * t), 0.05, 0.0}) * sample.rotation_ahrs_body;
+  }
+  auto deliveries = flight.deliveries();
+  if (says_so)
+    deliveries.push_back({common::Time::fromSeconds(7.999), 0, [](ErrorStateFilter& f) { f.setPredicted(true); }});
+  ErrorStateFilter filter(withoutDrag());
+  feed(filter, imu, std::move(deliveries), flight.restUntil());
+  return filter;
+}
+
+TEST(ErrorStateFilter, PredictedSamplesLeaveTheEstimateToTheLaser) {
+  const ErrorStateFilter told = toldPredictions(true), untold = toldPredictions(false);
+  const SyntheticFlight flight(21, 12.0);
+  const auto state = told.state();
+  const Truth truth = flight.motion.truth(state.stamp.seconds());
+  EXPECT_LT((state.T_odom_body.position_m - truth.T_odom_body.position_m).norm(), 0.10);
+  EXPECT_LT((state.velocity_odom_m_s - truth.velocity_m_s).norm(), 0.25);
+  EXPECT_TRUE(state.horizontal_valid);
+  EXPECT_EQ(told.health().status, FusionStatus::kOk) << told.health().reason;
+  EXPECT_EQ(told.counts().recoveries, 0u);
+  EXPECT_GT(untold.counts().recoveries, 0u) << "the predictions of this test are too good to tell";
+}
+
 TEST(ErrorStateFilter, TheAhrsCorrectsAWrongTilt) {
   SyntheticFlight flight(15, 16.0);
   auto imu = flight.imuSamples();

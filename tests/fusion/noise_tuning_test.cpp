@@ -66,6 +66,7 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
 TEST(FilterTape, EveryInputReadsBackAsItWas) {
   TapedFlight flight = tapedFlight(1, {}, 3.0);
   flight.inputs.push_back(TapedRest{true});
+  flight.inputs.push_back(TapedPredicted{true});
   flight.inputs.push_back(TapedClimb{Time::fromSeconds(1.5), -0.25, 0.01});
   flight.inputs.push_back(TapedRelativePose{
       Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3}, Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)});
