@@ -306,6 +306,7 @@ void Autonomy::endMission(const std::string& reason, Time now) {
 VehicleCondition Autonomy::condition(common::Time now) const {
   VehicleCondition condition;
   condition.flight = controller_.state();
+  condition.lands = std::holds_alternative<common::LandIntent>(intent_.kind);
   condition.energy = energy_;
   const common::VehicleState state = estimator_.state();
   condition.vertical_age_s = state.verticalAge_s(now);

@@ -16,7 +16,7 @@ WatchRequest EnergyWatch::watch(Time now, const VehicleCondition& condition) {
   WatchRequest request;
   if (!control::isAirborne(condition.flight)) return request;
   tellCharge(now, condition.energy, request);
-  if (condition.flight == FlightState::kFlying) watchHome(now, condition.energy, request);
+  if (condition.flight == FlightState::kFlying && !condition.lands) watchHome(now, condition.energy, request);
   watchThrust(now, condition, request);
   if (condition.energy.battery_remaining < config_.battery_land_share)
     request.land = fmt::format("{:.0f} % of the battery left", 100.0 * condition.energy.battery_remaining);

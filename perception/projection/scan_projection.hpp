@@ -35,7 +35,7 @@ struct MirrorPoint {
 struct BeamCounts {
   int hits = 0;            ///< Ended on something that counts as a wall; in `points_level_m`.
   int no_returns = 0;      ///< No return: the range is infinite or beyond the laser's.
-  int invalid = 0;         ///< NaN, negative, too short, or on the vehicle itself.
+  int invalid = 0;         ///< NaN, negative, too short, on the vehicle itself, or a mixed pixel.
   int floor_hits = 0;      ///< Ended on the floor; not in `points_level_m`.
   int ceiling_hits = 0;    ///< Ended on the ceiling; not in `points_level_m`.
   int mirror = 0;          ///< Valid beams on the mirror; in `mirror`.

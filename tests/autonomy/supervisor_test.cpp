@@ -18,8 +18,8 @@ class SupervisorStory : public testing::Test {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s),
-                            {flight, energy_, vertical_age_s_, drift_m_, walls_around_, measured_, sensor_lies_});
+    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, vertical_age_s_, drift_m_, walls_around_,
+                                                     measured_, sensor_lies_, lands_});
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
@@ -30,6 +30,7 @@ class SupervisorStory : public testing::Test {
   bool walls_around_ = true;
   bool measured_ = false;
   std::string sensor_lies_;
+  bool lands_ = false;
 };
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
@@ -176,6 +177,17 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   supervisor_.homeEnded(Time::fromSeconds(30), true, {});
   EXPECT_TRUE(at(30.0).land);
   EXPECT_THAT(at(30.0).land_reason, HasSubstr("home again, turned back"));
+}
+
+TEST_F(SupervisorStory, AVehicleThatLandsWhereItIsDoesNotTurnBack) {
+  energy_.battery_remaining = 0.19;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  lands_ = true;
+  EXPECT_EQ(at(2.0).home, 0u);
+  EXPECT_FALSE(at(2.0).hold);
+  lands_ = false;
+  EXPECT_EQ(at(3.0).home, 1u);
 }
 
 TEST_F(SupervisorStory, TurnsBackWithoutAKnownPathAndSaysSo) {

@@ -152,6 +152,28 @@ TEST(ScanProjection, CountsUnusableBeams) {
   EXPECT_NEAR(projected.no_returns_level_m[0].head<2>().norm(), laser.range_max_m, 1e-3);
 }
 
+/// Twenty beams on a near surface, `between`, and twenty on a far one.
+int hitsOf(const std::vector<float>& between) {
+  std::vector<float> ranges(20, 2.0F);
+  ranges.insert(ranges.end(), between.begin(), between.end());
+  ranges.insert(ranges.end(), 20, 4.0F);
+  return project(scanOf(ranges, noiseless()), noiseless(), kStill, {}).counts.hits - 40;
+}
+
+TEST(ScanProjection, AMixedPixelBetweenTwoSurfacesIsNone) {
+  EXPECT_EQ(hitsOf({3.1F}), 0);
+  EXPECT_EQ(hitsOf({2.3F}), 0);
+  EXPECT_EQ(hitsOf({2.03F}), 1) << "noise of the near one";
+  EXPECT_EQ(hitsOf({1.2F}), 1) << "a thin thing before both";
+  EXPECT_EQ(hitsOf({5.0F}), 1) << "a gap in both";
+  EXPECT_EQ(hitsOf({3.0F, 3.01F, 3.02F}), 3) << "a surface between them";
+  EXPECT_EQ(hitsOf({std::numeric_limits<float>::infinity(), 3.0F, NAN}), 1);
+  std::vector<float> slanted;
+  for (int i = 0; i < 40; ++i) slanted.push_back(2.0F * std::pow(1.1F, static_cast<float>(i)));
+  const auto counts = project(scanOf(slanted, noiseless()), noiseless(), kStill, {}).counts;
+  EXPECT_EQ(counts.hits + counts.no_returns, 40) << "a wall that is seen at a glancing angle";
+}
+
 TEST(ScanProjection, ToleratesInvalidInput) {
   const common::LaserConfig laser = noiseless();
   EXPECT_TRUE(project({}, laser, kStill, {}).points_level_m.empty());
