@@ -21,6 +21,8 @@ namespace {
 /// The place in the map counts as measured for this long after a scan that matched: six scans of a laser with 40 Hz,
 /// and more than one of the slowest, 10 Hz, even if it is late.
 constexpr double kSupported_s = 0.15;
+/// From one image to the next of which the slopes of the ground are taken.
+constexpr double kGroundPeriod_s = 0.2;
 /// Velocities are differences over two samples of the IMU to each side: shorter ones have more noise, and the vehicle's
 /// turns last longer.
 constexpr double kHalfDifference_s = 0.01;
@@ -131,7 +133,19 @@ bool Estimator::forgetPlace() {
 
 void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
   if (targets_) targets_->add(frame);
+  if (rgbd_) lookAtGround(*frame);
   if (rgbd_) rgbd_->add(std::move(frame));
+}
+
+/// The poses at the time of the frame are known when it arrives. A few images a second show each place several times.
+void Estimator::lookAtGround(const common::RgbdFrame& frame) {
+  const common::CameraEstimate camera = rgbd_->camera();
+  const Time time = frame.stamps.measured - common::Duration::fromSeconds(camera.clock_offset_s);
+  if (!filter_.initialized() || (time - ground_seen_).seconds() < kGroundPeriod_s) return;
+  const std::optional<common::KeyRelativePose> at_key = atKey(time);
+  if (!at_key || (frame.stamps.arrived - map_seen_).seconds() >= kSupported_s) return;
+  ground_seen_ = time;
+  altitude_.lookAtGround(frame.depth, frame.camera, map_.keyPoses()->inMap(*at_key) * camera.T_body_camera);
 }
 
 void Estimator::addSweep(std::shared_ptr<const common::VerticalScan> sweep) {
@@ -312,6 +326,10 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
       (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
     }
   }
+  if (step.slope_began) say(stamp, Severity::kInfo, "altitude", "the ground slopes", "as the camera saw it");
+  if (step.slope_ended_rise_m)
+    say(stamp, Severity::kInfo, "altitude", "the slope has ended",
+        fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
   if (step.levels_joined > 0)
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
 }
