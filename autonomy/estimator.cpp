@@ -326,6 +326,12 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
       (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
     }
   }
+  if (step.doubt_m_s)
+    say(stamp, Severity::kWarning, "altitude", "height doubtful: the ground may slope",
+        fmt::format(
+            "what is below was taken for level, and the vertical speed corrected by {:+.2f} m/s in flight; on a "
+            "ramp the height is then wrong by what it rises",
+            *step.doubt_m_s));
   if (step.slope_began) say(stamp, Severity::kInfo, "altitude", "the ground slopes", "as the camera saw it");
   if (step.slope_ended_rise_m)
     say(stamp, Severity::kInfo, "altitude", "the slope has ended",

@@ -45,6 +45,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   if (update.height_above_ground_m)
     surface_height_m_ = vertical->height_m - *update.height_above_ground_m + ramp_.rise_m();
   step.measurement = update.measurement;
+  step.doubt_m_s = doubt_.add(scan.stamp, T_map_body.position_m(), vertical->velocity_m_s, step.measurement);
   if (step.measurement) {
     step.measurement->level_variance_m2 += ramp_.variance_m2();
     ramp_.measured();

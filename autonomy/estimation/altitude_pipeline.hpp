@@ -15,6 +15,7 @@
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/altitude/ramp_rise.hpp"
 #include "perception/altitude/seen_surfaces.hpp"
+#include "perception/altitude/slope_doubt.hpp"
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/projection/scan_projection.hpp"
 
@@ -29,6 +30,7 @@ struct AltitudeStep {
   std::optional<perception::VirtualHeight> measurement;  ///< For the filter, with the stamp of an earlier scan.
   int levels_joined = 0;
   bool slope_began = false;                  ///< The ground below slopes from here on.
+  std::optional<double> doubt_m_s;           ///< See SlopeDoubt: the height may be wrong from here on.
   std::optional<double> slope_ended_rise_m;  ///< A slope has ended; the ground is so much higher behind it.
 };
 
@@ -63,6 +65,7 @@ class AltitudePipeline {
   perception::SeenSurfaces seen_;
   perception::GroundSlopes slopes_;
   perception::RampRise ramp_;
+  perception::SlopeDoubt doubt_;
   double hull_radius_m_;
   double surface_height_m_ = 0.0;
   std::uint64_t published_version_ = 0;

@@ -125,5 +125,31 @@ TEST(Ramp, WithoutGradientsTheHeightIsWrongAndWithThemItIsNot) {
   EXPECT_LT(worstOverARamp_m(true), 0.2);
 }
 
+/// Without a camera, flights over that say that the height is doubtful, of ten.
+int flightsInDoubt(const std::vector<Box>& boxes) {
+  int in_doubt = 0;
+  for (int seed = 1; seed <= 10; ++seed) {
+    Overflight flight;
+    flight.fused = true;
+    flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "doubt");
+    flight.acceleration_bias_m_s2 = flight.random.uniform(-0.02, 0.02);
+    flight.boxes = boxes;
+    flight.start();
+    flight.climbTo(1.8);
+    flight.flyTo({20.0, 0.0}, 0.7);
+    in_doubt += flight.doubts > 0 ? 1 : 0;
+  }
+  return in_doubt;
+}
+
+TEST(SlopeDoubt, IsSaidOverARampAndNotOverFurniture) {
+  EXPECT_GE(flightsInDoubt({{3.0, 8.7, -2.0, 2.0, 0.0, 1.0}, {8.7, 20.5, -2.0, 2.0, 1.0}}), 9) << "10 degrees up";
+  EXPECT_GE(flightsInDoubt({{3.0, 8.7, -2.0, 2.0, 1.0, 0.0}}), 8) << "a step up, 10 degrees down";
+  EXPECT_EQ(flightsInDoubt({}), 0);
+  EXPECT_EQ(flightsInDoubt({{3.0, 3.8, -2, 2, 0.75}, {5.0, 5.4, -2, 2, 0.45}, {7.0, 7.9, -2, 2, 0.72}}), 0) << "tables";
+  EXPECT_LE(flightsInDoubt({{9.0, 9.3, -2, 2, 1.04}, {9.3, 9.6, -2, 2, 1.04, 0.45}, {9.6, 10.1, -2, 2, 0.45}}), 1)
+      << "a sofa";
+}
+
 }  // namespace
 }  // namespace swiftlet::perception

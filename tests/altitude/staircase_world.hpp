@@ -9,6 +9,7 @@
 #include "common/random.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/altitude/ramp_rise.hpp"
+#include "perception/altitude/slope_doubt.hpp"
 
 namespace swiftlet::perception {
 
@@ -94,6 +95,8 @@ struct Overflight {
   bool sees_slopes = false;     ///< A camera told the gradients of the ground.
   double gradient_error = 0.0;  ///< Of all of them, along x.
   RampRise ramp;
+  SlopeDoubt doubt;
+  int doubts = 0;
 
   common::Time now;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
@@ -151,6 +154,7 @@ struct Overflight {
       if (prior) prior->covariance(0, 0) += ramp.variance_m2();
     }
     last = filter.update(now, position_m, points, prior);
+    doubts += doubt.add(now, position_m, prior ? prior->velocity_m_s : vz_m_s, last.measurement) ? 1 : 0;
     if (last.measurement) ramp.measured();
     if (last.measurement) fusion.add(*last.measurement);
     added += last.levels_added;
