@@ -136,6 +136,7 @@ bool Estimator::forgetPlace() {
 
 void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
   if (targets_) targets_->add(frame);
+  if (rgbd_) lookAtGround(*frame);
   if (rgbd_) rgbd_->add(std::move(frame));
 }
 
@@ -306,19 +307,6 @@ bool Estimator::fuse(const OdometryStep& step) {
 void Estimator::addClone(Time time) {
   hear(perception::TapedClone{time});
   (void)filter_.addClone(time);
-}
-
-void Estimator::fuse(const AltitudeStep& step, Time stamp) {
-  if (const auto& m = step.measurement) {
-    hear(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
-    (void)filter_.addHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2);
-    if (m->velocity_m_s) {
-      hear(perception::TapedClimb{m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2});
-      (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
-    }
-  }
-  if (step.levels_joined > 0)
-    say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
 }
 
 void Estimator::fuse(const CameraStep& step, Time now) {

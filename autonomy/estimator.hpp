@@ -148,6 +148,7 @@ class Estimator {
                           const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
   void fuse(const CameraStep& step, common::Time now);
+  void lookAtGround(const common::RgbdFrame& frame);
   void mapFrames(common::Time now);
   void mapFrame(common::Time now);
   void mapSweeps(common::Time now);
@@ -185,6 +186,7 @@ class Estimator {
   common::Time started_;        ///< Time at which the filter started.
   common::Time position_seen_;  ///< When the last scan that matched was processed.
   common::Time scanned_;        ///< The stamp of the last scan that was processed.
+  common::Time ground_seen_;    ///< When the last image was taken that the slopes of the ground were taken from.
   common::Time map_seen_;       ///< When the last scan that matched was processed: it tells the place in the map.
   /// The frame `odom` as of the last scan relative to a key scan, once there is a map.
   std::optional<common::KeyRelativePose> odom_at_key_;

@@ -34,10 +34,22 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
   for (const perception::GroundPoint& point : ground)
     seen_.add(point.position_map_m, vertical->height_m - point.distance_below_m);
-  const perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
+  const bool was_on_slope = ramp_.onSlope();
+  step.slope_ended_rise_m = ramp_.move(T_map_body.position_m(), slopes_.gradientAt(T_map_body.position_m()));
+  step.slope_began = ramp_.onSlope() && !was_on_slope;
+  // Over a slope the ground counts as the level that it rose from.
+  for (perception::GroundPoint& point : ground) point.distance_below_m += ramp_.rise_m();
+  perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
+  prior.covariance(0, 0) += ramp_.variance_m2();
   const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior);
-  if (update.height_above_ground_m) surface_height_m_ = vertical->height_m - *update.height_above_ground_m;
+  if (update.height_above_ground_m)
+    surface_height_m_ = vertical->height_m - *update.height_above_ground_m + ramp_.rise_m();
   step.measurement = update.measurement;
+  step.doubt_m_s = doubt_.add(scan.stamp, T_map_body.position_m(), vertical->velocity_m_s, step.measurement);
+  if (step.measurement) {
+    step.measurement->level_variance_m2 += ramp_.variance_m2();
+    ramp_.measured();
+  }
   step.levels_joined = update.levels_joined;
   return step;
 }

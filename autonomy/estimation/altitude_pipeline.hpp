@@ -1,6 +1,7 @@
 // Estimates the height over the take-off floor and the surfaces below from the mirror beams of a scan.
 //
-//   mirror beams --> points below, in the map --> levels --> virtual height --> AltitudeStep
+//   mirror beams --> points below, in the map --> + rise of the slope below --> levels --> virtual height -->
+//   AltitudeStep depth image  --> gradients of the ground, in the map --^
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,11 @@
 #include "common/geometry.hpp"
 #include "common/level_map.hpp"
 #include "common/time.hpp"
+#include "perception/altitude/ground_slopes.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
+#include "perception/altitude/ramp_rise.hpp"
 #include "perception/altitude/seen_surfaces.hpp"
+#include "perception/altitude/slope_doubt.hpp"
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/projection/scan_projection.hpp"
 
@@ -25,6 +29,9 @@ struct AltitudeStep {
   std::optional<double> below_m;                         ///< The raw measurement: medianBelow_m of the scan.
   std::optional<perception::VirtualHeight> measurement;  ///< For the filter, with the stamp of an earlier scan.
   int levels_joined = 0;
+  bool slope_began = false;                  ///< The ground below slopes from here on.
+  std::optional<double> doubt_m_s;           ///< See SlopeDoubt: the height may be wrong from here on.
+  std::optional<double> slope_ended_rise_m;  ///< A slope has ended; the ground is so much higher behind it.
 };
 
 /// One thread.
@@ -34,6 +41,12 @@ class AltitudePipeline {
 
   /// Starts with the vehicle standing at the origin of the map, and its body `height_m` above the take-off floor.
   void initialize(common::Time time, double height_m);
+
+  /// Learns how the ground slopes from a depth image and the pose of its camera.
+  void lookAtGround(const common::DepthImage& depth, const common::PinholeCamera& camera,
+                    const common::Pose3& T_map_camera) {
+    slopes_.add(depth, camera, T_map_camera);
+  }
 
   /// `vertical` is the filter's estimate at the scan's stamp; without it the scan does not change the levels.
   AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
@@ -50,6 +63,9 @@ class AltitudePipeline {
  private:
   perception::MultilevelFilter filter_;
   perception::SeenSurfaces seen_;
+  perception::GroundSlopes slopes_;
+  perception::RampRise ramp_;
+  perception::SlopeDoubt doubt_;
   double hull_radius_m_;
   double surface_height_m_ = 0.0;
   std::uint64_t published_version_ = 0;

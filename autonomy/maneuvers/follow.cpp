@@ -13,8 +13,8 @@ namespace {
 
 /// Between two paths, and by how much the place to fly to moves before it is planned anew: each new path costs speed.
 constexpr double kReplan_s = 0.4, kReplan_m = 0.4;
-/// If he is seen with a smaller probability at the end of the best path, that path is none.
-constexpr double kInSight = 0.3;
+/// If he is seen with a smaller probability at the end of the best path, or is farther away, that path is none.
+constexpr double kInSight = 0.3, kTooFar_m = 1.0;
 /// Unseen for longer he is lost, also if he is believed to stand still where he was; the vehicle goes to look.
 constexpr double kLost_s = 3.0;
 constexpr double kNear_s = 1.0;
@@ -89,8 +89,10 @@ void Follow::pursue(const ManeuverInput& input) {
   const std::vector<PossibleWalk> walks = person_.walks(input.now);
   const PursuitPath path = pursuitPath({*map, *input.grid, input.position_map_m(), walks, person_.trail_map_m(),
                                         intent_.distance_m, setup_.controller.speed_m_s(intent_.mode)});
-  // From nowhere near is he seen: to the place where he probably is.
-  if (path.in_sight < kInSight) return flyTo(input, person_.hidden() ? person_.place_map_m(input.now) : placeBehind());
+  // In a few seconds it comes neither in sight nor near: along his way, or to the place where he probably is.
+  const double left_m = (person_.place_map_m(input.now) - path.points_map_m.back()).norm();
+  if (path.in_sight < kInSight || left_m > intent_.distance_m + kTooFar_m)
+    return flyTo(input, person_.hidden() ? person_.place_map_m(input.now) : placeBehind());
   const Eigen::Vector2d end = path.points_map_m.back();
   if (path.points_map_m.size() == 1) {
     if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();

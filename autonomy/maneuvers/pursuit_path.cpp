@@ -16,14 +16,14 @@ using Point = Eigen::Vector2d;
 
 /// The next four seconds, in which a vehicle gets round the corner of a room; later nobody knows where he walks.
 constexpr int kSteps = 8;
-constexpr double kForecastStep_s = 0.5;
+constexpr double kMove_s = 0.5;
 /// Steps that are flown before there is another answer, with what it takes to stop; it stays if it waits for so many.
 constexpr std::size_t kFlown = 4, kWaits = 2;
 /// Places in each direction: as many as the vehicle can reach, and here itself.
 constexpr int kReach = kSteps, kSide = 2 * kReach + 1;
-constexpr std::size_t kSearchedPlaces = static_cast<std::size_t>(kSide) * kSide;
+constexpr std::size_t kGridPlaces = static_cast<std::size_t>(kSide) * kSide;
 /// What the map shows so near to where he walked is himself; so far from walls he walks.
-constexpr double kHimself_m = 0.45, kPersonRadius_m = 0.25;
+constexpr double kHimself_m = 0.45, kHalfWidth_m = 0.25;
 /// Deviations from the distance beyond which it is wrong, with a margin to 0.5 m less and 1 m more.
 constexpr double kNearer_m = 0.35, kFarther_m = 0.7;
 /// Losses: unseen or at a wrong distance for a step counts 1.
@@ -48,7 +48,7 @@ class Pursuit {
   explicit Pursuit(const PursuitQuestion& question)
       : ask_(question),
         from_map_m_(freeNear(question)),
-        side_m_(std::max(0.1, question.speed_m_s * kForecastStep_s / std::numbers::sqrt2)) {
+        side_m_(std::max(0.1, question.speed_m_s * kMove_s / std::numbers::sqrt2)) {
     for (const PossibleWalk& walk : ask_.walks) {
       walks_.push_back(predicted(walk));
       whole_weight_ += walk.weight;
@@ -85,8 +85,8 @@ class Pursuit {
   std::vector<Walk> walks_;
   double whole_weight_ = 0.0;
   struct Step {
-    std::array<double, kSearchedPlaces> loss;
-    std::array<std::int8_t, kSearchedPlaces> came_from;  ///< 3 (dy + 1) + dx + 1 of the move.
+    std::array<double, kGridPlaces> loss;
+    std::array<std::int8_t, kGridPlaces> came_from;  ///< 3 (dy + 1) + dx + 1 of the move.
   };
   std::array<Step, kSteps + 1> steps_;
 };
@@ -101,10 +101,10 @@ Walk Pursuit::predicted(const PossibleWalk& walk) const {
   const Point heading = walk.velocity_map_m_s / speed_m_s;
   double walked_m = 0.0;
   for (int step = 1; step <= kSteps; ++step) {
-    const double until_m = speed_m_s * kForecastStep_s * step;
+    const double until_m = speed_m_s * kMove_s * step;
     while (walked_m < until_m) {
       const double next_m = std::min(until_m, walked_m + kStride_m);
-      if (occupied(walk.place_map_m + (next_m + kPersonRadius_m) * heading)) break;
+      if (occupied(walk.place_map_m + (next_m + kHalfWidth_m) * heading)) break;
       walked_m = next_m;
     }
     places[static_cast<std::size_t>(step)] = walk.place_map_m + walked_m * heading;

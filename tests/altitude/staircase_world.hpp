@@ -8,6 +8,8 @@
 
 #include "common/random.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
+#include "perception/altitude/ramp_rise.hpp"
+#include "perception/altitude/slope_doubt.hpp"
 
 namespace swiftlet::perception {
 
@@ -90,6 +92,11 @@ struct Overflight {
   double height_offset_m = 0.0;  ///< Offset of all beams: a wrong mirror mount.
   bool fused = false;            ///< The prior comes from outside, as in flight.
   LateFilter fusion;
+  bool sees_slopes = false;     ///< A camera told the gradients of the ground.
+  double gradient_error = 0.0;  ///< Of all of them, along x.
+  RampRise ramp;
+  SlopeDoubt doubt;
+  int doubts = 0;
 
   common::Time now;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
@@ -104,6 +111,13 @@ struct Overflight {
       if (at.x() >= box.x0 && at.x() < box.x1 && at.y() >= box.y0 && at.y() < box.y1)
         height_m = std::max(height_m, box.heightAt(at.x()));
     return height_m;
+  }
+
+  /// Of the ground below, as a camera sees it: level where it is nearly so.
+  Eigen::Vector2d gradient() const {
+    const Eigen::Vector2d step(0.02, 0.0);
+    const double along = (surface(position_m + step) - surface(position_m - step)) / 0.04;
+    return {std::abs(along) < 0.05 || std::abs(along) > 0.5 ? 0.0 : along + gradient_error, 0.0};
   }
 
   void start() {
@@ -123,7 +137,7 @@ struct Overflight {
       felt_m_s2 += one_m_s2 / steps;
       filter.addAcceleration(now, one_m_s2);
     }
-    const std::optional<HeightState> prior =
+    std::optional<HeightState> prior =
         fused ? std::optional(fusion.predict(now, felt_m_s2)) : std::optional<HeightState>();
     std::vector<GroundPoint> points;
     for (int i = 0; i < beams; ++i) {
@@ -134,7 +148,14 @@ struct Overflight {
       if (random.chance(outlier_rate)) below_m = random.uniform(0.1, 6.0);
       points.push_back({at, below_m});
     }
+    if (sees_slopes) {
+      ramp.move(position_m, gradient());
+      for (GroundPoint& point : points) point.distance_below_m += ramp.rise_m();
+      if (prior) prior->covariance(0, 0) += ramp.variance_m2();
+    }
     last = filter.update(now, position_m, points, prior);
+    doubts += doubt.add(now, position_m, prior ? prior->velocity_m_s : vz_m_s, last.measurement) ? 1 : 0;
+    if (last.measurement) ramp.measured();
     if (last.measurement) fusion.add(*last.measurement);
     added += last.levels_added;
     joined += last.levels_joined;

@@ -1,0 +1,54 @@
+// The estimator's height: the slopes of the ground that the camera sees, and what a scan tells of the height.
+#include "autonomy/estimator.hpp"
+
+#include <fmt/format.h>
+
+namespace swiftlet::autonomy {
+
+using common::Severity;
+using common::Time;
+
+namespace {
+
+/// From one image to the next of which the slopes of the ground are taken.
+constexpr double kGroundPeriod_s = 0.2;
+/// A match no older than this tells the place of an image.
+constexpr double kMatched_s = 0.15;
+
+}  // namespace
+
+/// The poses at the time of the frame are known when it arrives. A few images a second show each place several times.
+void Estimator::lookAtGround(const common::RgbdFrame& frame) {
+  const common::CameraEstimate camera = rgbd_->camera();
+  const Time time = frame.stamps.measured - common::Duration::fromSeconds(camera.clock_offset_s);
+  if (!filter_.initialized() || (time - ground_seen_).seconds() < kGroundPeriod_s) return;
+  const std::optional<common::KeyRelativePose> at_key = atKey(time);
+  if (!at_key || (frame.stamps.arrived - map_seen_).seconds() >= kMatched_s) return;
+  ground_seen_ = time;
+  altitude_.lookAtGround(frame.depth, frame.camera, map_.keyPoses()->inMap(*at_key) * camera.T_body_camera);
+}
+
+void Estimator::fuse(const AltitudeStep& step, Time stamp) {
+  if (const auto& m = step.measurement) {
+    hear(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
+    (void)filter_.addHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2);
+    if (m->velocity_m_s) {
+      hear(perception::TapedClimb{m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2});
+      (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
+    }
+  }
+  if (step.doubt_m_s)
+    say(stamp, Severity::kWarning, "altitude", "height doubtful: the ground may slope",
+        fmt::format(
+            "what is below was taken for level, and the vertical speed corrected by {:+.2f} m/s in flight; on a "
+            "ramp the height is then wrong by what it rises",
+            *step.doubt_m_s));
+  if (step.slope_began) say(stamp, Severity::kInfo, "altitude", "the ground slopes", "as the camera saw it");
+  if (step.slope_ended_rise_m)
+    say(stamp, Severity::kInfo, "altitude", "the slope has ended",
+        fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
+  if (step.levels_joined > 0)
+    say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,99 @@
+#include "perception/altitude/ground_slopes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "common/square.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+/// Side of a cell: smaller ones have too few points for a gradient, larger ones do not end where a ramp does.
+constexpr double kCell_m = 0.4;
+/// Every n-th pixel in both directions.
+constexpr int kEvery_px = 3;
+/// Points from so far below the camera on may be ground.
+constexpr double kBelow_m = 0.3;
+/// Farther away the depths of structured-light cameras are too noisy for a gradient [Khoshelham 2012].
+constexpr double kRange_m = 4.0;
+constexpr int kLeastPoints = 20, kLeastImages = 3;
+/// Least spread of the points of a cell in each direction, and greatest of their distances from the plane.
+constexpr double kSpread_m = 0.07, kFlat_m = 0.03;
+/// Gradients between which ground slopes: 4 deg, twice the error of the attitude, and 25 deg, steeper than any ramp.
+constexpr double kLeastGradient = 0.07, kGreatestGradient = 0.47;
+
+/// Share of a cell's gradient that becomes part of the bias: some hundred cells of level ground make it known.
+constexpr double kBiasGain = 0.01;
+
+/// Sums over the points of a cell for the least-squares plane z = c + g . (x, y).
+struct Plane {
+  int points = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& point) {
+    ++points;
+    sum += point;
+    products += point * point.transpose();
+  }
+  /// None if the points are too few, too near to a line, or not on a plane.
+  std::optional<Eigen::Vector2d> gradient() const {
+    if (points < kLeastPoints) return std::nullopt;
+    const Eigen::Matrix3d spread = products / points - sum * sum.transpose() / common::square(double(points));
+    const Eigen::Matrix2d across = spread.topLeftCorner<2, 2>();
+    const double half_trace = 0.5 * across.trace();
+    const double least = half_trace - std::sqrt(std::max(0.0, common::square(half_trace) - across.determinant()));
+    if (least < common::square(kSpread_m)) return std::nullopt;
+    const Eigen::Vector2d slope = across.ldlt().solve(Eigen::Vector2d(spread(0, 2), spread(1, 2)));
+    const double off_m2 = spread(2, 2) - slope.dot(Eigen::Vector2d(spread(0, 2), spread(1, 2)));
+    if (off_m2 > common::square(kFlat_m) || slope.norm() > kGreatestGradient) return std::nullopt;
+    return slope;
+  }
+};
+
+}  // namespace
+
+common::CellIndex GroundSlopes::cellAt(const Eigen::Vector2d& place_map_m) {
+  return {static_cast<int>(std::floor(place_map_m.x() / kCell_m)),
+          static_cast<int>(std::floor(place_map_m.y() / kCell_m))};
+}
+
+void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCamera& camera,
+                       const common::Pose3& T_map_camera) {
+  if (depth.depth_m.size() != static_cast<std::size_t>(camera.pixels()) || depth.width_px != camera.width_px) return;
+  std::map<common::CellIndex, Plane> planes;
+  const Eigen::Vector3d& from_map_m = T_map_camera.position_m;
+  for (int v = kEvery_px / 2; v < depth.height_px; v += kEvery_px)
+    for (int u = kEvery_px / 2; u < depth.width_px; u += kEvery_px) {
+      const float depth_m = depth.at(u, v);
+      if (!common::isMeasured(depth_m) || depth_m > kRange_m) continue;
+      // Relative to the camera, so that the sums stay small.
+      const Eigen::Vector3d point = T_map_camera.rotation * camera.point_camera_m(u, v, depth_m);
+      if (point.z() > -kBelow_m) continue;
+      const Eigen::Vector2d place_map_m = (from_map_m + point).head<2>();
+      if (place_map_m.allFinite()) planes[cellAt(place_map_m)].add(point);
+    }
+  const Eigen::Vector3d ahead = T_map_camera.rotation * Eigen::Vector3d::UnitX();
+  const Eigen::Rotation2Dd R_map_camera(std::atan2(ahead.y(), ahead.x()));
+  for (const auto& [index, plane] : planes) {
+    const auto seen = plane.gradient();
+    if (!seen) continue;
+    const Eigen::Vector2d gradient = *seen - R_map_camera * bias_;
+    if (gradient.norm() < kLeastGradient) bias_ += kBiasGain * (R_map_camera.inverse() * gradient);
+    Cell& cell = cells_[index];
+    cell.gradient_sum += gradient;
+    ++cell.images;
+  }
+}
+
+std::optional<Eigen::Vector2d> GroundSlopes::gradientAt(const Eigen::Vector2d& place_map_m) const {
+  if (!place_map_m.allFinite()) return std::nullopt;
+  const auto found = cells_.find(cellAt(place_map_m));
+  if (found == cells_.end() || found->second.images < kLeastImages) return std::nullopt;
+  const Eigen::Vector2d mean = found->second.gradient_sum / found->second.images;
+  return mean.norm() < kLeastGradient ? Eigen::Vector2d(0.0, 0.0) : mean;
+}
+
+}  // namespace swiftlet::perception

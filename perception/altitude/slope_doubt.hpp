@@ -1,0 +1,34 @@
+// Notices that what was taken for level ground may slope, where no camera sees the ground: a surface that seems to rise
+// evenly while the vehicle flies along is a ramp, or the vehicle sinks unnoticed. The multilevel filter takes it for
+// level and corrects the vertical speed. A correction that is larger than the errors of the vertical speed in flights
+// over furniture speaks for a ramp; the height is then wrong by what the ramp rises (docs/decisions/061).
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/time.hpp"
+#include "perception/altitude/height_measurement.hpp"
+
+namespace swiftlet::perception {
+
+/// One thread.
+class SlopeDoubt {
+ public:
+  /// Of a correction of the vertical speed. Measured in tests: over furniture below 0.05, over a ramp of 10
+  /// degrees at 0.7 m/s above 0.13.
+  static constexpr double kLeast_m_s = 0.08;
+
+  /// A scan of that time and place, with the vertical speed that was believed, and what the filter measured.
+  /// Returns the correction, positive upwards, if it makes the height doubtful.
+  std::optional<double> add(common::Time time, const Eigen::Vector2d& place_map_m, double velocity_m_s,
+                            const std::optional<VirtualHeight>& measurement);
+
+ private:
+  std::optional<common::Time> time_;
+  Eigen::Vector2d place_map_m_ = Eigen::Vector2d::Zero();
+  double speed_m_s_ = 0.0;  ///< Horizontal, smoothed.
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,155 @@
+// Slopes of the ground: seen by a depth camera, added up along a path, and what they save the height from.
+#include "perception/altitude/ground_slopes.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "common/random.hpp"
+#include "tests/altitude/staircase_world.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using Heights = std::function<double(const Eigen::Vector2d&)>;
+
+constexpr double kRamp = 0.176;  // 10 degrees.
+
+common::Pose3 cameraAt(double x_m, double height_m, double pitch_deg) {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(pitch_deg * common::kRadPerDeg, Eigen::Vector3d::UnitY())),
+          {x_m, 0.2, height_m}};
+}
+
+/// What a camera sees of a ground of these heights, with the noise of a structured-light camera.
+common::DepthImage imageOf(const Heights& heights_m, const common::PinholeCamera& camera,
+                           const common::Pose3& T_map_camera, std::uint64_t seed) {
+  common::RandomStream random(seed, "depth");
+  common::DepthImage depth{camera.width_px, camera.height_px, {}};
+  for (int v = 0; v < camera.height_px; ++v)
+    for (int u = 0; u < camera.width_px; ++u) {
+      if (u % 3 != 1 || v % 3 != 1) {  // Not looked at.
+        depth.depth_m.push_back(common::DepthImage::kUnknown);
+        continue;
+      }
+      double depth_m = 0.8;
+      const auto point = [&] { return Eigen::Vector3d(T_map_camera * camera.point_camera_m(u, v, depth_m)); };
+      while (depth_m < 6.0 && point().z() > heights_m(point().head<2>())) depth_m += 0.01;
+      depth_m += random.gaussian(0.0014 * depth_m * depth_m);
+      depth.depth_m.push_back(depth_m < 6.0 ? static_cast<float>(depth_m) : common::DepthImage::kTooFar);
+    }
+  return depth;
+}
+
+class Ground : public testing::Test {
+ protected:
+  /// Three images on the way, whose poses have an attitude that is wrong by that much.
+  void see(const Heights& heights_m, double attitude_error_deg = 0.0) {
+    const common::PinholeCamera camera{320, 240, 288.0, 288.0, 159.5, 119.5};
+    for (int i = 0; i < 3; ++i)
+      slopes_.add(imageOf(heights_m, camera, cameraAt(0.1 * i, 1.5, 20.0), 7 + static_cast<std::uint64_t>(i)), camera,
+                  cameraAt(0.1 * i, 1.5, 20.0 + attitude_error_deg));
+  }
+  GroundSlopes slopes_;
+};
+
+TEST_F(Ground, LevelGroundIsLevelAlsoWithAnAttitudeThatIsWrongByADegree) {
+  see([](const Eigen::Vector2d&) { return 0.0; }, 1.5);
+  EXPECT_EQ(slopes_.gradientAt({2.6, 0.2}), Eigen::Vector2d(0.0, 0.0));
+  EXPECT_FALSE(slopes_.gradientAt({-2.0, 0.2})) << "behind the camera";
+}
+
+TEST_F(Ground, ARampIsSeenWhereItIs) {
+  see([](const Eigen::Vector2d& at) { return std::max(0.0, kRamp * (at.x() - 2.4)); });
+  EXPECT_EQ(slopes_.gradientAt({2.0, 0.2}), Eigen::Vector2d(0.0, 0.0));
+  const auto ramp = slopes_.gradientAt({3.0, 0.2});
+  ASSERT_TRUE(ramp);
+  EXPECT_NEAR(ramp->x(), kRamp, 0.02);
+  EXPECT_NEAR(ramp->y(), 0.0, 0.03);
+}
+
+TEST_F(Ground, AStepIsNoSlope) {
+  see([](const Eigen::Vector2d& at) { return at.x() > 2.6 ? 0.3 : 0.0; });
+  const auto beside = slopes_.gradientAt({2.6, 0.2});
+  EXPECT_TRUE(!beside || beside->isZero());
+  EXPECT_EQ(slopes_.gradientAt({3.0, 0.2}), Eigen::Vector2d(0.0, 0.0)) << "the top";
+}
+
+TEST(RampRise, AddsUpTheRiseAndReportsItBehindTheRamp) {
+  RampRise ramp;
+  std::optional<double> rise_m;
+  for (double x_m = 0.0; x_m < 8.0; x_m += 0.02) {
+    const bool slopes = x_m > 1.0 && x_m < 6.0;
+    if (const auto ended = ramp.move({x_m, 0.0}, Eigen::Vector2d(slopes ? kRamp : 0.0, 0.0))) rise_m = ended;
+    if (std::abs(x_m - 3.0) < 0.01) {
+      EXPECT_NEAR(ramp.rise_m(), kRamp * 2.0, 0.01);
+      EXPECT_NEAR(std::sqrt(ramp.variance_m2()), 0.04, 0.005);
+    }
+  }
+  ASSERT_TRUE(rise_m);
+  EXPECT_NEAR(*rise_m, kRamp * 5.0, 0.01);
+  EXPECT_FALSE(ramp.onSlope());
+  EXPECT_EQ(ramp.rise_m(), 0.0);
+}
+
+TEST(RampRise, GoesOnAlongAPathThatWasNotSeenForAWhile) {
+  RampRise ramp;
+  ramp.move({0.0, 0.0}, Eigen::Vector2d(kRamp, 0.0));
+  ramp.move({0.5, 0.0}, std::nullopt);
+  EXPECT_NEAR(ramp.rise_m(), kRamp * 0.5, 1e-9);
+  EXPECT_TRUE(ramp.move({1.5, 0.0}, std::nullopt)) << "nobody saw the ground for too long";
+}
+
+/// Up a ramp of 1 m, over a landing, down, and back, eight seeds. The gradients are wrong by a third of a degree.
+double worstOverARamp_m(bool sees_slopes) {
+  double worst_m = 0.0;
+  for (int seed = 1; seed <= 8; ++seed) {
+    Overflight flight;
+    flight.fused = true;
+    flight.sees_slopes = sees_slopes;
+    flight.gradient_error = seed % 2 == 0 ? 0.006 : -0.006;
+    flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "ramp");
+    flight.acceleration_bias_m_s2 = flight.random.uniform(-0.02, 0.02);
+    flight.boxes = {{3.0, 8.7, -2.0, 2.0, 0.0, 1.0}, {8.7, 11.7, -2.0, 2.0, 1.0}, {11.7, 17.4, -2.0, 2.0, 1.0, 0.0}};
+    flight.start();
+    flight.climbTo(1.8);
+    flight.flyTo({21.0, 0.0}, 0.7);
+    flight.flyTo({0.0, 0.0}, 0.7);
+    worst_m = std::max(worst_m, flight.worst_error_m);
+  }
+  return worst_m;
+}
+
+TEST(Ramp, WithoutGradientsTheHeightIsWrongAndWithThemItIsNot) {
+  EXPECT_GT(worstOverARamp_m(false), 0.3);
+  EXPECT_LT(worstOverARamp_m(true), 0.2);
+}
+
+/// Without a camera, flights over that say that the height is doubtful, of ten.
+int flightsInDoubt(const std::vector<Box>& boxes) {
+  int in_doubt = 0;
+  for (int seed = 1; seed <= 10; ++seed) {
+    Overflight flight;
+    flight.fused = true;
+    flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "doubt");
+    flight.acceleration_bias_m_s2 = flight.random.uniform(-0.02, 0.02);
+    flight.boxes = boxes;
+    flight.start();
+    flight.climbTo(1.8);
+    flight.flyTo({20.0, 0.0}, 0.7);
+    in_doubt += flight.doubts > 0 ? 1 : 0;
+  }
+  return in_doubt;
+}
+
+TEST(SlopeDoubt, IsSaidOverARampAndNotOverFurniture) {
+  EXPECT_GE(flightsInDoubt({{3.0, 8.7, -2.0, 2.0, 0.0, 1.0}, {8.7, 20.5, -2.0, 2.0, 1.0}}), 9) << "10 degrees up";
+  EXPECT_GE(flightsInDoubt({{3.0, 8.7, -2.0, 2.0, 1.0, 0.0}}), 8) << "a step up, 10 degrees down";
+  EXPECT_EQ(flightsInDoubt({}), 0);
+  EXPECT_EQ(flightsInDoubt({{3.0, 3.8, -2, 2, 0.75}, {5.0, 5.4, -2, 2, 0.45}, {7.0, 7.9, -2, 2, 0.72}}), 0) << "tables";
+  EXPECT_LE(flightsInDoubt({{9.0, 9.3, -2, 2, 1.04}, {9.3, 9.6, -2, 2, 1.04, 0.45}, {9.6, 10.1, -2, 2, 0.45}}), 1)
+      << "a sofa";
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
