@@ -10,7 +10,7 @@ using common::Time;
 
 namespace {
 
-/// From one image to the next of which the slopes of the ground are taken.
+/// Period of the images from which slopes of the ground are taken.
 constexpr double kGroundPeriod_s = 0.2;
 /// A match no older than this tells the place of an image.
 constexpr double kMatched_s = 0.15;

@@ -40,6 +40,8 @@ void describeMission(Criteria& c, common::config::Fields& fields) {
 /// What the vehicle believed.
 void describeEstimate(Criteria& c, common::config::Fields& fields) {
   fields("estimate_rms_max_m", c.estimate_rms_max_m, kPositive, "Greatest RMS of the estimate's horizontal error.");
+  fields("estimate_spatial_rms_max_m", c.estimate_spatial_rms_max_m, kPositive,
+         "Greatest RMS of the estimate's error in space, the height's included.");
   fields("map_wall_error_max_m", c.map_wall_error_max_m, kPositive,
          "Greatest median distance of mapped walls to true ones.");
   fields("map3d_error_max_m", c.map3d_error_max_m, kPositive,

@@ -25,6 +25,7 @@ struct Criteria {
   double relocalization_error_max_m = kAny;
   double mission_time_max_s = kAny;
   double estimate_rms_max_m = kAny;
+  double estimate_spatial_rms_max_m = kAny;
   double map_wall_error_max_m = kAny;
   double map3d_error_max_m = kAny;
   double map3d_aligned_error_max_m = kAny;

@@ -38,6 +38,7 @@ void judgeMission(const FlightScore& score, const Criteria& criteria, Judge& jud
   judge.atMost("mission time, s", score.mission_begun ? Figure(score.mission_time_s) : std::nullopt,
                criteria.mission_time_max_s);
   judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
+  judge.atMost("estimate RMS in space, m", score.estimate_spatial_rms_m, criteria.estimate_spatial_rms_max_m);
   judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
   judgeMap3d(score.map3d, criteria, judge);
   judge.atMost("share of the time localized wrongly",

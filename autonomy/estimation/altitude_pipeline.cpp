@@ -37,6 +37,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   const bool was_on_slope = ramp_.onSlope();
   step.slope_ended_rise_m = ramp_.move(T_map_body.position_m(), slopes_.gradientAt(T_map_body.position_m()));
   step.slope_began = ramp_.onSlope() && !was_on_slope;
+  if (step.slope_ended_rise_m) slope_ended_ = scan.stamp;
   // Over a slope the ground counts as the level that it rose from.
   for (perception::GroundPoint& point : ground) point.distance_below_m += ramp_.rise_m();
   perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
@@ -48,7 +49,8 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   step.doubt_m_s = doubt_.add(scan.stamp, T_map_body.position_m(), vertical->velocity_m_s, step.measurement);
   if (step.measurement) {
     step.measurement->level_variance_m2 += ramp_.variance_m2();
-    ramp_.measured();
+    // A measurement is of an earlier scan, which may still be one over the slope.
+    if (step.measurement->stamp >= slope_ended_) ramp_.measured();
   }
   step.levels_joined = update.levels_joined;
   return step;

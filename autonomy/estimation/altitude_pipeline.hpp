@@ -1,7 +1,8 @@
 // Estimates the height over the take-off floor and the surfaces below from the mirror beams of a scan.
 //
-//   mirror beams --> points below, in the map --> + rise of the slope below --> levels --> virtual height -->
-//   AltitudeStep depth image  --> gradients of the ground, in the map --^
+//   depth image --> gradients of the ground, in the map --> rise of the slope below
+//                                                              |
+//   mirror beams --> points below, in the map ---------------> + --> levels --> virtual height --> AltitudeStep
 #pragma once
 
 #include <cstdint>
@@ -68,6 +69,7 @@ class AltitudePipeline {
   perception::SlopeDoubt doubt_;
   double hull_radius_m_;
   double surface_height_m_ = 0.0;
+  common::Time slope_ended_;  ///< Stamp of the scan behind the last slope.
   std::uint64_t published_version_ = 0;
   std::shared_ptr<const common::LevelMap> published_;
 };

@@ -9,6 +9,8 @@ namespace {
 /// Slower, nothing below changes because of the path.
 constexpr double kLeastSpeed_m_s = 0.2;
 constexpr double kSmoothing_s = 0.5;
+/// Longer than the delay of the multilevel filter, 0.15 s.
+constexpr double kRemembered_s = 0.5;
 
 }  // namespace
 
@@ -20,8 +22,13 @@ std::optional<double> SlopeDoubt::add(common::Time time, const Eigen::Vector2d& 
   }
   time_ = time;
   place_map_m_ = place_map_m;
+  believed_m_s_.emplace_back(time, velocity_m_s);
+  while ((time - believed_m_s_.front().first).seconds() > kRemembered_s) believed_m_s_.pop_front();
   if (!measurement || !measurement->velocity_m_s || speed_m_s_ < kLeastSpeed_m_s) return std::nullopt;
-  const double corrected_m_s = *measurement->velocity_m_s - velocity_m_s;
+  const auto then = std::find_if(believed_m_s_.begin(), believed_m_s_.end(),
+                                 [&](const auto& believed) { return believed.first == measurement->stamp; });
+  if (then == believed_m_s_.end()) return std::nullopt;
+  const double corrected_m_s = *measurement->velocity_m_s - then->second;
   return std::abs(corrected_m_s) < kLeast_m_s ? std::nullopt : std::optional(corrected_m_s);
 }
 

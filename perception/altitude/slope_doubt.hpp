@@ -4,7 +4,9 @@
 // over furniture speaks for a ramp; the height is then wrong by what the ramp rises (docs/decisions/061).
 #pragma once
 
+#include <deque>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -26,6 +28,8 @@ class SlopeDoubt {
                             const std::optional<VirtualHeight>& measurement);
 
  private:
+  /// Vertical speeds that were believed, by the time of their scan: a measurement is of an earlier scan.
+  std::deque<std::pair<common::Time, double>> believed_m_s_;
   std::optional<common::Time> time_;
   Eigen::Vector2d place_map_m_ = Eigen::Vector2d::Zero();
   double speed_m_s_ = 0.0;  ///< Horizontal, smoothed.

@@ -18,6 +18,9 @@ constexpr int kIntervals = 8;
 /// A beam that half meets an edge reports a range between its surface and the one behind (a mixed pixel; Tuley,
 /// Vandapel, Hebert 2005). It differs from both by more than three times the noise of a small laser.
 constexpr double kMixedJump_m = 0.10;
+/// The spots of small lasers are as wide as their beams are apart, up to 0.36 deg. Where beams are farther apart, three
+/// neighbours often meet three things, so a range between the others tells nothing.
+constexpr double kMixedSpacing_rad = 0.4 * common::kRadPerDeg;
 /// On a slanted wall neighbouring ranges differ as much, but evenly.
 constexpr double kEvenShare = 0.25;
 
@@ -132,7 +135,11 @@ class BeamSorter {
     }
     endRun();
     const Eigen::Vector3d end = mount.translation + range_m * ray;
-    if (end.head<2>().squaredNorm() < config_.body_radius_m * config_.body_radius_m || isMixed(beam)) {
+    if (end.head<2>().squaredNorm() < config_.body_radius_m * config_.body_radius_m) {
+      ++result_.counts.invalid;
+    } else if (isMixed(beam)) {
+      // It has passed as far as the nearer surface.
+      result_.misses_level_m.push_back(pointAt(std::min(rangeOf(beam - 1), rangeOf(beam + 1))));
       ++result_.counts.invalid;
     } else if (const double rise_m = range_m * ray.z(); surfaces_.onFloor(rise_m, range_m)) {
       result_.misses_level_m.push_back(pointAt(surfaces_.freeRange(ray.z(), range_m)));
@@ -163,7 +170,7 @@ class BeamSorter {
   /// Whether the range lies between those of two surfaces that the neighbours see. A thin thing before a wall is nearer
   /// than both and counts.
   bool isMixed(int beam) const {
-    if (beam < 2 || beam + 2 >= beams()) return false;
+    if (scan_.angle_increment_rad > kMixedSpacing_rad || beam < 2 || beam + 2 >= beams()) return false;
     std::array<double, 4> steps_m{};
     for (int i = 0; i < 4; ++i) steps_m[static_cast<std::size_t>(i)] = rangeOf(beam + i - 1) - rangeOf(beam + i - 2);
     const double towards_m = steps_m[1], away_m = steps_m[2];

@@ -81,7 +81,7 @@ const tests = {
   },
 
   async 'a full disk is a warning, and the flight goes on'() {
-    const { page, state, tap, ends } = await fly('full', 'operator_goals', { limit_kB: 90 });
+    const { page, state, tap, ends } = await fly('full', 'operator_goals', { limit_kB: 110 });
     await page.locator('#events [data-severity=warning]').getByText('the run is no longer recorded').waitFor();
     const { stamp_s } = await state();
     await eventually('going on', async () => (await state()).stamp_s > stamp_s + 5);

@@ -78,12 +78,14 @@ TEST_F(FlightScoring, EveryMissedCriterionIsNamed) {
   criteria.coverage_min = 0.99;
   criteria.goal_error_max_m = 0.16;
   criteria.mission_time_max_s = 80;
-  criteria.estimate_rms_max_m = 0.02;
-  EXPECT_THAT(score(record, criteria).failures,
-              ElementsAre("mission: mission failed: goal unreachable", "coverage: 0.0000, at least 0.99 was asked for",
-                          "goal error, m: not measured, at most 0.16 was asked for",
-                          "mission time, s: 82.000, at most 80 was asked for",
-                          "estimate RMS, m: 0.030, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
+  criteria.estimate_rms_max_m = criteria.estimate_spatial_rms_max_m = 0.02;
+  EXPECT_THAT(
+      score(record, criteria).failures,
+      ElementsAre("mission: mission failed: goal unreachable", "coverage: 0.0000, at least 0.99 was asked for",
+                  "goal error, m: not measured, at most 0.16 was asked for",
+                  "mission time, s: 82.000, at most 80 was asked for",
+                  "estimate RMS, m: 0.030, at most 0.02 was asked for",
+                  "estimate RMS in space, m: 0.040, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
 }
 
 // Without the north wall the flood fill leaves the room.

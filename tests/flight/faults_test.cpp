@@ -100,7 +100,7 @@ TEST_F(SensorFault, LongSilenceHoldsThenLandsAndIsReported) {
 TEST_F(SensorFault, AVehicleWhoseMotorsStopAboveTheGroundIsWatchedUntilItLies) {
   const auto flight = flyIn(
       "  quadrotor: {thrust_share: 1.05, mass_share: 0.92}\n"
-      "  faults:\n    - {sensor: imu, kind: silent, phase: taking off, lasts_s: 1000}\n",
+      "  faults:\n    - {sensor: imu, kind: silent, from_s: 1.6, to_s: 1000}\n",
       "nominal");
   EXPECT_FALSE(flight.at("mission_done").get<bool>());
   EXPECT_NE(flight.at("verdict"), "unfinished") << flight.dump(2);
