@@ -1,10 +1,8 @@
 #include "autonomy/imu_substitute.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
+#include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
 #include "control/thrust_table.hpp"
 
@@ -17,9 +15,6 @@ namespace {
 
 /// Twice what an emergency descent from the greatest height, 2 m, takes.
 constexpr double kLongest_s = 15.0;
-
-/// The share of a step that a lag of first order lets through in that time.
-double followed(double dt_s, double lag_s) { return lag_s > 0.0 ? 1.0 - std::exp(-dt_s / lag_s) : 1.0; }
 
 }  // namespace
 
@@ -41,11 +36,11 @@ std::optional<ImuSample> ImuSubstitute::next(Time now) {
   if (measured + delay_ > now || (measured - measured_).seconds() > kLongest_s) return std::nullopt;
   constexpr double kStep_s = common::kControlPeriod.seconds();
   common::RollPitchYaw attitude = common::rollPitchYaw(last_->rotation_ahrs_body);
-  const double turned = followed(kStep_s, lags_.attitude_s);
+  const double turned = common::followedShare(kStep_s, lags_.attitude_s);
   attitude.roll_rad += turned * (setpoint_.roll_rad - attitude.roll_rad);
   attitude.pitch_rad += turned * (setpoint_.pitch_rad - attitude.pitch_rad);
   attitude.yaw_rad = common::wrapAngle(attitude.yaw_rad + setpoint_.yaw_rate_rad_s * kStep_s);
-  force_over_gravity_ += followed(kStep_s, lags_.thrust_s) * (thrust_over_hover_ - force_over_gravity_);
+  force_over_gravity_ += common::followedShare(kStep_s, lags_.thrust_s) * (thrust_over_hover_ - force_over_gravity_);
 
   ImuSample sample;
   sample.stamps = {measured, now};

@@ -8,14 +8,10 @@ using common::ImuSample;
 using common::Time;
 using common::config::kPositive;
 
-namespace {
-
 bool isFinite(const ImuSample& sample) {
   return sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&
          sample.rotation_ahrs_body.coeffs().allFinite();
 }
-
-}  // namespace
 
 void ImuWatchConfig::describe(common::config::Fields& fields) {
   fields("silent_s", silent_s, kPositive, "Without a finite inertial sample for this long the sensor is silent.");

@@ -18,6 +18,9 @@ struct ImuWatchConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// Whether all its numbers are.
+bool isFinite(const common::ImuSample& sample);
+
 /// One thread. A sample that is not finite counts as none. A sensor that measures never gives the same numbers many
 /// times in a row, so samples that are equal bit by bit come from a driver that repeats its last one. The same holds
 /// for the attitude alone, whose noise is about a degree: while the gyroscopes measure, an attitude that repeats is

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "autonomy/imu_watch.hpp"
 #include "common/config_fields.hpp"
+#include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
 #include "common/validation.hpp"
 #include "control/thrust_table.hpp"
@@ -72,9 +74,7 @@ std::vector<std::string> InertialCheckConfig::validate() const {
 }
 
 ImuSample InertialCheck::checked(const ImuSample& sample) {
-  const bool finite = sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&
-                      sample.rotation_ahrs_body.coeffs().allFinite();
-  if (!finite) return sample;
+  if (!isFinite(sample)) return sample;
   const Time now = sample.stamps.measured;
   const bool continues = last_ && now > *last_ && (now - *last_).seconds() < kPause_s;
   const double expected_m_s2 = expectedForce_m_s2(now);
@@ -113,7 +113,7 @@ double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
 
 double InertialCheck::expectedForce_m_s2(Time now) {
   const double dt_s = last_ ? std::clamp((now - *last_).seconds(), 0.0, kPause_s) : 0.0;
-  const double share = config_.thrust_lag_s > 0.0 ? 1.0 - std::exp(-dt_s / config_.thrust_lag_s) : 1.0;
+  const double share = common::followedShare(dt_s, config_.thrust_lag_s);
   thrust_over_hover_ += share * (context_.thrust_over_hover - thrust_over_hover_);
   return control::kGravity_m_s2 * thrust_over_hover_;
 }

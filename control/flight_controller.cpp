@@ -289,10 +289,10 @@ void FlightController::enter(FlightState from, FlightState entered) {
   condition_since_.reset();
   const Eigen::Vector3d& position_m = last_state_.T_odom_body.position_m;
   const double yaw_rad = common::yawOf(last_state_.T_odom_body.rotation);
+  if (entered != FlightState::kLanding) escapes_until_.reset();
   switch (entered) {
     case FlightState::kTakingOff:
       grounded_reason_.clear();
-      escapes_until_.reset();
       oscillation_.reset();
       standing_height_m_ = position_m.z();
       standing_raw_m_ = emergency_.filter().ready() ? emergency_.filter().height_m() : position_m.z();
@@ -319,7 +319,6 @@ void FlightController::enter(FlightState from, FlightState entered) {
       if (!escapes_until_) follower_.stop();
       return;
     case FlightState::kEmergencyLanding:
-      escapes_until_.reset();
       follower_.stop();
       // The trim of a vehicle that flies fast balances drag, which ends with the braking.
       emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(),
@@ -331,7 +330,6 @@ void FlightController::enter(FlightState from, FlightState entered) {
     case FlightState::kPoweredOff:
     case FlightState::kLanded:
       follower_.reset(position_m, yaw_rad);
-      escapes_until_.reset();
       lift_m_ = 0.0;
       return;
   }

@@ -1,6 +1,6 @@
 #include "control/lagged_reference.hpp"
 
-#include <cmath>
+#include "common/first_order_lag.hpp"
 
 namespace swiftlet::control {
 
@@ -12,7 +12,7 @@ void LaggedReference::advance(const Reference& reference, double lag_s, double d
       (point_->position_odom_m + lag_s * point_->velocity_odom_m_s - position_m).norm() > kJump_m)
     point_ = Point{position_m, velocity_m_s};
   if (lag_s <= 0.0) return;
-  const double share = 1.0 - std::exp(-dt_s / lag_s);
+  const double share = common::followedShare(dt_s, lag_s);
   point_->position_odom_m += share * (position_m - point_->position_odom_m);
   point_->velocity_odom_m_s += share * (velocity_m_s - point_->velocity_odom_m_s);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/first_order_lag.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::control {
@@ -17,7 +18,7 @@ double MarginLimits::shareAt(double margin) const {
 }
 
 void MarginLimits::observe(double margin, double dt_s) {
-  const double blend = observed_ ? 1.0 - std::exp(-dt_s / config_.filter_s) : 1.0;
+  const double blend = observed_ ? common::followedShare(dt_s, config_.filter_s) : 1.0;
   share_ += blend * (shareAt(margin) - share_);
   observed_ = true;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/first_order_lag.hpp"
 
 namespace swiftlet::simulation {
 
@@ -108,7 +109,7 @@ Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig
 
 void Quadrotor::spinMotors(const std::array<double, 4>& throttles, double step_s) {
   const double sag = battery_.thrustShare();
-  const double blend = 1.0 - std::exp(-step_s / config_.motor_lag_s);
+  const double blend = common::followedShare(step_s, config_.motor_lag_s);
   double power_w = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     double& thrust_n = state_.thrusts_n[i];

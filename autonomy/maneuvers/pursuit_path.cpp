@@ -151,7 +151,7 @@ void Pursuit::advance(int step) {
   const Step& before = steps_[static_cast<std::size_t>(step - 1)];
   Step& now = steps_[static_cast<std::size_t>(step)];
   now.loss.fill(kNever);
-  const int was = std::min(step - 1, kReach);
+  const int was = step - 1;
   for (int y = -was; y <= was; ++y)
     for (int x = -was; x <= was; ++x) {
       if (before.loss[at(x, y)] == kNever) continue;

@@ -1,9 +1,9 @@
 #include "control/controllers/sliding_mode.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/first_order_lag.hpp"
 #include "control/actuation.hpp"
 
 namespace swiftlet::control {
@@ -77,9 +77,9 @@ void SlidingMode::advanceSurface(const Eigen::Vector3d& nominal_m_s2, const Eige
 void SlidingMode::estimateDisturbance(const ControlInput& input, const Eigen::Vector3d& given_m_s2) {
   const Eigen::Vector3d lag_s(config_.attitude_lag_s, config_.attitude_lag_s, config_.thrust_lag_s);
   for (int axis = 0; axis < 3; ++axis)
-    taken_up_m_s2_[axis] += (1.0 - std::exp(-input.dt_s / lag_s[axis])) * (given_m_s2[axis] - taken_up_m_s2_[axis]);
+    taken_up_m_s2_[axis] += common::followedShare(input.dt_s, lag_s[axis]) * (given_m_s2[axis] - taken_up_m_s2_[axis]);
   if (input.on_ground || !input.acceleration_odom_m_s2 || !input.acceleration_odom_m_s2->allFinite()) return;
-  const double share = 1.0 - std::exp(-input.dt_s / config_.disturbance_filter_s);
+  const double share = common::followedShare(input.dt_s, config_.disturbance_filter_s);
   const Eigen::Vector3d seen_m_s2 = *input.acceleration_odom_m_s2 - taken_up_m_s2_;
   disturbance_m_s2_ += share * (seen_m_s2 - disturbance_m_s2_);
   disturbance_m_s2_ = disturbance_m_s2_.cwiseMax(-config_.max_disturbance_m_s2).cwiseMin(config_.max_disturbance_m_s2);

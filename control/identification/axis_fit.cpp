@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "common/first_order_lag.hpp"
+
 namespace swiftlet::control {
 namespace {
 
@@ -25,7 +27,7 @@ std::size_t windowOf(const AxisSeries& series, const AxisFitOptions& options) {
 
 std::vector<double> lagged(const AxisSeries& series, double lag_s) {
   std::vector<double> taken(series.command.size());
-  const double share = lag_s > 0.0 ? 1.0 - std::exp(-series.period_s / lag_s) : 1.0;
+  const double share = common::followedShare(series.period_s, lag_s);
   double value = series.command.empty() ? 0.0 : series.command.front();
   for (std::size_t i = 0; i < taken.size(); ++i) {
     value += share * (series.command[i] - value);

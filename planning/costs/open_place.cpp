@@ -18,11 +18,12 @@ constexpr double kLossPerMetre = 0.25;
 
 Vector2d displacementToOpenPlace_m(const CostMap& map, const Vector2d& from_map_m, double reach_m) {
   Vector2d best_m = Vector2d::Zero();
-  double best_score_m = map.obstacleDistance_m(map.cellAt(from_map_m));
+  const double here_m = map.obstacleDistance_m(map.cellAt(from_map_m));
+  double best_score_m = here_m;
   for (int direction = 0; direction < kDirections; ++direction) {
     const double angle_rad = 2.0 * std::numbers::pi * direction / kDirections;
     const Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
-    double before_m = map.obstacleDistance_m(map.cellAt(from_map_m));
+    double before_m = here_m;
     for (double length_m = map.resolution_m(); length_m <= reach_m; length_m += map.resolution_m()) {
       const common::CellIndex cell = map.cellAt(from_map_m + length_m * along);
       const double distance_m = map.obstacleDistance_m(cell);

@@ -1,8 +1,8 @@
 #include "simulation/sensors/color_sensor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "common/first_order_lag.hpp"
 #include "common/random.hpp"
 #include "common/row_major.hpp"
 #include "simulation/sensors/pixel_noise.hpp"
@@ -68,7 +68,7 @@ void ColorSensor::adjustExposure(const std::vector<Eigen::Array4f>& light) {
   for (std::size_t i = 0; i < light.size(); i += kEvery, ++count) sum += light[i];
   const float mean = sum.head<3>().sum() / static_cast<float>(3 * count);
   const float wanted = std::clamp(kMiddleGrey / std::max(mean, 1e-3F), kLeastGain, kMostGain);
-  const auto share = static_cast<float>(1.0 - std::exp(-period_s_ / errors_.exposure_lag_s));
+  const auto share = static_cast<float>(common::followedShare(period_s_, errors_.exposure_lag_s));
   gain_ = gain_ == 0.0F ? wanted : gain_ + share * (wanted - gain_);
 }
 

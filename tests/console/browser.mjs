@@ -75,6 +75,18 @@ export async function eventually(what, holds, timeout_s = 60) {
   assert.fail(`${what} did not happen within ${kPatience * timeout_s} s`);
 }
 
+/** Lets `change` modify every state before a page of that context gets it. */
+export async function changeStates(context, change) {
+  await context.routeWebSocket(/\/api\/ws/, (page) => {
+    const vehicle = page.connectToServer();
+    vehicle.onMessage((message) => {
+      const state = typeof message === 'string' && message.includes('"type":"state"') ? JSON.parse(message) : null;
+      if (state) change(state);
+      page.send(state ? JSON.stringify(state) : message);
+    });
+  });
+}
+
 /** Where a point of the map is on the canvas, in CSS pixels from its corner. */
 export async function onScreen(page, x_m, y_m) {
   await page.waitForFunction(() => document.getElementById('map').dataset.view);

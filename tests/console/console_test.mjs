@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 
-import { eventually, kPatience, launch, onScreen, run, serve } from './browser.mjs';
+import { changeStates, eventually, kPatience, launch, onScreen, run, serve } from './browser.mjs';
 
 const [fixture, folder] = process.argv.slice(2);
 
@@ -30,14 +30,7 @@ const state = async () => (await fetch(`${origin}/api/state`)).json();
 /** Opens the page and lets `change` modify every state before the page gets it. */
 async function openWith(change) {
   const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
-  await context.routeWebSocket(/\/api\/ws/, (page) => {
-    const vehicle = page.connectToServer();
-    vehicle.onMessage((message) => {
-      const state = typeof message === 'string' && message.includes('"type":"state"') ? JSON.parse(message) : null;
-      if (state) change(state);
-      page.send(state ? JSON.stringify(state) : message);
-    });
-  });
+  await changeStates(context, change);
   return open(server.url, { context });
 }
 

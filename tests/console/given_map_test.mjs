@@ -2,7 +2,7 @@
 // and what is tapped is sent in it. node given_map_test.mjs WEB_FIXTURE WORK_FOLDER
 import assert from 'node:assert/strict';
 
-import { eventually, kPatience, launch, onScreen, run, serve } from './browser.mjs';
+import { changeStates, eventually, kPatience, launch, onScreen, run, serve } from './browser.mjs';
 
 const [fixture, folder] = process.argv.slice(2);
 const browser = await launch(folder);
@@ -19,14 +19,7 @@ function inMap({ x_m, y_m }) {
 /** Opens the page and lets `change` modify every state before the page gets it. */
 async function open(change = () => {}) {
   const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, hasTouch: true });
-  await context.routeWebSocket(/\/api\/ws/, (page) => {
-    const vehicle = page.connectToServer();
-    vehicle.onMessage((message) => {
-      const state = typeof message === 'string' && message.includes('"type":"state"') ? JSON.parse(message) : null;
-      if (state) change(state);
-      page.send(state ? JSON.stringify(state) : message);
-    });
-  });
+  await changeStates(context, change);
   const page = await context.newPage();
   page.setDefaultTimeout(60_000 * kPatience);
   page.problems = [];

@@ -21,17 +21,18 @@ using common::Duration;
 using common::JobDelivery;
 using common::Time;
 
-/// One flight from the ground to the ground in lockstep, with an operator's command, flown once for all tests.
+/// One flight from the ground to the ground in lockstep. Before each step, `order` may give the operator's commands.
 struct Recorded {
-  Recorded() {
-    const auto vehicle = makeVehicle(12);
-    vehicle->setCameraConsumer(true);
+  using Commands = common::LosslessQueue<common::OperatorCommand>;
+
+  template <typename Vehicle, typename Order>
+  Recorded(Vehicle& vehicle, const Order& order) {
     Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
-    common::LosslessQueue<common::OperatorCommand> commands;
+    Commands commands;
     InputRecorder recorder;
-    FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
+    FlightLoop loop(vehicle, autonomy, commands, {&recorder, &witness});
     while (!autonomy.finished() && loop.now() < Time::fromSeconds(60)) {
-      if (loop.now() == Time::fromSeconds(9)) commands.push({1, common::GoalCommand{{1.0, 0.0}}});
+      order(loop.now(), commands);
       if (!loop.step(loop.now() + common::kControlPeriod)) break;
     }
     finished = autonomy.finished();
@@ -43,8 +44,17 @@ struct Recorded {
   bool finished = false;
 };
 
+Recorded flyWithAGoal() {
+  const auto vehicle = makeVehicle(12);
+  vehicle->setCameraConsumer(true);
+  return {*vehicle, [](Time now, Recorded::Commands& commands) {
+            if (now == Time::fromSeconds(9)) commands.push({1, common::GoalCommand{{1.0, 0.0}}});
+          }};
+}
+
+/// Flown once for all tests.
 const Recorded& flown() {
-  static const Recorded kFlown;
+  static const Recorded kFlown = flyWithAGoal();
   return kFlown;
 }
 
@@ -162,32 +172,19 @@ std::string aMissionOf(const std::string& leaves) {
 
 /// A flight whose mission is changed twice: once to one that cannot be flown, once to another one. The inputs end with
 /// the landing of the second mission.
-struct RecordedChange {
-  RecordedChange() {
-    const auto vehicle = makeVehicle(13);
-    Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
-    common::LosslessQueue<common::OperatorCommand> commands;
-    InputRecorder recorder;
-    FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
-    while (!autonomy.finished() && loop.now() < Time::fromSeconds(60)) {
-      if (loop.now() == Time::fromSeconds(7))
-        commands.push({1, common::StartMissionCommand{"broken.xml", aMissionOf("<Fly/>")}});
-      if (loop.now() == Time::fromSeconds(8))
-        commands.push({2, common::StartMissionCommand{
-                              "other.xml", aMissionOf("<TakeOff/><MoveToGoal goal=\"0.6;0.2;1.2\"/><Land/>")}});
-      if (!loop.step(loop.now() + common::kControlPeriod)) break;
-    }
-    finished = autonomy.finished();
-    recording = recorder.recording();
-  }
-
-  Witness witness;
-  Recording recording;
-  bool finished = false;
-};
+Recorded flyWithChanges() {
+  const auto vehicle = makeVehicle(13);
+  return {*vehicle, [](Time now, Recorded::Commands& commands) {
+            if (now == Time::fromSeconds(7))
+              commands.push({1, common::StartMissionCommand{"broken.xml", aMissionOf("<Fly/>")}});
+            if (now == Time::fromSeconds(8))
+              commands.push({2, common::StartMissionCommand{
+                                    "other.xml", aMissionOf("<TakeOff/><MoveToGoal goal=\"0.6;0.2;1.2\"/><Land/>")}});
+          }};
+}
 
 TEST(Recording, RepeatsAFlightWhoseMissionIsChanged) {
-  const RecordedChange flown;
+  const Recorded flown = flyWithChanges();
   ASSERT_TRUE(flown.finished);
   ASSERT_EQ(flown.witness.results.size(), 2u);
   EXPECT_FALSE(flown.witness.results[0].accepted);
