@@ -86,8 +86,7 @@ void Executor::receive(const PlanningAnswer& answer, Time now) {
 PlanningClient Executor::client() const { return {intent_.id, clearanceOf(intent_.kind, config_.clearance_m)}; }
 
 Eigen::Vector2d Executor::wantedVelocity_map_m_s() const {
-  const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
-  return path ? path->wantedVelocity_map_m_s() : Eigen::Vector2d::Zero();
+  return maneuver_ ? maneuver_->wantedVelocity_map_m_s(state_) : Eigen::Vector2d::Zero();
 }
 
 std::vector<Eigen::Vector2d> Executor::remainingPlan_map_m() const {

@@ -58,8 +58,10 @@ class Maneuver {
   virtual std::optional<Eigen::Vector2d> goal_map_m() const { return std::nullopt; }
   /// The unknown place that it explores, in `map`.
   virtual std::optional<Eigen::Vector2d> wantsToSee_map_m() const { return std::nullopt; }
-  /// The path it flies; null for a maneuver without paths.
+  /// The path it flies; null for a maneuver without planned paths.
   virtual const PathFlight* path() const { return nullptr; }
+  /// The velocity along the path it flies, in `map`; zero if there is none.
+  virtual Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState& state) const;
 };
 
 }  // namespace swiftlet::autonomy

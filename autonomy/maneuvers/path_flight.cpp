@@ -5,6 +5,15 @@
 
 namespace swiftlet::autonomy {
 
+Eigen::Vector2d velocityAlong(const std::vector<Eigen::Vector2d>& points, double speed_m_s) {
+  constexpr double kAhead_m = 0.05;  // A shorter step gives no reliable direction.
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Eigen::Vector2d step = points[i] - points.front();
+    if (step.norm() > kAhead_m) return speed_m_s * step.normalized();
+  }
+  return Eigen::Vector2d::Zero();
+}
+
 PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
     : config_(setup.config),
       controller_(setup.controller),
@@ -64,13 +73,7 @@ std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {
 }
 
 Eigen::Vector2d PathFlight::wantedVelocity_map_m_s() const {
-  constexpr double kAhead_m = 0.05;  // A shorter step gives no reliable direction.
-  const auto points = remaining_map_m();
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const Eigen::Vector2d step = points[i] - points.front();
-    if (step.norm() > kAhead_m) return controller_.speed_m_s(mode_) * step.normalized();
-  }
-  return Eigen::Vector2d::Zero();
+  return velocityAlong(remaining_map_m(), controller_.speed_m_s(mode_));
 }
 
 }  // namespace swiftlet::autonomy

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "autonomy/maneuvers/path_flight.hpp"
 #include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
+
+constexpr common::FlightMode kMode = common::FlightMode::kCareful;
 
 /// The same path with fewer corners; none of the points left out is further than kWithin_m from it. A trail has every
 /// small motion of a hover; flown point by point the vehicle would turn with each of them instead of looking where it
@@ -65,16 +68,27 @@ void Retrace::keepOut(const std::vector<common::Polygon>& zones) {
 
 /// A retreat or a lost estimate ends the path; what is left of it is flown from the nearest place on.
 void Retrace::follow(const ManeuverInput& input) {
-  auto& path = intent_.path_map_m;
-  const Eigen::Vector2d here = input.position_map_m();
-  path.erase(path.begin(), std::min_element(path.begin(), path.end(), [&](const auto& a, const auto& b) {
-               return (a - here).squaredNorm() < (b - here).squaredNorm();
-             }));
+  intent_.path_map_m = remaining(input.position_map_m());
   control::FlightPath flown;
-  flown.mode = common::FlightMode::kCareful;
-  for (const Eigen::Vector2d& point : straightened(path))
+  flown.mode = kMode;
+  for (const Eigen::Vector2d& point : straightened(intent_.path_map_m))
     flown.points_map_m.emplace_back(point.x(), point.y(), setup_.memory.cruise_height_m);
   following_ = setup_.controller.follow(flown).has_value();
+}
+
+/// The path from its point nearest to a place on.
+std::vector<Eigen::Vector2d> Retrace::remaining(const Eigen::Vector2d& from_map_m) const {
+  const auto& path = intent_.path_map_m;
+  return {std::min_element(path.begin(), path.end(),
+                           [&](const auto& a, const auto& b) {
+                             return (a - from_map_m).squaredNorm() < (b - from_map_m).squaredNorm();
+                           }),
+          path.end()};
+}
+
+Eigen::Vector2d Retrace::wantedVelocity_map_m_s(const common::VehicleState& state) const {
+  if (!following_ || !setup_.controller.followsPath()) return Eigen::Vector2d::Zero();
+  return velocityAlong(remaining(state.T_map_body_planar().position_m()), setup_.controller.speed_m_s(kMode));
 }
 
 std::optional<Eigen::Vector2d> Retrace::goal_map_m() const {

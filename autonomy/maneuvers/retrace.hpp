@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "autonomy/maneuvers/maneuver.hpp"
 
@@ -15,8 +16,10 @@ class Retrace final : public Maneuver {
   Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup);
   Progress step(const ManeuverInput& input) override;
   std::optional<Eigen::Vector2d> goal_map_m() const override;
+  Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState& state) const override;
 
  private:
+  std::vector<Eigen::Vector2d> remaining(const Eigen::Vector2d& from_map_m) const;
   void follow(const ManeuverInput& input);
   void keepOut(const std::vector<common::Polygon>& zones);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -140,18 +141,31 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
   for (const Bin& bin : bins) {
     const double gap_m = bin.range_m - hull_radius_m_;
-    if (gap_m >= config_.retreat_distance_m * slack) continue;
+    const bool overruns = cannotStopBefore(bin.nearest_level_m, slack * input.velocity_level_m_s);
+    if (!overruns && gap_m >= config_.retreat_distance_m * slack) continue;
     const bool mapped = isMapped(input, bin.nearest_level_m);
-    if (mapped && (input.position_sigma_m <= config_.mapped_within_m || gap_m >= kDoor_m * slack)) continue;
+    const bool known = input.position_sigma_m <= config_.mapped_within_m;
+    if (!overruns && mapped && (known || gap_m >= kDoor_m * slack)) continue;
     const bool followed = std::any_of(result.begin(), result.begin() + followed_count, [&](const Threat& t) {
       return (t.center_m - bin.nearest_level_m).norm() <= t.radius_m + kSameBody_m;
     });
     if (followed) continue;
+    const std::string_view what = overruns ? "too fast for something"
+                                  : mapped ? "something near"
+                                           : "something unmapped";
     result.push_back({bin.nearest_level_m, 0.0, Point::Zero(), true,
-                      fmt::format("something {} {:.2f} m off the hull at {}", mapped ? "near" : "unmapped", gap_m,
-                                  bearingInWords(bin.nearest_level_m))});
+                      fmt::format("{} {:.2f} m off the hull at {}", what, gap_m, bearingInWords(bin.nearest_level_m))});
   }
   return result;
+}
+
+/// Whether braking as firmly as the limit of the speed counts on would not keep the hull from the point. An intent that
+/// obeys the limit has begun to brake before, so no latency is added.
+bool Avoidance::cannotStopBefore(const Point& point_level_m, const Point& velocity_level_m_s) const {
+  const double speed_m_s = velocity_level_m_s.norm();
+  if (speed_m_s <= kStill_m_s) return false;
+  const double gap_m = gapAlong(velocity_level_m_s / speed_m_s, point_level_m, hull_radius_m_);
+  return gap_m < kInfinity && speed_m_s > stoppingSpeed(gap_m, 0.0);
 }
 
 double Avoidance::speedLimit(const Point& direction, const Points& points, double latency_s) const {

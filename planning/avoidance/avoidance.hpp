@@ -65,7 +65,8 @@ struct Bin {
 ///
 /// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
 /// hull, or a moving one would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. For mapped,
-/// static obstacles it only brakes. All distances are from the hull.
+/// static obstacles it only brakes, unless it flies at them too fast to stop, which no intent asks for: it does so
+/// where its position is corrected, or a gust pushes it. All distances are from the hull.
 class Avoidance {
  public:
   using Config = AvoidanceConfig;
@@ -83,6 +84,7 @@ class Avoidance {
   using Points = std::vector<Eigen::Vector2d>;
 
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
+  bool cannotStopBefore(const Eigen::Vector2d& point_level_m, const Eigen::Vector2d& velocity_level_m_s) const;
   double speedLimit(const Eigen::Vector2d& direction, const Points& points, double latency_s) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
   double stoppingSpeed(double gap_m, double latency_s) const;

@@ -22,7 +22,7 @@ void ExplorationConfig::describe(common::config::Fields& fields) {
          "Share of the utility that is lost where the laser would not fix the pose.");
   fields("least_wall_share", least_wall_share, {0, 1},
          "A frontier around which a smaller share of the directions ends at walls is not explored, as outside an open "
-         "door.");
+         "door. One endless wall, which fixes one direction only, is half of them.");
   fields("wall_range_m", wall_range_m, {0.5, 100}, "Range within which such walls count.");
   fields("open_m", open_m, {0.5, 100}, "A direction that is free as far as this without a wall counts as open.");
   fields("max_unheld_m", max_unheld_m, {0.5, 1000},

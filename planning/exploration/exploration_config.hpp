@@ -18,7 +18,7 @@ struct ExplorationConfig {
   double acceleration_m_s2 = 0.8;
   double hysteresis = 0.25;
   double localizability_weight = 0.3;
-  double least_wall_share = 0.4;
+  double least_wall_share = 0.55;
   double wall_range_m = 25.0;
   double open_m = 8.0;
   double max_unheld_m = 4.0;

@@ -297,6 +297,21 @@ TEST(Avoidance, DoesNotDriftIntoAMappedWallWhenThePositionIsUncertain) {
   }
 }
 
+/// The correction of a wrong position drives it at a wall that the map has, faster than any intent would.
+TEST(Avoidance, RetreatsFromAWallThatItCannotStopBefore) {
+  for (const double speed_m_s : {0.3, 0.9}) {
+    Story story;
+    story.pose.x_m = 9.4;
+    story.velocity_map_m_s = {speed_m_s, 0.0};
+    const AvoidanceDecision d = story.sense({0.0, 0.0});
+    EXPECT_EQ(d.retreat_velocity_level_m_s.has_value(), speed_m_s > 0.5) << d.status.reason;
+    if (d.retreat_velocity_level_m_s) {
+      EXPECT_LT(d.retreat_velocity_level_m_s->x(), 0.05);
+      EXPECT_THAT(d.status.reason, HasSubstr("too fast"));
+    }
+  }
+}
+
 TEST(Avoidance, FliesThroughADoorOfEightyCentimetresWithAnUncertainPosition) {
   Story story;
   addDoor(story);
