@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -22,9 +23,9 @@ std::string fileFor(const std::string& name, const std::string& folder) {
   return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
 }
 
-/// A data sheet that a profile names. A file of the user is searched for beside the profile first.
-std::string sheetFor(const std::string& name, const std::string& folder, const std::string& key,
-                     const common::SourceLocation& place) {
+/// What a profile names by `key`: a file of the user is searched for beside the profile first.
+std::string namedFile(const std::string& name, const std::string& folder, const std::string& key,
+                      const common::SourceLocation& place) {
   const std::filesystem::path beside = std::filesystem::path(place.file).parent_path() / name;
   std::error_code error;
   if (std::filesystem::is_regular_file(beside, error)) return beside.string();
@@ -37,6 +38,28 @@ std::string sheetFor(const std::string& name, const std::string& folder, const s
     problem.location = place;
     throw common::InputError(problem);
   }
+}
+
+constexpr std::string_view kBasedOn =
+    "Another profile, or a path, of which this one differs in the settings that it names; a list is given whole.";
+
+/// Reads a profile over those that it is based on. `chain` are the files that are being read.
+common::config::YamlReader readProfile(const std::string& file, SystemConfig& config, std::vector<std::string> chain) {
+  common::config::YamlReader reader = common::config::YamlReader::fromFile(file);
+  std::string base;
+  reader("based_on", base, kBasedOn);
+  chain.push_back(file);
+  if (!base.empty()) {
+    const common::SourceLocation place = reader.locationOf("based_on");
+    const std::string base_file = namedFile(base, "systems", "based_on", place);
+    if (std::find(chain.begin(), chain.end(), base_file) != chain.end())
+      throw common::InputError(
+          common::Problem{place, "based_on", fmt::format("{} is based on this profile itself", base), ""});
+    (void)readProfile(base_file, config, std::move(chain));
+  }
+  reader.read(config);
+  config.based_on.clear();
+  return reader;
 }
 
 /// A flight never starts half configured: a model of another vehicle or battery, or a controller without its model.
@@ -83,6 +106,7 @@ std::string asComment(const std::string& yaml) {
 }  // namespace
 
 void SystemConfig::describe(common::config::Fields& fields) {
+  fields("based_on", based_on, kBasedOn);
   fields("vehicle", vehicle, "A file of config/vehicles, without .yaml, or a path.");
   fields("laser", laser, "A file of config/sensors, without .yaml, or a path.");
   fields("rgbd_camera", rgbd_camera,
@@ -113,11 +137,9 @@ std::string System::toYaml(bool comments) const {
 System loadSystem(const std::string& name) {
   System system;
   system.name = name;
-  const std::string profile = fileFor(name, "systems");
-  common::config::YamlReader reader = common::config::YamlReader::fromFile(profile);
-  reader.read(system.config);
+  const common::config::YamlReader reader = readProfile(fileFor(name, "systems"), system.config, {});
   const auto sheet = [&](const std::string& named, const char* folder, const char* key) {
-    return sheetFor(named, folder, key, reader.locationOf(key));
+    return namedFile(named, folder, key, reader.locationOf(key));
   };
   system.vehicle = common::config::readFile<common::VehicleConfig>(sheet(system.config.vehicle, "vehicles", "vehicle"));
   system.laser = common::config::readFile<common::LaserConfig>(sheet(system.config.laser, "sensors", "laser"));

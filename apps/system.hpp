@@ -19,6 +19,7 @@ struct LaserSlamConfig;
 namespace swiftlet::apps {
 
 struct SystemConfig {
+  std::string based_on = {};
   std::string vehicle = "cobra";
   std::string laser = "utm_30lx";
   std::string rgbd_camera = {};
@@ -43,9 +44,9 @@ struct System {
   std::string toYaml(bool comments) const;
 };
 
-/// `name` is a profile of config/systems or a file. Field of view and range of the autonomy are limited to those of the
-/// laser. Throws common::InputError, with the place in the profile, also for a model that does not fit the vehicle and
-/// a controller that lacks its model.
+/// `name` is a profile of config/systems or a file. The profile that it is based on is read first. Field of view and
+/// range of the autonomy are limited to those of the laser. Throws common::InputError, with the place in the profile,
+/// also for a model that does not fit the vehicle and a controller that lacks its model.
 System loadSystem(const std::string& name);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.

@@ -97,9 +97,9 @@ TEST(Shipped, EachProfileWithAColourCameraNamesTheSameColours) {
   int with_camera = 0;
   for (const std::string& file : shipped("config/systems", ".yaml", 1)) {
     const std::string name = fs::path(file).stem().string();
-    if (test_support::readText(kRoot / file).find("\nrgbd_camera:") == std::string::npos) continue;
-    ++with_camera;
     const std::string printed = runSwiftlet({"config", "--system", name}).out;
+    if (printed.find("\nrgbd_camera: \"\"") != std::string::npos) continue;
+    ++with_camera;
     for (const std::string colour : {"red", "yellow", "green", "blue"})
       EXPECT_NE(printed.find("name: \"" + colour + "\""), std::string::npos) << name << ": " << colour;
     for (const std::string mission : {"missions/find_target.xml", "missions/search_and_report.xml"}) {
@@ -122,6 +122,29 @@ TEST_F(Profiles, EachLoadsAndReadsBackAsPrinted) {
     EXPECT_EQ(again.exit_code, 0) << name << ": " << describe(again);
     EXPECT_EQ(again.out, printed.out) << name;
   }
+}
+
+TEST_F(Profiles, AProfileDiffersFromTheOneItIsBasedOnInWhatItNames) {
+  const std::string text = "based_on: swiftlet_3d_20ah\nautonomy: {control: {position: {max_speed_m_s: 0.5}}}\n";
+  const ProgramEnd mine = runSwiftlet({"config", "--plain", "--system", write("mine.yaml", text)});
+  ASSERT_EQ(mine.exit_code, 0) << describe(mine);
+  std::string expected = runSwiftlet({"config", "--plain", "--system", "swiftlet_3d_20ah"}).out;
+  const std::string before = "      max_speed_m_s: 0.75\n";
+  const std::size_t place = expected.find(before);
+  ASSERT_NE(place, std::string::npos);
+  expected.replace(place, before.size(), "      max_speed_m_s: 0.5\n");
+  EXPECT_EQ(mine.out, expected);
+}
+
+TEST_F(Profiles, AreNotBasedOnThemselvesOrOnWhatDoesNotExist) {
+  write("a.yaml", "based_on: b.yaml\n");
+  const std::string b = write("b.yaml", "laser: urg_04lx\nbased_on: a.yaml\n");
+  const ProgramEnd circle = runSwiftlet({"config", "--system", b});
+  EXPECT_EQ(circle.exit_code, 2) << describe(circle);
+  EXPECT_THAT(circle.err, testing::HasSubstr("a.yaml:1:11: based_on: b.yaml is based on this profile itself"));
+  const ProgramEnd missing = runSwiftlet({"config", "--system", write("c.yaml", "based_on: swiftlet_4d\n")});
+  EXPECT_EQ(missing.exit_code, 2) << describe(missing);
+  EXPECT_THAT(missing.err, testing::HasSubstr("c.yaml:1:11: based_on: swiftlet_4d"));
 }
 
 }  // namespace
