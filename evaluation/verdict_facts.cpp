@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
@@ -20,6 +21,7 @@ constexpr double kStepDown_m = 0.5;     // A floor that far below the take-off f
 constexpr double kResolution_m = 0.05;  // As fine as the vehicle's own map.
 constexpr double kStops_s = 20.0;       // Stopping, turning and landing on the way home.
 constexpr double kSlowest_m_s = 0.2;    // Slower flights home count as this fast.
+constexpr double kFarther = 10.0;  // Through an open door the area fills from outside: so much more to find the way.
 
 double marginAt(double charge, const TrueWorld& world) {
   return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle);
@@ -100,12 +102,21 @@ std::optional<double> homeShare(const FlightRecord& record, const std::optional<
   return share_per_s * (*path_m / speed_m_s + kStops_s);
 }
 
+/// Where the world is open, the area may be full before the vehicle's place is reached.
+std::optional<double> pathHome_m(const common::TiledGrid<std::uint8_t>& reachable, const Vector2d& from_world_m,
+                                 simulation::FreeSpaceQuery query, const TrueWorld& world) {
+  const auto path_m = simulation::pathLength_m(reachable, from_world_m, query.start_world_m);
+  if (path_m || simulation::area_m2(reachable) < query.max_area_m2) return path_m;
+  query.max_area_m2 *= kFarther;
+  return simulation::pathLength_m(simulation::reachableSpace(*world.rays, query), from_world_m, query.start_world_m);
+}
+
 void lookForWays(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
   const simulation::FreeSpaceQuery query = queryOf(record, world);
   const auto reachable = simulation::reachableSpace(*world.rays, query);
   const bool open = simulation::area_m2(reachable) >= query.max_area_m2;
   const Vector2d then_m = record.ending.then.T_world_body.position_m.head<2>();
-  facts.home_share = homeShare(record, simulation::pathLength_m(reachable, then_m, query.start_world_m));
+  facts.home_share = homeShare(record, pathHome_m(reachable, then_m, query, world));
   if (const auto& goal_map_m = record.ending.failed_goal_map_m) {
     const Vector3d goal_world_m = record.T_world_map * Vector3d(goal_map_m->x(), goal_map_m->y(), 0.0);
     facts.goal_reachable = open || reachable.at(reachable.cellAt(goal_world_m.head<2>())) != 0;

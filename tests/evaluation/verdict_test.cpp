@@ -126,10 +126,12 @@ class VerdictsOfRecords : public testing::Test {
     TrueWorld world;
     world.rays = &rays;
     world.quadrotor.mass_share = mass_share_;
+    world.reachable_area_max_m2 = reachable_area_max_m2_;
     return judge(factsOf(record_, world));
   }
   FlightRecord record_;
   double mass_share_ = 1.0;
+  double reachable_area_max_m2_ = TrueWorld{}.reachable_area_max_m2;
 };
 
 TEST_F(VerdictsOfRecords, WithoutAReasonIsNeedless) { EXPECT_EQ(judged().verdict, Verdict::kNeedless); }
@@ -146,6 +148,9 @@ TEST_F(VerdictsOfRecords, TheTruePathHomeCounts) {
   record_.ending.then.T_world_body.position_m = {3.2, 0.6, 1};
   record_.ending.then.battery_remaining = 0.24;
   record_.ending.charge_at_take_off = 0.34;
+  EXPECT_EQ(judged().verdict, Verdict::kLanded);
+  // The flood from the start is full before it is there, as where a door is open to the outside.
+  reachable_area_max_m2_ = 1.0;
   EXPECT_EQ(judged().verdict, Verdict::kLanded);
   record_.ending.then.battery_remaining = 0.29;
   record_.ending.charge_at_take_off = 0.39;
