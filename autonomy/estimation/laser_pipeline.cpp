@@ -45,7 +45,7 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   OdometryStep step;
   step.matched = true;
   if (!filter.has_clone) {
-    track_ = {relative->from, {}};
+    track_ = {relative->from, {}, std::nullopt};
     step.clone_before = relative->from;
   }
   const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
@@ -54,12 +54,13 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   step.measurement = {track_.clone, relative->to, T_clone_body,
                       common::turned(covariance, track_.T_clone_reference.yaw_rad), std::nullopt};
   if (relative->unseen_direction)
-    step.measurement->unseen_direction = Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unseen_direction;
+    step.measurement->unseen_direction =
+        unseenDirection(Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unseen_direction);
   if (!relative->reference_changed) return step;
 
   track_.T_clone_reference = T_clone_body;
   if (relative->unseen_direction) {
-    track_ = {relative->to, {}};
+    track_ = {relative->to, {}, Eigen::Rotation2Dd(-T_clone_body.yaw_rad) * *step.measurement->unseen_direction};
     step.clone_after = relative->to;
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
@@ -69,10 +70,20 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   return step;
 }
 
+/// The walls along which a vehicle flies do not turn, but each scan measures their direction a little differently. If
+/// the filter took each of these as exact, two of them would fix the position along the walls, which neither has seen.
+Eigen::Vector2d LaserPipeline::unseenDirection(const Eigen::Vector2d& measured_clone) {
+  constexpr double kSameWalls_rad = 5.0 * common::kRadPerDeg;
+  const auto& last_clone = track_.unseen_direction_clone;
+  if (!last_clone || std::abs(last_clone->dot(measured_clone)) < std::cos(kSameWalls_rad))
+    track_.unseen_direction_clone = measured_clone;
+  return *track_.unseen_direction_clone;
+}
+
 /// Starts a local map with this scan. After an interruption the motion since the last match is unknown, so its
 /// covariance is taken from the size of the search window.
 OdometryStep LaserPipeline::restart(const perception::RelativePose& relative, bool interrupted) {
-  track_ = {relative.to, {}};
+  track_ = {relative.to, {}, std::nullopt};
   OdometryStep step;
   step.matched = true;
   step.interrupted = interrupted;

@@ -70,6 +70,31 @@ TEST_F(LaserStory, ClonesTheReferenceWhenTheFilterDroppedTheClone) {
   EXPECT_EQ(step.measurement->from, reference);
 }
 
+/// Directions that differ from scan to scan would tell the filter the position along the corridor.
+TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
+  const test::PlanarWorld corridor = test::corridor();
+  filter.has_clone = true;
+  double axis_odom_rad = 0.0, clone_yaw_rad = 0.0;  // Of the walls and of the last clone, as far as it was measured.
+  int unseen = 0, clones = 0;
+  for (int i = 0; i < 80; ++i) {
+    const OdometryStep step = see(corridor, {0.03 * i, 0.0, 0.004 * i});
+    ASSERT_TRUE(step.matched) << i;
+    if (step.measurement && step.measurement->unseen_direction) {
+      const Eigen::Vector2d& along = *step.measurement->unseen_direction;
+      const double now_rad = std::atan2(along.y(), along.x()) + clone_yaw_rad;
+      if (unseen++ > 0) {
+        EXPECT_NEAR(std::sin(now_rad - axis_odom_rad), 0.0, 1e-9) << i;
+      }
+      axis_odom_rad = now_rad;
+    }
+    if (!step.clone_after) continue;
+    if (step.measurement) clone_yaw_rad += step.measurement->T_from_to.yaw_rad;
+    ++clones;
+  }
+  EXPECT_GT(unseen, 60);
+  EXPECT_GT(clones, 1) << "the direction must be carried to another clone";
+}
+
 TEST_F(LaserStory, AnInterruptionHasTheUncertaintyOfTheWidestWindow) {
   const LaserPipelineConfig config;
   (void)see(flat, {0, 0, 0});
