@@ -1,4 +1,4 @@
-// The numbers among the settings of a configuration, with their keys: for those who change settings by name.
+// The numbers among the settings of a configuration, with their keys: for code that changes settings by name.
 #pragma once
 
 #include <functional>

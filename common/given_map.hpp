@@ -16,7 +16,7 @@ struct GivenMap {
   std::uint64_t seed = 1;                     ///< Seed of the particles.
 };
 
-/// One that a mission may load.
+/// A given map that a mission may load.
 struct OfferedMap {
   std::string file;  ///< As missions name it.
   GivenMap map;

@@ -53,7 +53,7 @@ struct GoToIntent {
   double clearance_m = 0.10;  ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
-/// For those who fly home: how far from the take-off place a landing is still at home.
+/// Greatest distance from the take-off place at which a landing counts as one at home.
 inline constexpr double kHomeWithin_m = 0.5;
 /// Leave the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};

@@ -1,4 +1,4 @@
-// Whether the map lets see from one place to another.
+// Whether one place can be seen from another, by the map.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 namespace swiftlet::common {
 
 /// No occupied cell lies between the two places, in the plane at the height of flight. The last `near_m` before `to`
-/// are not asked for, as what stands there is itself in the map.
+/// are not checked, because what stands there is itself in the map.
 inline bool isInSight(const OccupancyGrid& grid, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m,
                       double near_m) {
   const Eigen::Vector2d way_m = to_map_m - from_map_m;

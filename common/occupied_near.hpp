@@ -5,7 +5,7 @@
 
 namespace swiftlet::common {
 
-/// Whether is(cell) holds for any cell in the square of so many cells to each side.
+/// Whether is(cell) holds for any cell in the square that reaches `around_cells` to each side of `cell`.
 template <typename Is>
 bool anyNear(CellIndex cell, int around_cells, Is&& is) {
   for (int dy = -around_cells; dy <= around_cells; ++dy)
@@ -14,7 +14,7 @@ bool anyNear(CellIndex cell, int around_cells, Is&& is) {
   return false;
 }
 
-/// In that square.
+/// Whether any cell of the square that reaches `around_cells` to each side of `cell` is occupied.
 inline bool occupiedNear(const OccupancyGrid& grid, CellIndex cell, int around_cells) {
   return anyNear(cell, around_cells, [&](CellIndex near) { return occupancy::isOccupied(grid.at(near)); });
 }

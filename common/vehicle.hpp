@@ -1,4 +1,4 @@
-// The one interface between the autonomy and what flies: the simulator, a MAVLink autopilot or a replay.
+// The one interface between the autonomy and what flies: the simulator, or the driver of a real vehicle.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ class Vehicle {
   virtual Time now() const = 0;
 
   /// Advances to `time` and appends the events that arrived since the last call, ordered by arrival; events that arrive
-  /// at the same instant come in a fixed order. Simulator and replay compute; a real vehicle waits until `time`.
+  /// at the same instant come in a fixed order. A simulator computes; a real vehicle waits until `time`.
   /// Returns false when no more events will come (crashed, end of the log, link closed); `stopReason` then gives the
   /// reason.
   [[nodiscard]] virtual bool advanceTo(Time time, std::vector<SensorEvent>& events) = 0;

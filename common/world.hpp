@@ -25,7 +25,7 @@ struct World {
   std::shared_ptr<const MapLayer> map;
   std::shared_ptr<const PeopleLayer> people;
   std::shared_ptr<const EnergyLayer> energy;
-  std::shared_ptr<const Map3dLayer> map3d;  ///< Null in a flight without an RGB-D camera.
+  std::shared_ptr<const Map3dLayer> map3d;  ///< Null without an RGB-D camera or an upright laser.
   std::shared_ptr<const TargetsLayer> targets;
 };
 

@@ -13,18 +13,20 @@ namespace {
 constexpr double kStill_m_s = 0.10;
 constexpr double kMaxAcceleration_m_s2 = 2.0;
 constexpr double kMaxIntegral_m_s2 = 2.0;
-/// The descent is slow from this much higher, for each second without a height: what an accelerometer's bias of
-/// 0.02 m/s^2 makes in ten seconds.
+/// For each second without a measured height the slow part of the descent begins this much higher: a bias of the
+/// accelerometer of 0.02 m/s^2 makes an error of 1 m in ten seconds.
 constexpr double kBlindMargin_per_s = 0.1;
 /// Growth of the error of a speed that the thrust model carries: its hover command is good to about 1 % of gravity.
 constexpr double kModelSpeed_m_s2 = 0.05;
-/// Of the speed of a descent, for one that the thrust model carries: its error adds to the speed.
+/// Share of the speed of a descent that is wanted while the thrust model alone carries the speed: the model's error is
+/// added to it.
 constexpr double kModelShare = 0.6;
 /// Slower than this share of the wanted speed the vehicle does not sink as it should.
 constexpr double kSinkingShare = 0.7;
-/// Below the ground by this much the thrust model must have missed the touch-down.
+/// If the height by the thrust model is this far below the ground, the model has missed the touch-down.
 constexpr double kMissed_m = 0.3;
-/// Less thrust by this is not followed only on the ground. Without inertial samples nobody would see the fall.
+/// Greatest downward push. A vehicle that does not follow it stands on the ground. Without inertial samples the push is
+/// smaller, because a fall would not be noticed.
 constexpr double kGreatestPush_m_s2 = 3.0, kUncertainPush_m_s2 = 0.4;
 
 }  // namespace

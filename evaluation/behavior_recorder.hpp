@@ -51,7 +51,7 @@ struct BehaviorRecord {
 /// Called by the FlightRecorder, whose functions have the same names. Calls come in the order of time.
 class BehaviorRecorder {
  public:
-  /// The true places of the people; the first one is he who is to be followed.
+  /// The true places of the people; the first is the one to be followed.
   void people(std::vector<Eigen::Vector2d> people_world_m) { people_world_m_ = std::move(people_world_m); }
   /// `T_map_truth` is the true pose in the vehicle's `map` frame.
   void tick(const simulation::Truth& truth, const common::Pose3& T_map_truth, const common::Pose3& T_world_map);

@@ -19,7 +19,7 @@ struct BehaviorScore {
   std::optional<double> follow_share;       ///< Of the time of following, with the person 1.5 to 3 m away.
   std::optional<double> follow_nearest_m;   ///< Least distance between the vehicle's centre and the person's.
   std::optional<double> follow_farthest_m;  ///< Greatest distance between them.
-  std::optional<double> follow_lost_s;      ///< Longest time in which the person was not where he was believed.
+  std::optional<double> follow_lost_s;      ///< Longest time in which the person was believed more than 1 m off.
   std::optional<double> targets_found;      ///< See TargetScore; none where the trial asks for no targets.
   std::optional<double> target_error_max_m, target_error_median_m, false_targets;
 };

@@ -26,8 +26,8 @@ CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& r
 inline constexpr std::size_t kMostPoints = 50'000;
 
 /// The small rigid motion of the cloud, in the world's frame, that brings it nearest to the surfaces: iterated closest
-/// points, each pulled along the normal of its surface [Chen and Medioni 1992]. Points much farther than most have no
-/// say. The identity where the surfaces do not hold all six directions.
+/// points, each pulled along the normal of its surface [Chen and Medioni 1992]. Points much farther than most do not
+/// count. The identity where the surfaces do not hold all six directions.
 common::Pose3 alignment(const Cloud& cloud_world_m, const simulation::RayCaster& rays);
 
 /// Places on the true surfaces, about kSpacing_m from each other, that a camera saw from at least two of its poses:

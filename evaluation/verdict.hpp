@@ -11,7 +11,7 @@ enum class Verdict {
   kDone,        ///< The mission was done.
   kHome,        ///< It came home early and stands there, for a reason that the truth confirms.
   kLanded,      ///< It landed inside before the mission's end, for a reason that the truth confirms.
-  kRefused,     ///< It never took off, and the truth confirms that it had better not.
+  kRefused,     ///< It never took off, for a reason that the truth confirms.
   kForced,      ///< It crashed, and no flying could have prevented that.
   kStruck,      ///< A person walked into it while it stood still or moved away.
   kUnseen,      ///< It touched glass that had never returned a beam.
@@ -37,8 +37,8 @@ struct VerdictFacts {
 
   bool crashed = false;
   std::string contact;           ///< In words.
-  bool by_person = false;        ///< A walker touched it,
-  bool yielding = false;         ///< while it stood still or moved away.
+  bool by_person = false;        ///< A walker touched it.
+  bool yielding = false;         ///< It stood still or moved away when it was touched.
   bool unseen_glass = false;     ///< It touched glass that had never returned a beam.
   bool room_to_take_off = true;  ///< The hull fits above the take-off place.
   double contact_margin = 10.0;  ///< Greatest thrust over the weight at the contact.
@@ -68,7 +68,7 @@ Judgement judge(const VerdictFacts& facts);
 inline constexpr double kLowMargin = 1.15;
 /// Charge that a vehicle may want to keep at home: lithium batteries suffer below a fifth of their charge.
 inline constexpr double kReserveShare = 0.2;
-/// Error of the estimate from which a landing is not needless: the hull's diameter, at which it may pass a door beside.
+/// Error of the estimate from which a landing is not needless: about the hull's diameter, so that it may miss a door.
 inline constexpr double kLostPosition_m = 0.5;
 
 }  // namespace swiftlet::evaluation

@@ -21,7 +21,7 @@ constexpr double kStepDown_m = 0.5;     // A floor that far below the take-off f
 constexpr double kResolution_m = 0.05;  // As fine as the vehicle's own map.
 constexpr double kStops_s = 20.0;       // Stopping, turning and landing on the way home.
 constexpr double kSlowest_m_s = 0.2;    // Slower flights home count as this fast.
-constexpr double kFarther = 10.0;  // Through an open door the area fills from outside: so much more to find the way.
+constexpr double kFarther = 10.0;       // Factor on the area of the flood if it filled outside of an open door first.
 
 double marginAt(double charge, const TrueWorld& world) {
   return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle);

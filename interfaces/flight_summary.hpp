@@ -33,7 +33,7 @@ struct RunInfo {
   std::int64_t seed = 0;
   std::string version;
   std::string started;                   ///< Local date and time; the caller's clock.
-  std::string given_map = {};            ///< To find itself in; empty: none.
+  std::string given_map = {};            ///< The map to localize in; empty: none.
   std::string vehicle = {};              ///< Its name among several; empty: it flew alone.
   std::string nature = {};               ///< Name of the simulator's nature; empty: it flew in no simulator.
   std::string nature_yaml = {};          ///< The values drawn from that nature; empty: nothing is drawn.

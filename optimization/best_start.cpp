@@ -69,7 +69,7 @@ class Search {
     const double chi2 = sum(solution.squared_errors);
     ++best_.starts;
     best_.iterations += solution.iterations;
-    // What ends where it is best already has converged, too.
+    // An attempt that only comes back to the best poses has converged, so it counts although its chi2 is the same.
     const bool better = best_.starts == 1 || start == Start::kGuess ? chi2 <= best_.chi2 : chi2 < best_.chi2;
     if (!better) return;
     best_.poses = std::move(solution.poses);
@@ -78,7 +78,7 @@ class Search {
     best_.converged = solution.converged;
   }
 
-  /// Roughly optimized with kernels that let go of edges far off, and then less and less so.
+  /// Rough optimizations with robust kernels that widen: edges that are far off pull little at first, and then more.
   Poses robust(Poses poses) {
     graph_.poses = std::move(poses);
     setRobust(true);

@@ -1,4 +1,4 @@
-// How problems are given to Ceres. For sources only: who uses the library needs no Ceres.
+// How problems are given to Ceres. For sources only: users of the library need no Ceres.
 #pragma once
 
 #include <ceres/problem.h>

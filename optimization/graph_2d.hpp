@@ -23,7 +23,7 @@ struct PoseGraph2D {
   std::vector<common::Pose2> poses;  ///< The initial guess.
   std::vector<PoseEdge2D> edges;
   int fixed = 0;                     ///< This pose does not move.
-  std::vector<int> also_fixed = {};  ///< Nor do these.
+  std::vector<int> also_fixed = {};  ///< Further poses that do not move.
 };
 
 }  // namespace swiftlet::optimization

@@ -154,7 +154,7 @@ struct Scenario {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
   std::optional<common::RgbdCameraConfig> rgbd_camera;  ///< Of vehicles that carry one.
-  std::optional<common::LaserConfig> vertical_laser;    ///< The same.
+  std::optional<common::LaserConfig> vertical_laser;    ///< Of vehicles that carry one.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -36,8 +36,8 @@ struct Truth {
   bool by_walker = false;  ///< A walker was touched.
   /// The vehicle stood still (below 0.1 m/s) or moved away when the walker ran into it.
   bool yielding = false;
-  bool glass = false;         ///< Glass was touched,
-  bool unseen_glass = false;  ///< and no beam of the laser had ever returned from that pane.
+  bool glass = false;         ///< Glass was touched.
+  bool unseen_glass = false;  ///< No beam of the laser had ever returned from the pane that was touched.
 };
 
 }  // namespace swiftlet::simulation

@@ -34,7 +34,7 @@ class Walker {
  private:
   void appearAt(const Eigen::Vector2d& position_world_m);
   void walkPath(double walked_m);
-  /// The way walked after that time, with the speeds and the pauses of each part of the path.
+  /// The path length walked after that time, with the speeds and the pauses of each part of the path.
   double walkedAfter_m(double time_s) const;
   void cross(double now_s, const WalkedAround& vehicle);
   bool planCrossing(const WalkedAround& vehicle);

@@ -24,7 +24,8 @@ struct VehicleLayer {
   VehicleState state;
   FlightState flight_state = FlightState::kPreparation;
   double distance_flown_m = 0.0;  ///< Length of the estimated path.
-  /// Standard deviation of the position, grown since the laser last fixed it in every direction.
+  /// Standard deviation of the horizontal position, gathered since the take-off while the laser did not fix it in every
+  /// direction. It falls where the vehicle sees again what it mapped before.
   double drift_m = 0.0;
   AvoidanceStatus avoidance;
   Pose2 home_map;                            ///< The take-off pose; the identity, because it defines `map`.

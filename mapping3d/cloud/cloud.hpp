@@ -28,7 +28,7 @@ struct CloudConfig {
 std::vector<common::SurfacePoint> cleanCloud(const std::vector<common::SurfacePoint>& points,
                                              const CloudConfig& config = {});
 
-/// The same of the submaps where their key scans are. Takes some seconds for a million points.
+/// cleanCloud() of the points of all submaps, each where its key scan is. Takes some seconds for a million points.
 std::vector<common::SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
                                           const CloudConfig& config = {});
 

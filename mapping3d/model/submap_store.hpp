@@ -1,6 +1,6 @@
 // The submaps of a 3D map: one that grows, and those that were left. Where one was left it goes on when the sensor
 // comes back, so that the map grows with the building and not with the flight. It does so only while the 2D map places
-// the frame by the submap's own key scans or by neighbours of them: after a long way the drift would be drawn into it,
+// the frame by the submap's own key scans or by neighbours of them: after a long path the drift would be drawn into it,
 // where no loop closure could take it out again.
 //
 // Each frame is drawn into one submap only, so that the evidence of all submaps can be added.

@@ -18,8 +18,8 @@ constexpr double kTukey = 4.685;
 /// Steps below these are smaller than the noise, and end the iterations.
 constexpr double kSmallStep_m = 5e-5;
 constexpr double kSmallStep_rad = 5e-5;
-/// The standard deviation of grey values that is assumed first, and at most, in those of an exact fit: where the views
-/// differ, texture does not repeat.
+/// The iterations begin with this many times the standard deviation that grey values have in an exact fit, and never
+/// assume more: where the views differ, texture does not repeat.
 constexpr double kWidest = 5.0;
 /// Fewer textured points do not tell a right pose from a wrong one.
 constexpr int kLeastTextured = 50;

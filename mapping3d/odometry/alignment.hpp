@@ -64,8 +64,8 @@ struct Alignment {
   double correlation = 1.0;
   double surface_rms_m = 0.0;
   int points = 0;    ///< Points whose depth agrees, at the finest level.
-  int measured = 0;  ///< Points of which the frame measured a depth, the same.
-  int textured = 0;  ///< Points whose grey values were compared, the same.
+  int measured = 0;  ///< Points of which the frame measured a depth, at the finest level.
+  int textured = 0;  ///< Points whose grey values were compared, at the finest level.
 };
 
 /// How well a pose fits at the coarsest level; no optimization. For the choice among predictions.

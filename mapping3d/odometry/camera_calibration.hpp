@@ -79,7 +79,7 @@ class CameraCalibration {
   bool isKnown(int component) const;
   /// The mount with those components of its attitude that are known.
   common::Pose3 T_body_camera() const;
-  /// The same of the clock; 0 while it is not known.
+  /// How much later than the flight's clock that of the camera is; 0 while it is not known well enough.
   double clockOffset_s() const;
 
   /// The motion of the body that the camera measured, by the mount that is used.

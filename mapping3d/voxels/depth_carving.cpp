@@ -20,7 +20,7 @@ using Eigen::Vector3f;
 constexpr float kHalfDiagonal = 0.5F * std::numbers::sqrt3_v<float>;
 /// Voxels whose centre is nearer than this many sides are found by walking along rays.
 constexpr float kNearVoxels = 3.0F;
-/// Those rays are so many to a voxel's side.
+/// Number of those rays on a voxel's side.
 constexpr float kNearRays = 3.0F;
 /// Side of the largest squares of the pyramid: that of a block in the middle of its range.
 constexpr int kSideMax = 64;
@@ -30,8 +30,8 @@ constexpr float kLeaves = 0.25F;
 /// At the edge of the view the outermost rays still cross voxels whose middle lies beside them, up to this share of
 /// what the voxel extends towards them: few rays meet a corner.
 constexpr float kBeside = 0.95F;
-/// Side of the square that is looked at over that of the voxel in the image: squares have powers of two as sides, and
-/// this is their middle.
+/// Sides of squares are powers of two, rounded down. With this factor they are 0.7 to 1.4 times as wide as the voxel is
+/// in the image.
 constexpr float kSquare = std::numbers::sqrt2_v<float>;
 /// Side of the cubes below which single voxels are decided: four of them at once.
 constexpr int kCube = 4;

@@ -21,10 +21,10 @@ class RampRise {
   std::optional<double> move(const Eigen::Vector2d& place_map_m, const std::optional<Eigen::Vector2d>& gradient);
 
   bool onSlope() const { return on_slope_; }
-  /// Of the ground below over the level from which the slope began; 0 over level ground.
+  /// Rise of the ground below over the level from which the slope began; 0 over level ground.
   double rise_m() const { return rise_m_; }
-  /// Variance of that, from the error of the gradients, which is the same along the whole slope. Behind the slope that
-  /// of the height, until the ground there has been measured.
+  /// On a slope, the variance of rise_m() by the error of the gradients, which is the same along the whole slope. After
+  /// the slope, the variance that the height has from it until the ground there has been measured.
   double variance_m2() const;
   /// A known level below has given a measurement of the height.
   void measured() {

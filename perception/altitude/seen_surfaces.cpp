@@ -10,7 +10,7 @@ namespace {
 constexpr double kResolution_m = 0.1;
 /// The noise of a range and of the height are about 1 cm each: beams on one surface differ by less than this.
 constexpr double kSame_m = 0.05;
-/// A beam that hits an edge measures something between; so many of them do not agree on a height.
+/// A beam that hits an edge measures a height between those of two surfaces. This many of them do not agree on one.
 constexpr int kLeastBeams = 5;
 constexpr double kLeastShare = 0.02;  ///< Of the beams in a cell; fewer are outliers of the noise.
 constexpr int kMostBeams = 1000;      ///< Then the mean follows new beams.

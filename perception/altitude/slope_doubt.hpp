@@ -18,8 +18,8 @@ namespace swiftlet::perception {
 /// One thread.
 class SlopeDoubt {
  public:
-  /// Of a correction of the vertical speed. Measured in tests: over furniture below 0.05, over a ramp of 10
-  /// degrees at 0.7 m/s above 0.13.
+  /// Least correction of the vertical speed that makes the height doubtful. Measured in tests: over furniture below
+  /// 0.05, over a ramp of 10 degrees at 0.7 m/s above 0.13.
   static constexpr double kLeast_m_s = 0.08;
 
   /// A scan of that time and place, with the vertical speed that was believed, and what the filter measured.

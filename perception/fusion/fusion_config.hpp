@@ -29,8 +29,8 @@ struct FusionConfig {
   double drag_1_s = 0.3;
   double drag_sigma_1_s = 0.2;
   double drag_walk_1_s_rts = 0.002;
-  /// That of draughts of 0.3 m/s that last for 2 s (Gauss-Markov), as slower motion feels them: drag * sigma * sqrt(2
-  /// tau).
+  /// Noise of the drag by draughts of 0.3 m/s that last for 2 s (Gauss-Markov), as slower motion feels them: drag *
+  /// sigma * sqrt(2 tau).
   double drag_noise_m_s2_rthz = 0.1;
   double wind_sigma_m_s = 0.3;
   double wind_walk_m_s_rts = 0.001;

@@ -1,5 +1,5 @@
 // One page connected by WebSocket. Ten times a second it is sent what has changed since the last time:
-//   text   {"type": "hello" | "state" | "frontiers" | "levels" | "given_map" | "trail" | "events", ...}
+//   text   {"type": "hello" | "state" | "frontiers" | "levels" | "given_map" | "trail" | "events" | "tree", ...}
 //   binary map tiles (see TileReader) and laser points (see Telemetry::laser)
 // A slow page skips states and gets the newest; nothing is queued for it.
 #pragma once
