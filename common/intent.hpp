@@ -87,7 +87,7 @@ struct InspectIntent {
 struct FollowIntent {
   double distance_m = 2.0;    ///< Between the vehicle's centre and the person's.
   double lost_s = 20.0;       ///< Fails when the person was not seen for this long.
-  bool until_near = false;    ///< Fly to where the last person was, and end near him.
+  bool until_near = false;    ///< Fly to where the last person was, and end near the person.
   double clearance_m = 0.10;  ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
