@@ -240,8 +240,8 @@ TEST(EnvelopeBase, ThatDrawsTheQuantityIsRefused) {
       << "there is nothing between base and end";
 }
 
-// Every quantity of the shipped file begins at a value that the base has, and `real` reaches into its range where it
-// draws it.
+// Every quantity of the shipped file begins at a value that the base has, and its range reaches as far as `harsh` draws
+// it.
 TEST(EnvelopeBase, TheShippedQuantitiesCoverWhatHarshDraws) {
   const auto base = pinned({}, nominal());
   const auto harsh = simulation::Nature::load(SWIFTLET_SOURCE_DIR "/config/nature/harsh.yaml");
