@@ -1,4 +1,4 @@
-// The keep-out zones of a flight: those of the mission, which stay, and those of the operator, who may take his back.
+// The keep-out zones of a flight: those of the mission, which stay, and those of the operator, who may take them back.
 #pragma once
 
 #include <memory>
