@@ -40,7 +40,7 @@ struct MissionRequest {
 };
 
 struct MissionAnswer {
-  std::uint64_t id = 0;  ///< Of the request.
+  std::uint64_t id = 0;  ///< Id of the request that this answers.
   bool done = false;
   std::string reason;  ///< For people: what was done, or why it was not.
 };

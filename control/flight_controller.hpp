@@ -193,7 +193,7 @@ class FlightController {
   EmergencyDescent emergency_;
   SurfaceClearance clearance_;
   OscillationGuard oscillation_;
-  double lift_m_ = 0.0;  ///< Of the last reference.
+  double lift_m_ = 0.0;  ///< Lift of the last reference.
   std::vector<common::Event> events_;
   std::string grounded_reason_;
 

@@ -28,7 +28,7 @@ struct EnvelopeResults {
   std::string trial;
   std::string system;
   std::string mission;
-  std::string version;  ///< Of the program.
+  std::string version;  ///< Version of the program.
   int first_seed = 1;
   EnvelopeConfig config;
   EnvelopeStep base;  ///< The flights with nothing turned up.

@@ -36,8 +36,8 @@ struct ConductScore {
   std::optional<double> touch_down_speed_m_s;   ///< Greatest speed of descent at a touch-down.
   std::optional<double> safe_action_s;          ///< Longest time from a fault to holding, landing or standing.
   std::optional<double> home_energy_predicted;  ///< Share of the full battery for the flight home, by the vehicle.
-  std::optional<double> home_energy_needed;     ///< The same by the truth.
-  std::optional<double> home_energy_error;      ///< Their difference over what was needed, without its sign.
+  std::optional<double> home_energy_needed;     ///< Share that the flight home took, by the truth.
+  std::optional<double> home_energy_error;      ///< |predicted - needed| / needed.
   std::optional<double> laser_latency_median_s;
   std::optional<double> laser_latency_p95_s;
 };

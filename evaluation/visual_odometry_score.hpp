@@ -12,7 +12,7 @@ namespace swiftlet::evaluation {
 /// What an RGB-D camera alone tells of the flight, without laser, inertial unit and height.
 struct VisualOdometryRecord {
   common::Trajectory body;  ///< In a frame of its own; frames that were lost are missing.
-  std::size_t frames = 0;   ///< That came.
+  std::size_t frames = 0;   ///< Frames that came.
   std::size_t lost = 0;
 };
 

@@ -18,7 +18,7 @@ struct ControlRow {
   common::Time stamp;
   bool flying = false;                                                         ///< Neither taking off nor landing.
   double roll_rad = 0.0, pitch_rad = 0.0, yaw_rate_rad_s = 0.0, thrust = 0.0;  ///< The command.
-  double tilt_cos = 1.0;                                                       ///< Of the estimated attitude.
+  double tilt_cos = 1.0;                                                       ///< Cosine of the estimated tilt.
   double yaw_odom_rad = 0.0;
   Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();

@@ -18,7 +18,7 @@ enum class Start { kGuess, kChordal, kRobustChordal, kRobustGuess };
 const char* toString(Start start);
 
 struct BestStartConfig {
-  int max_iterations = 100;          ///< Of each start.
+  int max_iterations = 100;          ///< Greatest number for each start.
   double relative_decrease = 1e-10;  ///< Converged when chi2 changes by less than this share.
 };
 
@@ -28,9 +28,9 @@ struct BestStartSolution {
   double chi2_guess = 0.0;
   double chi2 = 0.0;
   Start start = Start::kChordal;  ///< Where the solution came from.
-  int starts = 0;                 ///< That were tried.
-  int iterations = 0;             ///< Of all starts.
-  bool converged = false;         ///< Of the start it came from.
+  int starts = 0;                 ///< Number of starts that were tried.
+  int iterations = 0;             ///< Sum over all starts.
+  bool converged = false;         ///< Whether the start that the solution came from did.
 };
 
 /// chi2 is the sum of e' * information * e; no edge is robust here, whatever it says. It is never above that of the

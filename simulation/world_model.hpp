@@ -37,7 +37,7 @@ struct Shape {
   std::vector<Eigen::Vector3f> vertices_world_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
   bool glass = false;                                   ///< Its material is transparent by half or more.
-  std::optional<Pattern> pattern = {};                  ///< That its material names.
+  std::optional<Pattern> pattern = {};                  ///< The pattern that its material names.
   std::string image = {};  ///< Stretched over each side of it, as `materials` are not; empty if there is none.
   std::vector<SurfaceMaterial> materials = {};           ///< Of a mesh; empty: `color` everywhere.
   std::vector<std::uint16_t> material_of_triangle = {};  ///< Indices into `materials`.

@@ -25,7 +25,7 @@ struct CameraEstimate {
 struct Map3dLayer {
   /// In the order of their making; the one that grows is another object at each change.
   std::shared_ptr<const std::vector<Submap3d>> submaps;
-  std::shared_ptr<const KeyPoses> keys;  ///< That `submaps` refer to.
+  std::shared_ptr<const KeyPoses> keys;  ///< The key scans that `submaps` refer to.
   /// All submaps in the frame `map`, made in the background; null before the first.
   std::shared_ptr<const VoxelMap> fused;
   Time fused_stamp;                        ///< When the submaps and poses of `fused` were those of the flight.

@@ -58,7 +58,7 @@ class Lqr final : public Controller {
   Eigen::Vector3d lag_s_;
   double yaw_gain_1_s_ = 0.0;
   bool started_ = false;  ///< The vertical integral has been placed at the learned hover command.
-  Eigen::Vector3d integral_m_s_ = Eigen::Vector3d::Zero();   ///< Of the position error.
+  Eigen::Vector3d integral_m_s_ = Eigen::Vector3d::Zero();   ///< Integral of the position error.
   Eigen::Vector3d taken_up_m_s2_ = Eigen::Vector3d::Zero();  ///< Feedback that the lagging vehicle has taken up.
 };
 

@@ -18,7 +18,7 @@ struct RgbdListing {
   };
 
   std::string format;           ///< For people: "TUM RGB-D".
-  RgbdCalibration calibration;  ///< That of the format.
+  RgbdCalibration calibration;  ///< Calibration of the format.
   std::vector<Pair> pairs;
   std::uint64_t unpaired = 0;  ///< Images of which the other one is not listed, or not at the same time.
 };

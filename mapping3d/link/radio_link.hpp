@@ -29,8 +29,8 @@ struct RadioCounts {
   std::uint64_t sent = 0;       ///< Frames that arrived.
   std::uint64_t replaced = 0;   ///< Frames that a newer one replaced before they were sent.
   std::uint64_t late = 0;       ///< Frames that were too old when they had arrived.
-  std::uint64_t raw_bytes = 0;  ///< Of all frames that were offered.
-  std::uint64_t bytes = 0;      ///< That went over the radio.
+  std::uint64_t raw_bytes = 0;  ///< Bytes of all frames that were offered.
+  std::uint64_t bytes = 0;      ///< Bytes that went over the radio.
 };
 
 /// A function of the frames and the times at which it is asked. One thread.

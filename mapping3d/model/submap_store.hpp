@@ -57,7 +57,7 @@ class SubmapStore {
  private:
   struct Kept {
     common::Submap3d submap;     ///< As it was when it was left.
-    std::vector<float> weights;  ///< Of its points.
+    std::vector<float> weights;  ///< One for each of its points.
     double cube_m = 0.0;
     std::set<int> scans;  ///< The key scans of the frames that were drawn into it.
   };

@@ -101,7 +101,7 @@ class CameraCalibration {
   common::Pose3 T_body_camera_sheet_;
   CameraErrors errors_;
   CameraErrors::Vector7d prior_sigma_;
-  std::optional<common::Time> newest_;  ///< Of the motions.
+  std::optional<common::Time> newest_;  ///< End of the newest motion.
 };
 
 }  // namespace swiftlet::mapping3d

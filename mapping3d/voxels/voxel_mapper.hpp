@@ -66,9 +66,9 @@ class VoxelMapper {
   common::VoxelMap map_;
   ScanWindow window_;
   DepthCarving carving_;
-  common::PinholeCamera camera_;       ///< Of the last image.
-  std::vector<float> range_depths_m_;  ///< Of each of its pixels: the depth at the end of the range.
-  std::vector<float> free_m_;          ///< Of the present image: the depth up to which each ray is free.
+  common::PinholeCamera camera_;       ///< Camera of the last image.
+  std::vector<float> range_depths_m_;  ///< For each pixel of that camera, the depth at the end of the range.
+  std::vector<float> free_m_;          ///< For each pixel of the present image, the depth up to which its ray is free.
 };
 
 }  // namespace swiftlet::mapping3d

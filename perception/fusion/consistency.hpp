@@ -14,7 +14,7 @@ namespace swiftlet::perception {
 /// bounds are those of the mean over the flights at one instant.
 struct ConsistencyFigure {
   std::string name;
-  int degrees = 0;     ///< Of freedom, of one sample.
+  int degrees = 0;     ///< Degrees of freedom of one sample.
   double mean = 0.0;   ///< For each degree of freedom, over all instants and flights.
   double lower = 0.0;  ///< Bounds of 95 % for the mean over the flights at one instant.
   double upper = 0.0;

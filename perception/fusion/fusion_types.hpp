@@ -31,7 +31,7 @@ enum class Insertion {
 /// freedom is 1 if the filter's covariance and the measurements' are right.
 struct InnovationSum {
   double sum = 0.0;
-  std::uint64_t degrees = 0;  ///< Of freedom.
+  std::uint64_t degrees = 0;  ///< Degrees of freedom.
 
   double mean() const { return degrees > 0 ? sum / static_cast<double>(degrees) : 0.0; }
 };

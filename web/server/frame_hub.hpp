@@ -45,7 +45,7 @@ class FrameHub {
   /// A picture and the times that its part of the stream says.
   struct Drawn {
     rendering::Bytes jpeg;
-    common::Time stamp;  ///< Of the flight.
+    common::Time stamp;  ///< Time of the flight.
     common::Time seen;   ///< When the server first saw the source, since 1970.
   };
 
