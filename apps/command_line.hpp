@@ -25,8 +25,7 @@ namespace swiftlet::apps {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,  ///< A flight did not pass, a log was never localized or not read to its end, something is missing, or a
-                ///< graph did not converge.
+  kFailed = 1,    ///< The command ran, but not to the wished end; docs/conventions.md says for each what that means.
   kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
