@@ -98,7 +98,7 @@ DepthImage registered(const DepthImage& depth, const PinholeCamera& depth_camera
   DepthImage seen{color_camera.width_px, color_camera.height_px,
                   std::vector<float>(static_cast<std::size_t>(color_camera.pixels()), DepthImage::kUnknown)};
   const Eigen::Matrix3d rotation = T_color_depth.rotation.toRotationMatrix();
-  // A pixel of the depth image covers so many of the colour image in each direction.
+  // A pixel of the depth image covers this many of the colour image in each direction.
   const int size_px = std::max(1, static_cast<int>(std::ceil(color_camera.fx_px / depth_camera.fx_px - 0.05)));
   std::size_t i = 0;
   for (int v = 0; v < depth.height_px; ++v)

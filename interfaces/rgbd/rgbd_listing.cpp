@@ -37,7 +37,7 @@ StampedFile stampedFile(const LineReader& reader, const fs::path& folder, const 
   return {*time, folder / fs::path(file.text)};
 }
 
-/// Throws unless a line has so many words.
+/// Throws unless a line has this many words.
 void requireWords(const LineReader& reader, const std::vector<Word>& words, std::size_t count, const char* line) {
   if (words.size() == count) return;
   throw reader.problemAt(0, "", fmt::format("expected `{}`, this line has {} words", line, words.size()));

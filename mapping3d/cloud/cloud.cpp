@@ -24,7 +24,7 @@ using Eigen::Vector3f;
 using PclPoint = pcl::PointXYZRGBNormal;
 using PclCloud = pcl::PointCloud<PclPoint>;
 
-/// PCL counts the cubes of a box in 31 bits, so it is given tiles of so many cubes in each direction.
+/// PCL counts the cubes of a box in 31 bits, so it is given tiles of this many cubes in each direction.
 constexpr std::int64_t kTileCubes = 1024;
 /// Farther points are errors: no building is 100 km wide. It also keeps the numbers of the cubes in range.
 constexpr float kFarthest_m = 1e5F;

@@ -14,11 +14,11 @@ struct CloudConfig {
   double cube_m = 0.02;
   /// Greatest number of points: beyond, the cubes are enlarged until the cloud has no more.
   std::size_t points_max = 4'000'000;
-  /// Statistical outlier removal (Rusu 2008): the mean distance of a point to so many nearest neighbours is compared
+  /// Statistical outlier removal (Rusu 2008): the mean distance of a point to this many nearest neighbours is compared
   /// with that of all points. On a plane with a point in each cube, 20 neighbours are within three cubes. At 0 neither
   /// outliers nor missing normals are looked for, which takes most of the time.
   int neighbours = 20;
-  /// A point is an outlier where it is farther than the mean by so many standard deviations: the usual three.
+  /// A point is an outlier where it is farther than the mean by this many standard deviations: the usual three.
   double deviations = 3.0;
 };
 

@@ -1,4 +1,4 @@
-// The radio between the camera and the computer that maps: so many bytes a second, and no more.
+// The radio between the camera and the computer that maps: a given number of bytes a second, and no more.
 //
 //   frame --> waits while the radio is busy --> packed --> on the way, bytes / rate --> unpacked
 //               ^--- a newer frame replaces it               \--> too old on arrival: dropped

@@ -13,7 +13,7 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Tukey's biweight reaches zero at so many standard deviations (95 % efficiency for a Gaussian).
+/// Tukey's biweight reaches zero at this many standard deviations (95 % efficiency for a Gaussian).
 constexpr double kTukey = 4.685;
 /// Steps below these are smaller than the noise, and end the iterations.
 constexpr double kSmallStep_m = 5e-5;
@@ -23,7 +23,7 @@ constexpr double kSmallStep_rad = 5e-5;
 constexpr double kWidest = 5.0;
 /// Fewer textured points do not tell a right pose from a wrong one.
 constexpr int kLeastTextured = 50;
-/// A surface point counts as agreeing within so many standard deviations.
+/// A surface point counts as agreeing within this many standard deviations.
 constexpr double kAgreeing = 3.0;
 
 double tukeyWeight(double residual_sigmas) {

@@ -9,7 +9,7 @@
 namespace swiftlet::mapping3d {
 namespace {
 
-/// Every so many points of the coarsest level tell the overlap.
+/// Of the points of the coarsest level, one in this many is looked at for the overlap.
 constexpr std::size_t kSampleStep = 8;
 /// Key frames that see a smaller part of the picture do not help.
 constexpr double kLeastOverlap = 0.25;

@@ -11,7 +11,8 @@ namespace swiftlet::mapping3d {
 namespace {
 
 constexpr int kBorder_px = 2;
-/// Neighbours of a textured point without a plane have its depth within so many standard deviations, and this part.
+/// Neighbours of a textured point without a plane have its depth within kNeighbourSigmas standard deviations and the
+/// share kNeighbourSlope of it.
 constexpr double kNeighbourSigmas = 4.0;
 constexpr double kNeighbourSlope = 0.02;
 

@@ -10,11 +10,11 @@
 namespace swiftlet::mapping3d {
 namespace {
 
-/// Neighbours belong to the same surface within so many standard deviations, and so many times their distance in pixels
-/// times the size of a pixel: a slope of 75 degrees.
+/// Neighbours belong to the same surface within kPlaneSigmas standard deviations, and kSteepest times their distance in
+/// pixels times the size of a pixel: a slope of 75 degrees.
 constexpr double kPlaneSigmas = 4.0;
 constexpr double kSteepest = 3.7;
-/// So many of the pixels must belong to the surface.
+/// Least share of the pixels that must belong to the surface.
 constexpr double kLeastPart = 0.8;
 /// The mean square residual of a plane, in variances of the depth.
 constexpr double kGreatestChi2 = 4.0;

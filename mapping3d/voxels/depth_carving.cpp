@@ -24,7 +24,7 @@ constexpr float kNearVoxels = 3.0F;
 constexpr float kNearRays = 3.0F;
 /// Side of the largest squares of the pyramid: that of a block in the middle of its range.
 constexpr int kSideMax = 64;
-/// A ray through the middle of a voxel crosses it if it ends by at least so many sides beyond the middle; half a side
+/// A ray through the middle of a voxel crosses it if it ends by at least this many sides beyond the middle; half a side
 /// is where such a ray leaves it at the latest, if it is parallel to an axis. Others leave it earlier.
 constexpr float kLeaves = 0.25F;
 /// At the edge of the view the outermost rays still cross voxels whose middle lies beside them, up to this share of
