@@ -13,8 +13,8 @@ using Eigen::Vector3f;
 
 /// The normal comes from the pixels so far to each side: over fewer the noise of the depth turns it too much.
 constexpr int kReach_px = 3;
-/// Neighbours belong to the same surface within kSigmas standard deviations, and kSteepest times their distance: a slope
-/// of 75 degrees. The same as in surface_fit.cpp.
+/// Neighbours belong to the same surface within kSigmas standard deviations, and kSteepest times their distance: a
+/// slope of 75 degrees. The same as in surface_fit.cpp.
 constexpr float kSigmas = 4.0F;
 constexpr float kSteepest = 3.7F;
 /// A surface seen at a smaller angle has no reliable depth: the sine of 10 degrees.
