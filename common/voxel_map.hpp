@@ -49,7 +49,6 @@ class VoxelMap {
   explicit VoxelMap(double resolution_m) : resolution_m_(resolution_m) {}
 
   double resolution_m() const { return resolution_m_; }
-  double blockSide_m() const { return resolution_m_ * VoxelBlock::kSide; }
   VoxelIndex voxelAt(const Eigen::Vector3d& point_m) const;
   Eigen::Vector3d centerOf(VoxelIndex voxel) const {
     return Eigen::Vector3d(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5) * resolution_m_;

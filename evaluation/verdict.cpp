@@ -29,7 +29,7 @@ std::optional<std::string> confirmedReason(const VerdictFacts& facts) {
   if (facts.charge - facts.home_share.value_or(0.0) <= reserve)
     return fmt::format("{:.0f} % of the battery was left, {:.0f} % to fly home and {:.0f} % to keep",
                        100 * facts.charge, 100 * facts.home_share.value_or(0.0), 100 * reserve);
-  if (!facts.goal_reachable) return "there is no way to the goal";
+  if (!facts.goal_reachable) return "no path leads to the goal";
   if (facts.position_error_m > kLostPosition_m)
     return fmt::format("the estimated position was {:.2f} m off", facts.position_error_m);
   if (!facts.position_seen) return "the laser saw too little to fix the position";

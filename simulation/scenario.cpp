@@ -130,6 +130,8 @@ void WalkerConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> WalkerConfig::validate() const {
   return common::Validation()
       .require(mode != WalkerMode::kPath || path_world_m.size() >= 2, "path_world_m", "a path needs a point")
+      .require(path_world_m.size() != 2 || (speeds_m_s.empty() && pause_s == 0.0), "path_world_m",
+               "speeds_m_s and pause_s need two points")
       .require(path_world_m.size() % 2 == 0, "path_world_m", noPairs(path_world_m))
       .require((speeds_m_s.empty() && pause_s == 0.0) || at_end != WalkerEnd::kReturn, "at_end",
                "return knows neither speeds_m_s nor pause_s")

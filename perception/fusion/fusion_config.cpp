@@ -6,6 +6,31 @@ namespace swiftlet::perception {
 
 using common::config::kPositive;
 
+namespace {
+
+/// When a measurement is an outlier, and when the estimate may not be used.
+void describeValidity(FusionConfig& config, common::config::Fields& fields) {
+  fields("gate_sigma", config.gate_sigma, {1, 100},
+         "Measurements farther off than this many standard deviations, for each degree of freedom, are outliers.");
+  fields("recovery_s", config.recovery_s, {0.05, 10}, "A gate that was closed for this long is opened by force.");
+  fields("max_recoveries", config.max_recoveries, {0, 1000},
+         "More forced openings than this within recovery_window_s are a divergence.");
+  fields("recovery_window_s", config.recovery_window_s, kPositive, "Time within which forced openings are counted.");
+  fields("max_speed_m_s", config.max_speed_m_s, kPositive, "A faster estimate is a divergence.");
+  fields("horizontal_timeout_s", config.horizontal_timeout_s, kPositive,
+         "Without a relative pose for this long the horizontal estimate is degraded.");
+  fields("vertical_timeout_s", config.vertical_timeout_s, kPositive,
+         "Without a height for this long the vertical estimate is degraded; over slopes there is none.");
+  fields("valid_velocity_sigma_m_s", config.valid_velocity_sigma_m_s, kPositive,
+         "Standard deviation up to which the velocity may be used for control.");
+  fields("valid_height_sigma_m", config.valid_height_sigma_m, kPositive,
+         "Standard deviation up to which the height may be used for control.");
+  fields("diverged_velocity_sigma_m_s", config.diverged_velocity_sigma_m_s, kPositive,
+         "Standard deviation of the velocity beyond which the filter has diverged.");
+}
+
+}  // namespace
+
 void FusionConfig::describe(common::config::Fields& fields) {
   fields("history_s", history_s, {0.1, 10}, "Greatest delay with which a measurement may come.");
   fields("gravity_m_s2", gravity_m_s2, {9.7, 9.9}, "Magnitude of gravity.");
@@ -53,23 +78,7 @@ void FusionConfig::describe(common::config::Fields& fields) {
          "Standard deviation of the zero velocity measured at rest.");
   fields("zero_rotation_sigma_rad_s", zero_rotation_sigma_rad_s, kPositive,
          "Standard deviation of the zero rotation measured at rest.");
-  fields("gate_sigma", gate_sigma, {1, 100},
-         "Measurements farther off than this many standard deviations, for each degree of freedom, are outliers.");
-  fields("recovery_s", recovery_s, {0.05, 10}, "A gate that was closed for this long is opened by force.");
-  fields("max_recoveries", max_recoveries, {0, 1000},
-         "More forced openings than this within recovery_window_s are a divergence.");
-  fields("recovery_window_s", recovery_window_s, kPositive, "Time within which forced openings are counted.");
-  fields("max_speed_m_s", max_speed_m_s, kPositive, "A faster estimate is a divergence.");
-  fields("horizontal_timeout_s", horizontal_timeout_s, kPositive,
-         "Without a relative pose for this long the horizontal estimate is degraded.");
-  fields("vertical_timeout_s", vertical_timeout_s, kPositive,
-         "Without a height for this long the vertical estimate is degraded; over slopes there is none.");
-  fields("valid_velocity_sigma_m_s", valid_velocity_sigma_m_s, kPositive,
-         "Standard deviation up to which the velocity may be used for control.");
-  fields("valid_height_sigma_m", valid_height_sigma_m, kPositive,
-         "Standard deviation up to which the height may be used for control.");
-  fields("diverged_velocity_sigma_m_s", diverged_velocity_sigma_m_s, kPositive,
-         "Standard deviation of the velocity beyond which the filter has diverged.");
+  describeValidity(*this, fields);
 }
 
 }  // namespace swiftlet::perception

@@ -59,12 +59,15 @@ void DepthSensor::dropEdges(std::uint64_t number, const SeenImage& seen, std::ve
   constexpr float kEdge_m = 0.10F;  // A slanted surface changes by less from one pixel to the next.
   common::RandomStream random(seed_, "rgbd edge", number);
   const auto width = static_cast<std::size_t>(seen.width_px);
-  for (std::size_t i = width; i < depth_m.size(); ++i)
-    for (const std::size_t neighbour : {i - 1, i - width}) {
-      const float step_m = seen.depth_m[i] - seen.depth_m[neighbour];
-      if (!(std::abs(step_m) > kEdge_m) || !random.chance(errors_.edge_hole_rate)) continue;
-      depth_m[step_m > 0.0F ? i : neighbour] = kUnknown;
-    }
+  const auto compare = [&](std::size_t pixel, std::size_t neighbour) {
+    const float step_m = seen.depth_m[pixel] - seen.depth_m[neighbour];
+    if (!(std::abs(step_m) > kEdge_m) || !random.chance(errors_.edge_hole_rate)) return;
+    depth_m[step_m > 0.0F ? pixel : neighbour] = kUnknown;
+  };
+  for (std::size_t pixel = 0; pixel < depth_m.size(); ++pixel) {
+    if (pixel % width > 0) compare(pixel, pixel - 1);
+    if (pixel >= width) compare(pixel, pixel - width);
+  }
 }
 
 void DepthSensor::addNoise(std::uint64_t number, std::vector<float>& depth_m) const {

@@ -245,13 +245,16 @@ TEST(EnvelopeBase, ThatDrawsTheQuantityIsRefused) {
 TEST(EnvelopeBase, TheShippedQuantitiesCoverWhatHarshDraws) {
   const auto base = pinned({}, nominal());
   const auto harsh = simulation::Nature::load(SWIFTLET_SOURCE_DIR "/config/nature/harsh.yaml");
+  int drawn = 0;
   for (const EnvelopeQuantity& quantity : readEnvelope(SWIFTLET_SOURCE_DIR "/config/envelope.yaml").quantities) {
     const double from = baseValue(quantity, base);
     const auto range = harsh.rangeOf(quantity.key);
     if (!range) continue;
+    ++drawn;
     const double worst = quantity.to > from ? range->high : range->low;
     EXPECT_LE((worst - from) / (quantity.to - from), 1.0) << quantity.key;
   }
+  EXPECT_GE(drawn, 10);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(Verdicts, EveryReasonMustBeConfirmedByTheTruth) {
   EXPECT_THAT(with([](VerdictFacts& f) { f.least_charge = 0.71; }), HasSubstr("71 % to keep"));
   EXPECT_EQ(with([](VerdictFacts& f) { f.order = "land"; }), "land");
   EXPECT_EQ(with([](VerdictFacts& f) { f.faulty_sensor = "imu"; }), "imu failed");
-  EXPECT_EQ(with([](VerdictFacts& f) { f.goal_reachable = false; }), "there is no way to the goal");
+  EXPECT_EQ(with([](VerdictFacts& f) { f.goal_reachable = false; }), "no path leads to the goal");
   EXPECT_THAT(with([](VerdictFacts& f) { f.position_error_m = 0.6; }), HasSubstr("0.60 m off"));
   EXPECT_THAT(with([](VerdictFacts& f) { f.position_seen = false; }), HasSubstr("too little"));
   EXPECT_THAT(with([](VerdictFacts& f) { f.floor_seen = false; }), HasSubstr("floor"));

@@ -8,6 +8,17 @@
 namespace swiftlet::simulation {
 namespace {
 
+TEST(WalkerConfig, APauseNeedsTwoPoints) {
+  WalkerConfig walker;
+  walker.mode = WalkerMode::kPath;
+  walker.path_world_m = {1.0, 2.0};
+  EXPECT_TRUE(walker.validate().empty());
+  walker.pause_s = 1.0;
+  EXPECT_FALSE(walker.validate().empty());
+  walker.path_world_m = {1.0, 2.0, 3.0, 2.0};
+  EXPECT_TRUE(walker.validate().empty());
+}
+
 TEST(Walkers, AWalkerIsBlamedForHittingAHoveringVehicle) {
   Scenario scenario;
   scenario.walkers.push_back({WalkerMode::kPath, {3, 0, -3, 0}, WalkerEnd::kStay, 1.0, 0.25, 1.75, 4.0});

@@ -101,6 +101,7 @@ TEST(GridDrawing, BeamsWithoutReturnDoNotClearPastHitsOfNeighbouringBeams) {
   grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
     EXPECT_TRUE(grid.centerOf(c).x() < 2.1 || common::occupancy::isUnknown(value)) << c.x << ' ' << c.y;
   });
+  EXPECT_TRUE(common::occupancy::isOccupied(grid.at(grid.cellAt({2.01, 0.0}))));
 }
 
 TEST(GridDrawing, BeamsWithoutReturnClearOpenSpace) {
