@@ -33,6 +33,18 @@ Pose2 between(const Pose2& a, const Pose2& b, double share) {
           common::wrapAngle(a.yaw_rad + share * common::wrapAngle(b.yaw_rad - a.yaw_rad))};
 }
 
+/// Whether the occupied cells around this one stay connected without it (8-neighbours; Yokoi's connectivity number is
+/// then 1). Of a wall in stairs of single cells each is needed.
+bool isDispensable(const OccupancyGrid& grid, CellIndex cell) {
+  constexpr std::array<CellIndex, 8> kRing{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+  std::array<int, 8> open{};
+  for (std::size_t i = 0; i < 8; ++i)
+    open[i] = occupancy::isOccupied(grid.at({cell.x + kRing[i].x, cell.y + kRing[i].y})) ? 0 : 1;
+  int pieces = 0;
+  for (std::size_t i = 0; i < 8; i += 2) pieces += open[i] - open[i] * open[i + 1] * open[(i + 2) % 8];
+  return pieces == 1;
+}
+
 /// What the given map has at the free side of an occupied cell behind which its wall goes on for two cells: the
 /// outermost cell of a thick wall, or the end of any at a door. None for any other cell, so that no wall vanishes.
 std::optional<occupancy::Cell> beforeFace(const OccupancyGrid& grid, CellIndex cell) {
@@ -46,28 +58,6 @@ std::optional<occupancy::Cell> beforeFace(const OccupancyGrid& grid, CellIndex c
   return std::nullopt;
 }
 
-/// A grid in the cells of another frame: each cell that the corners of the source reach takes the value at its centre.
-OccupancyGrid resampled(const OccupancyGrid& source, const Pose2& T_target_source, double resolution_m) {
-  OccupancyGrid target = common::makeOccupancyGrid(resolution_m);
-  const common::CellRect known = common::knownExtent(source);
-  if (known.empty()) return target;
-  Eigen::Vector2d low_m = T_target_source * (source.resolution_m() * Eigen::Vector2d(known.begin.x, known.begin.y));
-  Eigen::Vector2d high_m = low_m;
-  for (const CellIndex corner : {CellIndex{known.begin.x, known.end.y}, {known.end.x, known.begin.y}, known.end}) {
-    const Eigen::Vector2d at_m = T_target_source * (source.resolution_m() * Eigen::Vector2d(corner.x, corner.y));
-    low_m = low_m.cwiseMin(at_m);
-    high_m = high_m.cwiseMax(at_m);
-  }
-  const Pose2 T_source_target = T_target_source.inverse();
-  const CellIndex begin = target.cellAt(low_m), end = target.cellAt(high_m);
-  for (int y = begin.y; y <= end.y; ++y)
-    for (int x = begin.x; x <= end.x; ++x) {
-      const auto value = source.at(source.cellAt(T_source_target * target.centerOf({x, y})));
-      if (!occupancy::isUnknown(value)) target.set({x, y}, value);
-    }
-  return target;
-}
-
 }  // namespace
 
 GivenMapOverlay::GivenMapOverlay(const GivenMap* given) : laid_(common::makeOccupancyGrid(1.0)) {
@@ -76,6 +66,7 @@ GivenMapOverlay::GivenMapOverlay(const GivenMap* given) : laid_(common::makeOccu
 
 void GivenMapOverlay::load(const GivenMap& given) {
   given_ = std::make_shared<const GivenMap>(given);
+  resampled_.reset();
   smoothed_.reset();
   changes_.forget();
   if (std::exchange(T_map_given_, std::nullopt)) lay();
@@ -87,7 +78,9 @@ void GivenMapOverlay::update(common::Time now, const Pose2& T_map_body, const Po
   bool changed = std::exchange(flown_, flown) != flown;
   if (localization && localization->localized()) {
     if (follow(now, T_map_body, T_map_odom * localization->T_given_odom.inverse())) {
-      laid_ = resampled(*given_->grid, *T_map_given_ * given_->T_given_grid, flown->resolution_m());
+      if (!resampled_ || resampled_->resolution_m() != flown->resolution_m())
+        resampled_.emplace(*given_->grid, flown->resolution_m());
+      laid_ = resampled_->drawn(*given_->grid, *T_map_given_ * given_->T_given_grid);
       changed = true;
     }
   } else {
@@ -125,7 +118,8 @@ void GivenMapOverlay::lay() {
     if (!occupancy::isOccupied(value) || !occupancy::isUnknown(flown_->at(cell))) return;
     // A wall that only the given map has is known to a cell at best. Its outermost cell is not counted: at both sides
     // of a door it would shut what is open, and the flight sees the wall itself before it is there.
-    if (const auto before = beforeFace(laid_, cell)) both->set(cell, *before);
+    const auto before = beforeFace(laid_, cell);
+    if (before && isDispensable(*both, cell)) both->set(cell, *before);
     if (common::occupiedNear(*flown_, cell, same_wall)) both->set(cell, 0);
   });
   flown_->forEachCell([&](CellIndex cell, occupancy::Cell value) {

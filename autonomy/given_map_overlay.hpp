@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "autonomy/map_changes.hpp"
+#include "autonomy/resampled_map.hpp"
 #include "common/geometry.hpp"
 #include "common/given_map.hpp"
 #include "common/localization.hpp"
@@ -49,6 +50,7 @@ class GivenMapOverlay {
   void lay();
 
   std::shared_ptr<const GivenMap> given_;
+  std::optional<ResampledMap> resampled_;  ///< Of the given map, once the resolution of the flight's is known.
   std::optional<common::Pose2> smoothed_;  ///< T_map_given.
   std::optional<common::Pose2> T_map_given_;
   common::Time updated_;

@@ -56,7 +56,7 @@ common::Image Map3dRenderer::render(const Picture3d& picture, const Map3dView& v
   const DepthBuffer& buffer = surfaces_.draw(picture.surfaces, eye, view.coloring);
   Canvas canvas(shaded(buffer, themeOf(view.scheme).unknown));
   Overlay3d overlay(canvas, buffer, eye, view.scheme);
-  overlay.drawFloor(extentOf(picture));
+  overlay.drawFloor(extentOf(picture), picture.shown.T_map_shown);
   for (const Line3d& line : picture.lines) overlay.drawLine(line);
   if (picture.camera && view.viewpoint.kind != Viewpoint3d::Kind::kCamera) overlay.drawCamera(*picture.camera);
   if (picture.vehicle && view.viewpoint.kind != Viewpoint3d::Kind::kCamera) overlay.drawVehicle(*picture.vehicle);

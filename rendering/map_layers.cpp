@@ -89,11 +89,28 @@ double roundLength(double longest) {
   return power;
 }
 
+/// Along the axes of a frame that is turned against the picture.
+void drawTurnedMetreLines(Layer& layer, const common::Pose2& T_map_shown, double every_m) {
+  const Viewport& v = layer.viewport;
+  const common::Pose2 T_shown_map = T_map_shown.inverse();
+  const Vector2d middle_m = T_shown_map * v.toMap({0.5 * v.width_px, 0.5 * v.height_px});
+  const double reach_m = 0.5 * std::hypot(v.width_px, v.height_px) / v.px_per_m;
+  for (const int axis : {0, 1}) {
+    Vector2d from_m = middle_m.array() - reach_m, to_m = middle_m.array() + reach_m;
+    const double end_m = to_m[axis];
+    for (double at_m = std::ceil(from_m[axis] / every_m) * every_m; at_m <= end_m; at_m += every_m) {
+      from_m[axis] = to_m[axis] = at_m;
+      layer.canvas.line(v.toPixel(T_map_shown * from_m), v.toPixel(T_map_shown * to_m), 1.0, layer.theme().grid);
+    }
+  }
+}
+
 }  // namespace
 
-void drawMetreLines(Layer& layer) {
+void drawMetreLines(Layer& layer, const ShownFrame& shown) {
   const Viewport& v = layer.viewport;
   const double every_m = v.px_per_m >= 14.0 ? 1.0 : v.px_per_m >= 3.0 ? 5.0 : 20.0;
+  if (shown.given) return drawTurnedMetreLines(layer, shown.T_map_shown, every_m);
   const Vector2d low = v.toMap({0.0, static_cast<double>(v.height_px)});
   const Vector2d high = v.toMap({static_cast<double>(v.width_px), 0.0});
   for (double x = std::ceil(low.x() / every_m) * every_m; x <= high.x(); x += every_m) {
@@ -161,7 +178,7 @@ void drawMark(Layer& layer, const MapMark& mark) {
   }
 }
 
-void drawLegend(Layer& layer) {
+void drawLegend(Layer& layer, const ShownFrame& shown) {
   const Theme& theme = layer.theme();
   const double s = layer.scale, bottom = layer.viewport.height_px - 14.0 * s;
   const double length_m = roundLength(110.0 * s / layer.viewport.px_per_m);
@@ -176,7 +193,8 @@ void drawLegend(Layer& layer) {
   layer.canvas.text(fmt::format("{:g} m", length_m), {0.5 * (x0 + x1), bottom - 6.0 * s}, 8.5 * s, theme.text,
                     Align::kCenter, halo);
 
-  const Vector2d origin(layer.viewport.width_px - 46.0 * s, bottom);
+  // Turned, the arrows may point anywhere: their origin is farther from the edges then.
+  const Vector2d origin(layer.viewport.width_px - 46.0 * s, bottom - (shown.given ? 40.0 * s : 0.0));
   const auto arrow = [&](const Vector2d& direction, const char* name, Color color) {
     const Vector2d tip = origin + 22.0 * s * direction, side(-direction.y(), direction.x());
     layer.canvas.line(origin, tip, 1.6 * s, color);
@@ -185,8 +203,11 @@ void drawLegend(Layer& layer) {
     layer.canvas.text(name, tip + 10.0 * s * direction + Vector2d(0.0, 3.0 * s), 8.5 * s, theme.text, Align::kCenter,
                       halo);
   };
-  arrow({1.0, 0.0}, "x", rgb(0xd9480f));
-  arrow({0.0, -1.0}, "y", rgb(0x2f9e44));
+  const double cos = std::cos(shown.T_map_shown.yaw_rad), sin = std::sin(shown.T_map_shown.yaw_rad);
+  arrow({cos, -sin}, "x", rgb(0xd9480f));
+  arrow({-sin, -cos}, "y", rgb(0x2f9e44));
+  if (shown.given)
+    layer.canvas.text("given map", origin + Vector2d(0.0, 44.0 * s), 8.5 * s, theme.text, Align::kCenter, halo);
 }
 
 }  // namespace swiftlet::rendering

@@ -20,13 +20,13 @@ struct Layer {
   const Theme& theme() const { return themeOf(scheme); }
 };
 
-void drawMetreLines(Layer& layer);
+void drawMetreLines(Layer& layer, const ShownFrame& shown);
 void drawLevels(Layer& layer, const common::LevelMap& levels);
 void drawFrontiers(Layer& layer, const std::vector<common::Frontier>& frontiers, double resolution_m);
 void drawScan(Layer& layer, const std::vector<Eigen::Vector2f>& points_map_m);
 void drawLine(Layer& layer, const MapLine& line);
 void drawMark(Layer& layer, const MapMark& mark);
-/// Scale bar at the lower left, axes at the lower right.
-void drawLegend(Layer& layer);
+/// Scale bar at the lower left, axes at the lower right, with their name if they are not those of `map`.
+void drawLegend(Layer& layer, const ShownFrame& shown);
 
 }  // namespace swiftlet::rendering

@@ -13,6 +13,7 @@ MapPicture pictureOf(const common::World& world, double hull_diameter_m) {
   const common::Pose2 T_map_body = vehicle.state.T_map_body_planar();
   MapPicture picture;
   picture.grid = world.map->grid;
+  picture.shown = shownFrame(world);
   picture.levels = world.map->levels;
   picture.frontiers = world.map->frontiers;
   if (vehicle.laser) picture.scan_map_m = vehicle.laser->points_map_m;

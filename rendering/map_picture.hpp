@@ -11,6 +11,7 @@
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/world/frontier.hpp"
+#include "rendering/shown_frame.hpp"
 
 namespace swiftlet::common {
 struct World;
@@ -49,6 +50,8 @@ struct MapPicture {
   std::vector<Eigen::Vector2f> scan_map_m;                         ///< The end points of a scan.
   std::vector<MapLine> lines;  ///< Lines in the order of drawing; the first is the lowest.
   std::vector<MapMark> marks;  ///< Marks in the order of drawing, above the lines.
+  /// The picture is upright in `map`; its metre lines and axes are those of this frame.
+  ShownFrame shown;
   std::vector<Eigen::Vector2d> in_view_map_m{Eigen::Vector2d::Zero()};  ///< Points that are always shown.
 };
 

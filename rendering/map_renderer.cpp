@@ -30,13 +30,13 @@ common::Image withLayers(common::Image grid_layer, const MapPicture& picture, co
                          const Viewport& viewport) {
   Canvas canvas(std::move(grid_layer));
   Layer layer{canvas, viewport, view.scheme, std::max(0.6, std::min(view.width_px, view.height_px * 4 / 3) / 640.0)};
-  drawMetreLines(layer);
+  drawMetreLines(layer, picture.shown);
   if (picture.levels) drawLevels(layer, *picture.levels);
   if (picture.frontiers) drawFrontiers(layer, *picture.frontiers, picture.grid->resolution_m());
   drawScan(layer, picture.scan_map_m);
   for (const MapLine& line : picture.lines) drawLine(layer, line);
   for (const MapMark& mark : picture.marks) drawMark(layer, mark);
-  drawLegend(layer);
+  drawLegend(layer, picture.shown);
   return canvas.take();
 }
 

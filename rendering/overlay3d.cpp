@@ -44,16 +44,22 @@ Overlay3d::Pen Overlay3d::pen(Color color, double width) const {
   return {color, width * scale_, color.withAlpha(kHiddenAlpha), false};
 }
 
-void Overlay3d::drawFloor(const Eigen::AlignedBox3d& extent) {
+void Overlay3d::drawFloor(const Eigen::AlignedBox3d& extent, const common::Pose2& T_map_shown) {
   if (extent.isEmpty()) return;
-  const Eigen::Vector2d low(std::floor(extent.min().x()), std::floor(extent.min().y()));
-  const Eigen::Vector2d high(std::ceil(extent.max().x()), std::ceil(extent.max().y()));
+  const common::Pose2 T_shown_map = T_map_shown.inverse();
+  Eigen::AlignedBox2d box_m;
+  for (const auto corner : {Eigen::AlignedBox3d::BottomLeftFloor, Eigen::AlignedBox3d::BottomRightFloor,
+                            Eigen::AlignedBox3d::TopLeftFloor, Eigen::AlignedBox3d::TopRightFloor})
+    box_m.extend(Eigen::Vector2d(T_shown_map * Eigen::Vector2d(extent.corner(corner).head<2>())));
+  const Eigen::Vector2d low = box_m.min().array().floor(), high = box_m.max().array().ceil();
+  const auto at = [&](double x_m, double y_m) {
+    const Eigen::Vector2d point_map_m = T_map_shown * Eigen::Vector2d(x_m, y_m);
+    return Vector3d(point_map_m.x(), point_map_m.y(), 0.0);
+  };
   const double every_m = std::max(1.0, std::ceil((high - low).maxCoeff() / kMostFloorLines));
   const Pen lines{theme_.grid, 1.0 * scale_, theme_.grid.withAlpha(0)};
-  for (double x = low.x(); x <= high.x(); x += every_m)
-    stroke(std::array{Vector3d(x, low.y(), 0.0), Vector3d(x, high.y(), 0.0)}, lines);
-  for (double y = low.y(); y <= high.y(); y += every_m)
-    stroke(std::array{Vector3d(low.x(), y, 0.0), Vector3d(high.x(), y, 0.0)}, lines);
+  for (double x = low.x(); x <= high.x(); x += every_m) stroke(std::array{at(x, low.y()), at(x, high.y())}, lines);
+  for (double y = low.y(); y <= high.y(); y += every_m) stroke(std::array{at(low.x(), y), at(high.x(), y)}, lines);
 }
 
 void Overlay3d::drawLine(const Line3d& line) {

@@ -20,7 +20,7 @@ class Overlay3d {
   Overlay3d(Canvas& canvas, const DepthBuffer& buffer, const Eye& eye, Scheme scheme);
 
   /// Lines on whole metres at height 0 around `extent`; only where no surface hides them. Nothing for an empty box.
-  void drawFloor(const Eigen::AlignedBox3d& extent);
+  void drawFloor(const Eigen::AlignedBox3d& extent, const common::Pose2& T_map_shown);
   void drawLine(const Line3d& line);
   /// Its hull, its heading, and a line down to the take-off floor.
   void drawVehicle(const PlacedVehicle& vehicle);

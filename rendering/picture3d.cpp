@@ -27,6 +27,7 @@ Picture3d picture3dOf(const common::World& world, double hull_diameter_m) {
   const common::VehicleLayer& vehicle = *world.vehicle;
   const common::Pose3 T_map_body = vehicle.state.T_map_body();
   Picture3d picture;
+  picture.shown = shownFrame(world);
   if (world.map3d) addMap(*world.map3d, picture);
   picture.vehicle = PlacedVehicle{T_map_body, hull_diameter_m};
 

@@ -10,6 +10,7 @@
 #include "common/geometry.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/submap3d.hpp"
+#include "rendering/shown_frame.hpp"
 
 namespace swiftlet::common {
 struct World;
@@ -53,6 +54,7 @@ struct Picture3d {
   std::vector<Line3d> lines;
   std::optional<PlacedVehicle> vehicle;
   std::optional<PlacedCamera> camera;
+  ShownFrame shown;  ///< The lines on the floor are those of this frame.
 };
 
 /// The picture of a World: the submaps of its 3D map, the vehicle, its camera, the trail and the plan. The World has no

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <unordered_set>
 
 #include "planning/search/planner.hpp"
 
@@ -58,6 +59,24 @@ std::optional<CellPath> cheapest(const CellRect& window, CellIndex start,
   return std::nullopt;
 }
 
+/// Whether the planners come from the cell to places farther than `reach_m` from `start`.
+bool leadsOn(const CostMap& map, CellIndex cell, CellIndex start, double reach_m) {
+  std::vector<int> open{map.indexOf(cell)};
+  std::unordered_set<int> reached(open.begin(), open.end());
+  while (!open.empty()) {
+    const int from = open.back();
+    open.pop_back();
+    const CellIndex at = map.cellOf(from);
+    if (std::hypot(at.x - start.x, at.y - start.y) * map.resolution_m() > reach_m) return true;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int to = from + dy * map.stride() + dx;
+        if (map.edgeCost(from, dx, dy) != CostMap::kNoEdge && reached.insert(to).second) open.push_back(to);
+      }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double reach_m) {
@@ -66,22 +85,30 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   constexpr double kNearness = 4.0, kUnknown = 20.0, kOccupied = 50.0;
   if (!map.contains(start)) return std::nullopt;
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
+  // Where the planners may start, the hull keeps half of its clearance, as it may on its trail (decision 010).
+  const bool lethal = map.costAt(start) == CostMap::kLethal;
+  const double least_m = lethal ? 0.0 : map.footprint().hull_radius_m + 0.5 * map.footprint().clearance_m;
   const auto price = [&](CellIndex, CellIndex cell) -> std::optional<double> {
     const double from_start_m = std::hypot(cell.x - start.x, cell.y - start.y) * map.resolution_m();
     if (!map.contains(cell) || from_start_m > reach_m) return std::nullopt;
     switch (map.stateAt(cell)) {
       case CellState::kFree:
+        if (map.obstacleDistance_m(cell) < least_m) return std::nullopt;
         return 1.0 + kNearness * std::max(0.0, 1.0 - map.obstacleDistance_m(cell) / map.footprint().radius_m());
       case CellState::kUnknown:
+        if (!lethal) return std::nullopt;
         return kUnknown;
       case CellState::kOccupied:
         // The hull is at this cell, so nothing else can be: the map is wrong.
-        if (from_start_m <= map.footprint().hull_radius_m) return kOccupied;
+        if (lethal && from_start_m <= map.footprint().hull_radius_m) return kOccupied;
     }
     return std::nullopt;
   };
-  return cheapest({{start.x - reach, start.y - reach}, {start.x + reach + 1, start.y + reach + 1}}, start, price,
-                  [&](CellIndex cell) { return map.costAt(cell) != CostMap::kLethal; });
+  const CellRect window{{start.x - reach, start.y - reach}, {start.x + reach + 1, start.y + reach + 1}};
+  const auto passable = [&](CellIndex cell) { return map.costAt(cell) != CostMap::kLethal; };
+  auto escape = cheapest(window, start, price,
+                         [&](CellIndex cell) { return passable(cell) && leadsOn(map, cell, start, reach_m); });
+  return escape ? escape : cheapest(window, start, price, passable);
 }
 
 std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, CellIndex goal) {

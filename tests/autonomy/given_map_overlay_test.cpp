@@ -2,6 +2,9 @@
 #include "autonomy/given_map_overlay.hpp"
 
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -129,6 +132,52 @@ TEST_F(GivenMapOverlayStory, ADoorThatOnlyTheGivenMapHasIsNotNarrowedByRounding)
   flown_.set(flown_.cellAt(5.02, 1.48), 100);
   step(Pose2{});
   EXPECT_TRUE(isOccupied(at(Pose2{}, 5.02, 1.48)));
+}
+
+/// Whether a chain of free cells that cuts no corner leads from one cell to the other.
+bool connected(const common::OccupancyGrid& grid, common::CellIndex from, common::CellIndex to) {
+  const common::CellRect within = common::knownExtent(grid);
+  std::vector<common::CellIndex> open{from};
+  std::set<common::CellIndex> reached{from};
+  while (!open.empty()) {
+    const common::CellIndex cell = open.back();
+    open.pop_back();
+    if (cell == to) return true;
+    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+      const common::CellIndex next{cell.x + dx, cell.y + dy};
+      if (within.contains(next) && isFree(grid.at(next)) && reached.insert(next).second) open.push_back(next);
+    }
+  }
+  return false;
+}
+
+/// A room of 3 m by 2 m in two halves by a wall, one cell thick, that is slanted in the given map's cells, which are
+/// turned against the flight's; in cells of 2, 5 and 10 cm.
+TEST_F(GivenMapOverlayStory, AThinSlantedWallHasNoHoles) {
+  for (const double wall_deg : {0.0, 10.0, 30.0, 45.0})
+    for (const double turned_deg : {0.0, 10.0, 45.0, -20.0})
+      for (const double cell_m : {0.02, 0.05, 0.10}) {
+        auto room = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(cell_m));
+        for (double y_m = -1.0; y_m < 1.0; y_m += 0.5 * cell_m)
+          for (double x_m = -1.5; x_m < 1.5; x_m += 0.5 * cell_m) room->set(room->cellAt(x_m, y_m), -100);
+        const Eigen::Rotation2Dd turn(common::kRadPerDeg * wall_deg);
+        for (double t_m = -2.0; t_m < 2.0; t_m += 0.1 * cell_m) {
+          const auto cell = room->cellAt(turn * Eigen::Vector2d(t_m, 0.0));
+          if (isFree(room->at(cell))) room->set(cell, 100);
+        }
+        given_.grid = room;
+        overlay_.emplace(&given_);
+        const Pose2 T_map_given{0.013, 0.027, common::kRadPerDeg * turned_deg};
+        step(T_map_given);
+        const Eigen::Vector2d side_m = turn * Eigen::Vector2d(0.0, 0.5);
+        const auto place = [&](const Eigen::Vector2d& at_m) {
+          return flown_.cellAt(T_map_given * (given_.T_given_grid * at_m));
+        };
+        EXPECT_TRUE(isFree(overlay_->grid()->at(place(side_m))));
+        EXPECT_TRUE(isFree(overlay_->grid()->at(place(-side_m))));
+        EXPECT_FALSE(connected(*overlay_->grid(), place(side_m), place(-side_m)))
+            << wall_deg << " deg, turned by " << turned_deg << " deg, cells of " << cell_m << " m";
+      }
 }
 
 TEST_F(GivenMapOverlayStory, SaysWhatHasChanged) {

@@ -56,7 +56,61 @@ const tests = {
     // The corner of the given hall, upright on the page, where the flight has seen nothing.
     await eventually('the wall', async () => shows(page, 'map', await onScreen(page, -6.9, 0.0), '--map-given-wall'));
     await eventually('its floor', async () => shows(page, 'map', await onScreen(page, -5.5, -2.0), '--map-given-free'));
+    assert.ok(await page.locator('#event-frame').isVisible(), 'the texts of events are of the other frame, which is said');
     await page.screenshot({ path: `${folder}/given_map.png` });
+    return page;
+  },
+
+  async 'a corrected alignment of the map, or another map, is drawn in the card'() {
+    const page = await open();
+    const drawn = await page.evaluate(async () => {
+      const { MapStore } = await import('./map_store.js');
+      const { GivenMapPanel } = await import('./given_map_panel.js');
+      const store = new MapStore();
+      const panel = new GivenMapPanel(document.getElementById('given-card').cloneNode(true), store);
+      let painted = 0;
+      panel.paint = () => { ++painted; };
+      const counts = [];
+      const take = (message) => {
+        store.take(message);
+        panel.draw();
+        panel.draw(); // Once more: nothing has changed.
+        counts.push(painted);
+      };
+      const tiles = (shade) => ({ type: 'given_tiles', forget: true, resolution_m: 0.05,
+        tiles: [{ x: 0, y: 0, shades: new Uint8Array(64 * 64).fill(shade) }] });
+      take({ type: 'state', localization: { state: 'localized', x_m: 1, y_m: 2, yaw_rad: 0, places: 1, candidates: [],
+        deviation_m: 0.05, deviation_yaw_rad: 0.01, explained: 0.9 } });
+      take(tiles(100));
+      take({ type: 'given_map', T_given_grid: { x_m: 0, y_m: 0, yaw_rad: 0 } });
+      take({ type: 'given_map', T_given_grid: { x_m: 0.4, y_m: 0, yaw_rad: 0.1 } });
+      take(tiles(200));
+      return counts;
+    });
+    assert.deepEqual(drawn, [1, 2, 3, 4, 5]);
+    return page;
+  },
+
+  async 'the 3D view is in the frame that the page shows'() {
+    const page = await open();
+    const { eye, expected, whole, target } = await page.evaluate(async () => {
+      const { Orbit } = await import('./orbit.js');
+      const { linesOf } = await import('./map3d_lines.js');
+      const { inverse, moved } = await import('./pose2.js');
+      const T = { x_m: 1, y_m: -0.5, yaw_rad: 0.7 };
+      const orbit = Object.assign(new Orbit(() => {}), { kind: 'orbit', target: [2, 1, 0.5], distance: 3, azimuth: 2.8 });
+      const store = { shown: () => ({ frame: 'given', T_shown_map: inverse(T) }), trail: [], state: null };
+      const colors = { grid: '#888888' };
+      const [floor] = linesOf(store, {}, { low: [-2, -3, 0], high: [4, 1, 2] }, colors);
+      const [x, y] = moved(inverse(T), floor.points.slice(0, 2));
+      const [ex, ey, ez] = orbit.eye();
+      return { eye: orbit.seenIn(T).eye(), expected: [...moved(T, [ex, ey]), ez], whole: [x, y],
+        target: orbit.seenIn(T).query() };
+    });
+    eye.forEach((value, axis) => assert.ok(Math.abs(value - expected[axis]) < 1e-9, `${eye}, not ${expected}`));
+    // The lines of the floor are the whole metres of the frame that is shown.
+    whole.forEach((value, axis) => assert.ok(Math.abs(value - [-2, -3][axis]) < 1e-6, `${whole}`));
+    assert.match(target, /view=orbit&x=1\.89&y=1\.55&z=0\.50/);
     return page;
   },
 

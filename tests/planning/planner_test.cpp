@@ -62,6 +62,7 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
     if (!start || random.chance(0.6)) start = randomFree(map, random);
     if (!goal || random.chance(0.1)) goal = randomFree(map, random);
     if (!start || !goal || map.costAt(*start) == CostMap::kLethal || map.costAt(*goal) == CostMap::kLethal) continue;
+    if (escapeFrom(map, *start)->size() > 1) continue;  // A pocket, from which the planners go on.
 
     const std::int64_t truth = test::dijkstra(map, map.indexOf(*start))[static_cast<std::size_t>(map.indexOf(*goal))];
     CostMap seen = map;

@@ -8,6 +8,7 @@
 #include "rendering/canvas.hpp"
 #include "rendering/grid_layer.hpp"
 #include "rendering/map_renderer.hpp"
+#include "rendering/picture3d.hpp"
 #include "rendering/resize.hpp"
 #include "rendering/stroke_font.hpp"
 #include "tests/rendering/example_flight.hpp"
@@ -221,6 +222,28 @@ TEST(MapRendererTest, ATrailWithoutItsVehicleEndsAtItsLastPoint) {
   map.picture.lines = {{"", {{1.05, 1.05}, {1.55, 1.05}, {1.55, 2.05}}, LineStyle::kTrail}};
   EXPECT_TRUE(map.isInkedAt(1.55, 1.8));
   EXPECT_FALSE(map.isInkedAt(2.05, -1.95)) << "no line to a vehicle that is not shown";
+}
+
+TEST(MapRendererTest, MetreLinesAreThoseOfTheFrameThatIsShown) {
+  BlankMap map;
+  map.picture.shown = {true, {0.3, 0.2, common::kRadPerDeg * 30.0}};
+  const auto isInked = [&](double x_shown_m, double y_shown_m) {
+    const Eigen::Vector2d at_map_m = map.picture.shown.T_map_shown * Eigen::Vector2d(x_shown_m, y_shown_m);
+    return map.isInkedAt(at_map_m.x(), at_map_m.y());
+  };
+  // At this scale there is one every 5 m.
+  EXPECT_TRUE(isInked(0.0, 2.0) && isInked(0.0, -2.5) && isInked(2.0, 0.0) && isInked(5.0, 1.0));
+  EXPECT_FALSE(isInked(2.5, 2.5) || isInked(1.5, -2.0));
+}
+
+TEST(PictureOfWorldTest, IsInTheGivenMapsFrameWhileThePlaceThereIsKnown) {
+  test::Layers layers;
+  EXPECT_FALSE(pictureOf(layers.world(), 0.55).shown.given);
+  layers.map.T_map_given = common::Pose2{1.0, 2.0, 0.5};
+  const ShownFrame shown = pictureOf(layers.world(), 0.55).shown;
+  EXPECT_TRUE(shown.given);
+  EXPECT_EQ(shown.T_map_shown.y_m, 2.0);
+  EXPECT_EQ(picture3dOf(layers.world(), 0.55).shown.T_map_shown.yaw_rad, 0.5);
 }
 
 TEST(PictureOfWorldTest, TrailAndPlanMeetAtTheVehicle) {

@@ -37,7 +37,7 @@ export class GivenMapPanel {
     if (this.text.textContent !== text) this.text.textContent = text;
     const { x_m, y_m, yaw_rad, candidates } = localization;
     const round = (value) => value?.toFixed(1);
-    const now = JSON.stringify([round(x_m), round(y_m), round(yaw_rad), candidates, this.store.given.tiles.size,
+    const now = JSON.stringify([round(x_m), round(y_m), round(yaw_rad), candidates, this.store.given.revision,
       this.canvas.clientWidth]);
     if (now === this.drawn) return;
     this.drawn = now;

@@ -25,6 +25,7 @@ const view = new MapView(element('map'), store, {
   onMode: () => showMode(),
   onFrame: (frame) => {
     element('given-legend').hidden = frame !== 'given';
+    element('event-frame').hidden = frame !== 'given';
     if (pen.forget()) toast('Corners forgotten', kOtherFrame, false);
   },
 });

@@ -1,5 +1,6 @@
 // The lines of the 3D view: the floor, the trail, the plan, the vehicle and its camera, in the map.
 import { poseMatrix, quaternionFrom, transformed } from './matrices.js';
+import { inverse, moved } from './pose2.js';
 
 const kCameraPyramid_m = 0.5;
 const kCorners = 24;
@@ -15,13 +16,14 @@ export function rgba(text) {
   return [red / 255, green / 255, blue / 255, alpha / 100];
 }
 
-function floorLines(low, high) {
+/** Along the axes of the frame that is shown, with a line at its whole metres; in the map. */
+function floorLines(low, high, T_map_shown) {
   const [x0, y0] = low.map(Math.floor), [x1, y1] = high.map(Math.ceil);
   const every = Math.max(1, Math.ceil(Math.max(x1 - x0, y1 - y0) / kMostFloorLines));
   const points = [];
-  for (let x = x0; x <= x1; x += every) points.push(x, y0, 0, x, y1, 0);
-  for (let y = y0; y <= y1; y += every) points.push(x0, y, 0, x1, y, 0);
-  return points;
+  for (let x = x0; x <= x1; x += every) points.push([x, y0], [x, y1]);
+  for (let y = y0; y <= y1; y += every) points.push([x0, y], [x1, y]);
+  return points.flatMap((point) => [...moved(T_map_shown, point), 0]);
 }
 
 /** The hull as a ring, the heading as an arrow, and a line down to the take-off floor. */
@@ -44,11 +46,11 @@ function cameraLines({ pose, across, up }) {
   return corners.flatMap((corner, i) => [...pose.position, ...corner, ...corner, ...corners[(i + 1) % 4]]);
 }
 
-/** `box` is {low, high} of the map or null; `store` is the page's, `map3d` that of the 3D map. */
+/** `box` is {low, high} in the frame that is shown, or null; `store` is the page's, `map3d` that of the 3D map. */
 export function linesOf(store, map3d, box, colors) {
   const lines = [];
   const add = (points, color, pairs = true) => points.length >= 6 && lines.push({ points, color: rgba(color), pairs });
-  if (box) add(floorLines(box.low, box.high), colors.grid);
+  if (box) add(floorLines(box.low, box.high, inverse(store.shown().T_shown_map)), colors.grid);
   add(store.trail.flatMap(([x, y]) => [x, y, 0.02]), colors.trail, false);
   const pose = store.state?.pose;
   if (pose && pose.x_m !== null && pose.z_m !== null) {

@@ -6,6 +6,7 @@ import { Map3dStore } from './map3d_store.js';
 import { Map3dView } from './map3d_view.js';
 import { listenToOrbit, Orbit } from './orbit.js';
 import { PictureStream } from './picture_stream.js';
+import { inverse } from './pose2.js';
 
 /** Without a first message after this time the page shows the stream until it comes. */
 const kPatience_ms = 1200;
@@ -104,7 +105,7 @@ export class Map3dPanel {
   streamPath() {
     const scheme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
     const width = Math.min(960, Math.max(64, this.box.clientWidth)), height = Math.round((width * this.box.clientHeight) / this.box.clientWidth);
-    return this.withToken(forVehicle(`/stream/map3d.mjpg?${this.orbit.query()}&width=${width}&height=${Math.max(64, height)}` +
+    return this.withToken(forVehicle(`/stream/map3d.mjpg?${this.orbit.seenIn(inverse(this.store.shown().T_shown_map)).query()}&width=${width}&height=${Math.max(64, height)}` +
       `&scheme=${scheme}&color=${this.byNormal ? 'normal' : 'measured'}&fps=10&t=${Date.now()}`));
   }
 

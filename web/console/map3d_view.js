@@ -2,18 +2,19 @@
 import { readColors } from './map_colors.js';
 import { Map3dGl } from './map3d_gl.js';
 import { linesOf, rgba } from './map3d_lines.js';
-import { lookAt, perspective, poseMatrix, product, transformed } from './matrices.js';
+import { inFrame, lookAt, perspective, planarMatrix, poseMatrix, product, transformed } from './matrices.js';
 import { kUp } from './orbit.js';
+import { composed, inverse } from './pose2.js';
 
 const kNear_m = 0.05, kFar_m = 1000;
 
-/** The corners of what the submaps hold, in the map; null if they hold nothing. */
-function boundsOf(map3d) {
+/** The corners of what the submaps hold, in the frame that is shown; null if they hold nothing. */
+function boundsOf(map3d, shownFromMap) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const [number, submap] of map3d.submaps) {
     const pose = map3d.poses[number];
     if (!pose || submap.count === 0) continue;
-    const m = poseMatrix(pose);
+    const m = product(shownFromMap, poseMatrix(pose));
     for (let corner = 0; corner < 8; ++corner) {
       const at = transformed(m, [0, 1, 2].map((axis) => ((corner >> axis) & 1 ? submap.high : submap.low)[axis]));
       for (let axis = 0; axis < 3; ++axis) {
@@ -86,21 +87,29 @@ export class Map3dView {
     const ratio = Math.min(2, window.devicePixelRatio || 1);
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio)), height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const box = boundsOf(map3d), pose = store.state?.pose;
+    const { frame, T_shown_map } = store.shown();
+    // Found or lost, the place in the given map turns the coordinates and not the view.
+    if (this.seen && this.seen.frame !== frame)
+      Object.assign(orbit, orbit.seenIn(composed(T_shown_map, inverse(this.seen.T_shown_map))));
+    this.seen = { frame, T_shown_map };
+    const shownFromMap = planarMatrix(T_shown_map);
+    const box = boundsOf(map3d, shownFromMap), pose = store.state?.pose;
     if (orbit.kind === 'whole' && box) orbit.fit(box.low, box.high, width / height);
-    if (orbit.kind === 'follow' && pose && pose.x_m !== null) orbit.target = [pose.x_m, pose.y_m, pose.z_m ?? 0];
+    if (orbit.kind === 'follow' && pose && pose.x_m !== null) orbit.target = transformed(shownFromMap, [pose.x_m, pose.y_m, pose.z_m ?? 0]);
     const eye = orbit.eye();
-    const clipFromMap = product(perspective((kUp * width) / height, kUp, kNear_m, kFar_m), lookAt(eye, orbit.target));
+    const clipFromShown = product(perspective((kUp * width) / height, kUp, kNear_m, kFar_m), lookAt(eye, orbit.target));
+    const clipFromMap = product(clipFromShown, shownFromMap);
     const lines = linesOf(store, map3d, box, this.colors);
     // The page's state comes several times a second, also while nothing moves: a picture like the last is not drawn again.
     const content = JSON.stringify([map3d.messages, width, height, clipFromMap, this.byNormal, lines, this.colors.unknown]);
     if (content === this.content) return;
     this.content = content;
     this.gl.begin(rgba(this.colors.unknown));
-    this.gl.drawSubmaps(map3d, clipFromMap, eye, height / (2 * kUp), this.byNormal);
+    this.gl.drawSubmaps(map3d, clipFromMap, inFrame(shownFromMap, eye), height / (2 * kUp), this.byNormal);
     this.gl.drawLines(lines, clipFromMap);
     // For programs that look at the page: what is drawn.
     canvas.dataset.points = map3d.points;
     canvas.dataset.submaps = map3d.poses.length;
+    canvas.dataset.frame = frame;
   }
 }

@@ -22,7 +22,7 @@ export class MapStore {
   constructor() {
     /** "x,y" -> {x, y, shades, known, picture}: of the map of the flight, and of the given map in its own cells. */
     this.tiles = new Map();
-    this.given = { tiles: new Map(), resolution_m: 0.05, T_given_grid: null };
+    this.given = { tiles: new Map(), resolution_m: 0.05, T_given_grid: null, revision: 0 };
     this.reset();
   }
 
@@ -30,6 +30,7 @@ export class MapStore {
     this.tiles.clear();
     this.given.tiles.clear();
     this.given.T_given_grid = null;
+    ++this.given.revision;
     this.resolution_m = 0.05;
     this.state = null;
     this.previousPose = null;
@@ -54,9 +55,11 @@ export class MapStore {
         break;
       case 'given_tiles':
         this.takeTiles(this.given, message);
+        ++this.given.revision;
         break;
       case 'given_map':
         this.given.T_given_grid = message.T_given_grid;
+        ++this.given.revision;
         break;
       case 'laser':
         this.laser = message.points;
@@ -89,7 +92,8 @@ export class MapStore {
 
   /**
    * The frame that the page shows, in which places are sent: the given map's while the vehicle knows its place there,
-   * else `map`.
+   * else `map`. Everything on the page that shows or takes places asks here; rendering/shown_frame.hpp is the same rule
+   * for the pictures that the server draws.
    */
   shown() {
     const T_map_given = this.state?.localization?.T_map_given;

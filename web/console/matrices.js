@@ -45,6 +45,10 @@ export function poseMatrix({ position, quaternion: [x, y, z, w] }) {
     ...position, 1]);
 }
 
+/** Of a pose in the plane, {x_m, y_m, yaw_rad}. */
+export const planarMatrix = ({ x_m, y_m, yaw_rad }) =>
+  poseMatrix({ position: [x_m, y_m, 0], quaternion: quaternionFrom(0, 0, yaw_rad) });
+
 /** Of a point in the frame of the matrix. */
 export function transformed(m, [x, y, z]) {
   return [0, 1, 2].map((row) => m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row]);

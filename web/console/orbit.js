@@ -2,6 +2,8 @@
 // the right button or Shift moves. The angles, the bounds and the field of view are those of rendering/viewpoint3d.hpp, so
 // that the stream shows the same.
 
+import { moved } from './pose2.js';
+
 const kDegree = Math.PI / 180;
 /** Tangent of half the vertical field of view. */
 export const kUp = Math.tan(25 * kDegree);
@@ -70,7 +72,15 @@ export class Orbit {
     this.distance *= 1.04;
   }
 
-  /** For /stream/map3d.mjpg. */
+  /** The same view, where target and azimuth are those of another frame; `T` takes this one's coordinates there. */
+  seenIn(T) {
+    const seen = Object.assign(new Orbit(this.onChange), this);
+    const [x, y] = moved(T, this.target);
+    const azimuth = this.azimuth + T.yaw_rad;
+    return Object.assign(seen, { target: [x, y, this.target[2]], azimuth: Math.atan2(Math.sin(azimuth), Math.cos(azimuth)) });
+  }
+
+  /** For /stream/map3d.mjpg, whose viewpoint is one of `map`. */
   query() {
     const angles = `azimuth=${(this.azimuth / kDegree).toFixed(1)}&elevation=${(this.elevation / kDegree).toFixed(1)}`;
     if (this.kind === 'whole') return `view=whole&${angles}`;
