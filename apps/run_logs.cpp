@@ -35,9 +35,11 @@ std::vector<interfaces::ControlRow> readControlRows(const std::string& run, cons
   std::vector<interfaces::ControlRow> rows = interfaces::readControlLog(log);
   const bool flew = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.flying; });
   if (!flew) throw unusableRun(log, "the vehicle never flew in it", "a flight of a minute and more is needed");
-  if (truth == Truth::kNeeded &&
-      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.flying && !row.has_truth; }))
-    throw unusableRun(log, "has no truth", "only flights of the simulator or with motion capture have it");
+  const auto blind =
+      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row.flying && !row.has_truth; });
+  if (truth == Truth::kNeeded && blind != rows.end())
+    throw unusableRun(log, fmt::format("has no truth at {:.2f} s, in flight", blind->stamp.seconds()),
+                      "only flights of the simulator or with motion capture have it");
   return rows;
 }
 

@@ -1,5 +1,7 @@
 // swiftlet tune: the noise parameters of the filter from flights with truth, or the gains of the controller by flying.
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include <fmt/core.h>
 
@@ -29,9 +31,31 @@ struct TuneOptions {
 };
 
 std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const common::VehicleConfig& vehicle) {
+  // As long as `identify` asks for: the filter converges in some seconds, which would be all that is learned from.
+  constexpr double kLeast_s = 15.0;
   std::vector<TapedFlight> flights;
-  for (const std::string& run : runs) flights.push_back(readTapedFlight(run, vehicle));
+  for (const std::string& run : runs) {
+    flights.push_back(readTapedFlight(run, vehicle));
+    const auto& truth = flights.back().truth;
+    const double flown_s = (truth.back().stamp - truth.front().stamp).seconds();
+    if (flown_s < kLeast_s)
+      throw common::InputError(
+          common::Problem{{run},
+                          "",
+                          fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, kLeast_s),
+                          "give a flight of a minute and more"});
+  }
   return flights;
+}
+
+void refuseRunsGivenTwice(const TuneOptions& options) {
+  for (const std::string& run : options.held_out)
+    for (const std::string& learned : options.runs) {
+      std::error_code error;
+      if (std::filesystem::equivalent(run, learned, error))
+        throw common::InputError(
+            common::Problem{{}, "--held-out", fmt::format("{} is learned from too", run), "give a flight that is not"});
+    }
 }
 
 std::vector<const TapedFlight*> pointersTo(const std::vector<TapedFlight>& flights) {
@@ -56,6 +80,7 @@ int tuneNoise(const TuneOptions& options) {
   if (options.held_out.empty())
     throw common::InputError(common::Problem{
         {}, "--held-out", "names no flight", "parameters are judged on flights that they were not learned from"});
+  refuseRunsGivenTwice(options);
   const std::vector<TapedFlight> learned_from = readFlights(options.runs, system.vehicle);
   const std::vector<TapedFlight> held_out = readFlights(options.held_out, system.vehicle);
   const FusionConfig& start = system.config.autonomy.estimator.fusion;

@@ -7,8 +7,29 @@
 #include "common/config.hpp"
 #include "common/error.hpp"
 #include "common/rounding.hpp"
+#include "control/battery_span.hpp"
 
 namespace swiftlet::apps {
+namespace {
+
+/// The table is learned within the span of the vehicle's battery, so a voltage outside is of another one.
+void refuseOtherBattery(const autonomy::VehicleMemory& memory, const common::VehicleConfig& vehicle,
+                        const common::config::YamlReader& reader) {
+  constexpr double kRounding_v = 0.01;
+  const control::VoltageSpan span = control::batterySpan(vehicle);
+  for (std::size_t i = 0; i < memory.thrust.size(); ++i) {
+    const double voltage_v = memory.thrust[i].voltage_v;
+    if (voltage_v >= span.low_v - kRounding_v && voltage_v <= span.high_v + kRounding_v) continue;
+    const std::string key = fmt::format("thrust[{}].voltage_v", i);
+    throw common::InputError(
+        common::Problem{reader.locationOf(key), key,
+                        fmt::format("{} V is of another battery: that of `{}` has {:.2f} to {:.2f} V in flight",
+                                    voltage_v, vehicle.name, span.low_v, span.high_v),
+                        "give each battery a file of its own"});
+  }
+}
+
+}  // namespace
 
 VehicleMemorySetup setupOfMemory(const std::filesystem::path& file, const common::VehicleConfig& vehicle,
                                  std::size_t vehicles, MemoryUse use) {
@@ -33,13 +54,15 @@ std::optional<autonomy::VehicleMemory> readVehicleMemory(const std::filesystem::
                                                          const common::VehicleConfig& vehicle) {
   std::error_code failure;
   if (!std::filesystem::exists(file, failure)) return std::nullopt;
-  auto memory = common::config::readFile<autonomy::VehicleMemory>(file.string());
+  common::config::YamlReader reader = common::config::YamlReader::fromFile(file.string());
+  autonomy::VehicleMemory memory;
+  reader.read(memory);
   if (memory.vehicle != vehicle.name)
     throw common::InputError(
-        common::Problem{{file.string()},
-                        "vehicle",
+        common::Problem{reader.locationOf("vehicle"), "vehicle",
                         fmt::format("is that of `{}`, but `{}` flies", memory.vehicle, vehicle.name),
                         "give each vehicle a file of its own"});
+  refuseOtherBattery(memory, vehicle, reader);
   return memory;
 }
 

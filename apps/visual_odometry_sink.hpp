@@ -1,5 +1,6 @@
 // Tracks the RGB-D camera of a flight without laser, inertial unit and height, beside the vehicle's own estimate: what
-// visual odometry alone would have known.
+// visual odometry alone would have known. Its loops are closed and its pose graph is optimized, because the map of the
+// paper's figure is (Saeedi, Fig. 1, top: "optimized using a bundle adjustment algorithm", g2o).
 #pragma once
 
 #include <vector>

@@ -6,16 +6,11 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "control/battery_span.hpp"
 
 namespace swiftlet::control {
 
 using common::config::kPositive;
-namespace {
-
-/// A battery under load is a little below its resting voltage, so the table reaches below the empty battery.
-constexpr double kBelowEmpty = 0.9;
-
-}  // namespace
 
 std::vector<std::string> problemsOf(const ThrustPoints& points) {
   std::vector<std::string> problems;
@@ -33,7 +28,7 @@ std::vector<std::string> problemsOf(const ThrustPoints& points) {
 
 ThrustTable::ThrustTable(const Config& config, const common::VehicleConfig& vehicle)
     : config_(config), vehicle_(vehicle) {
-  const double low_v = kBelowEmpty * vehicle.battery_empty_v, high_v = vehicle.battery_full_v;
+  const auto [low_v, high_v] = batterySpan(vehicle);
   for (std::size_t i = 0; i < kKnots; ++i) {
     voltages_v_[i] = low_v + (high_v - low_v) * static_cast<double>(i) / (kKnots - 1);
     log_commands_[i] = std::log(sheetCommand(voltages_v_[i]));

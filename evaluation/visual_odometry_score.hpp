@@ -1,5 +1,6 @@
 // Visual odometry alone, flown beside the estimate that the vehicle uses: its trajectory against the truth of the same
-// flight (Saeedi, Fig. 1: maps by visual odometry alone fail where those with the poses of the laser do not).
+// flight (Saeedi, Fig. 1: maps by visual odometry alone fail where those with the poses of the laser do not). As in the
+// paper, alone means without other sensors: loops are closed, and the poses are optimized.
 #pragma once
 
 #include <cstddef>

@@ -61,7 +61,7 @@ TEST_F(Identify, RefusesWhatIsNoFlightOfThatVehicle) {
   expectRefused(runSwiftlet({"tune", run}), "--held-out: names no flight");
 }
 
-TEST_F(Identify, TuneRefusesAFlightWithoutTheTruth) {
+TEST_F(Identify, TuneRefusesAFlightWithoutTheTruthOrTooShort) {
   const std::string run = hop("run");
   const std::string log = readText(run + "/control.tsv");
   // The 16th word of each line says whether the truth follows.
@@ -74,10 +74,14 @@ TEST_F(Identify, TuneRefusesAFlightWithoutTheTruth) {
     without += "\n";
   }
   write("run/control.tsv", without);
-  expectRefused(runSwiftlet({"tune", run, "--held-out", run}), "control.tsv: has no truth");
+  fs::copy(run, path("other"));
+  const std::vector<std::string> tune{"tune", run, "--held-out", path("other")};
+  expectRefused(runSwiftlet(tune), "control.tsv: has no truth at [0-9.]+ s, in flight, only flights of the simulator");
   write("run/control.tsv", log);
+  expectRefused(runSwiftlet(tune), "run: [0-9.]+ s of flight are too few, at least 15 s are needed");
+  expectRefused(runSwiftlet({"tune", run, "--held-out", run}), "--held-out: .*run is learned from too");
   write("run/fusion.tsv", "imu 1 2 3\n");
-  expectRefused(runSwiftlet({"tune", run, "--held-out", run}), "fusion.tsv:1:1: is no input of the filter");
+  expectRefused(runSwiftlet(tune), "fusion.tsv:1:1: is no input of the filter");
 }
 
 TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {

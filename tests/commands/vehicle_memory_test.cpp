@@ -72,7 +72,12 @@ TEST_F(VehicleMemoryFile, AWrongOneIsRefusedWithItsPlace) {
   };
   refused(with("version: 1", "version: 2"), "memory\\.yaml:1:[0-9]+: version");
   refused(with("version: 1\n", ""), "memory\\.yaml.*version");
-  refused(with("cobra", "pelican"), "memory\\.yaml: vehicle: is that of `pelican`, but `cobra` flies");
+  refused(with("cobra", "pelican"), "memory\\.yaml:2:[0-9]+: vehicle: is that of `pelican`, but `cobra` flies");
+  refused(with("voltage_v: 12.5", "voltage_v: 16.5"),
+          "memory\\.yaml:5:[0-9]+: thrust\\[1\\]\\.voltage_v: 16\\.5 V is of another battery: that of `cobra` has "
+          "9\\.18 to "
+          "12\\.60 V in flight, give each battery a file of its own");
+  refused(with("voltage_v: 10.0", "voltage_v: 7.4"), "memory\\.yaml:4:[0-9]+: .*7\\.4 V is of another battery");
   refused(with("hover_command: 0.95", "hover_command: 95"), "memory\\.yaml:4:[0-9]+: .*hover_command");
   refused(with("hover_command: 0.66", "hover_command: 0.96"), "memory\\.yaml.*must not rise with the voltage");
   refused(with("voltage_v: 12.5", "voltage: 12.5"), "memory\\.yaml:5:[0-9]+: .*did you mean `voltage_v`");

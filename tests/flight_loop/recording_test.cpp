@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "autonomy/flight_loop.hpp"
 #include "common/mailbox.hpp"
@@ -208,6 +209,62 @@ TEST(Recording, RepeatsAFlightWhoseMissionIsChanged) {
   if (replay(changed, other, {&with_another})) {
     EXPECT_NE(difference(flown.witness, with_another), "");
   }
+}
+
+/// A mission from the page brings the map that it loads; once the vehicle knows its place there, the operator sends it
+/// to a place of that map.
+void flyInAMapOfThePage(Witness& witness, InputRecorder& recorder, const common::GivenMap& map) {
+  const auto vehicle = makeVehicle(13);
+  Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
+  common::LosslessQueue<common::OperatorCommand> commands;
+  FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
+  commands.push({1, common::StartMissionCommand{
+                        "with_map.xml",
+                        aMissionOf("<TakeOff/><LoadMap file=\"page.yaml\"/><Localize/><OperatorCommand/>"),
+                        {{"page.yaml", map}}}});
+  bool sent = false;
+  Time end = Time::fromSeconds(45);
+  while (loop.now() < end && loop.step(loop.now() + common::kControlPeriod)) {
+    const auto& T_map_given = autonomy.world()->map->T_map_given;
+    if (!T_map_given || std::exchange(sent, true)) continue;
+    commands.push({2, common::GoalCommand{{}, T_map_given->inverse() * Eigen::Vector2d(0.5, 0.3)}});
+    end = loop.now() + Duration::fromSeconds(4);
+  }
+}
+
+TEST(Recording, RepeatsAFlightInAMapThatAMissionBrought) {
+  const common::GivenMap map{flown().witness.last_world->map->grid, {4.0, -2.0, 0.8}, 7};
+  Witness witness;
+  InputRecorder recorder;
+  flyInAMapOfThePage(witness, recorder, map);
+  ASSERT_FALSE(witness.results.empty());
+  ASSERT_TRUE(witness.results[0].accepted) << witness.results[0].reason;
+  ASSERT_EQ(witness.results.size(), 2u) << "it has not found its place";
+  EXPECT_TRUE(witness.results[1].accepted) << witness.results[1].reason;
+  ASSERT_TRUE(witness.last_world->map->T_map_given);
+
+  Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
+  Witness same;
+  const auto outcome = replay(recorder.recording(), again, {&same});
+  ASSERT_TRUE(outcome) << outcome.error();
+  EXPECT_EQ(difference(witness, same), "");
+  EXPECT_EQ(witness.last_world->map->T_map_given->x_m, same.last_world->map->T_map_given->x_m);
+
+  // The map and the goal are those of the commands: with others it is another flight.
+  const auto differs = [&](const auto& change) {
+    Recording changed = recorder.recording();
+    for (Input& input : changed)
+      if (auto* command = std::get_if<CommandInput>(&input)) change(command->command);
+    Autonomy other = makeAutonomy(common::makeLockstepJobs(0));
+    Witness another;
+    return !replay(changed, other, {&another}) || !difference(witness, another).empty();
+  };
+  EXPECT_TRUE(differs([](common::OperatorCommand& command) {
+    if (auto* start = std::get_if<common::StartMissionCommand>(&command.kind)) start->maps.clear();
+  }));
+  EXPECT_TRUE(differs([](common::OperatorCommand& command) {
+    if (auto* goal = std::get_if<common::GoalCommand>(&command.kind)) goal->goal_given_m->x() += 0.3;
+  }));
 }
 
 /// The first seconds of a flight that starts from what another one has learned.
