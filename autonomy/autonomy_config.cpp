@@ -32,6 +32,7 @@ void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
   avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
   exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
   exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
+  execution.follow.watch.tracked_m = std::min(execution.follow.watch.tracked_m, estimator.people.max_range_m);
 }
 
 std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const {

@@ -103,7 +103,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
   localize({standing, T_odom_body, odometry.covariance, withheld, odometry.interrupted}, now);
 
-  const AltitudeStep altitude = altitude_.add(outcome.scan, outcome.T_map_body, filter_.verticalAt(outcome.scan.stamp));
+  const AltitudeStep altitude =
+      altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body, filter_.verticalAt(outcome.scan.stamp));
   fuse(altitude, outcome.scan.stamp);
   if (altitude.below_m) {
     outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
@@ -311,7 +312,7 @@ void Estimator::addClone(Time time) {
 
 void Estimator::fuse(const CameraStep& step, Time now) {
   using perception::Insertion;
-  if (const auto& m = step.measurement) {
+  if (const auto& m = step.measurement; m && !isCameraDoubted(now)) {
     const Insertion taken = filter_.addRelativePose3(m->from, m->to, m->T_from_to, m->covariance);
     if (taken == Insertion::kTaken) position_seen_ = height_seen_ = now;
     if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();

@@ -149,6 +149,8 @@ class Estimator {
   void localize(const LocatedScan& located, common::Time now);
   void fuse(const CameraStep& step, common::Time now);
   void lookAtGround(const common::RgbdFrame& frame);
+  void correctClimb(const perception::HeightDriftRate& drift, common::Time stamp);
+  bool isCameraDoubted(common::Time now) const;
   void mapFrames(common::Time now);
   void mapFrame(common::Time now);
   void mapSweeps(common::Time now);
@@ -187,7 +189,8 @@ class Estimator {
   common::Time position_seen_;  ///< When the last scan that matched was processed.
   common::Time scanned_;        ///< The stamp of the last scan that was processed.
   common::Time ground_seen_;    ///< When the last image was taken that the slopes of the ground were taken from.
-  common::Time map_seen_;       ///< When the last scan that matched was processed: it tells the place in the map.
+  std::optional<common::Time> camera_doubted_;  ///< When the beams down last contradicted the camera.
+  common::Time map_seen_;  ///< When the last scan that matched was processed: it tells the place in the map.
   /// The frame `odom` as of the last scan relative to a key scan, once there is a map.
   std::optional<common::KeyRelativePose> odom_at_key_;
   double drift_m_ = 0.0;      ///< Of the last scan.

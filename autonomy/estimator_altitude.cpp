@@ -14,6 +14,8 @@ namespace {
 constexpr double kGroundPeriod_s = 0.2;
 /// A match no older than this tells the place of an image.
 constexpr double kMatched_s = 0.15;
+/// What the camera measures is not used for so long after the beams down contradicted it: two windows of HeightDrift.
+constexpr double kCameraDoubted_s = 1.0;
 
 }  // namespace
 
@@ -28,7 +30,28 @@ void Estimator::lookAtGround(const common::RgbdFrame& frame) {
   altitude_.lookAtGround(frame.depth, frame.camera, map_.keyPoses()->inMap(*at_key) * camera.T_body_camera);
 }
 
+bool Estimator::isCameraDoubted(Time now) const {
+  return camera_doubted_ && (now - *camera_doubted_).seconds() < kCameraDoubted_s;
+}
+
+/// The camera is the only sensor beside the beams that measures the height. Where it takes a climb for rest, the levels
+/// below agree with nothing, and the height would follow the camera up to the ceiling.
+void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stamp) {
+  const auto vertical = filter_.verticalAt(stamp);
+  if (!rgbd_ || !vertical) return;
+  if (!isCameraDoubted(stamp))
+    say(stamp, Severity::kWarning, "altitude", "the beams down contradict the height",
+        fmt::format("over one place the distance down grows by {:+.2f} m/s more than the height; the camera is not "
+                    "used for {:.0f} s",
+                    drift.speed_m_s, kCameraDoubted_s));
+  camera_doubted_ = stamp;
+  const double climb_m_s = vertical->velocity_m_s + drift.speed_m_s;
+  hear(perception::TapedClimb{stamp, climb_m_s, drift.variance_m2_s2});
+  (void)filter_.addVerticalSpeed(stamp, climb_m_s, drift.variance_m2_s2);
+}
+
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {
+  if (step.drift) correctClimb(*step.drift, stamp);
   if (const auto& m = step.measurement) {
     hear(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
     (void)filter_.addHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2);

@@ -31,6 +31,7 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
          "Without a path for this long the vehicle goes nearer to look, or aside to make room.");
   fields("detour_s", detour_s, kPositive, "Longest time of going nearer or aside; a path is asked for meanwhile.");
   fields("give_up_s", give_up_s, kPositive, "Without a path to the goal for this long the intent fails.");
+  fields.section("follow", follow, "Following a person.");
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,6 +1,7 @@
 // How intents are carried out: planning, exploring, arriving, and detours while there is no path.
 #pragma once
 
+#include "autonomy/maneuvers/follow_config.hpp"
 #include "common/config_fwd.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration_config.hpp"
@@ -28,6 +29,7 @@ struct ExecutorConfig {
   double give_up_s = 60.0;
   double detour_after_s = 2.5;
   double detour_s = 15.0;
+  FollowConfig follow;
 
   void describe(common::config::Fields& fields);
 };

@@ -107,7 +107,7 @@ tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::st
     const auto known = std::find_if(common::kFlightModes.begin(), common::kFlightModes.end(),
                                     [&](common::FlightMode mode) { return word == toString(mode); });
     if (known == common::kFlightModes.end())
-      return tl::unexpected("`" + word + "` is not a flight mode, expected fast, careful or accurate");
+      return tl::unexpected("`" + word + "` is not a flight mode, expected fast, careful, accurate or brisk");
     modes.push_back(*known);
     from = to + 1;
   }

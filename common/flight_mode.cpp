@@ -10,6 +10,8 @@ const char* toString(FlightMode mode) {
       return "careful";
     case FlightMode::kAccurate:
       return "accurate";
+    case FlightMode::kBrisk:
+      return "brisk";
   }
   return "";
 }

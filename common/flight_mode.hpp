@@ -6,8 +6,11 @@
 
 namespace swiftlet::common {
 
-enum class FlightMode { kFast, kCareful, kAccurate };
-inline constexpr std::array kFlightModes{FlightMode::kFast, FlightMode::kCareful, FlightMode::kAccurate};
+/// `kFast` is the mode where a mission names none. `kBrisk` is for those who ask for more, such as following a person
+/// who walks at 1 m/s.
+enum class FlightMode { kFast, kCareful, kAccurate, kBrisk };
+inline constexpr std::array kFlightModes{FlightMode::kFast, FlightMode::kCareful, FlightMode::kAccurate,
+                                         FlightMode::kBrisk};
 const char* toString(FlightMode mode);
 
 }  // namespace swiftlet::common

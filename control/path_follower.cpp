@@ -295,6 +295,8 @@ const PathFollower::Limits& PathFollower::Config::limits(FlightMode mode) const 
       return careful;
     case FlightMode::kAccurate:
       return accurate;
+    case FlightMode::kBrisk:
+      return brisk;
   }
   SWIFTLET_CHECK(false, static_cast<int>(mode));
   return careful;
@@ -311,6 +313,7 @@ void PathFollower::Config::describe(common::config::Fields& fields) {
   fields.section("fast", fast, "Limits of flight mode fast.");
   fields.section("careful", careful, "Limits of flight mode careful.");
   fields.section("accurate", accurate, "Limits of flight mode accurate.");
+  fields.section("brisk", brisk, "Limits of flight mode brisk, which no behaviour uses unless the mission names it.");
   fields("climb_speed_m_s", climb_speed_m_s, {0.05, 5}, "Greatest vertical part of the speed, in every mode.");
   fields("filter_rad_s", filter_rad_s, {0.5, 50}, "Bandwidth of the reference filter.");
   fields("simplify_tolerance_m", simplify_tolerance_m, {0, 1},

@@ -33,6 +33,7 @@ class PathFollower {
     Limits fast{1.0, 1.2, 0.08};
     Limits careful{0.6, 0.8, 0.05};
     Limits accurate{0.3, 0.5, 0.02};
+    Limits brisk{1.2, 1.0, 0.08};
     double climb_speed_m_s = 0.5;
     double filter_rad_s = 5.0;
     double simplify_tolerance_m = 0.01;

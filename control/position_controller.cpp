@@ -66,8 +66,10 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
   const Eigen::Vector2d position_error_m = lagged_.point()->position_odom_m - state.T_odom_body.position_m.head<2>();
   const Eigen::Vector2d correction =
       limited(share * config_.horizontal_p_1_s * position_error_m, config_.max_correction_m_s);
+  // A reference that is faster, in a mode for that, keeps its speed.
+  const Eigen::Vector2d& wanted_m_s = lagged_.point()->velocity_odom_m_s;
   missing_m_s.head<2>() =
-      limited(lagged_.point()->velocity_odom_m_s + correction, config_.max_speed_m_s) - velocity_m_s;
+      limited(wanted_m_s + correction, std::max(config_.max_speed_m_s, wanted_m_s.norm())) - velocity_m_s;
   return missing_m_s;
 }
 
@@ -93,7 +95,8 @@ void PositionController::Config::describe(common::config::Fields& fields) {
   fields("yaw_p_1_s", yaw_p_1_s, {0, 10}, "Yaw rate per yaw error.");
   fields("max_correction_m_s", max_correction_m_s, kPositive,
          "Greatest velocity that a position error adds to the reference's.");
-  fields("max_speed_m_s", max_speed_m_s, kPositive, "Greatest horizontal speed of reference and correction together.");
+  fields("max_speed_m_s", max_speed_m_s, kPositive,
+         "Greatest horizontal speed of reference and correction together, where the reference alone is not faster.");
   fields("max_climb_m_s", max_climb_m_s, kPositive,
          "Greatest climb speed that a height error adds to the reference's.");
   fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, {0.1, 9}, "Greatest vertical acceleration.");

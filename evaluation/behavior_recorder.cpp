@@ -47,15 +47,19 @@ void BehaviorRecorder::inspect(const simulation::Truth& truth) {
 }
 
 void BehaviorRecorder::follow(const simulation::Truth& truth, const common::Pose3& T_world_map, double elapsed_s) {
-  const bool follows = std::holds_alternative<common::FollowIntent>(intent_.kind) && !people_world_m_.empty() &&
-                       followed_map_m_ && status_.state == common::IntentState::kRunning;
+  const auto* wanted = std::get_if<common::FollowIntent>(&intent_.kind);
+  const bool follows = wanted != nullptr && !people_world_m_.empty() && followed_map_m_ &&
+                       status_.state == common::IntentState::kRunning;
   if (!follows) return;
   const Eigen::Vector2d person_world_m = people_world_m_.front();
   const double distance_m = (truth.T_world_body.position_m.head<2>() - person_world_m).norm();
   const bool in_distance = distance_m >= FollowRecord::kNear_m && distance_m <= FollowRecord::kFar_m;
-  if (!record_.follow && !in_distance) return;
-  if (!record_.follow) record_.follow = FollowRecord{0.0, 0.0, distance_m, distance_m, 0.0};
-  FollowRecord& record = *record_.follow;
+  if (record_.follows.empty() || record_.follows.back().mode != wanted->mode) {
+    if (!in_distance) return;
+    record_.follows.push_back({wanted->mode, 0.0, 0.0, distance_m, distance_m, 0.0});
+    lost_now_s_ = 0.0;
+  }
+  FollowRecord& record = record_.follows.back();
   record.followed_s += elapsed_s;
   if (in_distance) record.in_distance_s += elapsed_s;
   record.nearest_m = std::min(record.nearest_m, distance_m);

@@ -27,8 +27,9 @@ struct InspectingView {
   std::optional<double> point_height_m;  ///< Above the take-off floor; none: not known.
 };
 
-/// How a person was followed, from when the vehicle was first at the right distance.
+/// How a person was followed in one flight mode, from when the vehicle was first at the right distance.
 struct FollowRecord {
+  common::FlightMode mode = common::FlightMode::kFast;
   double followed_s = 0.0;
   double in_distance_s = 0.0;  ///< Part of it with the person 1.5 to 3 m from the vehicle's centre.
   double nearest_m = 0.0;
@@ -44,14 +45,14 @@ struct BehaviorRecord {
   std::optional<double> keep_out_distance_m;
   std::vector<InspectingView> inspecting;               ///< At 10 Hz.
   std::vector<common::Polygon> surveyed;                ///< The areas whose survey succeeded.
-  std::optional<FollowRecord> follow;                   ///< None if nobody was followed.
+  std::vector<FollowRecord> follows;                    ///< In order of time; empty if nobody was followed.
   std::shared_ptr<const common::TargetsLayer> targets;  ///< The last; null before the first snapshot.
 };
 
 /// Called by the FlightRecorder, whose functions have the same names. Calls come in the order of time.
 class BehaviorRecorder {
  public:
-  /// The true places of the people; the first is the one to be followed.
+  /// The true places of the people; the first one is the person to be followed.
   void people(std::vector<Eigen::Vector2d> people_world_m) { people_world_m_ = std::move(people_world_m); }
   /// `T_map_truth` is the true pose in the vehicle's `map` frame.
   void tick(const simulation::Truth& truth, const common::Pose3& T_map_truth, const common::Pose3& T_world_map);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <set>
 
 namespace swiftlet::evaluation {
 namespace {
@@ -23,6 +25,39 @@ double angleToPoint_rad(const InspectingView& view, const TrueWorld& world, cons
   return std::acos(std::clamp(axis.normalized().dot(to_point.normalized()), -1.0, 1.0));
 }
 
+/// The shapes that a ray crosses an odd number of times.
+std::set<int> crossedOddly(const simulation::RayCaster& rays, Eigen::Vector3d from_world_m,
+                           const Eigen::Vector3d& direction) {
+  constexpr double kFar_m = 100.0, kBeyond_m = 1e-4;  // Wider than every world; and beyond the surface just met.
+  std::set<int> odd;
+  for (simulation::Hit hit = rays.cast(from_world_m, direction, kFar_m); hit;
+       hit = rays.cast(from_world_m, direction, kFar_m)) {
+    if (!odd.insert(hit.shape).second) odd.erase(hit.shape);
+    from_world_m += (hit.distance_m + kBeyond_m) * direction;
+  }
+  return odd;
+}
+
+/// Whether a place lies inside a solid shape, such as a wall: rays to opposite sides both leave it. The direction is
+/// along no usual wall.
+bool isInSolid(const simulation::RayCaster& rays, const Eigen::Vector3d& place_world_m) {
+  const Eigen::Vector3d direction(0.8, 0.6, 0.0);
+  const std::set<int> ahead = crossedOddly(rays, place_world_m, direction);
+  if (ahead.empty()) return false;
+  const std::set<int> behind = crossedOddly(rays, place_world_m, -direction);
+  return std::any_of(ahead.begin(), ahead.end(), [&](int shape) { return behind.count(shape) > 0; });
+}
+
+/// The height at which most of the flight was; at its end the vehicle is lower than the tables.
+double flightHeight_m(const std::vector<common::Pose3>& T_world_body_views) {
+  std::vector<double> heights_m;
+  heights_m.reserve(T_world_body_views.size());
+  for (const common::Pose3& T_world_body : T_world_body_views) heights_m.push_back(T_world_body.position_m.z());
+  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
+  return *middle;
+}
+
 /// The floor of the area that nothing stands on or hangs above below the height of flight.
 std::vector<Eigen::Vector3d> openFloor(const common::Polygon& area, const TrueWorld& world,
                                        const common::Pose3& T_world_map, double height_m) {
@@ -33,11 +68,22 @@ std::vector<Eigen::Vector3d> openFloor(const common::Polygon& area, const TrueWo
       if (!area.contains({x, y})) continue;
       const Eigen::Vector3d above = T_world_map * Eigen::Vector3d(x, y, height_m);
       const auto hit = world.rays->cast(above, {0.0, 0.0, -1.0}, height_m + 1.0);
-      if (std::abs(hit.distance_m - height_m) <= kFloor_m)
+      if (std::abs(hit.distance_m - height_m) <= kFloor_m && !isInSolid(*world.rays, above))
         floor_world_m.push_back(T_world_map * Eigen::Vector3d(x, y, 0.0));
     }
   }
   return floor_world_m;
+}
+
+void addFollow(const FollowRecord& follow, BehaviorScore& score) {
+  if (follow.followed_s <= 0.0) return;
+  const double share = follow.in_distance_s / follow.followed_s;
+  score.follow_share = std::min(share, score.follow_share.value_or(share));
+  if (!score.follow_first_share) score.follow_first_share = share;
+  score.follow_last_share = share;
+  score.follow_nearest_m = std::min(follow.nearest_m, score.follow_nearest_m.value_or(follow.nearest_m));
+  score.follow_farthest_m = std::max(follow.farthest_m, score.follow_farthest_m.value_or(follow.farthest_m));
+  score.follow_lost_s = std::max(follow.lost_s, score.follow_lost_s.value_or(follow.lost_s));
 }
 
 bool sees(const common::PinholeCamera& camera, const common::RgbdCameraConfig& sheet, const TrueWorld& world,
@@ -59,7 +105,7 @@ std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorl
                                      const common::Pose3& T_world_map,
                                      const std::vector<common::Pose3>& T_world_body_views) {
   if (!world.rgbd_camera || T_world_body_views.empty()) return std::nullopt;
-  const double height_m = T_world_body_views.back().position_m.z() - T_world_map.position_m.z();
+  const double height_m = flightHeight_m(T_world_body_views) - T_world_map.position_m.z();
   std::vector<Eigen::Vector3d> unseen = openFloor(area, world, T_world_map, std::max(0.5, height_m));
   if (unseen.empty()) return std::nullopt;
   const auto whole = static_cast<double>(unseen.size());
@@ -83,12 +129,7 @@ BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world, cons
   for (const common::Polygon& area : record.surveyed)
     if (const auto share = surveyCoverage(area, world, T_world_map, T_world_body_views))
       score.survey_coverage = std::min(*share, score.survey_coverage.value_or(1.0));
-  if (record.follow && record.follow->followed_s > 0.0) {
-    score.follow_share = record.follow->in_distance_s / record.follow->followed_s;
-    score.follow_nearest_m = record.follow->nearest_m;
-    score.follow_farthest_m = record.follow->farthest_m;
-    score.follow_lost_s = record.follow->lost_s;
-  }
+  for (const FollowRecord& follow : record.follows) addFollow(follow, score);
   if (record.targets)
     if (const auto targets = scoreTargets(record.targets->targets, world.targets, T_world_map)) {
       score.targets_found = targets->found;
@@ -104,6 +145,8 @@ std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const Behav
           {"inspect_axis_max_deg", score.inspect_axis_max_deg},
           {"survey_coverage", score.survey_coverage},
           {"follow_share", score.follow_share},
+          {"follow_first_share", score.follow_first_share},
+          {"follow_last_share", score.follow_last_share},
           {"follow_nearest_m", score.follow_nearest_m},
           {"follow_farthest_m", score.follow_farthest_m},
           {"follow_lost_s", score.follow_lost_s},

@@ -81,10 +81,9 @@ void describeBehaviors(Criteria& c, common::config::Fields& fields) {
   fields("survey_coverage_min", c.survey_coverage_min, {0, 1},
          "Least share of the open floor of a surveyed area that the camera has seen.");
   fields("follow_share_min", c.follow_share_min, {0, 1},
-         "Least share of the time of following with the person 1.5 to 3 m away.");
-  fields(
-      "follow_lost_max_s", c.follow_lost_max_s, kPositive,
-      "Greatest time in which the person who is followed was not within 1 m of where the vehicle believed the person.");
+         "Least share of the time of following, in each flight mode, with the person 1.5 to 3 m away.");
+  fields("follow_lost_max_s", c.follow_lost_max_s, kPositive,
+         "Greatest time in which the person who is followed was not within 1 m of the believed place.");
   fields("targets_found_min", c.targets_found_min, {0, 1}, "Least share of the trial's targets that are found.");
   fields("target_error_max_m", c.target_error_max_m, kPositive,
          "Greatest distance of a found target from the middle of the true one.");

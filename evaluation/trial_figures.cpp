@@ -93,6 +93,8 @@ const std::vector<TrialFigure>& trialFigures() {
       {"inspect_axis_max_deg", kMax, of<&BehaviorScore::inspect_axis_max_deg>},
       {"survey_coverage_min", kMin, of<&BehaviorScore::survey_coverage>},
       {"follow_share_min", kMin, of<&BehaviorScore::follow_share>},
+      {"follow_first_share_min", kMin, of<&BehaviorScore::follow_first_share>},
+      {"follow_last_share_min", kMin, of<&BehaviorScore::follow_last_share>},
       {"follow_lost_max_s", kMax, of<&BehaviorScore::follow_lost_s>},
       {"targets_found_min", kMin, of<&BehaviorScore::targets_found>},
       {"target_error_max_m", kMax, of<&BehaviorScore::target_error_max_m>},

@@ -23,11 +23,14 @@ void AltitudePipeline::initialize(common::Time time, double height_m) {
   seen_.stood(Eigen::Vector2d::Zero(), hull_radius_m_, 0.0);
 }
 
-AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
+AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
+                                   const common::Pose2& T_odom_body,
                                    const std::optional<perception::VerticalState>& vertical) {
+  const common::Pose2 T_map_body = T_map_odom * T_odom_body;
   AltitudeStep step;
   step.below_m = medianBelow_m(scan);
   if (!vertical) return step;
+  if (step.below_m) step.drift = drift_.add(scan.stamp, T_odom_body.position_m(), *step.below_m, vertical->height_m);
   std::vector<perception::GroundPoint> ground;
   ground.reserve(scan.mirror.size());
   for (const auto& point : scan.mirror)
@@ -35,7 +38,8 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   for (const perception::GroundPoint& point : ground)
     seen_.add(point.position_map_m, vertical->height_m - point.distance_below_m);
   const bool was_on_slope = ramp_.onSlope();
-  step.slope_ended_rise_m = ramp_.move(T_map_body.position_m(), slopes_.gradientAt(T_map_body.position_m()));
+  step.slope_ended_rise_m =
+      ramp_.move(T_map_odom, T_odom_body.position_m(), slopes_.gradientAt(T_map_body.position_m()));
   step.slope_began = ramp_.onSlope() && !was_on_slope;
   if (step.slope_ended_rise_m) slope_ended_ = scan.stamp;
   // Over a slope the ground counts as the level that it rose from.
@@ -46,7 +50,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   if (update.height_above_ground_m)
     surface_height_m_ = vertical->height_m - *update.height_above_ground_m + ramp_.rise_m();
   step.measurement = update.measurement;
-  step.doubt_m_s = doubt_.add(scan.stamp, T_map_body.position_m(), vertical->velocity_m_s, step.measurement);
+  step.doubt_m_s = doubt_.add(scan.stamp, T_odom_body.position_m(), vertical->velocity_m_s, step.measurement);
   if (step.measurement) {
     step.measurement->level_variance_m2 += ramp_.variance_m2();
     // A measurement is of an earlier scan, which may still be one over the slope.

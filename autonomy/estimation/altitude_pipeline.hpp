@@ -13,6 +13,7 @@
 #include "common/level_map.hpp"
 #include "common/time.hpp"
 #include "perception/altitude/ground_slopes.hpp"
+#include "perception/altitude/height_drift.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/altitude/ramp_rise.hpp"
 #include "perception/altitude/seen_surfaces.hpp"
@@ -30,9 +31,10 @@ struct AltitudeStep {
   std::optional<double> below_m;                         ///< The raw measurement: medianBelow_m of the scan.
   std::optional<perception::VirtualHeight> measurement;  ///< For the filter, with the stamp of an earlier scan.
   int levels_joined = 0;
-  bool slope_began = false;                  ///< The ground below slopes from here on.
-  std::optional<double> doubt_m_s;           ///< See SlopeDoubt: the height may be wrong from here on.
-  std::optional<double> slope_ended_rise_m;  ///< A slope has ended; the ground is so much higher behind it.
+  bool slope_began = false;                          ///< The ground below slopes from here on.
+  std::optional<double> doubt_m_s;                   ///< See SlopeDoubt: the height may be wrong from here on.
+  std::optional<perception::HeightDriftRate> drift;  ///< See HeightDrift: the vertical speed is wrong.
+  std::optional<double> slope_ended_rise_m;          ///< A slope has ended; the ground is so much higher behind it.
 };
 
 /// One thread.
@@ -50,8 +52,8 @@ class AltitudePipeline {
   }
 
   /// `vertical` is the filter's estimate at the scan's stamp; without it the scan does not change the levels.
-  AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
-                   const std::optional<perception::VerticalState>& vertical);
+  AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
+                   const common::Pose2& T_odom_body, const std::optional<perception::VerticalState>& vertical);
 
   /// Height of the surface directly below, table or floor, over the take-off floor, at the last scan that saw it; zero
   /// before the first.
@@ -67,6 +69,7 @@ class AltitudePipeline {
   perception::GroundSlopes slopes_;
   perception::RampRise ramp_;
   perception::SlopeDoubt doubt_;
+  perception::HeightDrift drift_;
   double hull_radius_m_;
   double surface_height_m_ = 0.0;
   common::Time slope_ended_;  ///< Stamp of the scan behind the last slope.

@@ -1,6 +1,7 @@
 // What outlives a maneuver: facts about the flight and the place, but not the goal of an intent.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,10 +21,20 @@ struct ExplorationMemory {
   std::vector<Eigen::Vector2d> lost_map_m;             ///< Targets during whose approach the position became uncertain.
 };
 
+class PersonWatch;
+
+/// Who is followed, so that a Follow that was interrupted, by avoiding an obstacle for example, goes on with the same
+/// person.
+struct FollowMemory {
+  std::shared_ptr<PersonWatch> person;  ///< Null: nobody yet.
+  common::Time watched;                 ///< When it was last updated.
+};
+
 struct FlightMemory {
   /// Height of paths over the take-off floor: that of the take-off until a goal names another.
   double cruise_height_m = 1.0;
   ExplorationMemory exploration;
+  FollowMemory follow;
   std::optional<Eigen::Vector2d> person_map_m;  ///< Where the person who is, or was, followed was last believed.
   std::vector<common::Event> events;
 

@@ -9,42 +9,36 @@
 #include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
-namespace {
-
-/// Between two paths, and by how much the place to fly to moves before it is planned anew: each new path costs speed.
-constexpr double kReplan_s = 0.4, kReplan_m = 0.4;
-/// If he is seen with a smaller probability at the end of the best path, or is farther away, that path is none.
-constexpr double kInSight = 0.3, kTooFar_m = 1.0;
-/// Unseen for longer he is lost, also if he is believed to stand still where he was; the vehicle goes to look.
-constexpr double kLost_s = 3.0;
-constexpr double kNear_s = 1.0;
-/// Somebody who is to be followed stands in front. After this time the vehicle turns, for lasers do not see behind
-/// themselves.
-constexpr double kLooksAhead_s = 8.0, kLooksAround_rad_s = 25.0 * common::kRadPerDeg;
-constexpr double kPersonTolerance_m = 0.5;
-
-}  // namespace
 
 using common::Time;
 
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
-    : PathManeuver(setup, "follow a person", intent.mode), intent_(intent) {}
+    : PathManeuver(setup, "follow a person", intent.mode), config_(setup.config.follow), intent_(intent) {}
+
+/// The person who was followed a moment ago is still the one; to return, the place counts where that person was last.
+void Follow::begin(Time now) {
+  since_ = now;
+  FollowMemory& memory = setup_.memory.follow;
+  const bool recent = memory.person && (now - memory.watched).seconds() <= intent_.lost_s;
+  if (!recent || intent_.until_near) memory.person = std::make_shared<PersonWatch>(config_.watch);
+  person_ = memory.person;
+  if (setup_.memory.person_map_m && intent_.until_near) person_->remember(*setup_.memory.person_map_m, now);
+}
 
 void Follow::watch(const ManeuverInput& input) {
-  if (!since_) since_ = input.now;
-  if (!person_.known() && setup_.memory.person_map_m && intent_.until_near)
-    person_.remember(*setup_.memory.person_map_m, *since_);
-  person_.choose(input.people, input.position_map_m(), HiddenPerson::kTracked_m);
-  person_.update(input.people, {input.grid, input.seen}, input.now);
+  if (!since_) begin(input.now);
+  person_->choose(input.people, input.position_map_m());
+  person_->update(input.people, {input.grid, input.seen}, input.now);
+  setup_.memory.follow.watched = input.now;
 }
 
 Progress Follow::fly(const ManeuverInput& input) {
-  if (!person_.known()) return search(input);
-  const Eigen::Vector2d place_map_m = person_.place_map_m(input.now);
+  if (!person_->known()) return search(input);
+  const Eigen::Vector2d place_map_m = person_->place_map_m(input.now);
   setup_.memory.person_map_m = place_map_m;
   setup_.controller.lookAt(place_map_m);
   (void)flight_.keep(input);
-  if ((input.now - asked_).seconds() >= kReplan_s) pursue(input);
+  if ((input.now - asked_).seconds() >= config_.replan_s) pursue(input);
   return progress(input);
 }
 
@@ -52,30 +46,32 @@ Progress Follow::search(const ManeuverInput& input) {
   if (intent_.until_near) return Progress::failed("nobody was followed before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
     return Progress::failed(
-        fmt::format("nobody walks within {:.0f} m for {:.0f} s", HiddenPerson::kTracked_m, intent_.lost_s));
-  const double turned_rad = kLooksAround_rad_s * ((input.now - *since_).seconds() - kLooksAhead_s);
+        fmt::format("nobody walks within {:.0f} m for {:.0f} s", config_.watch.tracked_m, intent_.lost_s));
+  const double turned_rad =
+      common::kRadPerDeg * config_.looks_around_deg_s * ((input.now - *since_).seconds() - config_.looks_ahead_s);
   if (!since_yaw_rad_) since_yaw_rad_ = input.state.T_map_body_planar().yaw_rad;
   if (turned_rad > 0.0) {
     const double yaw_rad = *since_yaw_rad_ + turned_rad;
     setup_.controller.lookAt(input.position_map_m() +
-                             HiddenPerson::kTracked_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
+                             config_.watch.tracked_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
   }
   return Progress::running("waits for somebody who walks");
 }
 
 Progress Follow::progress(const ManeuverInput& input) {
-  const double unseen_s = person_.unseen_s(input.now);
-  const double distance_m = (person_.place_map_m(input.now) - input.position_map_m()).norm();
-  if (unseen_s > kLost_s && !lost_)
+  const double unseen_s = person_->unseen_s(input.now);
+  const double distance_m = (person_->place_map_m(input.now) - input.position_map_m()).norm();
+  if (unseen_s > config_.lost_s && !lost_)
     setup_.memory.say(input.now, common::Severity::kWarning, "the person is out of sight");
-  if (unseen_s <= kLost_s && lost_) setup_.memory.say(input.now, common::Severity::kInfo, "the person is seen again");
-  lost_ = unseen_s > kLost_s;
+  if (unseen_s <= config_.lost_s && lost_)
+    setup_.memory.say(input.now, common::Severity::kInfo, "the person is seen again");
+  lost_ = unseen_s > config_.lost_s;
   if (intent_.until_near) {
     const bool near =
-        distance_m < intent_.distance_m + kPersonTolerance_m && input.state.velocity_odom_m_s.norm() < 0.2;
+        distance_m < intent_.distance_m + config_.tolerance_m && input.state.velocity_odom_m_s.norm() < 0.2;
     if (!near) near_since_.reset();
     if (near && !near_since_) near_since_ = input.now;
-    if (near && (input.now - *near_since_).seconds() >= kNear_s)
+    if (near && (input.now - *near_since_).seconds() >= config_.near_s)
       return Progress::done(fmt::format("{:.1f} m from the person", distance_m));
   }
   if (unseen_s > intent_.lost_s) return Progress::failed(fmt::format("the person was not seen for {:.0f} s", unseen_s));
@@ -86,13 +82,14 @@ void Follow::pursue(const ManeuverInput& input) {
   const auto map = setup_.desk.costMap();
   if (!map) return;
   asked_ = input.now;
-  const std::vector<PossibleWalk> walks = person_.walks(input.now);
-  const PursuitPath path = pursuitPath({*map, *input.grid, input.position_map_m(), walks, person_.trail_map_m(),
-                                        intent_.distance_m, setup_.controller.speed_m_s(intent_.mode)});
-  // In a few seconds it comes neither in sight nor near: along his way, or to the place where he probably is.
-  const double left_m = (person_.place_map_m(input.now) - path.points_map_m.back()).norm();
-  if (path.in_sight < kInSight || left_m > intent_.distance_m + kTooFar_m)
-    return flyTo(input, person_.hidden() ? person_.place_map_m(input.now) : placeBehind());
+  const std::vector<PossibleWalk> walks = person_->walks(input.now);
+  const PursuitPath path =
+      pursuitPath({*map, *input.grid, input.position_map_m(), walks, person_->trail_map_m(), intent_.distance_m,
+                   setup_.controller.speed_m_s(intent_.mode), config_.pursuit, config_.watch.walking.half_width_m});
+  // In a few seconds it comes neither in sight nor near: along the person's trail, or to the likeliest place.
+  const double left_m = (person_->place_map_m(input.now) - path.points_map_m.back()).norm();
+  if (path.in_sight < config_.pursuit.least_in_sight || left_m > intent_.distance_m + config_.pursuit.too_far_m)
+    return flyTo(input, person_->hidden() ? person_->place_map_m(input.now) : placeBehind());
   const Eigen::Vector2d end = path.points_map_m.back();
   if (path.points_map_m.size() == 1) {
     if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
@@ -107,9 +104,9 @@ void Follow::pursue(const ManeuverInput& input) {
   flight_.offer({path.points_map_m, length_m, path.cost_m}, input.now, input.state);
 }
 
-/// The place on his way that is as far behind him along it.
+/// The place on the person's trail that is the wanted distance behind the person, along the trail.
 Eigen::Vector2d Follow::placeBehind() const {
-  const auto& trail_map_m = person_.trail_map_m();
+  const auto& trail_map_m = person_->trail_map_m();
   double behind_m = 0.0;
   for (std::size_t i = trail_map_m.size(); i-- > 1;) {
     behind_m += (trail_map_m[i] - trail_map_m[i - 1]).norm();
@@ -121,10 +118,10 @@ Eigen::Vector2d Follow::placeBehind() const {
 /// Along a planned path, unless one leads there.
 void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m) {
   const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
-  const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < kReplan_m;
+  const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < config_.replan_m;
   if ((under_way && same) || !flight_.mayAsk()) return;
   target_map_m_ = target_map_m;
-  flight_.ask(input, GoalRequest{target_map_m, kPersonTolerance_m});
+  flight_.ask(input, GoalRequest{target_map_m, config_.tolerance_m});
 }
 
 Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {

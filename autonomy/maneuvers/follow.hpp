@@ -1,7 +1,8 @@
-// Follow: keeps a distance from a walking person, with the nose on him, and flies where he stays in sight whatever he
-// is likely to do.
+// Follow: keeps a distance from a walking person, with the nose on the person, and flies where the person stays in
+// sight whatever that person is likely to do.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "autonomy/maneuvers/path_maneuver.hpp"
@@ -11,7 +12,7 @@ namespace swiftlet::autonomy {
 
 /// One thread.
 ///
-///   looks for somebody who walks --> follows --> lost: flies to where he was, looks for him --> failed
+///   looks for somebody who walks --> follows --> lost: flies to where the person may be --> failed
 ///                                       ^----------- seen again -----------+
 ///   To return it first flies to where the last person was, and is done when it is near somebody.
 class Follow final : public PathManeuver {
@@ -23,15 +24,17 @@ class Follow final : public PathManeuver {
  private:
   void watch(const ManeuverInput& input) override;
   Progress fly(const ManeuverInput& input) override;
+  void begin(common::Time now);
   Progress search(const ManeuverInput& input);
   Progress progress(const ManeuverInput& input);
-  /// Flies so that he stays in sight.
+  /// Flies so that the person stays in sight.
   void pursue(const ManeuverInput& input);
   Eigen::Vector2d placeBehind() const;
   void flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m);
 
+  const FollowConfig& config_;
   common::FollowIntent intent_;
-  PersonWatch person_;
+  std::shared_ptr<PersonWatch> person_;  ///< Never null after the first watch().
   std::optional<Eigen::Vector2d> target_map_m_;
   std::optional<common::Time> since_, near_since_;
   std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for somebody.

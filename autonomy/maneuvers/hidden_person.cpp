@@ -12,39 +12,28 @@
 namespace swiftlet::autonomy {
 namespace {
 
-constexpr int kParticles = 200;
-/// How well place and velocity of a track are known.
-constexpr double kPlaceSigma_m = 0.1, kVelocitySigma_m_s = 0.15;
-/// So often a person turns or stops where nothing forces him, and so often a turn is a stop.
-constexpr double kTurns_1_s = 0.4, kStopShare = 0.3;
-/// Walking speeds indoors.
-constexpr double kSlow_m_s = 0.3, kFast_m_s = 1.1;
-/// Half of a person's width: what the map shows so near may be himself.
-constexpr double kBody_m = 0.35;
-/// A person in sight is tracked within this time.
-constexpr double kTracked_s = 0.4;
-/// An end point this near to something that the map showed before is explained by it.
-constexpr double kExplained_m = 0.12;
-/// Somebody else, and his width.
-constexpr double kOther_m = 0.5;
-/// Particles that stood for the same place and walk spread anew (Gordon 1993).
-constexpr double kSpread_m = 0.03, kSpread_m_s = 0.05;
-/// The longest step of the particles.
+/// The longest step of the particles: at 1.1 m/s, the fastest by default, two cells of the map, so that none passes a
+/// wall.
 constexpr double kStep_s = 0.1;
-/// Places so near to each other are one.
-constexpr double kOnePlace_m = 0.6;
+/// Of the particles, the likeliest place is looked for at every eighth, and every tenth is a walk of pursuitPath: 20 of
+/// 200 by default, which is what it has time for.
+constexpr std::size_t kEveryPlace = 8, kEveryWalk = 10;
+/// Below that sum of weights by the particle the person is nowhere where the particles are.
+constexpr double kNowhere = 1e-6;
 
 /// The degree of the bearing.
-std::size_t degreeOf(const Eigen::Vector2d& way_m) {
-  const double degrees = (std::atan2(way_m.y(), way_m.x()) + std::numbers::pi) / common::kRadPerDeg;
+std::size_t degreeOf(const Eigen::Vector2d& offset_m) {
+  const double degrees = (std::atan2(offset_m.y(), offset_m.x()) + std::numbers::pi) / common::kRadPerDeg;
   return std::min<std::size_t>(359, static_cast<std::size_t>(std::max(0.0, degrees)));
 }
 
 }  // namespace
 
-HiddenPerson::HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s,
-                           common::Time last_seen, std::shared_ptr<const common::OccupancyGrid> before)
-    : before_(std::move(before)),
+HiddenPerson::HiddenPerson(const PersonWatchConfig& config, const Eigen::Vector2d& place_map_m,
+                           const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
+                           std::shared_ptr<const common::OccupancyGrid> before)
+    : config_(config),
+      before_(std::move(before)),
       random_(static_cast<std::uint64_t>(last_seen.nanoseconds()), "hidden person"),
       now_(last_seen),
       place_map_m_(place_map_m),
@@ -53,10 +42,10 @@ HiddenPerson::HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vect
     const double x = random_.gaussian(sigma);
     return Eigen::Vector2d(mean + Eigen::Vector2d(x, random_.gaussian(sigma)));
   };
-  const bool stands = velocity_map_m_s.norm() < kStands_m_s;
-  for (int i = 0; i < kParticles; ++i) {
-    const Eigen::Vector2d place = scattered(place_map_m, kPlaceSigma_m);
-    const Eigen::Vector2d velocity = scattered(velocity_map_m_s, kVelocitySigma_m_s);
+  const bool stands = velocity_map_m_s.norm() < config.walking.stands_m_s;
+  for (int i = 0; i < config.hidden.particles; ++i) {
+    const Eigen::Vector2d place = scattered(place_map_m, config.hidden.place_sigma_m);
+    const Eigen::Vector2d velocity = scattered(velocity_map_m_s, config.hidden.velocity_sigma_m_s);
     particles_.push_back({place, stands ? Eigen::Vector2d(0.0, 0.0) : velocity});
   }
 }
@@ -80,15 +69,15 @@ void HiddenPerson::advance(const Sight& sight, common::Time now) {
 void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, double dt_s) {
   const auto turn = [&] {
     const double angle_rad = random_.uniform(-std::numbers::pi, std::numbers::pi);
-    const double speed_m_s = random_.uniform(kSlow_m_s, kFast_m_s);
+    const double speed_m_s = random_.uniform(config_.walking.slow_m_s, config_.walking.fast_m_s);
     particle.velocity_map_m_s = speed_m_s * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
   };
-  if (random_.chance(std::min(1.0, kTurns_1_s * dt_s))) {
+  if (random_.chance(std::min(1.0, config_.walking.turns_1_s * dt_s))) {
     turn();
-    if (random_.chance(kStopShare)) particle.velocity_map_m_s.setZero();
+    if (random_.chance(config_.walking.stop_share)) particle.velocity_map_m_s.setZero();
   }
   const Eigen::Vector2d step_map_m = particle.place_map_m + dt_s * particle.velocity_map_m_s;
-  // Out of what the map shows at his own place he may walk: it may be himself.
+  // What the map shows at the particle's own place may be the person, who may walk out of it.
   const bool blocked = common::occupancy::isOccupied(grid.at(grid.cellAt(step_map_m))) &&
                        !common::occupancy::isOccupied(grid.at(grid.cellAt(particle.place_map_m)));
   if (blocked)
@@ -97,22 +86,23 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
     particle.place_map_m = step_map_m;
 }
 
-/// Beams that pass a place show that nobody is there. What they end on, if the map did not show it before him and it is
-/// nobody else, is himself: a person who stands long enough is mapped, and the track of one who sets off again begins
-/// some steps later.
+/// Beams that pass a place show that nobody is there. What they end on, if the map did not show it before the person
+/// came and it is nobody else, is the person: one who stands long enough is mapped, and the track of one who sets off
+/// again begins some steps later.
 void HiddenPerson::lookFor(Particle& particle, const Sight& sight, double dt_s) const {
-  const Eigen::Vector2d way_m = particle.place_map_m - view_.from_map_m;
-  const double distance_m = way_m.norm(), range_m = view_.range_m(way_m);
+  const HiddenPersonConfig& hidden = config_.hidden;
+  const Eigen::Vector2d offset_m = particle.place_map_m - view_.from_map_m;
+  const double distance_m = offset_m.norm(), range_m = view_.range_m(offset_m);
   particle.shown = false;
-  if (distance_m > kTracked_m || range_m < distance_m - kBody_m) return;  // Out of sight.
-  const Eigen::Vector2d end_map_m = view_.from_map_m + range_m / std::max(1e-3, distance_m) * way_m;
-  const int reach = static_cast<int>(std::lround(kExplained_m / before_->resolution_m()));
-  const bool passed = range_m > distance_m + kBody_m;
+  if (distance_m > config_.tracked_m || range_m < distance_m - hidden.outline_m) return;  // Out of sight.
+  const Eigen::Vector2d end_map_m = view_.from_map_m + range_m / std::max(1e-3, distance_m) * offset_m;
+  const int reach = static_cast<int>(std::lround(hidden.explained_within_m / before_->resolution_m()));
+  const bool passed = range_m > distance_m + hidden.outline_m;
   const bool somebody_else = std::any_of(sight.others_map_m.begin(), sight.others_map_m.end(), [&](const auto& other) {
-    return (other - particle.place_map_m).norm() < kOther_m;
+    return (other - particle.place_map_m).norm() < hidden.other_within_m;
   });
   particle.shown = !passed && !somebody_else && !common::occupiedNear(*before_, before_->cellAt(end_map_m), reach);
-  particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / kTracked_s);
+  particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / hidden.seen_s);
 }
 
 void HiddenPerson::View::take(const perception::SeenPoints& seen) {
@@ -120,47 +110,49 @@ void HiddenPerson::View::take(const perception::SeenPoints& seen) {
   ranges_m.fill(0.0);
   for (const Eigen::Vector2f& point : seen.points_map_m) {
     if (!point.allFinite()) continue;
-    const Eigen::Vector2d way_m = point.cast<double>() - from_map_m;
-    double& range_m = ranges_m[degreeOf(way_m)];
-    range_m = range_m > 0.0 ? std::min(range_m, way_m.norm()) : way_m.norm();
+    const Eigen::Vector2d offset_m = point.cast<double>() - from_map_m;
+    double& range_m = ranges_m[degreeOf(offset_m)];
+    range_m = range_m > 0.0 ? std::min(range_m, offset_m.norm()) : offset_m.norm();
   }
 }
 
-double HiddenPerson::View::range_m(const Eigen::Vector2d& way_m) const { return ranges_m[degreeOf(way_m)]; }
+double HiddenPerson::View::range_m(const Eigen::Vector2d& offset_m) const { return ranges_m[degreeOf(offset_m)]; }
 
 /// Systematic resampling, once half of the particles carry the weight.
 void HiddenPerson::resample() {
   double sum = 0.0;
   for (const Particle& particle : particles_) sum += particle.weight;
-  if (sum < 1e-6 * kParticles) {  // He is nowhere where he could be: the particles spread by walking on.
+  const auto count = static_cast<double>(particles_.size());
+  if (sum < kNowhere * count) {  // No particle can be the person: they spread by walking on.
     for (Particle& particle : particles_) particle.weight = 1.0;
     return;
   }
   std::vector<double> weights;
   weights.reserve(particles_.size());
   for (const Particle& particle : particles_) weights.push_back(particle.weight / sum);
-  if (perception::effectiveSampleSize(weights) > 0.5 * kParticles) return;
+  if (perception::effectiveSampleSize(weights) > 0.5 * count) return;
   std::vector<Particle> drawn;
   drawn.reserve(particles_.size());
   for (const std::size_t chosen : perception::resampled(weights, random_)) {
     drawn.push_back(particles_[chosen]);
     drawn.back().weight = 1.0;
-    const double x_m = random_.gaussian(kSpread_m), x_m_s = random_.gaussian(kSpread_m_s);
-    drawn.back().place_map_m += Eigen::Vector2d(x_m, random_.gaussian(kSpread_m));
-    drawn.back().velocity_map_m_s += Eigen::Vector2d(x_m_s, random_.gaussian(kSpread_m_s));
+    // Roughening [Gordon 1993, section 4].
+    const HiddenPersonConfig& hidden = config_.hidden;
+    const double x_m = random_.gaussian(hidden.spread_m), x_m_s = random_.gaussian(hidden.spread_m_s);
+    drawn.back().place_map_m += Eigen::Vector2d(x_m, random_.gaussian(hidden.spread_m));
+    drawn.back().velocity_map_m_s += Eigen::Vector2d(x_m_s, random_.gaussian(hidden.spread_m_s));
   }
   particles_ = std::move(drawn);
 }
 
 /// The particle with the most weight around it, of some of them.
 void HiddenPerson::findLikeliest() {
-  constexpr std::size_t kEvery = 8;
   double most = -1.0;
-  for (std::size_t i = 0; i < particles_.size(); i += kEvery) {
+  for (std::size_t i = 0; i < particles_.size(); i += kEveryPlace) {
     double weight = 0.0, shown = 0.0;
     Eigen::Vector2d place = Eigen::Vector2d::Zero(), velocity = Eigen::Vector2d::Zero();
     for (const Particle& other : particles_) {
-      if ((other.place_map_m - particles_[i].place_map_m).norm() > kOnePlace_m) continue;
+      if ((other.place_map_m - particles_[i].place_map_m).norm() > config_.hidden.one_place_m) continue;
       weight += other.weight;
       if (other.shown) shown += other.weight;
       place += other.weight * other.place_map_m;
@@ -175,9 +167,8 @@ void HiddenPerson::findLikeliest() {
 }
 
 std::vector<PossibleWalk> HiddenPerson::walks() const {
-  constexpr std::size_t kEvery = 10;
   std::vector<PossibleWalk> walks;
-  for (std::size_t i = 0; i < particles_.size(); i += kEvery) {
+  for (std::size_t i = 0; i < particles_.size(); i += kEveryWalk) {
     const Particle& one = particles_[i];
     walks.push_back({one.place_map_m, one.velocity_map_m_s, std::max(1e-3, one.weight)});
   }

@@ -1,6 +1,6 @@
-// HiddenPerson: where a person may be who is not seen, as particles. They walk on as he did, turn and stop as people
-// do, do not walk through what the map shows, and are not where the vehicle looks and sees nobody. The particle filter
-// of Thrun 2005, chapter 4.3, whose measurement is that nobody is seen.
+// HiddenPerson: where a person may be who is not seen, as particles. They walk on as the person did, turn and stop as
+// people do, do not walk through what the map shows, and are not where the vehicle looks and sees nobody. The particle
+// filter of Thrun 2005, chapter 4.3, whose measurement is that nobody is seen.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "autonomy/maneuvers/follow_config.hpp"
 #include "autonomy/maneuvers/pursuit_path.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
@@ -27,33 +28,30 @@ struct Sight {
 /// One thread. In the `map` frame.
 class HiddenPerson {
  public:
-  /// Slower than that he stands.
-  static constexpr double kStands_m_s = 0.25;
-  /// The laser tracks people this far.
-  static constexpr double kTracked_m = 6.0;
-
-  /// He was last seen at that place and time with that velocity. `before` is the map before he stood there.
-  HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
+  /// The person was last seen at that place and time with that velocity. `before` is the map before the person stood
+  /// there.
+  HiddenPerson(const PersonWatchConfig& config, const Eigen::Vector2d& place_map_m,
+               const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
                std::shared_ptr<const common::OccupancyGrid> before);
 
-  /// Until `now`, in which he was not seen.
+  /// Until `now`; the person was not seen meanwhile.
   void advance(const Sight& sight, common::Time now);
 
-  /// The likeliest place, and how he walks there.
+  /// The likeliest place, and the velocity there.
   const Eigen::Vector2d& place_map_m() const { return place_map_m_; }
   const Eigen::Vector2d& velocity_map_m_s() const { return velocity_map_m_s_; }
-  /// Some of the places where he may be, with their velocities.
+  /// Some of the places where the person may be, with their velocities.
   std::vector<PossibleWalk> walks() const;
-  /// The vehicle sees something at the likeliest place that was not there before him. His track has ended, because he
-  /// stood until the map explained him.
+  /// The vehicle sees something at the likeliest place that was not there before the person. The track has ended,
+  /// because the person stood until the map explained that place.
   bool inSight() const { return in_sight_; }
-  /// Probability that he is within `reach_m` of a place.
+  /// Probability that the person is within `reach_m` of a place.
   double share(const Eigen::Vector2d& place_map_m, double reach_m) const;
 
  private:
   struct Particle {
     Eigen::Vector2d place_map_m, velocity_map_m_s;
-    bool shown = false;  ///< Beams end there on something that was not there before him.
+    bool shown = false;  ///< Beams end there on something that was not there before the person.
     double weight = 1.0;
   };
 
@@ -68,9 +66,10 @@ class HiddenPerson {
     std::array<double, 360> ranges_m{};
 
     void take(const perception::SeenPoints& seen);
-    double range_m(const Eigen::Vector2d& way_m) const;
+    double range_m(const Eigen::Vector2d& offset_m) const;
   };
 
+  PersonWatchConfig config_;
   View view_;
   std::shared_ptr<const common::OccupancyGrid> before_;
   std::vector<Particle> particles_;

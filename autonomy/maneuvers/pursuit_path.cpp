@@ -14,40 +14,42 @@ namespace {
 using planning::CostMap;
 using Point = Eigen::Vector2d;
 
-/// The next four seconds, in which a vehicle gets round the corner of a room; later nobody knows where he walks.
+/// Four seconds: at the 0.73 m/s of the default profile the vehicle flies 2.9 m, which is round the corner of a box or
+/// a door frame from the distance that it keeps. Persons turn every few seconds, so that later steps would be guesses.
 constexpr int kSteps = 8;
 constexpr double kMove_s = 0.5;
-/// Steps that are flown before there is another answer, with what it takes to stop; it stays if it waits for so many.
+/// Steps that are flown before there is another answer, with what it takes to stop: 2 s are `replan_s`, the latency of
+/// planning, and 0.9 s to brake from 0.73 m/s at 0.8 m/s2. It waits if it would wait for half of that.
 constexpr std::size_t kFlown = 4, kWaits = 2;
 /// Places in each direction: as many as the vehicle can reach, and here itself.
 constexpr int kReach = kSteps, kSide = 2 * kReach + 1;
 constexpr std::size_t kGridPlaces = static_cast<std::size_t>(kSide) * kSide;
-/// What the map shows so near to where he walked is himself; so far from walls he walks.
-constexpr double kHimself_m = 0.45, kHalfWidth_m = 0.25;
-/// Deviations from the distance beyond which it is wrong, with a margin to 0.5 m less and 1 m more.
-constexpr double kNearer_m = 0.35, kFarther_m = 0.7;
-/// Losses: unseen or at a wrong distance for a step counts 1.
-constexpr double kUnseen = 1.0, kWrongDistance = 1.0, kPerMetre = 1.0, kPerSquareMetre = 0.3;
-/// Flying costs something, so that the vehicle waits where it is well. Flying near walls costs more.
-constexpr double kPerCell = 0.03, kPerCost = 0.02;
+/// Whoever is followed wants both alike: to be seen, and to have the vehicle at the right distance.
+constexpr double kUnseen = 1.0, kWrongDistance = 1.0;
+/// Twice the distance at which a person is wanted is beyond any use; rays that long need not be followed.
+constexpr double kBeyondUse = 2.0;
+/// Steps of a walk between two looks at the map: two of its cells.
+constexpr double kStride_m = 0.1;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Where he may be at the end of each step.
+/// Where the person may be at the end of each step.
 using Walk = std::array<Point, kSteps + 1>;
 
-/// A vehicle too near to something first leaves it.
-Point freeNear(const PursuitQuestion& question) {
-  const common::CellIndex here = question.costs.cellAt(question.here_map_m);
-  if (question.costs.costAt(here) != CostMap::kLethal) return question.here_map_m;
-  const auto escape = planning::escapeFrom(question.costs, here);
-  return escape ? question.costs.centerOf(escape->back()) : question.here_map_m;
+/// From here to the first place where the hull may be, as all planned paths begin; here alone where it may be, and
+/// where no such place is near.
+std::vector<Point> escape(const PursuitQuestion& question) {
+  std::vector<Point> points{question.here_map_m};
+  const auto cells = planning::escapeFrom(question.costs, question.costs.cellAt(question.here_map_m));
+  for (std::size_t i = 1; cells && i < cells->size(); ++i) points.push_back(question.costs.centerOf((*cells)[i]));
+  return points;
 }
 
 class Pursuit {
  public:
   explicit Pursuit(const PursuitQuestion& question)
       : ask_(question),
-        from_map_m_(freeNear(question)),
+        escape_map_m_(escape(question)),
+        from_map_m_(escape_map_m_.back()),
         side_m_(std::max(0.1, question.speed_m_s * kMove_s / std::numbers::sqrt2)) {
     for (const PossibleWalk& walk : ask_.walks) {
       walks_.push_back(predicted(walk));
@@ -65,12 +67,12 @@ class Pursuit {
 
   static std::size_t at(int x, int y) { return static_cast<std::size_t>((y + kReach) * kSide + x + kReach); }
   Point placeOf(int x, int y) const { return from_map_m_ + side_m_ * Point(x, y); }
-  /// By something else than himself.
+  /// By something else than the person.
   bool occupied(const Point& point_map_m) const {
     if (!common::occupancy::isOccupied(ask_.grid.at(ask_.grid.cellAt(point_map_m)))) return false;
     const auto& walked = ask_.walked_map_m;
     return std::none_of(walked.begin(), walked.end(),
-                        [&](const Point& place) { return (place - point_map_m).norm() < kHimself_m; });
+                        [&](const Point& place) { return (place - point_map_m).norm() < ask_.config.mapped_within_m; });
   }
   Walk predicted(const PossibleWalk& walk) const;
   bool sees(const Point& from_map_m, const Point& to_map_m) const;
@@ -80,7 +82,8 @@ class Pursuit {
   PursuitPath pathTo(int x, int y) const;
 
   const PursuitQuestion& ask_;
-  Point from_map_m_;  ///< Here, or the nearest place where the hull may be.
+  std::vector<Point> escape_map_m_;  ///< From here to `from_map_m_`.
+  Point from_map_m_;                 ///< Here, or the place at the end of the escape.
   double side_m_;
   std::vector<Walk> walks_;
   double whole_weight_ = 0.0;
@@ -91,9 +94,8 @@ class Pursuit {
   std::array<Step, kSteps + 1> steps_;
 };
 
-/// He walks straight on and stops at what the map shows.
+/// The person walks straight on and stops at what the map shows.
 Walk Pursuit::predicted(const PossibleWalk& walk) const {
-  constexpr double kStride_m = 0.1;
   Walk places;
   places.fill(walk.place_map_m);
   const double speed_m_s = walk.velocity_map_m_s.norm();
@@ -104,7 +106,7 @@ Walk Pursuit::predicted(const PossibleWalk& walk) const {
     const double until_m = speed_m_s * kMove_s * step;
     while (walked_m < until_m) {
       const double next_m = std::min(until_m, walked_m + kStride_m);
-      if (occupied(walk.place_map_m + (next_m + kHalfWidth_m) * heading)) break;
+      if (occupied(walk.place_map_m + (next_m + ask_.half_width_m) * heading)) break;
       walked_m = next_m;
     }
     places[static_cast<std::size_t>(step)] = walk.place_map_m + walked_m * heading;
@@ -113,25 +115,26 @@ Walk Pursuit::predicted(const PossibleWalk& walk) const {
 }
 
 bool Pursuit::sees(const Point& from_map_m, const Point& to_map_m) const {
-  const Point way_m = to_map_m - from_map_m;
-  const double length_m = way_m.norm(), step_m = ask_.grid.resolution_m();
-  for (double along_m = step_m; along_m < length_m - kHimself_m; along_m += step_m) {
-    if (occupied(from_map_m + along_m / length_m * way_m)) return false;
+  const Point ray_m = to_map_m - from_map_m;
+  const double length_m = ray_m.norm(), step_m = ask_.grid.resolution_m();
+  for (double along_m = step_m; along_m < length_m - ask_.config.mapped_within_m; along_m += step_m) {
+    if (occupied(from_map_m + along_m / length_m * ray_m)) return false;
   }
   return true;
 }
 
 Pursuit::Sight Pursuit::from(const Point& place_map_m, int step) const {
-  const double least_m = ask_.distance_m - kNearer_m, most_m = ask_.distance_m + kFarther_m;
+  const PursuitConfig& config = ask_.config;
+  const double least_m = ask_.distance_m - config.nearer_m, most_m = ask_.distance_m + config.farther_m;
   Sight sight;
   for (std::size_t i = 0; i < walks_.size(); ++i) {
     const double weight = ask_.walks[i].weight / whole_weight_;
     const Point& person = walks_[i][static_cast<std::size_t>(step)];
     const double distance_m = (person - place_map_m).norm();
-    double loss = kPerSquareMetre * std::pow(distance_m - ask_.distance_m, 2);
-    if (distance_m < least_m) loss = kWrongDistance + 2.0 * kPerMetre * (least_m - distance_m);
-    if (distance_m > most_m) loss = kWrongDistance + kPerMetre * (distance_m - most_m);
-    const bool seen = distance_m < 2.0 * most_m && sees(place_map_m, person);
+    double loss = config.per_square_metre * std::pow(distance_m - ask_.distance_m, 2);
+    if (distance_m < least_m) loss = kWrongDistance + 2.0 * config.per_metre * (least_m - distance_m);
+    if (distance_m > most_m) loss = kWrongDistance + config.per_metre * (distance_m - most_m);
+    const bool seen = distance_m < kBeyondUse * most_m && sees(place_map_m, person);
     sight.loss += weight * (loss + (seen ? 0.0 : kUnseen));
     sight.in_sight += seen ? weight : 0.0;
   }
@@ -144,7 +147,7 @@ double Pursuit::moving(int x, int y, int dx, int dy) const {
   const planning::SegmentCost leg = planning::segmentCost(ask_.costs, placeOf(x, y), placeOf(x + dx, y + dy));
   if (leg.lethal) return kNever;
   const double cells = std::hypot(dx, dy);
-  return kPerCell * cells + kPerCost * (leg.cost_m / side_m_ - cells);
+  return ask_.config.per_move * cells + ask_.config.per_cost * (leg.cost_m / side_m_ - cells);
 }
 
 void Pursuit::advance(int step) {
@@ -177,7 +180,7 @@ PursuitPath Pursuit::best() {
   return pathTo(static_cast<int>(least) % kSide - kReach, static_cast<int>(least) / kSide - kReach);
 }
 
-/// The places on the way that are flown before the next question comes, without those that a straight line leaves out.
+/// The places on the path that are flown before the next question comes, without those that a straight line leaves out.
 PursuitPath Pursuit::pathTo(int x, int y) const {
   PursuitPath path;
   path.in_sight = from(placeOf(x, y), kSteps).in_sight;
@@ -193,8 +196,9 @@ PursuitPath Pursuit::pathTo(int x, int y) const {
   if (by_step[kWaits] != by_step[0])
     for (std::size_t step = 1; step <= kFlown; ++step)
       if (by_step[step] != places.back()) places.push_back(by_step[step]);
-  if (places.size() > 1 && from_map_m_ != ask_.here_map_m) path.points_map_m.push_back(ask_.here_map_m);
-  path.points_map_m.push_back(places.front());
+  path.points_map_m = escape_map_m_;
+  for (std::size_t i = 1; i < escape_map_m_.size(); ++i)
+    path.cost_m += (escape_map_m_[i] - escape_map_m_[i - 1]).norm();
   for (std::size_t i = 0; i + 1 < places.size();) {
     std::size_t next = i + 1;
     while (next + 1 < places.size() && !planning::segmentCost(ask_.costs, places[i], places[next + 1]).lethal) ++next;

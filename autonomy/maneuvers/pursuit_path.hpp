@@ -1,5 +1,5 @@
-// The way to fly in the next seconds so that a person who walks on stays in sight and at the right distance, whatever
-// he is likely to do. Dynamic programming over places and time, with the expected loss over what he may do
+// The path of the next seconds on which a person who walks on stays in sight and at the right distance, whatever that
+// person is likely to do. Dynamic programming over places and time, with the expected loss over what the person may do
 // [LaValle, Gonzalez-Banos, Becker, Latombe 1997, "Motion strategies for maintaining visibility of a moving target"].
 #pragma once
 
@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "autonomy/maneuvers/follow_config.hpp"
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cost_map.hpp"
 
@@ -26,16 +27,20 @@ struct PursuitQuestion {
   const common::OccupancyGrid& grid;
   Eigen::Vector2d here_map_m;
   std::span<const PossibleWalk> walks;  ///< At least one.
-  /// Where he walked lately: the map may still show him there.
+  /// Where the person walked lately: the map may still show the person there.
   std::span<const Eigen::Vector2d> walked_map_m;
-  double distance_m = 2.0;  ///< To be kept from him; from 0.5 m less to 1 m more is right.
+  double distance_m = 2.0;  ///< To be kept from the person.
   double speed_m_s = 0.7;   ///< Of the vehicle.
+  PursuitConfig config = {};
+  double half_width_m = 0.25;  ///< Of the person.
 };
 
 struct PursuitPath {
-  std::vector<Eigen::Vector2d> points_map_m;  ///< From here; one point: it is best to stay.
-  double cost_m = 0.0;                        ///< Of the path in the cost map.
-  double in_sight = 0.0;                      ///< Probability that he is seen from its end, at the end.
+  /// From here; one point: it is best to stay. In the lethal zone it begins with the escape from there, which is flown
+  /// also if it is best to stay behind it.
+  std::vector<Eigen::Vector2d> points_map_m;
+  double cost_m = 0.0;    ///< Of the path in the cost map.
+  double in_sight = 0.0;  ///< Probability that the person is seen from its end, at the end.
 };
 
 /// A pure function; safe from any thread.

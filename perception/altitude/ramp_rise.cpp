@@ -1,5 +1,7 @@
 #include "perception/altitude/ramp_rise.hpp"
 
+#include <Eigen/Geometry>
+
 #include "common/square.hpp"
 #include "perception/altitude/ground_slopes.hpp"
 
@@ -13,21 +15,22 @@ constexpr double kUnseen_m = 0.8;
 
 }  // namespace
 
-std::optional<double> RampRise::move(const Eigen::Vector2d& place_map_m,
-                                     const std::optional<Eigen::Vector2d>& gradient) {
-  const Eigen::Vector2d step_m = place_map_m_ ? Eigen::Vector2d(place_map_m - *place_map_m_) : Eigen::Vector2d(0, 0);
-  place_map_m_ = place_map_m;
-  const bool slopes = gradient && !gradient->isZero();
+std::optional<double> RampRise::move(const common::Pose2& T_map_odom, const Eigen::Vector2d& place_odom_m,
+                                     const std::optional<Eigen::Vector2d>& gradient_map) {
+  const Eigen::Vector2d step_odom_m = place_odom_m - place_odom_m_.value_or(place_odom_m);
+  const Eigen::Vector2d step_m = Eigen::Rotation2Dd(T_map_odom.yaw_rad) * step_odom_m;
+  place_odom_m_ = place_odom_m;
+  const bool slopes = gradient_map && !gradient_map->isZero();
   if (slopes) {
     on_slope_ = true;
     off_slope_m_ = 0.0;
-    gradient_ = *gradient;
+    gradient_map_ = *gradient_map;
   }
   if (!on_slope_) return std::nullopt;
   if (!slopes) off_slope_m_ += step_m.norm();
-  if (slopes || !gradient) rise_m_ += gradient_.dot(step_m);
+  if (slopes || !gradient_map) rise_m_ += gradient_map_.dot(step_m);
   path_m_ += step_m.norm();
-  if (off_slope_m_ < (gradient ? kEnds_m : kUnseen_m)) return std::nullopt;
+  if (off_slope_m_ < (gradient_map ? kEnds_m : kUnseen_m)) return std::nullopt;
   const double rise_m = rise_m_;
   on_slope_ = false;
   rise_m_ = off_slope_m_ = 0.0;

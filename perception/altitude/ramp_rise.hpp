@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "common/geometry.hpp"
+
 namespace swiftlet::perception {
 
 /// One thread.
@@ -15,10 +17,12 @@ namespace swiftlet::perception {
 ///                                            the rise adds up                    the rise starts from zero
 class RampRise {
  public:
-  /// The vehicle is at that place in the map. `gradient`: that of the ground there; none if it is not known, which
-  /// counts as a continuation of what was before for a short path.
+  /// The vehicle has flown to that place. Path is measured in `odom`, as a loop closure moves the vehicle in the map
+  /// and not over the ground. `gradient_map`: that of the ground there; none if it is not known, which counts as a
+  /// continuation of what was before for a short path.
   /// Returns the rise of the slope that has just ended; none otherwise.
-  std::optional<double> move(const Eigen::Vector2d& place_map_m, const std::optional<Eigen::Vector2d>& gradient);
+  std::optional<double> move(const common::Pose2& T_map_odom, const Eigen::Vector2d& place_odom_m,
+                             const std::optional<Eigen::Vector2d>& gradient_map);
 
   bool onSlope() const { return on_slope_; }
   /// Rise of the ground below over the level from which the slope began; 0 over level ground.
@@ -36,8 +40,8 @@ class RampRise {
   double rise_m_ = 0.0;
   double path_m_ = 0.0;       ///< Over slopes.
   double off_slope_m_ = 0.0;  ///< Path since the ground last sloped.
-  std::optional<Eigen::Vector2d> place_map_m_;
-  Eigen::Vector2d gradient_ = Eigen::Vector2d::Zero();  ///< The last one.
+  std::optional<Eigen::Vector2d> place_odom_m_;
+  Eigen::Vector2d gradient_map_ = Eigen::Vector2d::Zero();  ///< The last one.
 };
 
 }  // namespace swiftlet::perception

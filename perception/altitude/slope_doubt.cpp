@@ -14,14 +14,14 @@ constexpr double kRemembered_s = 0.5;
 
 }  // namespace
 
-std::optional<double> SlopeDoubt::add(common::Time time, const Eigen::Vector2d& place_map_m, double velocity_m_s,
+std::optional<double> SlopeDoubt::add(common::Time time, const Eigen::Vector2d& place_odom_m, double velocity_m_s,
                                       const std::optional<VirtualHeight>& measurement) {
   if (const double dt_s = time_ ? (time - *time_).seconds() : 0.0; dt_s > 0.0) {
-    const double speed_m_s = (place_map_m - place_map_m_).norm() / dt_s;
+    const double speed_m_s = (place_odom_m - place_odom_m_).norm() / dt_s;
     speed_m_s_ += std::min(1.0, dt_s / kSmoothing_s) * (speed_m_s - speed_m_s_);
   }
   time_ = time;
-  place_map_m_ = place_map_m;
+  place_odom_m_ = place_odom_m;
   believed_m_s_.emplace_back(time, velocity_m_s);
   while ((time - believed_m_s_.front().first).seconds() > kRemembered_s) believed_m_s_.pop_front();
   if (!measurement || !measurement->velocity_m_s || speed_m_s_ < kLeastSpeed_m_s) return std::nullopt;

@@ -24,14 +24,14 @@ class SlopeDoubt {
 
   /// A scan of that time and place, with the vertical speed that was believed, and what the filter measured.
   /// Returns the correction, positive upwards, if it makes the height doubtful.
-  std::optional<double> add(common::Time time, const Eigen::Vector2d& place_map_m, double velocity_m_s,
+  std::optional<double> add(common::Time time, const Eigen::Vector2d& place_odom_m, double velocity_m_s,
                             const std::optional<VirtualHeight>& measurement);
 
  private:
   /// Vertical speeds that were believed, by the time of their scan: a measurement is of an earlier scan.
   std::deque<std::pair<common::Time, double>> believed_m_s_;
   std::optional<common::Time> time_;
-  Eigen::Vector2d place_map_m_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d place_odom_m_ = Eigen::Vector2d::Zero();
   double speed_m_s_ = 0.0;  ///< Horizontal, smoothed.
 };
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ TEST(RampRise, AddsUpTheRiseAndReportsItBehindTheRamp) {
   std::optional<double> rise_m;
   for (double x_m = 0.0; x_m < 8.0; x_m += 0.02) {
     const bool slopes = x_m > 1.0 && x_m < 6.0;
-    if (const auto ended = ramp.move({x_m, 0.0}, Eigen::Vector2d(slopes ? kRamp : 0.0, 0.0))) rise_m = ended;
+    if (const auto ended = ramp.move({}, {x_m, 0.0}, Eigen::Vector2d(slopes ? kRamp : 0.0, 0.0))) rise_m = ended;
     if (std::abs(x_m - 3.0) < 0.01) {
       EXPECT_NEAR(ramp.rise_m(), kRamp * 2.0, 0.01);
       EXPECT_NEAR(std::sqrt(ramp.variance_m2()), 0.04, 0.005);
@@ -92,12 +93,24 @@ TEST(RampRise, AddsUpTheRiseAndReportsItBehindTheRamp) {
   EXPECT_EQ(ramp.rise_m(), 0.0);
 }
 
+/// The map is corrected by 2 m along the ramp and turned; the vehicle has flown 1 m up.
+TEST(RampRise, ALoopClosureIsNoPathAndTurnsTheDirections) {
+  RampRise ramp;
+  ramp.move({}, {0.0, 0.0}, Eigen::Vector2d(kRamp, 0.0));
+  ramp.move({}, {0.5, 0.0}, Eigen::Vector2d(kRamp, 0.0));
+  const common::Pose2 corrected{2.0, 0.3, 0.5 * std::numbers::pi};
+  ramp.move(corrected, {0.5, 0.0}, Eigen::Vector2d(0.0, kRamp));
+  EXPECT_NEAR(ramp.rise_m(), 0.5 * kRamp, 1e-9);
+  ramp.move(corrected, {1.0, 0.0}, Eigen::Vector2d(0.0, kRamp));
+  EXPECT_NEAR(ramp.rise_m(), 1.0 * kRamp, 1e-9);
+}
+
 TEST(RampRise, GoesOnAlongAPathThatWasNotSeenForAWhile) {
   RampRise ramp;
-  ramp.move({0.0, 0.0}, Eigen::Vector2d(kRamp, 0.0));
-  ramp.move({0.5, 0.0}, std::nullopt);
+  ramp.move({}, {0.0, 0.0}, Eigen::Vector2d(kRamp, 0.0));
+  ramp.move({}, {0.5, 0.0}, std::nullopt);
   EXPECT_NEAR(ramp.rise_m(), kRamp * 0.5, 1e-9);
-  EXPECT_TRUE(ramp.move({1.5, 0.0}, std::nullopt)) << "nobody saw the ground for too long";
+  EXPECT_TRUE(ramp.move({}, {1.5, 0.0}, std::nullopt)) << "nobody saw the ground for too long";
 }
 
 /// Up a ramp of 1 m, over a landing, down, and back, eight seeds. The gradients are wrong by a third of a degree.

@@ -149,7 +149,7 @@ struct Overflight {
       points.push_back({at, below_m});
     }
     if (sees_slopes) {
-      ramp.move(position_m, gradient());
+      ramp.move({}, position_m, gradient());
       for (GroundPoint& point : points) point.distance_below_m += ramp.rise_m();
       if (prior) prior->covariance(0, 0) += ramp.variance_m2();
     }

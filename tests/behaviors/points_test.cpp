@@ -126,7 +126,7 @@ TEST(Check, ChoicesAndPointsAreCheckedBeforeTheFlight) {
   EXPECT_EQ(problems(R"(<FollowPath points="1;0 | 2;0"/>)"), "");
   EXPECT_THAT(problems(R"(<FollowPath points="1;0 | 2"/>)"), HasSubstr("`1;0 | 2` is not points `x;y | x;y;z | ...`"));
   EXPECT_THAT(problems(R"(<MoveToGoal goal="1;0" mode="fsat"/>)"),
-              HasSubstr("`fsat` is not fast or careful or accurate"));
+              HasSubstr("`fsat` is not fast or careful or accurate or brisk"));
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ TEST(FollowPath, FliesEachLegInItsMode) {
     EXPECT_EQ(flightModeOf(flight), mode);
     flight.succeeds();
   }
-  EXPECT_THAT(
-      problemsInside(R"(<TakeOff/><FollowPath points="1;0" modes="careful | slow"/>)"),
-      ElementsAre(HasSubstr("FollowPath.modes: `slow` is not a flight mode, expected fast, careful or accurate")));
+  EXPECT_THAT(problemsInside(R"(<TakeOff/><FollowPath points="1;0" modes="careful | slow"/>)"),
+              ElementsAre(HasSubstr(
+                  "FollowPath.modes: `slow` is not a flight mode, expected fast, careful, accurate or brisk")));
 }
 
 TEST(WaitForOperator, GoesOnWhenTheOperatorSaysSo) {

@@ -23,7 +23,7 @@ std::string FakeShelf::list() {
     {"key": "Hop/Sequence/TakeOff.height_m", "node": "TakeOff", "port": "height_m", "value": "1.0",
      "expected": "a number in metres from 0.3 to 100", "about": "Above the floor.", "choices": []},
     {"key": "Hop/Sequence/MoveToGoal.mode", "node": "MoveToGoal", "port": "mode", "value": "fast",
-     "expected": "fast, careful or accurate", "about": "How fast.", "choices": ["fast", "careful", "accurate"]}]},
+     "expected": "fast, careful, accurate or brisk", "about": "How fast.", "choices": ["fast", "careful", "accurate", "brisk"]}]},
     {"file": "missions/wait.xml", "name": "wait", "about": "", "parameters": []}])";
 }
 

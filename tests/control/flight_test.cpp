@@ -68,6 +68,28 @@ TEST(Flight, FollowsAPathWithCornersToItsGoal) {
               flight.greatest_tilt_rad * 57.3, flight.model.now.seconds());
 }
 
+/// The limit of the position controller bounds corrections; a faster mode is flown at its own speed.
+TEST(Flight, EachModeIsFlownAtItsSpeedAboveTheLimitOfCorrections) {
+  FlightController::Config config;
+  config.position.max_speed_m_s = 0.75;
+  config.path.fast = {0.73, 0.8, 0.08};
+  for (const auto& [mode, speed_m_s] : {std::pair(FlightMode::kFast, 0.73), std::pair(FlightMode::kBrisk, 1.2)}) {
+    Flight flight(config);
+    flight.hover();
+    ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {8, 0, 1}}, mode, {}}));
+    double top_m_s = 0.0;
+    flight.until(
+        [&] {
+          top_m_s = std::max(top_m_s, flight.model.velocity_m_s.x());
+          return flight.controller.pathFinished();
+        },
+        20.0);
+    flight.run(1.0);
+    EXPECT_NEAR(top_m_s, speed_m_s, 0.1) << toString(mode);
+    EXPECT_NEAR(flight.model.position_m.x(), 8.0, 0.07) << toString(mode);
+  }
+}
+
 TEST(Flight, BrakesFromFullSpeedWithoutOvershootWhenHalted) {
   Flight flight;
   flight.hover();

@@ -96,8 +96,9 @@ TEST(PathFollower, TheReferenceDoesNotLagOnAStraightLine) {
 
 TEST(PathFollower, CornersAreRoundedWithinTheModesDeviation) {
   const Points corner = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
-  for (const auto& [mode, deviation_m] : {std::pair(FlightMode::kFast, 0.08), std::pair(FlightMode::kCareful, 0.05),
-                                          std::pair(FlightMode::kAccurate, 0.02)}) {
+  for (const auto& [mode, deviation_m] :
+       {std::pair(FlightMode::kFast, 0.08), std::pair(FlightMode::kCareful, 0.05),
+        std::pair(FlightMode::kAccurate, 0.02), std::pair(FlightMode::kBrisk, 0.08)}) {
     Watch watch({0, 0, 0});
     watch.follower.setPath(corner, mode);
     double off_m = 0;

@@ -29,8 +29,8 @@ class Behaviors : public testing::Test {
     recorder_.tick(truth, pose, {});
     now_ += common::Duration::fromMilliseconds(100);
   }
-  void intent(common::IntentKind kind, const std::string& reason) {
-    recorder_.intent({1, std::move(kind)}, {1, common::IntentState::kRunning, reason, false});
+  void intent(common::IntentKind kind, const std::string& reason, std::uint64_t id = 1) {
+    recorder_.intent({id, std::move(kind)}, {id, common::IntentState::kRunning, reason, false});
   }
   void believed(double x_m) {
     test::Layers layers;
@@ -63,18 +63,39 @@ TEST_F(Behaviors, FollowingCountsFromTheRightDistanceOn) {
   recorder_.people({{2.0, 0.0}});
   believed(2.0);
   at(-4.0, 0.0);
-  EXPECT_FALSE(recorder_.record().follow) << "nobody follows yet";
+  EXPECT_TRUE(recorder_.record().follows.empty()) << "nobody follows yet";
   intent(common::FollowIntent{}, "following, 6.0 m");
   at(-4.0, 0.0);
-  EXPECT_FALSE(recorder_.record().follow) << "still on its way";
+  EXPECT_TRUE(recorder_.record().follows.empty()) << "still on its way";
   for (int i = 0; i < 30; ++i) at(0.0, 0.0);
   believed(3.5);
   for (int i = 0; i < 20; ++i) at(-1.5, 0.0);
-  ASSERT_TRUE(recorder_.record().follow);
-  EXPECT_NEAR(recorder_.record().follow->followed_s, 5.0, 1e-6);
-  EXPECT_NEAR(recorder_.record().follow->in_distance_s, 3.0, 1e-6);
-  EXPECT_NEAR(recorder_.record().follow->lost_s, 2.0, 1e-6);
-  EXPECT_NEAR(recorder_.record().follow->farthest_m, 3.5, 1e-9);
+  ASSERT_EQ(recorder_.record().follows.size(), 1u);
+  EXPECT_NEAR(recorder_.record().follows.front().followed_s, 5.0, 1e-6);
+  EXPECT_NEAR(recorder_.record().follows.front().in_distance_s, 3.0, 1e-6);
+  EXPECT_NEAR(recorder_.record().follows.front().lost_s, 2.0, 1e-6);
+  EXPECT_NEAR(recorder_.record().follows.front().farthest_m, 3.5, 1e-9);
+}
+
+TEST_F(Behaviors, EachModeOfFollowingHasItsFiguresAndTheLeastShareCounts) {
+  recorder_.people({{2.0, 0.0}});
+  believed(2.0);
+  common::FollowIntent follow;
+  intent(follow, "following, 2.0 m", 1);
+  for (int i = 0; i < 20; ++i) at(0.0, 0.0);
+  intent(follow, "following, 2.0 m", 2);  // After an interruption.
+  for (int i = 0; i < 20; ++i) at(0.0, 0.0);
+  EXPECT_EQ(recorder_.record().follows.size(), 1u);
+  follow.mode = common::FlightMode::kBrisk;
+  intent(follow, "following, 2.0 m", 3);
+  at(-2.0, 0.0);
+  for (int i = 0; i < 30; ++i) at(0.0, 0.0);
+  for (int i = 0; i < 10; ++i) at(-2.0, 0.0);
+  const BehaviorScore score = scoreOf(recorder_.record(), {}, {}, {});
+  EXPECT_NEAR(*score.follow_first_share, 1.0, 1e-9);
+  EXPECT_NEAR(*score.follow_last_share, 0.75, 1e-6);
+  EXPECT_EQ(score.follow_share, score.follow_last_share);
+  EXPECT_NEAR(*score.follow_farthest_m, 4.0, 1e-9);
 }
 
 TEST_F(Behaviors, InspectingCountsOnceItHasTurnedToThePoint) {
@@ -86,7 +107,7 @@ TEST_F(Behaviors, InspectingCountsOnceItHasTurnedToThePoint) {
   EXPECT_EQ(recorder_.record().inspecting.size(), 1u);
 }
 
-/// A floor with a table, and a camera that looks 45 deg down from 1 m.
+/// A floor with a table and a wall, and a camera that looks 45 deg down from 1 m.
 class Surveyed : public testing::Test {
  protected:
   Surveyed() {
@@ -98,6 +119,7 @@ class Surveyed : public testing::Test {
   static simulation::WorldModel floor() {
     simulation::WorldModel world;
     world.shapes.push_back(simulation::boxShape("floor", {-5, -5, -0.1}, {5, 5, 0}));
+    world.shapes.push_back(simulation::boxShape("wall", {-1.2, -2.0, 0}, {-1.0, 2.0, 2.5}));
     world.shapes.push_back(simulation::boxShape("table", {1.0, -0.2, 0}, {1.4, 0.2, 0.7}));
     return world;
   }
@@ -116,6 +138,15 @@ TEST_F(Surveyed, WhatTheCameraSeesUnhiddenCountsAndFloorBelowATableDoesNot) {
   const common::Polygon behind{{{1.5, -0.1}, {1.9, -0.1}, {1.9, 0.1}, {1.5, 0.1}}};
   EXPECT_LT(*surveyCoverage(behind, world_, {}, {at(0.3, 0.0)}), 0.5) << "the table hides it";
   EXPECT_NEAR(*surveyCoverage(behind, world_, {}, {at(0.3, 0.0), at(2.7, std::numbers::pi)}), 1.0, 1e-9);
+}
+
+TEST_F(Surveyed, FloorInsideAWallDoesNotCountAndTheHeightIsThatOfTheFlight) {
+  common::Pose3 landed = at(-2.0, 0.0);
+  landed.position_m.z() = 0.15;
+  const common::Polygon around{{{-1.6, -0.2}, {-0.6, -0.2}, {-0.6, 0.2}, {-1.6, 0.2}}};  // With a wall across it.
+  EXPECT_NEAR(*surveyCoverage(around, world_, {}, {at(-2.2, 0.0), at(0.0, std::numbers::pi)}), 1.0, 1e-9);
+  const common::Polygon table{{{0.8, -0.15}, {1.6, -0.15}, {1.6, 0.15}, {0.8, 0.15}}};
+  EXPECT_NEAR(*surveyCoverage(table, world_, {}, {at(0.0, 0.0), at(2.5, std::numbers::pi), landed}), 1.0, 1e-9);
 }
 
 TEST(BehaviorCriteria, AnUnmeasuredOrLesserDistanceIsAMiss) {

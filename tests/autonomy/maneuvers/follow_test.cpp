@@ -1,4 +1,4 @@
-// Follow: a person who walks, stops, turns a corner, is hidden, and meets another one.
+// Follow: a person who walks, stops, turns a corner, is hidden, and meets another one; a vehicle too near to a wall.
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -26,10 +26,10 @@ common::DynamicObstacle person(int id, double x_m, double y_m, common::Time seen
 common::Time seenAt(double seconds) { return common::Time::fromSeconds(seconds); }
 
 TEST(PersonWatch, ChoosesTheNearestWhoWalks) {
-  PersonWatch watch;
+  PersonWatch watch{PersonWatchConfig{}};
   const std::vector around{person(1, 1.0, 0.0, seenAt(1)), person(2, 3.0, 0.0, seenAt(1), {0.5, 0}),
                            person(3, 2.0, 1.0, seenAt(1), {0.5, 0})};
-  watch.choose(around, {0, 0}, 6.0);
+  watch.choose(around, {0, 0});
   ASSERT_TRUE(watch.known());
   EXPECT_EQ(watch.place_map_m(seenAt(1)), Eigen::Vector2d(2.0, 1.0));
 }
@@ -73,8 +73,8 @@ class PersonInAHall : public testing::Test {
 };
 
 TEST_F(PersonInAHall, IsKeptThroughANewTrackAndPastAnotherPerson) {
-  PersonWatch watch;
-  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.5, 0})}, {5, 5}, 6.0);
+  PersonWatch watch{PersonWatchConfig{}};
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.5, 0})}, {5, 5});
   stepUnseen(watch, 1.05, 1.3);
   // His track ended; a new one is near where he would be, another person comes the other way.
   const std::vector next{person(7, 7.3, 5.1, seenAt(1.35), {0.5, 0}), person(8, 7.1, 5.3, seenAt(1.35), {-0.5, 0})};
@@ -84,8 +84,8 @@ TEST_F(PersonInAHall, IsKeptThroughANewTrackAndPastAnotherPerson) {
 
 TEST_F(PersonInAHall, WalksOnBehindAWall) {
   wall({{120, 60}, {122, 140}});  // At 6 m; he walks behind it, at 7 m, from the middle to its end and beyond.
-  PersonWatch watch;
-  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5}, 6.0);
+  PersonWatch watch{PersonWatchConfig{}};
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5});
   stepUnseen(watch, 1.05, 3.0);
   EXPECT_TRUE(watch.hidden());
   EXPECT_NEAR(watch.place_map_m(seenAt(3)).y(), 6.0, 0.5);
@@ -98,8 +98,8 @@ TEST_F(PersonInAHall, WalksOnBehindAWall) {
 
 TEST_F(PersonInAHall, IsNotWhereNobodyIsSeen) {
   wall({{120, 60}, {122, 140}});
-  PersonWatch watch;
-  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5}, 6.0);
+  PersonWatch watch{PersonWatchConfig{}};
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5});
   stepUnseen(watch, 1.05, 2.0);
   from_map_m_ = {7.0, 2.0};  // The back of the wall is in sight, its front is not.
   stepUnseen(watch, 2.05, 6.0);
@@ -108,8 +108,8 @@ TEST_F(PersonInAHall, IsNotWhereNobodyIsSeen) {
 }
 
 TEST_F(PersonInAHall, StandsWhereTheMapShowsHimUntilItDoesNot) {
-  PersonWatch watch;
-  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.1, 0})}, {5, 5}, 6.0);
+  PersonWatch watch{PersonWatchConfig{}};
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.1, 0})}, {5, 5});
   stepUnseen(watch, 1.05, 1.05);
   wall({{138, 97}, {143, 103}});
   stepUnseen(watch, 1.1, 9.0);
@@ -124,8 +124,8 @@ TEST_F(PersonInAHall, StandsWhereTheMapShowsHimUntilItDoesNot) {
 
 /// He stands until the map has him and his track ends; somebody else comes by; then he sets off without a track.
 TEST_F(PersonInAHall, IsSeenWithoutATrackAndNotTakenForSomebodyElse) {
-  PersonWatch watch;
-  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.3, 0})}, {5, 5}, 6.0);
+  PersonWatch watch{PersonWatchConfig{}};
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.3, 0})}, {5, 5});
   watch.update(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.3, 0})}, sight(), seenAt(1));
   const auto stand = [&](double x_m) {
     planning::test::fill(grid_, {{0, 0}, {199, 199}}, planning::test::kFreeCell);
@@ -203,6 +203,33 @@ TEST_F(FollowInFlight, GivesWayWhenHeComesBack) {
   EXPECT_GT(distanceTo_m(place_), 1.6);
 }
 
+/// The person stands at the right distance; the map has the wall nearer than it had before.
+TEST_F(FollowInFlight, LeavesAWallAlsoWhereItsDistanceIsRight) {
+  want(to(2.0, 0.5));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  planning::test::fill(grid_, {{0, 0}, {159, 3}}, planning::test::kWallCell);
+  place_ = {4.0, 0.9};
+  want(common::FollowIntent{});
+  stand(6.0);
+  EXPECT_GT(position_m().y(), 0.175 + 0.365) << "the wall, and the hull with its clearance";
+  EXPECT_NEAR(distanceTo_m(place_), 2.0, 0.3);
+}
+
+TEST_F(FollowInFlight, FliesAsFastAsItsModeAllows) {
+  common::FollowIntent intent;
+  intent.mode = common::FlightMode::kBrisk;
+  want(intent);
+  const Eigen::Vector2d walk_m(4.0, 0.0);
+  double fastest_m_s = 0.0;
+  for (int i = 0; i < 80; ++i) {
+    place_ += walk_m / 80.0;
+    show(walk_m / 4.0);
+    fastest_m_s = std::max(fastest_m_s, state_.velocity_odom_m_s.head<2>().norm());
+  }
+  EXPECT_GT(fastest_m_s, 1.05) << "faster than mode fast";
+  EXPECT_LT(farthest_m_, 3.3);
+}
+
 TEST_F(FollowInFlight, LosesHimAndFailsInTheEnd) {
   common::FollowIntent intent;
   intent.lost_s = 6.0;
@@ -259,6 +286,23 @@ TEST_F(FollowInFlight, ReturnsToWhereHeWasFollowed) {
   want(back);
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
   EXPECT_LT(distanceTo_m({6.5, 2.0}), 2.6);
+}
+
+/// An interruption, such as a retreat from somebody else, ends the maneuver; another person is nearer then.
+TEST_F(FollowInFlight, GoesOnWithTheSamePersonAfterAnInterruption) {
+  want(common::FollowIntent{});
+  walk(6.0, 2.0, 0.5);
+  want(common::AvoidIntent{});
+  run(0.5);
+  want(common::FollowIntent{});
+  for (int i = 0; i < 40; ++i) {
+    place_.x() += 0.05 * 0.3;
+    people_ = {person(1, place_.x(), place_.y(), now_, {0.3, 0.0}), person(2, 3.5, 2.5, now_, {0.3, 0.0})};
+    look();
+    run(0.05);
+  }
+  ASSERT_TRUE(executor_.followedPerson_map_m().has_value());
+  EXPECT_LT((*executor_.followedPerson_map_m() - place_).norm(), 0.5);
 }
 
 TEST_F(FollowInFlight, CannotReturnToNobody) {

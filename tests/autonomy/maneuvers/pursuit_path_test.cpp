@@ -1,8 +1,9 @@
-// The way that keeps a person in sight and at a distance: in a hall, at a box, too near, and too near to a wall.
+// The path that keeps a person in sight and at a distance: in a hall, at a box, too near, and too near to a wall.
 #include "autonomy/maneuvers/pursuit_path.hpp"
 
 #include <gtest/gtest.h>
 
+#include "planning/search/planner.hpp"
 #include "tests/planning/flatland.hpp"
 
 namespace swiftlet::autonomy {
@@ -58,6 +59,31 @@ TEST_F(Pursuing, WhatTheMapShowsWhereHeWalkedHidesNothing) {
   const Point here(2.0, 5.0);
   EXPECT_EQ(from(here, walks).in_sight, 0.0) << "a wall across the hall";
   EXPECT_EQ(from(here, walks, {{3.1, 5.0}, {4.3, 5.0}}).in_sight, 1.0);
+}
+
+TEST_F(Pursuing, LeavesAPlaceTooNearToAWallAlsoIfItIsBestToStay) {
+  wall({{50, 0}, {55, 199}});
+  const PursuitPath path = from({3.0, 5.0}, {{{5.2, 5.0}, {0.0, 0.0}}});
+  ASSERT_GT(path.points_map_m.size(), 1u);
+  EXPECT_EQ(path.points_map_m.front(), Point(3.0, 5.0));
+  EXPECT_GT(path.points_map_m.back().x(), 2.725 + 0.375) << "the wall, and the hull with its clearance";
+  EXPECT_LT(path.points_map_m.back().x(), 3.4);
+  EXPECT_GT(path.cost_m, 0.1);
+}
+
+/// As the planners' paths do: what is likelier to be free comes first, so that no corner of a thing is cut.
+TEST_F(Pursuing, EscapesCellByCell) {
+  wall({{50, 0}, {55, 199}});
+  wall({{64, 98}, {66, 102}});
+  const Point here(3.05, 5.0);
+  planning::CostMap costs(planning::CostMap::Config{}, grid_.resolution_m());
+  costs.update(grid_.snapshot(), planning::Footprint{});
+  const auto escape = planning::escapeFrom(costs, costs.cellAt(here));
+  ASSERT_TRUE(escape && escape->size() > 3);
+  const PursuitPath path = from(here, {{{6.5, 5.0}, {0.4, 0.0}}});
+  ASSERT_GE(path.points_map_m.size(), escape->size());
+  EXPECT_EQ(path.points_map_m.front(), here);
+  for (std::size_t i = 1; i < escape->size(); ++i) EXPECT_EQ(path.points_map_m[i], costs.centerOf((*escape)[i]));
 }
 
 TEST_F(Pursuing, LeavesAPlaceTooNearToAWallFirst) {
