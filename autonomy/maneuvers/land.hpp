@@ -24,6 +24,9 @@ class Land final : public Maneuver {
   Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
   std::optional<Eigen::Vector2d> goal_map_m() const override { return place_map_m_; }
   const PathFlight* path() const override { return &flight_; }
+  Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState&) const override {
+    return flight_.wantedVelocity_map_m_s();
+  }
 
  private:
   void choose(const ManeuverInput& input);

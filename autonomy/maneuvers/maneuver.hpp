@@ -61,7 +61,7 @@ class Maneuver {
   /// The path it flies; null for a maneuver without planned paths.
   virtual const PathFlight* path() const { return nullptr; }
   /// The velocity along the path it flies, in `map`; zero if there is none.
-  virtual Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState& state) const;
+  virtual Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState&) const { return Eigen::Vector2d::Zero(); }
 };
 
 }  // namespace swiftlet::autonomy

@@ -13,6 +13,9 @@ class PathManeuver : public Maneuver {
  public:
   Progress step(const ManeuverInput& input) final;
   const PathFlight* path() const final { return &flight_; }
+  Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState&) const final {
+    return flight_.wantedVelocity_map_m_s();
+  }
 
  protected:
   /// `purpose` completes "cannot ...": "fly to a goal".

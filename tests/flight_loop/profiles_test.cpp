@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/system.hpp"
 #include "autonomy/flight_loop.hpp"
-#include "common/config.hpp"
 #include "common/mailbox.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "tests/flight_loop/short_flight.hpp"
@@ -18,19 +18,6 @@ namespace {
 
 using common::Pose2;
 using common::Time;
-
-const std::string kSystems = SWIFTLET_SOURCE_DIR "/config/systems/";
-
-/// config/systems/NAME.yaml, as far as it is read here: these profiles all fly the same vehicle and laser.
-struct Profile {
-  std::string vehicle, laser;
-  AutonomyConfig autonomy;
-  void describe(common::config::Fields& fields) {
-    fields("vehicle", vehicle, "");
-    fields("laser", laser, "");
-    fields.section("autonomy", autonomy, "");
-  }
-};
 
 struct Flown {
   bool finished = false;
@@ -43,7 +30,7 @@ struct Flown {
 };
 
 Flown fly(const std::string& name, int seed = 11) {
-  const auto profile = common::config::readFile<Profile>(kSystems + name + ".yaml");
+  const apps::SystemConfig profile = apps::loadSystem(name).config;
   EXPECT_EQ(profile.vehicle, "cobra");
   EXPECT_EQ(profile.laser, "utm_30lx");
   const auto vehicle = makeVehicle(seed);
