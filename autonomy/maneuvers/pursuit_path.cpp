@@ -6,12 +6,12 @@
 #include <limits>
 #include <numbers>
 
+#include "common/row_major.hpp"
 #include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
 
-using planning::CostMap;
 using Point = Eigen::Vector2d;
 
 /// Four seconds: at the 0.73 m/s of the default profile the vehicle flies 2.9 m, which is round the corner of a box or
@@ -65,7 +65,7 @@ class Pursuit {
     double in_sight = 0.0;
   };
 
-  static std::size_t at(int x, int y) { return static_cast<std::size_t>((y + kReach) * kSide + x + kReach); }
+  static std::size_t at(int x, int y) { return common::rowMajor(y + kReach, kSide, x + kReach); }
   Point placeOf(int x, int y) const { return from_map_m_ + side_m_ * Point(x, y); }
   /// By something else than the person.
   bool occupied(const Point& point_map_m) const {
@@ -89,7 +89,7 @@ class Pursuit {
   double whole_weight_ = 0.0;
   struct Step {
     std::array<double, kGridPlaces> loss;
-    std::array<std::int8_t, kGridPlaces> came_from;  ///< 3 (dy + 1) + dx + 1 of the move.
+    std::array<std::uint8_t, kGridPlaces> came_from;  ///< 3 (dy + 1) + dx + 1 of the move.
   };
   std::array<Step, kSteps + 1> steps_;
 };
@@ -163,7 +163,7 @@ void Pursuit::advance(int step) {
         const double loss = before.loss[at(x, y)] + moving(x, y, dx, dy);
         if (loss >= now.loss[at(x + dx, y + dy)]) continue;
         now.loss[at(x + dx, y + dy)] = loss;
-        now.came_from[at(x + dx, y + dy)] = static_cast<std::int8_t>(move);
+        now.came_from[at(x + dx, y + dy)] = static_cast<std::uint8_t>(move);
       }
     }
   for (int y = -step; y <= step; ++y)
