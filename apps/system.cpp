@@ -52,7 +52,10 @@ common::config::YamlReader readProfile(const std::string& file, SystemConfig& co
   if (!base.empty()) {
     const common::SourceLocation place = reader.locationOf("based_on");
     const std::string base_file = namedFile(base, "systems", "based_on", place);
-    if (std::find(chain.begin(), chain.end(), base_file) != chain.end())
+    // One file may be named in many ways, `a.yaml` and `./a.yaml`.
+    std::error_code error;
+    if (std::any_of(chain.begin(), chain.end(),
+                    [&](const std::string& above) { return std::filesystem::equivalent(above, base_file, error); }))
       throw common::InputError(
           common::Problem{place, "based_on", fmt::format("{} is based on this profile itself", base), ""});
     (void)readProfile(base_file, config, std::move(chain));

@@ -142,6 +142,9 @@ TEST_F(Profiles, AreNotBasedOnThemselvesOrOnWhatDoesNotExist) {
   const ProgramEnd circle = runSwiftlet({"config", "--system", b});
   EXPECT_EQ(circle.exit_code, 2) << describe(circle);
   EXPECT_THAT(circle.err, testing::HasSubstr("a.yaml:1:11: based_on: b.yaml is based on this profile itself"));
+  const ProgramEnd itself = runSwiftlet({"config", "--system", write("d.yaml", "based_on: ./d.yaml\n")});
+  EXPECT_EQ(itself.exit_code, 2) << describe(itself);
+  EXPECT_THAT(itself.err, testing::HasSubstr("d.yaml:1:11: based_on: ./d.yaml is based on this profile itself"));
   const ProgramEnd missing = runSwiftlet({"config", "--system", write("c.yaml", "based_on: swiftlet_4d\n")});
   EXPECT_EQ(missing.exit_code, 2) << describe(missing);
   EXPECT_THAT(missing.err, testing::HasSubstr("c.yaml:1:11: based_on: swiftlet_4d"));
