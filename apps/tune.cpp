@@ -12,6 +12,7 @@
 #include "apps/system.hpp"
 #include "apps/tune_gains.hpp"
 #include "common/error.hpp"
+#include "control/identification/axis_fit.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "perception/fusion/noise_tuning.hpp"
 
@@ -32,17 +33,17 @@ struct TuneOptions {
 
 std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const common::VehicleConfig& vehicle) {
   // As long as `identify` asks for: the filter converges in some seconds, which would be all that is learned from.
-  constexpr double kLeast_s = 15.0;
+  const double least_s = control::AxisFitOptions{}.shortest_s;
   std::vector<TapedFlight> flights;
   for (const std::string& run : runs) {
     flights.push_back(readTapedFlight(run, vehicle));
     const auto& truth = flights.back().truth;
     const double flown_s = (truth.back().stamp - truth.front().stamp).seconds();
-    if (flown_s < kLeast_s)
+    if (flown_s < least_s)
       throw common::InputError(
           common::Problem{{run},
                           "",
-                          fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, kLeast_s),
+                          fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, least_s),
                           "give a flight of a minute and more"});
   }
   return flights;

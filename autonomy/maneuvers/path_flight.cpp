@@ -5,7 +5,7 @@
 
 namespace swiftlet::autonomy {
 
-Eigen::Vector2d velocityAlong(const std::vector<Eigen::Vector2d>& points, double speed_m_s) {
+Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double speed_m_s) {
   constexpr double kAhead_m = 0.05;  // A shorter step gives no reliable direction.
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Eigen::Vector2d step = points[i] - points.front();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,7 +15,7 @@
 namespace swiftlet::autonomy {
 
 /// A velocity of this size from the first point of a path towards what follows; zero without a path.
-Eigen::Vector2d velocityAlong(const std::vector<Eigen::Vector2d>& points, double speed_m_s);
+Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double speed_m_s);
 
 /// One thread. A plan lasts as long as the controller follows it: a retreat, a lost estimate or the pilot ends it.
 class PathFlight {

@@ -24,7 +24,7 @@ constexpr std::size_t kFlown = 4, kWaits = 2;
 /// Places in each direction: as many as the vehicle can reach, and here itself.
 constexpr int kReach = kSteps, kSide = 2 * kReach + 1;
 constexpr std::size_t kGridPlaces = static_cast<std::size_t>(kSide) * kSide;
-/// Whoever is followed wants both alike: to be seen, and to have the vehicle at the right distance.
+/// Losses of a step in which the person is not seen, and of one at a wrong distance: both count alike.
 constexpr double kUnseen = 1.0, kWrongDistance = 1.0;
 /// Twice the distance at which a person is wanted is beyond any use; rays that long need not be followed.
 constexpr double kBeyondUse = 2.0;

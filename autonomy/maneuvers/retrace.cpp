@@ -1,6 +1,7 @@
 #include "autonomy/maneuvers/retrace.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "autonomy/maneuvers/path_flight.hpp"
 #include "common/segment.hpp"
@@ -68,16 +69,17 @@ void Retrace::keepOut(const std::vector<common::Polygon>& zones) {
 
 /// A retreat or a lost estimate ends the path; what is left of it is flown from the nearest place on.
 void Retrace::follow(const ManeuverInput& input) {
-  intent_.path_map_m = remaining(input.position_map_m());
+  auto& path = intent_.path_map_m;
+  path.erase(path.begin(), path.end() - std::ssize(remaining(input.position_map_m())));
   control::FlightPath flown;
   flown.mode = kMode;
-  for (const Eigen::Vector2d& point : straightened(intent_.path_map_m))
+  for (const Eigen::Vector2d& point : straightened(path))
     flown.points_map_m.emplace_back(point.x(), point.y(), setup_.memory.cruise_height_m);
   following_ = setup_.controller.follow(flown).has_value();
 }
 
 /// The path from its point nearest to a place on.
-std::vector<Eigen::Vector2d> Retrace::remaining(const Eigen::Vector2d& from_map_m) const {
+std::span<const Eigen::Vector2d> Retrace::remaining(const Eigen::Vector2d& from_map_m) const {
   const auto& path = intent_.path_map_m;
   return {std::min_element(path.begin(), path.end(),
                            [&](const auto& a, const auto& b) {

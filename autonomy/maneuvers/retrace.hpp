@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "autonomy/maneuvers/maneuver.hpp"
@@ -19,7 +20,7 @@ class Retrace final : public Maneuver {
   Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState& state) const override;
 
  private:
-  std::vector<Eigen::Vector2d> remaining(const Eigen::Vector2d& from_map_m) const;
+  std::span<const Eigen::Vector2d> remaining(const Eigen::Vector2d& from_map_m) const;
   void follow(const ManeuverInput& input);
   void keepOut(const std::vector<common::Polygon>& zones);
 
