@@ -136,6 +136,12 @@ export class Map3dGl {
     gl.disable(gl.BLEND);
   }
 
+  /** Returns when the picture is drawn. Reading a pixel waits for it; browsers let WebGL's own `finish` return at once. */
+  finish() {
+    const { gl } = this;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
   /** Frees the memory at once instead of when the page collects it. */
   dispose() {
     for (const { buffer } of this.buffers.values()) this.gl.deleteBuffer(buffer);

@@ -67,19 +67,28 @@ export class Map3dView {
     this.gl.upload(number, this.map3d.submaps.get(number), first);
   }
 
-  /** Draws soon. */
+  /**
+   * Draws soon. A machine that takes long for a picture rests as long before the next: otherwise pictures that are no
+   * longer wanted queue up, and a tap waits for all of them.
+   */
   draw() {
     if (this.wanted || this.stopped) return;
     this.wanted = true;
-    requestAnimationFrame(() => {
+    const paintNext = () => requestAnimationFrame(() => {
       this.wanted = false;
       if (this.stopped) return;
       try {
+        const begin = performance.now();
         this.paint();
+        const end = performance.now();
+        this.restsUntil = 2 * end - begin;
       } catch (error) {
         this.fail(error.message);
       }
     });
+    const rest_ms = (this.restsUntil ?? 0) - performance.now();
+    if (rest_ms > 0) setTimeout(paintNext, rest_ms);
+    else paintNext();
   }
 
   paint() {
@@ -107,6 +116,7 @@ export class Map3dView {
     this.gl.begin(rgba(this.colors.unknown));
     this.gl.drawSubmaps(map3d, clipFromMap, inFrame(shownFromMap, eye), height / (2 * kUp), this.byNormal);
     this.gl.drawLines(lines, clipFromMap);
+    this.gl.finish();
     // For programs that look at the page: what is drawn.
     canvas.dataset.points = map3d.points;
     canvas.dataset.submaps = map3d.poses.length;
