@@ -92,6 +92,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (scan.stamps.measured < started_) return std::nullopt;
   ScanOutcome outcome;
   outcome.scan = project(scan);
+  altitude_.removeGround(outcome.scan);
   const perception::ProjectedScan standing = withoutPeople(outcome.scan, scan.stamps.measured);
   const bool withheld = isWithheld(outcome.scan);
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);

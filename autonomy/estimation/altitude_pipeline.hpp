@@ -12,6 +12,7 @@
 #include "common/geometry.hpp"
 #include "common/level_map.hpp"
 #include "common/time.hpp"
+#include "perception/altitude/fan_ground.hpp"
 #include "perception/altitude/ground_slopes.hpp"
 #include "perception/altitude/height_drift.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
@@ -51,6 +52,9 @@ class AltitudePipeline {
     slopes_.add(depth, camera, T_map_camera);
   }
 
+  /// Makes floor hits of the beams that ended on a slope ahead.
+  void removeGround(perception::ProjectedScan& scan) const { fan_.remove(scan); }
+
   /// `vertical` is the filter's estimate at the scan's stamp; without it the scan does not change the levels.
   AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
                    const common::Pose2& T_odom_body, const std::optional<perception::VerticalState>& vertical);
@@ -67,6 +71,7 @@ class AltitudePipeline {
   perception::MultilevelFilter filter_;
   perception::SeenSurfaces seen_;
   perception::GroundSlopes slopes_;
+  perception::FanGround fan_;
   perception::RampRise ramp_;
   perception::SlopeDoubt doubt_;
   perception::HeightDrift drift_;

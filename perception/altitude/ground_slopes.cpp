@@ -1,11 +1,9 @@
 #include "perception/altitude/ground_slopes.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
-
-#include "common/square.hpp"
+#include "perception/altitude/ground_plane.hpp"
+#include "perception/altitude/slope_limits.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -18,40 +16,10 @@ constexpr int kEvery_px = 3;
 constexpr double kBelow_m = 0.3;
 /// Farther away the depths of structured-light cameras are too noisy for a gradient [Khoshelham 2012].
 constexpr double kRange_m = 4.0;
-constexpr int kLeastPoints = 20, kLeastImages = 3;
-/// Least spread of the points of a cell in each direction, and greatest of their distances from the plane.
-constexpr double kSpread_m = 0.07, kFlat_m = 0.03;
-/// Gradients between which ground slopes: 4 deg, twice the error of the attitude, and 25 deg, steeper than any ramp.
-constexpr double kLeastGradient = 0.07, kGreatestGradient = 0.47;
+constexpr int kLeastImages = 3;
 
 /// Share of a cell's gradient that becomes part of the bias: some hundred cells of level ground make it known.
 constexpr double kBiasGain = 0.01;
-
-/// Sums over the points of a cell for the least-squares plane z = c + g . (x, y).
-struct Plane {
-  int points = 0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-
-  void add(const Eigen::Vector3d& point) {
-    ++points;
-    sum += point;
-    products += point * point.transpose();
-  }
-  /// None if the points are too few, too near to a line, or not on a plane.
-  std::optional<Eigen::Vector2d> gradient() const {
-    if (points < kLeastPoints) return std::nullopt;
-    const Eigen::Matrix3d spread = products / points - sum * sum.transpose() / common::square(double(points));
-    const Eigen::Matrix2d across = spread.topLeftCorner<2, 2>();
-    const double half_trace = 0.5 * across.trace();
-    const double least = half_trace - std::sqrt(std::max(0.0, common::square(half_trace) - across.determinant()));
-    if (least < common::square(kSpread_m)) return std::nullopt;
-    const Eigen::Vector2d slope = across.ldlt().solve(Eigen::Vector2d(spread(0, 2), spread(1, 2)));
-    const double off_m2 = spread(2, 2) - slope.dot(Eigen::Vector2d(spread(0, 2), spread(1, 2)));
-    if (off_m2 > common::square(kFlat_m) || slope.norm() > kGreatestGradient) return std::nullopt;
-    return slope;
-  }
-};
 
 }  // namespace
 
@@ -63,7 +31,7 @@ common::CellIndex GroundSlopes::cellAt(const Eigen::Vector2d& place_map_m) {
 void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCamera& camera,
                        const common::Pose3& T_map_camera) {
   if (depth.depth_m.size() != static_cast<std::size_t>(camera.pixels()) || depth.width_px != camera.width_px) return;
-  std::map<common::CellIndex, Plane> planes;
+  std::map<common::CellIndex, GroundPlane> planes;
   const Eigen::Vector3d& from_map_m = T_map_camera.position_m;
   for (int v = kEvery_px / 2; v < depth.height_px; v += kEvery_px)
     for (int u = kEvery_px / 2; u < depth.width_px; u += kEvery_px) {

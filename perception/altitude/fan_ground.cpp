@@ -1,0 +1,82 @@
+#include "perception/altitude/fan_ground.hpp"
+
+#include <cmath>
+
+#include "perception/altitude/slope_limits.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+/// Side of a cell, as that of GroundSlopes.
+constexpr double kFanCell_m = 0.4;
+/// Points of a cell that are older are left out: the error of the attitude and of the position is the same for so long.
+constexpr double kTogether_s = 3.0;
+/// Every n-th end point is enough for a plane; farther ones have a height that is wrong by the attitude.
+constexpr std::size_t kEveryPoint = 2;
+constexpr double kFanRange_m = 8.0;
+/// Nearer hits are obstacles, also on ground: below 27 cm over a slope of 15 degrees.
+constexpr double kObstacle_m = 1.0;
+/// An end point is on a slope if it is so near to its plane, m, and to the points that it is known from.
+constexpr double kOnPlane_m = 0.08, kBeside_m = 0.8;
+constexpr int kBesideCells = 2;
+common::CellIndex fanCellAt(const Eigen::Vector2d& place_odom_m) {
+  return {static_cast<int>(std::floor(place_odom_m.x() / kFanCell_m)),
+          static_cast<int>(std::floor(place_odom_m.y() / kFanCell_m))};
+}
+
+Eigen::Vector3d pointOdom_m(const ProjectedScan& scan, std::size_t i, const common::Pose2& T_odom_body,
+                            double height_m) {
+  const Eigen::Vector2d place_odom_m = T_odom_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>());
+  return {place_odom_m.x(), place_odom_m.y(), height_m + static_cast<double>(scan.heights_level_m[i])};
+}
+
+}  // namespace
+
+void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m) {
+  for (std::size_t i = 0; i < scan.points_level_m.size(); i += kEveryPoint) {
+    const float range_m = scan.points_level_m[i].norm();
+    if (range_m > kFanRange_m || range_m < kObstacle_m) continue;
+    const Eigen::Vector3d point_m = pointOdom_m(scan, i, T_odom_body, height_m);
+    const common::CellIndex index = fanCellAt(point_m.head<2>());
+    Cell& cell = cells_[index];
+    if (cell.plane.points() == 0 || (scan.stamp - cell.since).seconds() > kTogether_s) cell = {scan.stamp, {}};
+    cell.plane.add(point_m);
+    if (const auto gradient = cell.plane.gradient(); gradient && gradient->norm() >= kLeastGradient)
+      slopes_[index] = {cell.plane, *gradient};
+  }
+}
+
+bool FanGround::isGround(const Eigen::Vector3d& point_odom_m) const {
+  const common::CellIndex center = fanCellAt(point_odom_m.head<2>());
+  for (int dy = -kBesideCells; dy <= kBesideCells; ++dy)
+    for (int dx = -kBesideCells; dx <= kBesideCells; ++dx) {
+      const auto found = slopes_.find({center.x + dx, center.y + dy});
+      if (found == slopes_.end()) continue;
+      const Slope& slope = found->second;
+      const bool beside = (point_odom_m - slope.point_odom_m()).head<2>().norm() < kBeside_m;
+      if (beside && std::abs(point_odom_m.z() - slope.height_m(point_odom_m.head<2>())) < kOnPlane_m) return true;
+    }
+  return false;
+}
+
+void FanGround::remove(ProjectedScan& scan) const {
+  if (slopes_.empty()) return;
+  const common::Pose2 T_odom_body = common::planar(scan.T_odom_body);
+  const double height_m = scan.T_odom_body.position_m.z();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const Eigen::Vector2f& point_m = scan.points_level_m[i];
+    if (point_m.norm() > static_cast<float>(kObstacle_m) && isGround(pointOdom_m(scan, i, T_odom_body, height_m))) {
+      scan.misses_level_m.push_back({point_m.x(), point_m.y(), scan.heights_level_m[i]});
+      --scan.counts.hits;
+      ++scan.counts.floor_hits;
+      continue;
+    }
+    scan.points_level_m[kept] = point_m;
+    scan.heights_level_m[kept++] = scan.heights_level_m[i];
+  }
+  scan.points_level_m.resize(kept);
+  scan.heights_level_m.resize(kept);
+}
+
+}  // namespace swiftlet::perception

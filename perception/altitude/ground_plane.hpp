@@ -1,0 +1,30 @@
+// The plane through measured points of the ground.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace swiftlet::perception {
+
+/// Sums over points for the least-squares plane z = c + g . (x, y).
+class GroundPlane {
+ public:
+  /// Relative to a place nearby, so that the sums stay small.
+  void add(const Eigen::Vector3d& point_m);
+  /// The points of another plane, which are relative to the same place.
+  void add(const GroundPlane& other);
+
+  /// The gradient g. None if the points are too few, too near to a line, not on a plane, or it is steeper than ground.
+  std::optional<Eigen::Vector2d> gradient() const;
+  /// Of the points; there must be one.
+  Eigen::Vector3d mean_m() const { return sum_m_ / points_; }
+  int points() const { return points_; }
+
+ private:
+  int points_ = 0;
+  Eigen::Vector3d sum_m_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products_m2_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace swiftlet::perception
