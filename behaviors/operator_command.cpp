@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
@@ -45,10 +47,21 @@ void OperatorCommand::take(FlightTick& tick) {
   if (command_) tick.say(common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
-  goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m());
-  if (point != nullptr) goal_->goal_given_m = point->goal_given_m;
+  goal_ = goalTo(point != nullptr ? *point : common::GoalCommand{tick.flight.world->vehicle->home_map.position_m()});
   goal_->mode = tick.mode;
+  if (point != nullptr) shift(tick);
   renewIntent();
+}
+
+/// The mission has accepted the goal. Where it is not free, a place beside it is.
+void OperatorCommand::shift(FlightTick& tick) {
+  const auto place =
+      common::judgeGoal(common::tappedGoalOf(*goal_), tick.flight.goal_limits, tick.flight.goal_map.get());
+  const double off_m = place ? (*place - goal_->goal_map_m).norm() : 0.0;
+  if (off_m <= goal_->tolerance_m) return;
+  tick.say(common::Severity::kInfo, toString(*command_) + fmt::format(" shifted by {:.2f} m", off_m),
+           fmt::format("to ({:.2f}, {:.2f}), the nearest free place", place->x(), place->y()));
+  goal_->goal_map_m = *place;
 }
 
 void OperatorCommand::followGivenMap(FlightTick& tick) {
@@ -81,12 +94,13 @@ void OperatorCommand::finish(FlightTick& tick) {
   goal_.reset();
 }
 
-common::GoToIntent OperatorCommand::goalTo(const Eigen::Vector2d& place_map_m) const {
-  common::GoToIntent goal;
-  goal.goal_map_m = place_map_m;
-  goal.tolerance_m = tolerance_m_.get().value_or(goal.tolerance_m);
-  goal.clearance_m = clearance_m_.get().value_or(goal.clearance_m);
-  return goal;
+common::GoToIntent OperatorCommand::goalTo(const common::GoalCommand& goal) const {
+  common::GoToIntent intent;
+  intent.goal_map_m = goal.goal_map_m;
+  intent.goal_given_m = goal.goal_given_m;
+  intent.tolerance_m = tolerance_m_.get().value_or(intent.tolerance_m);
+  intent.clearance_m = clearance_m_.get().value_or(intent.clearance_m);
+  return intent;
 }
 
 }  // namespace swiftlet::behaviors

@@ -2,6 +2,7 @@
 // above it must end the mission.
 //
 //   a new goal: replaces the present one
+//   a goal that is not free: the nearest free place within a fingertip instead, with an event
 //   a goal in the given map: followed when the localization moves the map; given up, then hold, when it loses the place
 //   a goal is reached, or cannot be reached: an event, then hold
 //   suspended and resumed: continues to its goal
@@ -22,7 +23,7 @@ class OperatorCommand final : public FlightLeaf {
   static tree::NodeManifest manifest();
 
   /// The goal with the tolerance and clearance of this node.
-  common::GoToIntent goalTo(const Eigen::Vector2d& place_map_m) const;
+  common::GoToIntent goalTo(const common::GoalCommand& goal) const;
 
   /// The command that it flies to, or goes on with after a suspension.
   const std::optional<common::OperatorCommand>& present() const { return command_; }
@@ -32,6 +33,7 @@ class OperatorCommand final : public FlightLeaf {
   void onStart(tree::TickContext& context) override;
   void take(FlightTick& tick);
   void finish(FlightTick& tick);
+  void shift(FlightTick& tick);
   void followGivenMap(FlightTick& tick);
 
   tree::Input<double> tolerance_m_;

@@ -1,5 +1,6 @@
 #include "common/goal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -43,6 +44,14 @@ Goal goalOf(const GoToIntent& intent) {
   return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m};
 }
 
+Goal tappedGoalOf(const GoToIntent& intent) {
+  constexpr double kFingertip_m = 0.25;
+  Goal goal = goalOf(intent);
+  // A place in the given map moves with the localization and stays as it is.
+  if (!intent.goal_given_m) goal.shift_m = kFingertip_m;
+  return goal;
+}
+
 tl::expected<Eigen::Vector2d, GoalRefusal> judgeGoal(const Goal& goal, const GoalLimits& limits, const GoalMap* map) {
   const Eigen::Vector2d& place = goal.place_map_m;
   if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kGreatestCoordinate_m)
@@ -61,8 +70,8 @@ tl::expected<Eigen::Vector2d, GoalRefusal> judgeGoal(const Goal& goal, const Goa
   const PlaceState state = map->stateAt(place, goal.clearance_m);
   if (state == PlaceState::kFree) return place;
   const auto nearest = map->nearestFree(place, kReach_m, goal.clearance_m);
-  if (state != PlaceState::kKeptOut && nearest && (*nearest - place).norm() <= kShareOfTolerance * goal.tolerance_m)
-    return *nearest;
+  const double reach_m = std::max(kShareOfTolerance * goal.tolerance_m, goal.shift_m);
+  if (state != PlaceState::kKeptOut && nearest && (*nearest - place).norm() <= reach_m) return *nearest;
   return tl::unexpected(refusal(state, goal, nearest));
 }
 

@@ -9,8 +9,8 @@
 //   6. The hull and its clearance fit there, clear of obstacles, people and unknown space.
 //   7. The hull and its clearance are outside every keep-out zone.
 //
-// If a goal fails 3 to 6, but a free place lies well within its tolerance, the vehicle flies to that place instead.
-// Without a map, 3 to 7 are not checked. Only planning decides whether a path leads there.
+// If a goal fails 3 to 6, but a free place lies well within its tolerance or its shift, the vehicle flies there
+// instead. Without a map, 3 to 7 are not checked. Only planning decides whether a path leads there.
 #pragma once
 
 #include <limits>
@@ -32,8 +32,13 @@ struct Goal {
   std::optional<double> height_m;  ///< Above the take-off floor; none: the present flight height.
   double tolerance_m = 0.0;
   double clearance_m = 0.0;  ///< Between hull and obstacle.
+  /// How far from it a free place will do as well, even beyond the tolerance: a finger on a map is not exact.
+  double shift_m = 0.0;
 };
 Goal goalOf(const GoToIntent& intent);
+/// A place that an operator tapped on: it may be shifted by a quarter of a metre, as wide as a fingertip on a tablet
+/// that shows a floor of 10 m.
+Goal tappedGoalOf(const GoToIntent& intent);
 
 /// Above the take-off floor.
 struct GoalLimits {

@@ -88,11 +88,19 @@ TEST(OperatorCommand, AcceptsAGoalWithAFreePlaceWithinItsTolerance) {
   EXPECT_THAT(flight.results(), ElementsAre("1 accepted")) << "0.075 m beside, of a tolerance of 0.1 m";
 }
 
+TEST(OperatorCommand, ShiftsATappedGoalThatIsNotFreeByAFingertip) {
+  Flight flight = waiting();
+  EXPECT_EQ(flight.goal(3.85, 0.0).tick(), "RUNNING 3 go to (3.62, 0.00)");
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
+  EXPECT_THAT(flight.events(),
+              ElementsAre("goal (3.85, 0.00) shifted by 0.23 m (to (3.62, 0.00), the nearest free place)"));
+}
+
 TEST(OperatorCommand, JudgesGoalsByItsOwnClearance) {
   Flight flight(R"(<Sequence><TakeOff/><OperatorCommand clearance_m="0.5"/></Sequence>)");
-  flight.goal(3.4, 0.0).tick();
+  flight.goal(3.6, 0.0).tick();
   EXPECT_THAT(flight.results(),
-              ElementsAre("1 refused: goal (3.40, 0.00) is too close to an obstacle or to unknown space at clearance "
+              ElementsAre("1 refused: goal (3.60, 0.00) is too close to an obstacle or to unknown space at clearance "
                           "0.50 m, the nearest free place is (3.23, 0.00)"));
 }
 
