@@ -93,6 +93,18 @@ TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {
   EXPECT_THAT(readText(path("drift.svg")), HasSubstr("integrated acceleration"));
 }
 
+TEST_F(Identify, TheDriftOfAFilterThatNeverStartedIsRefused) {
+  const std::string run = hop("run");
+  std::string tape = readText(run + "/fusion.tsv");
+  const std::size_t start = tape.find("\nstart ");
+  ASSERT_NE(start, std::string::npos);
+  tape.erase(start, tape.find('\n', start + 1) - start);
+  write("run/fusion.tsv", tape);
+  expectRefused(runSwiftlet({"consistency", run, "--drift", path("drift.svg")}),
+                "run: --drift: its filter never started while the truth was known, put a run first that took off");
+  EXPECT_FALSE(fs::exists(path("drift.svg")));
+}
+
 TEST_F(Identify, TuneSearchesGainsThatCanBeNamed) {
   const std::string out = path("found.yaml");
   const auto tune = [&](const std::string& flights, const std::string& only) {
