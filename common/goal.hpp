@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
+#include "common/geometry.hpp"
 #include "common/intent.hpp"
 
 namespace swiftlet::common {
@@ -32,6 +33,8 @@ struct Goal {
   std::optional<double> height_m;  ///< Above the take-off floor; none: the present flight height.
   double tolerance_m = 0.0;
   double clearance_m = 0.0;  ///< Between hull and obstacle.
+  /// For texts, which then name places in the given map; none: in `map`.
+  std::optional<Pose2> T_given_map = std::nullopt;
 };
 Goal goalOf(const GoToIntent& intent);
 
