@@ -103,6 +103,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
   localize({standing, T_odom_body, odometry.covariance, withheld, odometry.interrupted}, now);
 
+  if (odom_at_key_) altitude_.follow(*map_.keyPoses(), odom_at_key_->key);
   const AltitudeStep altitude =
       altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body, filter_.verticalAt(outcome.scan.stamp));
   fuse(altitude, outcome.scan.stamp);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/square.hpp"
+#include "perception/altitude/ground_slopes.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -13,13 +14,11 @@ using common::square;
 /// Long enough for a rate of some cm/s from the noise below, and short enough that what drifts at half a metre per
 /// second squared is noticed before it has drifted by 0.15 m.
 constexpr double kWindow_s = 0.5;
-constexpr std::size_t kLeastSamples = 5;
+constexpr std::size_t kLeastSamples = 5;  ///< Of ten scans a second, those of the window.
 /// The noise of the median distance down of one scan: a UTM-30LX has 0.01 m a beam.
 constexpr double kNoise_m = 0.01;
 /// More than that from scan to scan is no drift: at 10 scans a second it would be 0.6 m/s.
 constexpr double kJump_m = 0.06;
-/// The steepest ground of which slopes are expected: 25 degrees, as in GroundSlopes.
-constexpr double kSteepest = 0.47;
 /// Least rate, m/s, and how many times its standard deviation: gusts and the lag of the height filter give 0.05 m/s.
 constexpr double kLeast_m_s = 0.15, kSigmas = 4.0;
 
@@ -51,7 +50,7 @@ std::optional<HeightDriftRate> HeightDrift::add(common::Time time, const Eigen::
     product_m_s += off_s * (sample.difference_m - mean_m);
   }
   const double rate_m_s = product_m_s / spread_s2, variance_m2_s2 = square(kNoise_m) / spread_s2;
-  const double sloping_m_s = kSteepest * moved_m / seen_s;
+  const double sloping_m_s = GroundSlopes::kGreatestGradient * moved_m / seen_s;
   if (std::abs(rate_m_s) < sloping_m_s + std::max(kLeast_m_s, kSigmas * std::sqrt(variance_m2_s2))) return std::nullopt;
   return HeightDriftRate{rate_m_s, variance_m2_s2 + square(sloping_m_s)};
 }
