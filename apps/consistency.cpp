@@ -74,7 +74,10 @@ void plotDrift(const TapedFlight& flight, const System& system, const Consistenc
     integrated.points.emplace_back(v.time_s, v.integrated_m_s);
   }
   if (velocities.empty())
-    throw common::InputError(common::Problem{{options.runs.front()}, "--drift", "has no instant with the truth", ""});
+    throw common::InputError(common::Problem{{options.runs.front()},
+                                             "--drift",
+                                             "its filter never started while the truth was known",
+                                             "put a run first that took off, flown with --control-log"});
   plot.series = {std::move(integrated), std::move(filter), std::move(truth)};
   required(interfaces::writeAtomically(options.drift, rendering::plotSvg(plot)));
   if (options.json) return;

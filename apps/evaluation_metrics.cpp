@@ -115,7 +115,11 @@ void report(const EvaluateOptions& options, const Compared& compared, nlohmann::
 
 int evaluateRelations(const EvaluateOptions& options) {
   const std::vector<common::Relation> relations = interfaces::readRelations(options.against);
-  if (relations.empty()) throw InputError(Problem{{options.against}, "", "holds no relations", ""});
+  if (relations.empty())
+    throw InputError(Problem{{options.against},
+                             "",
+                             "holds no relations",
+                             "a line of them is `from to x y z roll pitch yaw`, with stamps in seconds"});
   const Ordered estimate = read(options.estimate);
   const evaluation::RelationErrors errors = evaluation::relationErrors(estimate.trajectory, relations);
   const std::size_t missing = errors.missing.size(), compared = relations.size() - missing;
@@ -152,12 +156,20 @@ int evaluateAte(const EvaluateOptions& options) {
   double scale = 1.0;
   if (options.scale) {
     const auto best = evaluation::bestScale(compared.pairs, alignment);
-    if (!best) throw InputError(Problem{{options.estimate}, "--scale", "no scale above zero fits", ""});
+    if (!best)
+      throw InputError(Problem{{options.estimate},
+                               "--scale",
+                               "no scale above zero fits",
+                               "it moves against the reference: compare without --scale, or turn its axes"});
     scale = *best;
     compared.pairs = evaluation::scaled(std::move(compared.pairs), scale);
   }
   const auto error = evaluation::absoluteTrajectoryError(compared.pairs, alignment);
-  if (!error) throw InputError(Problem{{options.estimate}, "--scale", "shrinks the estimate to nothing", ""});
+  if (!error)
+    throw InputError(Problem{{options.estimate},
+                             "--scale",
+                             "shrinks the estimate to nothing",
+                             "the shapes do not agree: compare without --scale"});
   std::string title = "Absolute trajectory error, aligned: " + options.align;
   if (options.scale) title += fmt::format(", estimate scaled by {:.6f}", scale);
   report(options, compared, {{"align", options.align}, {"scale", common::rounded(scale, 9)}}, title,
@@ -169,7 +181,10 @@ int evaluateAte(const EvaluateOptions& options) {
 int evaluateRpe(const EvaluateOptions& options) {
   const Stretch stretch{kUnits.at(options.unit), options.delta};
   if (stretch.unit == Stretch::Unit::kFrames && std::floor(options.delta) != options.delta)
-    throw InputError(Problem{{}, "--delta", fmt::format("{} is no number of frames", options.delta), ""});
+    throw InputError(Problem{{},
+                             "--delta",
+                             fmt::format("{} is no number of frames", options.delta),
+                             "give a whole one, or --unit seconds or metres"});
   const Compared compared = compare(options);
   const evaluation::RelativeError error = evaluation::relativePoseError(compared.pairs, stretch);
   const std::size_t stretches = error.translation_m.count;

@@ -108,7 +108,7 @@ class Flight {
   /// Keeps the server up, so that the pages show how the flight ended. After a stop by the user it does so only
   /// briefly.
   void linger() const {
-    constexpr double kEnoughForPages_s = 0.5;
+    constexpr double kEnoughForPages_s = 0.5;  // Several snapshots of the page.
     const Clock::time_point begin = Clock::now();
     const auto enough_s = [&] {
       const bool in_haste = hooks_.stop && *hooks_.stop;

@@ -87,7 +87,8 @@ FlightSetup setupOf(const FlyOptions& options) {
   setup.out = options.out;
   setup.wait = options.wait;
   if (options.wait && options.headless)
-    throw common::InputError(common::Problem{{}, "--wait", "without the page nobody can start the mission", ""});
+    throw common::InputError(
+        common::Problem{{}, "--wait", "without the page nobody can start the mission", "leave out --headless"});
   return setup;
 }
 

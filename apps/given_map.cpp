@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "apps/required.hpp"
 #include "apps/system.hpp"
 #include "common/data_paths.hpp"
@@ -15,6 +17,10 @@ namespace swiftlet::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The coarsest map to localize and fly in. A door of 0.8 m, which the hull of 0.6 m just passes, is four cells of it;
+/// on a coarser one it closes wherever a frame falls on the edge of a cell.
+constexpr double kCoarsest_m = 0.2;
 
 /// T_world_given: the rigid fit of the SLAM poses to the driven ones. None if they do not determine a direction.
 std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
@@ -35,6 +41,12 @@ std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
 
 interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
   interfaces::StoredMap stored = interfaces::readMap(yaml_file);
+  if (const double resolution_m = stored.grid.resolution_m(); resolution_m > kCoarsest_m)
+    throw common::InputError(
+        common::Problem{{yaml_file.string()},
+                        "resolution",
+                        fmt::format("{} m a cell is too coarse: doors close in it", resolution_m),
+                        fmt::format("give a map of at most {} m a cell; 0.05 m is usual", kCoarsest_m)});
   if (const std::string why = perception::Localizer::whyUnusable(stored.grid); !why.empty())
     throw common::InputError(
         common::Problem{{yaml_file.string()}, "", why, "are `negate` and the thresholds those of the picture?"});
@@ -87,8 +99,10 @@ FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::
   FlightMap map = readFlightMap(folder / "map.yaml");
   map.T_world_given = fitted(slam, tracked, driven);
   if (!map.T_world_given)
-    throw common::InputError(
-        common::Problem{{}, "map.path_world_m", "makes a map of one spot: it cannot be laid into the world", ""});
+    throw common::InputError(common::Problem{{},
+                                             "map.path_world_m",
+                                             "makes a map of one spot: it cannot be laid into the world",
+                                             "give it places that are some metres apart"});
   return map;
 }
 

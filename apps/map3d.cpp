@@ -200,7 +200,11 @@ int map3d(const Map3dOptions& options) {
   Map3dFigures shown{options.folder, {}, warningsOf(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
     for (const std::string& warning : shown.warnings) showError(warning + "\n");
-    throw common::InputError(common::Problem{{options.folder}, "", "none of its frames can be used", ""});
+    throw common::InputError(common::Problem{
+        {options.folder},
+        "",
+        fmt::format("of {} none can be used", plural(folder.listing().pairs.size(), "frame", "frames")),
+        "the notes above say why; a frame needs a depth image of the size of its picture, with depths in most of it"});
   }
   const common::Trajectory trajectory = trajectoryOf(run, RecordedCamera(folder.calibration()));
   const double path_length_m = pathLength_m(trajectory);

@@ -56,8 +56,9 @@ common::config::YamlReader readProfile(const std::string& file, SystemConfig& co
     std::error_code error;
     if (std::any_of(chain.begin(), chain.end(),
                     [&](const std::string& above) { return std::filesystem::equivalent(above, base_file, error); }))
-      throw common::InputError(
-          common::Problem{place, "based_on", fmt::format("{} is based on this profile itself", base), ""});
+      throw common::InputError(common::Problem{place, "based_on",
+                                               fmt::format("{} is based on this profile itself", base),
+                                               "name another one, or leave based_on out"});
     (void)readProfile(base_file, config, std::move(chain));
   }
   reader.read(config);

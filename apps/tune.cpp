@@ -111,7 +111,8 @@ int tuneNoise(const TuneOptions& options) {
 int tune(const TuneOptions& options) {
   if (options.gains.trial.empty()) return tuneNoise(options);
   if (!options.runs.empty() || !options.held_out.empty())
-    throw common::InputError(common::Problem{{}, "--gains", "does not go with recorded flights", ""});
+    throw common::InputError(common::Problem{
+        {}, "--gains", "does not go with recorded flights", "it flies its own: leave out the runs and --held-out"});
   TuneGainsOptions gains = options.gains;
   gains.system = options.system;
   gains.out = options.out;

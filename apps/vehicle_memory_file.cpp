@@ -15,7 +15,7 @@ namespace {
 /// The table is learned within the span of the vehicle's battery, so a voltage outside is of another one.
 void refuseOtherBattery(const autonomy::VehicleMemory& memory, const common::VehicleConfig& vehicle,
                         const common::config::YamlReader& reader) {
-  constexpr double kRounding_v = 0.01;
+  constexpr double kRounding_v = 0.01;  // A knot at an end of the span may be written a little beyond it.
   const control::VoltageSpan span = control::batterySpan(vehicle);
   for (std::size_t i = 0; i < memory.thrust.size(); ++i) {
     const double voltage_v = memory.thrust[i].voltage_v;

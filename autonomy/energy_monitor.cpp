@@ -91,7 +91,7 @@ common::EnergyLayer EnergyMonitor::layer(const WayHome& home, double land_share,
 
 /// Without a path the length is the trail's, which can be flown, or that of a path with detours if that is shorter.
 void EnergyMonitor::tellHome(const WayHome& home, common::EnergyLayer& layer) const {
-  constexpr double kDetours = 3.0, kLeast_m_s = 0.1;
+  constexpr double kDetours = 3.0, kLeast_m_s = 0.1;  // Rooms and corridors rarely need more detour.
   layer.home_planned = home.planned_m.has_value();
   layer.home_m = home.planned_m.value_or(std::min(home.flown_m, kDetours * home.straight_m));
   const double fly_s = *layer.home_m / std::max(kLeast_m_s, home_speed_m_s_);

@@ -104,6 +104,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
   localize({standing, T_odom_body, odometry.covariance, withheld, odometry.interrupted}, now);
 
+  if (odom_at_key_) altitude_.follow(*map_.keyPoses(), odom_at_key_->key);
   const AltitudeStep altitude =
       altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body, filter_.verticalAt(outcome.scan.stamp));
   fuse(altitude, outcome.scan.stamp);
@@ -298,8 +299,8 @@ bool Estimator::fuse(const OdometryStep& step) {
   if (step.clone_before) addClone(*step.clone_before);
   bool taken = step.matched;
   if (const auto& m = step.measurement) {
-    hear(perception::TapedRelativePose{m->from, m->to, m->T_from_to, m->covariance, m->unseen_direction});
-    taken = filter_.addRelativePose(m->from, m->to, m->T_from_to, m->covariance, m->unseen_direction) ==
+    hear(perception::TapedRelativePose{m->from, m->to, m->T_from_to, m->covariance, m->unobservable_direction});
+    taken = filter_.addRelativePose(m->from, m->to, m->T_from_to, m->covariance, m->unobservable_direction) ==
             perception::Insertion::kTaken;
   }
   if (step.clone_after) addClone(*step.clone_after);
@@ -329,9 +330,9 @@ PositionFix Estimator::positionFix(const OdometryStep& step, bool matched, const
   fix.covariance_odom_m2 = filter_.state().position_covariance_m2.topLeftCorner<2, 2>();
   // A restart of the odometry has nothing to tell of the motion before it.
   fix.matched = matched && !step.interrupted;
-  if (step.measurement && step.measurement->unseen_direction) {
+  if (step.measurement && step.measurement->unobservable_direction) {
     const double yaw_rad = T_odom_body.yaw_rad - step.measurement->T_from_to.yaw_rad;
-    fix.unseen_direction_odom = Eigen::Rotation2Dd(yaw_rad) * *step.measurement->unseen_direction;
+    fix.unobservable_direction_odom = Eigen::Rotation2Dd(yaw_rad) * *step.measurement->unobservable_direction;
   }
   fix.new_reference = matched && !step.covariance.isZero();
   if (map.at_key) fix.newest_key = map.at_key->key;

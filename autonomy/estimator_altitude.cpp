@@ -27,7 +27,9 @@ void Estimator::lookAtGround(const common::RgbdFrame& frame) {
   const std::optional<common::KeyRelativePose> at_key = atKey(time);
   if (!at_key || (frame.stamps.arrived - map_seen_).seconds() >= kMatched_s) return;
   ground_seen_ = time;
-  altitude_.lookAtGround(frame.depth, frame.camera, map_.keyPoses()->inMap(*at_key) * camera.T_body_camera);
+  const auto keys = map_.keyPoses();
+  altitude_.follow(*keys, at_key->key);
+  altitude_.lookAtGround(frame.depth, frame.camera, keys->inMap(*at_key) * camera.T_body_camera);
 }
 
 bool Estimator::isCameraDoubted(Time now) const {

@@ -64,7 +64,10 @@ void Executor::begin(const common::Intent& intent) {
 
 void Executor::note(const Progress& progress) {
   status_.state = progress.state;
-  if (!progress.reason.empty()) status_.reason = progress.reason;
+  if (!progress.reason.empty()) {
+    status_.reason = progress.reason;
+    status_.inspecting = progress.inspecting;
+  }
   if (progress.state == IntentState::kRunning) return;
   maneuver_.reset();
   const bool failed = progress.state == IntentState::kFailed;

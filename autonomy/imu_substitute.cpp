@@ -4,6 +4,7 @@
 
 #include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
+#include "common/gravity.hpp"
 #include "control/thrust_table.hpp"
 
 namespace swiftlet::autonomy {
@@ -47,7 +48,7 @@ std::optional<ImuSample> ImuSubstitute::next(Time now) {
   sample.rotation_ahrs_body = common::quaternionFrom(attitude);
   sample.angular_velocity_body_rad_s =
       common::logSO3(last_->rotation_ahrs_body.conjugate() * sample.rotation_ahrs_body) / kStep_s;
-  sample.specific_force_body_m_s2 = {0.0, 0.0, force_over_gravity_ * control::kGravity_m_s2};
+  sample.specific_force_body_m_s2 = {0.0, 0.0, force_over_gravity_ * common::kGravity_m_s2};
   last_ = sample;
   return sample;
 }

@@ -12,10 +12,11 @@
 
 namespace swiftlet::autonomy {
 
-/// First-order lags of the vehicle behind its setpoints.
+/// First-order lags of the vehicle behind its setpoints. They have no defaults here: the attitude's is that of the
+/// controllers, the thrust's is InertialCheckConfig::thrust_lag_s.
 struct ActuationLags {
-  double attitude_s = 0.2;
-  double thrust_s = 0.05;
+  double attitude_s;
+  double thrust_s;
 };
 
 /// One thread.

@@ -11,6 +11,7 @@
 #include "common/config_fields.hpp"
 #include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
+#include "common/gravity.hpp"
 #include "common/validation.hpp"
 #include "control/thrust_table.hpp"
 
@@ -106,16 +107,16 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
 
 /// Near the ground so little thrust is that of a vehicle which stands, whose weight the ground carries.
 double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
-  constexpr double kStands = 0.85;
-  const bool stands = context_.near_ground && expected_m_s2 < kStands * control::kGravity_m_s2;
-  return stands || !context_.thrust_applies ? control::kGravity_m_s2 : expected_m_s2;
+  constexpr double kStands = 0.85;  // Less lifts nothing, even where the hover command is a tenth off.
+  const bool stands = context_.near_ground && expected_m_s2 < kStands * common::kGravity_m_s2;
+  return stands || !context_.thrust_applies ? common::kGravity_m_s2 : expected_m_s2;
 }
 
 double InertialCheck::expectedForce_m_s2(Time now) {
   const double dt_s = last_ ? std::clamp((now - *last_).seconds(), 0.0, kPause_s) : 0.0;
   const double share = common::followedShare(dt_s, config_.thrust_lag_s);
   thrust_over_hover_ += share * (context_.thrust_over_hover - thrust_over_hover_);
-  return control::kGravity_m_s2 * thrust_over_hover_;
+  return common::kGravity_m_s2 * thrust_over_hover_;
 }
 
 /// Over the window of the rates, or as much of it as there is.

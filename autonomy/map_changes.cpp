@@ -13,7 +13,7 @@ using common::CellIndex;
 using common::OccupancyGrid;
 namespace occupancy = common::occupancy;
 
-constexpr double kInterval_s = 2.0;
+constexpr double kInterval_s = 2.0;  ///< What differs is said after 4 s: twice it is looked at.
 /// The same wall differs by as much in two maps: 1 deg at 10 m is 17 cm, and a cell on each side.
 constexpr double kSameWall_m = 0.25;
 /// Outline of the smallest thing that is said: a box of 15 cm shows one or two sides of it.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/gravity.hpp"
 #include "control/usable_state.hpp"
 
 namespace swiftlet::autonomy {
@@ -17,12 +18,11 @@ constexpr double kHoverStick = 0.5;
 constexpr double kHorizonError_rad = 1.0 * common::kRadPerDeg;
 /// From a speed that is asked for to one that is flown.
 constexpr double kLag_s = 0.4;
-constexpr double kSpare_m = 0.05;
+constexpr double kSpare_m = 0.05;  ///< Of the distance to stop in: the error of a controlled position.
 /// The reference that is farther away was left by the pilot's sticks, not by the wind.
 constexpr double kLeft_m = 0.35;
 /// The yaw that is asked for lies so far ahead of the present one while its stick is moved.
 constexpr double kYawAhead_s = 0.25;
-constexpr double kGravity_m_s2 = 9.81;
 
 /// Without the dead band, so that the wish begins at zero.
 double wish(double stick, double dead_band) {
@@ -85,7 +85,7 @@ double PilotAssist::allowedSpeed_m_s(const planning::AvoidanceDecision& decision
   if (limit_m_s >= unlimited_m_s_) return limit_m_s;
   const double stick = std::hypot(sticks_.pitch, sticks_.roll);
   const double left_m_s2 =
-      kGravity_m_s2 * std::tan(max_tilt_rad_ * std::max(0.0, kProgramShare - stick) - kHorizonError_rad);
+      common::kGravity_m_s2 * std::tan(max_tilt_rad_ * std::max(0.0, kProgramShare - stick) - kHorizonError_rad);
   const double gap_m = 0.5 * limit_m_s * limit_m_s / deceleration_m_s2_ - kSpare_m;
   if (left_m_s2 <= 0.0 || gap_m <= 0.0) return 0.0;
   // v t + v^2 / 2a = gap.

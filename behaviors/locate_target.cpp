@@ -25,12 +25,12 @@ namespace {
 constexpr double kLeastLook_s = 0.6, kMostLook_s = 2.0;
 /// Sides that differ by less tell the same.
 constexpr double kOtherSide_rad = 55.0 * common::kRadPerDeg;
-constexpr int kSides = 24;
+constexpr int kSides = 24;  ///< Every 15 degrees, a fraction of kOtherSide_rad.
 /// The picture of a camera that looks ahead or slightly down ends at some 25 degrees below and 10 above.
 constexpr double kTanBelow = 0.47, kTanAbove = 0.18;
 /// What stands at the target's place hides it from no side.
 constexpr double kTargetNear_m = 0.5;
-constexpr double kViewTolerance_m = 0.15;
+constexpr double kViewTolerance_m = 0.15;  ///< The picture is the same from there; nearer would take longer.
 
 const common::Target* withId(const common::TargetsLayer& layer, int id) {
   const auto found = std::find_if(layer.targets.begin(), layer.targets.end(),

@@ -10,7 +10,7 @@ namespace {
 
 /// Until a frame from there is looked at: latencies of link and job, and the least time between two frames.
 constexpr double kLookingTime_s = 0.8;
-constexpr double kLookTolerance_m = 0.2;
+constexpr double kLookTolerance_m = 0.2;  ///< The picture is the same from there; nearer would take longer.
 
 common::GoToIntent goToLook(const common::Pose2& pose_map, double clearance_m, common::FlightMode mode) {
   common::GoToIntent intent;

@@ -6,6 +6,7 @@
 #include "behaviors/flight_tick.hpp"
 #include "behaviors/live_tree.hpp"
 #include "behaviors/mission_check.hpp"
+#include "behaviors/named_places.hpp"
 #include "behaviors/narrator.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/registry.hpp"
@@ -27,7 +28,7 @@ struct Mission::Impl {
 
   void answerCommands(Context& context);
   std::string refusal(const Context& context, const common::OperatorCommand& command) const;
-  std::string refusalOfGoal(const Context& context, const common::GoalCommand& goal) const;
+  std::string refusalOfGoal(const Context& context, const common::GoalCommand& command) const;
   TickResult resultOf(const Context& context, Status status);
   std::string question() const;
   static bool holds(const Context& context);
@@ -179,11 +180,13 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
 
 /// Why the goal is refused; empty if at least one of the nodes that may take it can fly to it with its tolerance and
 /// clearance.
-std::string Mission::Impl::refusalOfGoal(const Context& context, const common::GoalCommand& goal) const {
+std::string Mission::Impl::refusalOfGoal(const Context& context, const common::GoalCommand& command) const {
   std::string first;
   for (const OperatorCommand* taker : takers) {
-    const auto verdict =
-        common::judgeGoal(common::tappedGoalOf(taker->goalTo(goal)), context.goal_limits, context.goal_map.get());
+    common::Goal goal = common::tappedGoalOf(taker->goalTo(command));
+    const auto places = NamedPlaces::in(*context.world);
+    if (command.goal_given_m && places) goal.T_given_map = places->T_map_named().inverse();
+    const auto verdict = common::judgeGoal(goal, context.goal_limits, context.goal_map.get());
     if (verdict) return {};
     if (first.empty()) first = verdict.error().text;
   }

@@ -19,7 +19,7 @@ constexpr double kPlaceNear_m = 0.35;
 constexpr int kLeastNeighbours = 5;
 /// Distances to look from, the best first: from nearer the floor is below the picture of a camera that looks ahead.
 constexpr double kLookFrom_m[] = {2.0, 2.4, 1.7};
-constexpr int kLookDirections = 16;
+constexpr int kLookDirections = 16;  ///< Every 22 degrees: finer than half of a camera's angle of view.
 /// Within this distance there must be something for the laser, as for exploring.
 constexpr double kWalls_m = 5.0;
 

@@ -2,6 +2,7 @@
 // One step of each controller, and the whole tick of the flight controller around it, in a hover.
 #include <benchmark/benchmark.h>
 
+#include "common/gravity.hpp"
 #include "control/flight_controller.hpp"
 
 namespace swiftlet::control {
@@ -11,10 +12,10 @@ VehicleModel sheetModel() {
   const common::VehicleConfig sheet;
   VehicleModel model;
   model.vehicle = sheet.name;
-  model.forward.gain = kGravity_m_s2;
-  model.left.gain = -kGravity_m_s2;
+  model.forward.gain = common::kGravity_m_s2;
+  model.left.gain = -common::kGravity_m_s2;
   model.forward.lag_s = model.left.lag_s = 0.2;
-  model.up = {.gain = kGravity_m_s2, .offset = -kGravity_m_s2};
+  model.up = {.gain = common::kGravity_m_s2, .offset = -common::kGravity_m_s2};
   model.yaw.gain = 1.0;
   return model;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/config.hpp"
+#include "common/gravity.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/sensors/rgbd_camera.hpp"
 #include "simulation/simulated_vehicle.hpp"
@@ -33,9 +34,10 @@ void simulatedSecond(benchmark::State& state, bool camera, bool walkers, const c
       const Truth& truth = vehicle.truth();
       const Eigen::Vector3d error = vehicle.T_world_map() * Eigen::Vector3d(0, 0, 1) - truth.T_world_body.position_m;
       const Eigen::Vector3d acceleration = 2.0 * (1.2 * error - truth.velocity_world_m_s);
-      vehicle.apply(
-          {vehicle.now(), true, -acceleration.y() / kGravity_m_s2, acceleration.x() / kGravity_m_s2, 0.0,
-           scenario.vehicle.mass_kg * (kGravity_m_s2 + 2.0 * acceleration.z()) / scenario.vehicle.max_thrust_n});
+      vehicle.apply({vehicle.now(), true, -acceleration.y() / common::kGravity_m_s2,
+                     acceleration.x() / common::kGravity_m_s2, 0.0,
+                     scenario.vehicle.mass_kg * (common::kGravity_m_s2 + 2.0 * acceleration.z()) /
+                         scenario.vehicle.max_thrust_n});
       if (!vehicle.advanceTo(vehicle.now() + common::Duration::fromMilliseconds(10), events)) {
         state.SkipWithError(vehicle.stopReason().c_str());
         return;

@@ -50,7 +50,7 @@ class YamlReader final : public Fields {
  protected:
   bool beginSection(std::string_view name, std::string_view sentence) override;
   void endSection(std::vector<std::string> problems) override;
-  int beginList(std::string_view name, int count, std::string_view sentence) override;
+  std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) override;
   void beginItem(int index) override;
   void endList() override;
 
@@ -88,7 +88,7 @@ class YamlPrinter final : public Fields {
  protected:
   bool beginSection(std::string_view name, std::string_view sentence) override;
   void endSection(std::vector<std::string> problems) override;
-  int beginList(std::string_view name, int count, std::string_view sentence) override;
+  std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) override;
   void beginItem(int index) override;
   void endList() override;
 

@@ -41,9 +41,9 @@ void Validator::endSection(std::vector<std::string> problems) {
   prefixes_.pop_back();
 }
 
-int Validator::beginList(std::string_view name, int count, std::string_view) {
+std::optional<int> Validator::beginList(std::string_view name, int, std::string_view) {
   lists_.emplace_back(name);
-  return count;
+  return std::nullopt;
 }
 
 void Validator::beginItem(int index) { prefixes_.push_back(fmt::format("{}[{}].", lists_.back(), index)); }

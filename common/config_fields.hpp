@@ -21,6 +21,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,15 +86,15 @@ class Fields {
     endSection(relationProblems(config));
   }
 
-  /// A sequence of Configs.
+  /// A sequence of Configs. Who gives one gives it whole: nothing of the items that were there before is kept.
   template <typename Config>
   void list(std::string_view name, std::vector<Config>& configs, std::string_view sentence) {
-    const int count = beginList(name, static_cast<int>(configs.size()), sentence);
-    configs.resize(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-      beginItem(i);
-      configs[static_cast<std::size_t>(i)].describe(*this);
-      endSection(relationProblems(configs[static_cast<std::size_t>(i)]));
+    const std::optional<int> given = beginList(name, static_cast<int>(configs.size()), sentence);
+    if (given) configs.assign(static_cast<std::size_t>(*given), Config());
+    for (std::size_t i = 0; i < configs.size(); ++i) {
+      beginItem(static_cast<int>(i));
+      configs[i].describe(*this);
+      endSection(relationProblems(configs[i]));
     }
     endList();
   }
@@ -111,8 +112,9 @@ class Fields {
   /// False if the section is to be skipped.
   virtual bool beginSection(std::string_view name, std::string_view sentence) = 0;
   virtual void endSection(std::vector<std::string> problems) = 0;
-  /// The number of items to describe; `count` items exist.
-  virtual int beginList(std::string_view name, int count, std::string_view sentence) = 0;
+  /// The number of items of another list that takes the place of the one with `count` items, each of which begins with
+  /// its defaults; none: the present list is described.
+  virtual std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) = 0;
   virtual void beginItem(int index) = 0;
   virtual void endList() = 0;
 };

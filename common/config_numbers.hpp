@@ -43,7 +43,7 @@ class NumberVisitor final : public Fields {
     prefix_.resize(lengths_.back());
     lengths_.pop_back();
   }
-  int beginList(std::string_view, int, std::string_view) override { return 0; }
+  std::optional<int> beginList(std::string_view, int, std::string_view) override { return 0; }
   void beginItem(int) override {}
   void endList() override {}
 

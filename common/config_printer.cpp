@@ -58,10 +58,10 @@ bool YamlPrinter::beginSection(std::string_view name, std::string_view sentence)
 
 void YamlPrinter::endSection(std::vector<std::string>) { --depth_; }
 
-int YamlPrinter::beginList(std::string_view name, int count, std::string_view sentence) {
+std::optional<int> YamlPrinter::beginList(std::string_view name, int count, std::string_view sentence) {
   line(name, count == 0 ? "[]" : "", sentence);
   ++depth_;
-  return count;
+  return std::nullopt;
 }
 
 void YamlPrinter::beginItem(int) {

@@ -219,13 +219,13 @@ bool YamlReader::beginSection(std::string_view name, std::string_view) {
 
 void YamlReader::endSection(std::vector<std::string> problems) { impl_->closeLevel(problems); }
 
-int YamlReader::beginList(std::string_view name, int count, std::string_view) {
+std::optional<int> YamlReader::beginList(std::string_view name, int, std::string_view) {
   const auto node = impl_->find(name);
   if (node && !node->IsSequence()) impl_->report(*node, name, Impl::textOf(*node) + " is not a list");
   const bool given = node && node->IsSequence();
   impl_->lists.push_back(given ? *node : YAML::Node());
   impl_->list_names.push_back(impl_->pathOf(name));
-  return given ? static_cast<int>(node->size()) : count;
+  return given ? std::optional(static_cast<int>(node->size())) : std::nullopt;
 }
 
 void YamlReader::beginItem(int index) {

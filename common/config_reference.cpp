@@ -68,7 +68,7 @@ void ReferencePrinter::endSection(std::vector<std::string>) {
   open_.back().sections += fmt::format("\n### `{}`\n{}", path, text);
 }
 
-int ReferencePrinter::beginList(std::string_view name, int, std::string_view sentence) {
+std::optional<int> ReferencePrinter::beginList(std::string_view name, int, std::string_view sentence) {
   open(pathOf(name) + "[]", std::string(sentence));
   return 1;
 }

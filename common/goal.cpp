@@ -15,17 +15,19 @@ using Reason = GoalRefusal::Reason;
 
 /// Share of the tolerance for a substitute place; the rest is left to the controller.
 constexpr double kShareOfTolerance = 0.8;
-constexpr double kReach_m = 3.0;
+constexpr double kReach_m = 3.0;  ///< A free place farther away is another goal, not the next best.
 
-std::string inWords(const Eigen::Vector2d& place_m) {
-  return fmt::format("({:.2f}, {:.2f})", place_m.x(), place_m.y());
+/// A place of `map` for people, in the frame that the goal's texts use.
+std::string inWords(const Eigen::Vector2d& place_map_m, const Goal& goal) {
+  const Eigen::Vector2d named_m = goal.T_given_map ? *goal.T_given_map * place_map_m : place_map_m;
+  return fmt::format("({:.2f}, {:.2f})", named_m.x(), named_m.y());
 }
 
 GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eigen::Vector2d>& nearest) {
-  const std::string place = "goal " + inWords(goal.place_map_m);
+  const std::string place = "goal " + inWords(goal.place_map_m, goal) + (goal.T_given_map ? " in the given map" : "");
   if (state == PlaceState::kOutsideMap) return {Reason::kOutsideMap, place + " is outside the map", nearest};
   if (state == PlaceState::kKeptOut) {
-    const std::string instead = nearest ? ", the nearest free place is " + inWords(*nearest) : std::string();
+    const std::string instead = nearest ? ", the nearest free place is " + inWords(*nearest, goal) : std::string();
     return {Reason::kKeptOut, fmt::format("{} is in a keep-out zone{}", place, instead), nearest};
   }
   const auto [reason, why] = state == PlaceState::kObstacle ? std::pair(Reason::kObstacle, "is in an obstacle")
@@ -34,14 +36,14 @@ GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eige
                                  : std::pair(Reason::kTooClose, "is too close to an obstacle or to unknown space");
   return {reason,
           fmt::format("{} {} at clearance {:.2f} m{}", place, why, goal.clearance_m,
-                      nearest ? ", the nearest free place is " + inWords(*nearest) : std::string()),
+                      nearest ? ", the nearest free place is " + inWords(*nearest, goal) : std::string()),
           nearest};
 }
 
 }  // namespace
 
 Goal goalOf(const GoToIntent& intent) {
-  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m};
+  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m, std::nullopt};
 }
 
 Goal tappedGoalOf(const GoToIntent& intent) {

@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
+#include "common/geometry.hpp"
 #include "common/intent.hpp"
 
 namespace swiftlet::common {
@@ -34,6 +35,8 @@ struct Goal {
   double clearance_m = 0.0;  ///< Between hull and obstacle.
   /// How far from it a free place will do as well, even beyond the tolerance: a finger on a map is not exact.
   double shift_m = 0.0;
+  /// For texts, which then name places in the given map; none: in `map`.
+  std::optional<Pose2> T_given_map = std::nullopt;
 };
 Goal goalOf(const GoToIntent& intent);
 /// A place that an operator tapped on: it may be shifted by a quarter of a metre, as wide as a fingertip on a tablet

@@ -10,10 +10,7 @@ struct Describe {
   std::string operator()(const TakeOffIntent& i) const { return fmt::format("take off to {:.2f} m", i.height_m); }
   std::string operator()(const LandIntent&) const { return "land"; }
   std::string operator()(const ExploreIntent&) const { return "explore"; }
-  std::string operator()(const GoToIntent& i) const {
-    const Eigen::Vector2d& named_m = i.goal_given_m ? *i.goal_given_m : i.goal_map_m;
-    return fmt::format("go to ({:.2f}, {:.2f}){}", named_m.x(), named_m.y(), i.goal_given_m ? " in the given map" : "");
-  }
+  std::string operator()(const GoToIntent& i) const { return "go to " + placeOf(i); }
   std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
   std::string operator()(const EmergencyLandIntent&) const { return "emergency landing"; }
   std::string operator()(const SurveyIntent& i) const { return "survey an area with " + toString(i.area); }
@@ -27,6 +24,11 @@ struct Describe {
 };
 
 }  // namespace
+
+std::string placeOf(const GoToIntent& goal) {
+  const Eigen::Vector2d& named_m = goal.goal_given_m ? *goal.goal_given_m : goal.goal_map_m;
+  return fmt::format("({:.2f}, {:.2f}){}", named_m.x(), named_m.y(), goal.goal_given_m ? " in the given map" : "");
+}
 
 std::string toString(const Intent& intent) { return std::visit(Describe{}, intent.kind); }
 

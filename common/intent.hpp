@@ -108,10 +108,14 @@ struct IntentStatus {
   std::string reason;  ///< For people: what it is doing, or why it failed.
   /// The vehicle has stopped, so that another behaviour may take it over.
   bool released = true;
+  /// Of an InspectIntent: the vehicle is on its circle and has turned to the point.
+  bool inspecting = false;
 
   bool operator==(const IntentStatus&) const = default;
 };
 
+/// Where the goal is, in the frame in which it was named: "(3.00, -1.50)", or "(3.00, -1.50) in the given map".
+std::string placeOf(const GoToIntent& goal);
 /// "go to (3.00, -1.50)", for events and the page.
 std::string toString(const Intent& intent);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/gravity.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::common {
@@ -84,7 +85,7 @@ void VehicleConfig::describe(config::Fields& fields) {
 
 std::vector<std::string> VehicleConfig::validate() const {
   return Validation()
-      .require(max_thrust_n >= 1.1 * 9.81 * mass_kg, "max_thrust_n",
+      .require(max_thrust_n >= 1.1 * kGravity_m_s2 * mass_kg, "max_thrust_n",
                fmt::format("{} is less than 1.1 times the weight of {} kg", max_thrust_n, mass_kg))
       .require(2.0 * arm_m < hull_diameter_m, "arm_m",
                fmt::format("{} does not fit into a hull of {} m", arm_m, hull_diameter_m))

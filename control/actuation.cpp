@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "common/gravity.hpp"
 
 namespace swiftlet::control {
 namespace {
@@ -13,7 +14,7 @@ void setTilt(common::Setpoint& setpoint, const Eigen::Vector3d& acceleration_odo
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
   const Eigen::Vector3d force(c * acceleration_odom_m_s2.x() + s * acceleration_odom_m_s2.y(),
                               -s * acceleration_odom_m_s2.x() + c * acceleration_odom_m_s2.y(),
-                              kGravity_m_s2 + acceleration_odom_m_s2.z());
+                              common::kGravity_m_s2 + acceleration_odom_m_s2.z());
   // Ry(pitch) Rx(roll) e_z = (sin p cos r, -sin r, cos p cos r).
   setpoint.pitch_rad = std::atan2(force.x(), force.z());
   setpoint.roll_rad = std::atan2(-force.y(), std::hypot(force.x(), force.z()));
@@ -41,11 +42,11 @@ Actuation actuate(const Eigen::Vector3d& wanted_odom_m_s2, double yaw_rad, doubl
   given_m_s2 = wanted_odom_m_s2;
   // More than the motors can give would only wind up the integral. A vehicle that still stands may be much weaker than
   // is known, so that it is given whatever lifts it.
-  const double available_m_s2 = std::max(0.0, kGravity_m_s2 * (thrust.margin() - 1.0));
+  const double available_m_s2 = std::max(0.0, common::kGravity_m_s2 * (thrust.margin() - 1.0));
   const double most_up_m_s2 = on_ground ? available_m_s2 : std::min(available_m_s2, max_up_m_s2);
   given_m_s2.z() = std::clamp(wanted_odom_m_s2.z(), -max_up_m_s2, most_up_m_s2);
-  given_m_s2.head<2>() = limited(wanted_odom_m_s2.head<2>(),
-                                 std::tan(greatestTilt_rad(vehicle, thrust)) * (kGravity_m_s2 + given_m_s2.z()));
+  given_m_s2.head<2>() = limited(wanted_odom_m_s2.head<2>(), std::tan(greatestTilt_rad(vehicle, thrust)) *
+                                                                 (common::kGravity_m_s2 + given_m_s2.z()));
   if (on_ground) given_m_s2.head<2>().setZero();
 
   setTilt(result.setpoint, given_m_s2, yaw_rad);

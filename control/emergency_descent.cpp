@@ -4,15 +4,16 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/gravity.hpp"
 
 namespace swiftlet::control {
 
 using common::config::kPositive;
 namespace {
 
-constexpr double kStill_m_s = 0.10;
-constexpr double kMaxAcceleration_m_s2 = 2.0;
-constexpr double kMaxIntegral_m_s2 = 2.0;
+constexpr double kStill_m_s = 0.10;            ///< A descent is faster: only the ground explains less.
+constexpr double kMaxAcceleration_m_s2 = 2.0;  ///< A fifth of the weight: leaves thrust for the attitude.
+constexpr double kMaxIntegral_m_s2 = 2.0;      ///< A hover command that is wrong by a fifth.
 /// For each second without a measured height the slow part of the descent begins this much higher: a bias of the
 /// accelerometer of 0.02 m/s^2 makes an error of 1 m in ten seconds.
 constexpr double kBlindMargin_per_s = 0.1;
@@ -40,7 +41,7 @@ void AlphaBetaFilter::update(const RawHeight& raw) {
   if (!std::isfinite(raw.height_m) || raw.height_m < 0.0) return;
   const double dt_s = (raw.stamp - stamp_).seconds();
   if (samples_ > 0 && dt_s <= 0.0) return;
-  constexpr double kForgotten_s = 1.0;
+  constexpr double kForgotten_s = 1.0;  // At the speed of a descent the height is another by then.
   if (samples_ == 0 || dt_s > kForgotten_s) {
     stamp_ = raw.stamp;
     height_m_ = raw.height_m;
@@ -85,8 +86,8 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
   const Eigen::Vector2d given_m_s2 = braking_m_s2 / std::max(1.0, braking_m_s2.norm() / kMaxAcceleration_m_s2);
   velocity_left_m_s_ += given_m_s2 * dt_s;
   const Eigen::Vector2d tilt_m_s2 = given_m_s2 + trim_level_m_s2_;
-  setpoint.pitch_rad = std::atan2(tilt_m_s2.x(), kGravity_m_s2);
-  setpoint.roll_rad = std::atan2(-tilt_m_s2.y(), kGravity_m_s2);
+  setpoint.pitch_rad = std::atan2(tilt_m_s2.x(), common::kGravity_m_s2);
+  setpoint.roll_rad = std::atan2(-tilt_m_s2.y(), common::kGravity_m_s2);
   const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
   given_m_s2_ = sees ? seenAcceleration_m_s2(now, dt_s) : blindAcceleration_m_s2(now, dt_s, carried);
   setpoint.thrust = thrust.commandFor(given_m_s2_, 1.0);

@@ -21,9 +21,9 @@ constexpr double kKink_m_s = 0.12;
 constexpr double kOnPath_m = 0.03;
 /// The reference joins a new path within its first stretch of this length.
 constexpr double kJoin_m = 1.5;
-constexpr double kAtGoal_m = 1e-3;
-constexpr double kAtRest_m_s = 1e-3;
-constexpr double kYawReached_rad = 0.01;
+constexpr double kAtGoal_m = 1e-3;        ///< Far below the error of control: only ends the reference.
+constexpr double kAtRest_m_s = 1e-3;      ///< A reference this slow has stopped.
+constexpr double kYawReached_rad = 0.01;  ///< Half a degree, below the error of a hover, 1 deg.
 /// A shorter look-ahead gives no reliable direction.
 constexpr double kLeastLook_m = 0.05;
 

@@ -4,7 +4,7 @@ namespace swiftlet::control {
 
 LqrGains lqrGains(const AxisMatrix& A, const AxisVector& B, const AxisMatrix& Q, double r) {
   constexpr int kMostSteps = 20'000;  // 200 s at 100 Hz: far beyond the slowest mode that flies.
-  constexpr double kSettled = 1e-10;
+  constexpr double kSettled = 1e-10;  // Relative change of the gains: rounding, for all that flies.
   LqrGains gains;
   AxisMatrix P = Q;
   for (int step = 0; step < kMostSteps && !gains.converged; ++step) {

@@ -71,7 +71,7 @@ void SwitchedController::blend(common::Setpoint& setpoint, double dt_s) {
   setpoint.yaw_rate_rad_s = own[2] + step_[2];
   setpoint.thrust = thrust_.clamped(own[3] + step_[3]);
   step_ *= std::exp(-dt_s / blend_s_);
-  constexpr double kFaded = 1e-4;
+  constexpr double kFaded = 1e-4;  // A ten-thousandth of a radian or of the thrust is no step.
   if (step_.cwiseAbs().maxCoeff() < kFaded) step_.setZero();
 }
 

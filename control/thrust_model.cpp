@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/gravity.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::control {
@@ -25,12 +26,13 @@ void ThrustModel::observeVoltage(double voltage_v, double dt_s) {
 double ThrustModel::learn(double correction_m_s2, double dt_s) {
   if (!learns_) return 0.0;
   const double step_m_s2 = correction_m_s2 * std::min(1.0, dt_s / config_.learning_time_s);
-  return std::expm1(table_.learn(voltage_v_, std::log1p(step_m_s2 / kGravity_m_s2), dt_s)) * kGravity_m_s2;
+  return std::expm1(table_.learn(voltage_v_, std::log1p(step_m_s2 / common::kGravity_m_s2), dt_s)) *
+         common::kGravity_m_s2;
 }
 
 double ThrustModel::commandFor(double acceleration_up_m_s2, double cos_tilt) const {
   const double command =
-      table_.hoverCommand(voltage_v_) * (1.0 + acceleration_up_m_s2 / kGravity_m_s2) / std::max(0.5, cos_tilt);
+      table_.hoverCommand(voltage_v_) * (1.0 + acceleration_up_m_s2 / common::kGravity_m_s2) / std::max(0.5, cos_tilt);
   return clamped(command);
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/gravity.hpp"
 #include "control/battery_span.hpp"
 
 namespace swiftlet::control {
@@ -37,7 +38,7 @@ ThrustTable::ThrustTable(const Config& config, const common::VehicleConfig& vehi
 
 double ThrustTable::sheetCommand(double voltage_v) const {
   const double sag = std::pow(voltage_v / vehicle_.battery_full_v, config_.voltage_exponent);
-  return vehicle_.mass_kg * kGravity_m_s2 / (vehicle_.max_thrust_n * sag);
+  return vehicle_.mass_kg * common::kGravity_m_s2 / (vehicle_.max_thrust_n * sag);
 }
 
 double ThrustTable::bounded(std::size_t knot, double log_command) const {

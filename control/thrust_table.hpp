@@ -11,8 +11,6 @@
 
 namespace swiftlet::control {
 
-inline constexpr double kGravity_m_s2 = 9.81;
-
 /// One row of a learned table.
 struct ThrustPoint {
   double voltage_v = 0.0;

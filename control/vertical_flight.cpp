@@ -13,14 +13,14 @@ using common::FlightState;
 
 namespace {
 
-constexpr double kLiftedOff_m = 0.06;
+constexpr double kLiftedOff_m = 0.06;     ///< Above the noise of the height and the give of the gear.
 constexpr double kSpoolShare = 0.6;       ///< Share of the hover command given before the vehicle lifts.
 constexpr double kReferenceLead_m = 0.3;  ///< Greatest lead of the height reference over the vehicle.
 /// A take-off with all of its thrust for this long is given up; with enough of it, a lift takes tenths of that.
 constexpr double kSpent_s = 2.0;
-constexpr double kTouchdownSpeed_m_s = 0.10;
-constexpr double kTouchdownMargin_m = 0.20;
-constexpr double kCarried_s = 0.5;  ///< Age from which the height counts as carried by inertial samples.
+constexpr double kTouchdownSpeed_m_s = 0.10;  ///< A descent is faster: only the ground explains less.
+constexpr double kTouchdownMargin_m = 0.20;   ///< Error of the height after a descent over unknown ground.
+constexpr double kCarried_s = 0.5;            ///< Age from which the height counts as carried by inertial samples.
 /// A speed that was carried is off by the bias of the accelerometer; in the air so little thrust would change it by
 /// more than this within touchdown_s.
 constexpr double kCarriedTouchdownSpeed_m_s = 0.35;
@@ -49,7 +49,7 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
   const double timeout_s = config_.take_off_timeout_s + take_off_height_m_ / config_.climb_m_s;
   const bool hovers = std::abs(height_m - take_off_height_m_) <= config_.hover_tolerance_m &&
                       last_state_.velocity_odom_m_s.norm() <= config_.hover_speed_m_s;
-  constexpr double kRounding = 1e-6;
+  constexpr double kRounding = 1e-6;  // Of a command that was clamped.
   const bool spent = setpoint.thrust >= config_.position.thrust.max_thrust - kRounding;
   if (spent && heldFor(true, kSpent_s)) {
     transition(FlightInput::kLand, fmt::format("{:.0f} % of the thrust for {:.1f} s do not carry it there",

@@ -39,9 +39,7 @@ void BehaviorRecorder::keepOut(const Eigen::Vector2d& position_map_m) {
 /// From when it has turned to the point.
 void BehaviorRecorder::inspect(const simulation::Truth& truth) {
   const auto* inspected = std::get_if<common::InspectIntent>(&intent_.kind);
-  const bool inspecting = inspected != nullptr && status_.reason.starts_with("inspecting, ") &&
-                          !status_.reason.starts_with("inspecting, 1 of");
-  if (!inspecting || truth.stamp < next_view_) return;
+  if (inspected == nullptr || !status_.inspecting || truth.stamp < next_view_) return;
   next_view_ = truth.stamp + kInspectingPeriod;
   record_.inspecting.push_back({truth.T_world_body, inspected->point_map_m, inspected->point_height_m});
 }

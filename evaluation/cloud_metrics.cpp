@@ -59,7 +59,7 @@ struct Pull {
   }
   /// Whether the surfaces hold the cloud in all directions.
   bool isHeld() const {
-    constexpr double kLeastShare = 1e-4;
+    constexpr double kLeastShare = 1e-4;  // Of the best held direction; below, only noise holds it.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(information, Eigen::EigenvaluesOnly);
     return solver.eigenvalues()[0] > kLeastShare * solver.eigenvalues()[5];
   }

@@ -28,13 +28,6 @@ constexpr Duration kViewPeriod = Duration::fromMilliseconds(200);
 /// A goal this near to home counts as home.
 constexpr double kSamePlace_m = 1e-3;
 
-Pose3 interpolated(const simulation::Truth& before, const simulation::Truth& after, Time stamp) {
-  const double whole_s = (after.stamp - before.stamp).seconds();
-  const double share = whole_s > 0 ? (stamp - before.stamp).seconds() / whole_s : 1.0;
-  const Pose3 &a = before.T_world_body, &b = after.T_world_body;
-  return {a.rotation.slerp(share, b.rotation), a.position_m + share * (b.position_m - a.position_m)};
-}
-
 }  // namespace
 
 FlightRecorder::FlightRecorder(const Pose3& T_world_start, const Pose3& T_world_map,
@@ -58,8 +51,7 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
                record_.T_world_map.rotation.conjugate() * truth.velocity_world_m_s, estimate);
   if (!first_tick_) first_tick_ = truth.stamp;
   if (!history_.empty() && truth.airborne)
-    record_.true_distance_m +=
-        (truth.T_world_body.position_m - history_.back().T_world_body.position_m).head<2>().norm();
+    record_.true_distance_m += (truth.T_world_body.position_m - history_.back().pose.position_m).head<2>().norm();
   if (truth.airborne)
     record_.true_speed_max_m_s = std::max(record_.true_speed_max_m_s, truth.velocity_world_m_s.head<2>().norm());
   if (truth.airborne) heights_world_m_.push_back(truth.T_world_body.position_m.z());
@@ -67,7 +59,7 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
     record_.T_world_body_views.push_back(truth.T_world_body);
     next_view_ = truth.stamp + kViewPeriod;
   }
-  history_.push_back(truth);
+  history_.push_back({truth.stamp, truth.T_world_body});
   while (truth.stamp - history_.front().stamp > kHistory) history_.pop_front();
   record_.last_truth = truth;
   record_.flight_time_s = (truth.stamp - *first_tick_).seconds();
@@ -75,22 +67,12 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
   if (!last_estimate_ || estimate.stamp > *last_estimate_) pending_.push_back(estimate);
   last_estimate_ = std::max(estimate.stamp, last_estimate_.value_or(estimate.stamp));
   for (; !pending_.empty() && pending_.front().stamp <= truth.stamp; pending_.pop_front()) {
-    const auto T_world_body = truthAt(pending_.front().stamp);
+    const auto T_world_body = common::poseAt(history_, pending_.front().stamp);
     if (!T_world_body) continue;
     newest_ = compared(pending_.front(), *T_world_body);
     if (truth.airborne) compare(pending_.front(), *T_world_body);
   }
   ending_.tick(truth, (newest_.T_map_body.position_m() - newest_.T_map_truth.position_m()).norm());
-}
-
-/// The truth at a time within the history; none before or after it.
-std::optional<Pose3> FlightRecorder::truthAt(Time stamp) const {
-  const auto after = std::lower_bound(history_.begin(), history_.end(), stamp,
-                                      [](const simulation::Truth& truth, Time t) { return truth.stamp < t; });
-  if (after == history_.end()) return std::nullopt;
-  if (after->stamp == stamp) return after->T_world_body;
-  if (after == history_.begin()) return std::nullopt;
-  return interpolated(*std::prev(after), *after, stamp);
 }
 
 /// The body has the axes of the mounted laser here, as the estimate has: at the take-off it is the identity.
@@ -127,7 +109,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
   behaviors_.intent(intent, status);
   if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
   if (counted_intent_ == intent.id) return;
-  const std::optional<Pose3> T_world_body = truthAt(now);
+  const std::optional<Pose3> T_world_body = common::poseAt(history_, now);
   if (!T_world_body) return;
   counted_intent_ = intent.id;
   const auto errorIn = [&](const Pose3& T_world_frame) {
@@ -190,7 +172,7 @@ void FlightRecorder::followLocalization(const common::World& world) {
   const double elapsed_s = last_flown_ ? (world.stamp - *last_flown_).seconds() : 0.0;
   last_flown_ = world.stamp;
   record.flown_s += elapsed_s;
-  const std::optional<Pose3> T_world_body = truthAt(vehicle.state.stamp);
+  const std::optional<Pose3> T_world_body = common::poseAt(history_, vehicle.state.stamp);
   if (!localization.localized() || !T_world_body) return;
   const common::Pose2 off = common::between(T_world_given_.inverse() * common::planar(*T_world_body),
                                             localization.T_given_odom * common::planar(vehicle.state.T_odom_body));

@@ -138,7 +138,6 @@ class FlightRecorder {
   FlightRecord finish() const;
 
  private:
-  std::optional<common::Pose3> truthAt(common::Time stamp) const;
   common::Pose3 truthInMap(const common::Pose3& T_world_body) const;
   void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);
   ComparedEstimate compared(const common::VehicleState& estimate, const common::Pose3& T_world_body) const;
@@ -153,7 +152,7 @@ class FlightRecorder {
   common::Pose2 T_world_given_;
   common::LocalizationState localization_ = common::LocalizationState::kGlobal;
   std::optional<common::Time> last_flown_;
-  std::deque<simulation::Truth> history_;
+  std::deque<common::StampedPose> history_;   ///< The last true poses of the body in `world`.
   std::deque<common::VehicleState> pending_;  ///< Estimates whose stamp is newer than the truth so far.
   ComparedEstimate newest_;
   std::optional<common::Time> first_tick_, last_estimate_, mission_begin_, next_trajectory_;

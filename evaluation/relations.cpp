@@ -13,13 +13,10 @@ using common::StampedPose;
 constexpr Duration kSameStamp = Duration::fromNanoseconds(500);
 
 /// Null if there is none.
-const Pose3* poseAt(const common::Trajectory& trajectory, common::Time stamp) {
-  const auto distance = [&](const StampedPose& pose) { return std::max(pose.stamp - stamp, stamp - pose.stamp); };
-  auto nearest = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
-                                  [](const StampedPose& pose, common::Time t) { return pose.stamp < t; });
-  if (nearest == trajectory.end() || (nearest != trajectory.begin() && distance(nearest[-1]) < distance(*nearest)))
-    --nearest;
-  return distance(*nearest) <= kSameStamp ? &nearest->pose : nullptr;
+const Pose3* poseOf(const common::Trajectory& trajectory, common::Time stamp) {
+  if (trajectory.empty()) return nullptr;
+  const StampedPose& nearest = trajectory[common::nearestTo(trajectory, stamp)];
+  return std::max(nearest.stamp - stamp, stamp - nearest.stamp) <= kSameStamp ? &nearest.pose : nullptr;
 }
 
 Statistics statisticsOfSquares(std::vector<double> values) {
@@ -34,8 +31,8 @@ RelationErrors relationErrors(const common::Trajectory& estimate, const std::vec
   std::vector<double> translations_m, rotations_rad;
   for (std::size_t i = 0; i < relations.size(); ++i) {
     const common::Relation& relation = relations[i];
-    const Pose3* from = estimate.empty() ? nullptr : poseAt(estimate, relation.from);
-    const Pose3* to = estimate.empty() ? nullptr : poseAt(estimate, relation.to);
+    const Pose3* from = poseOf(estimate, relation.from);
+    const Pose3* to = poseOf(estimate, relation.to);
     if (from == nullptr || to == nullptr) {
       errors.missing.push_back(i);
       continue;

@@ -17,16 +17,6 @@ using common::Pose3;
 
 Duration magnitude(Duration d) { return d < Duration() ? -d : d; }
 
-/// The index of the pose nearest in time; `trajectory` is not empty.
-std::size_t nearest(const common::Trajectory& trajectory, common::Time stamp) {
-  const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
-                                      [](const common::StampedPose& pose, common::Time t) { return pose.stamp < t; });
-  const std::size_t index = static_cast<std::size_t>(after - trajectory.begin());
-  if (index == 0) return 0;
-  if (index == trajectory.size()) return index - 1;
-  return stamp - trajectory[index - 1].stamp <= trajectory[index].stamp - stamp ? index - 1 : index;
-}
-
 /// Points closer together than this give no direction.
 constexpr double kLeastSpread_m2 = 1e-12;
 
@@ -108,7 +98,7 @@ std::vector<PosePair> associate(const common::Trajectory& estimate, const common
   std::vector<std::size_t> taken_by(truth.size(), kNone);
   const auto difference = [&](std::size_t e, std::size_t t) { return magnitude(estimate[e].stamp - truth[t].stamp); };
   for (std::size_t e = 0; e < estimate.size(); ++e) {
-    const std::size_t t = nearest(truth, estimate[e].stamp);
+    const std::size_t t = common::nearestTo(truth, estimate[e].stamp);
     if (difference(e, t) > max_difference) continue;
     if (taken_by[t] == kNone || difference(e, t) < difference(taken_by[t], t)) taken_by[t] = e;
   }

@@ -317,7 +317,7 @@ void RunFolder::saveMap(const std::string& name, const common::OccupancyGrid& gr
 }
 
 void RunFolder::savePhoto(const std::string& name, const common::RgbdFrame& frame, const common::Pose3& T_map_camera) {
-  constexpr int kQuality = 90;
+  constexpr int kQuality = 90;  // Of JPEG: photographs are kept, the stream is not.
   const std::string file = fmt::format("photo-{:02}-{}", ++impl_->photos, name);
   const std::vector<std::uint8_t> jpeg = common::JpegEncoder(common::JpegContent::kPhoto).encode(frame.color, kQuality);
   const common::RollPitchYaw angles = common::rollPitchYaw(T_map_camera.rotation);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/config_fields.hpp"
+#include "common/gravity.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -83,7 +84,7 @@ common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasuremen
     // The autopilot's own voltmeter shows how much throttle makes up for the falling thrust.
     const double sag = measured.battery_voltage_v / vehicle_.battery_full_v;
     setpoint.roll_rad = setpoint.pitch_rad = setpoint.yaw_rate_rad_s = 0.0;
-    setpoint.thrust = config_.failsafe_thrust_share * vehicle_.mass_kg * kGravity_m_s2 /
+    setpoint.thrust = config_.failsafe_thrust_share * vehicle_.mass_kg * common::kGravity_m_s2 /
                       (vehicle_.max_thrust_n * std::max(0.25, sag * sag));
   }
   const double max_tilt_rad = vehicle_.max_tilt_deg * std::numbers::pi / 180.0;

@@ -5,6 +5,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/first_order_lag.hpp"
+#include "common/gravity.hpp"
 
 namespace swiftlet::simulation {
 
@@ -96,7 +97,7 @@ double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorCon
     }
     battery.draw(power_w, 0.0);
   }
-  return thrust_n / (vehicle.mass_kg * airframe.mass_share * kGravity_m_s2);
+  return thrust_n / (vehicle.mass_kg * airframe.mass_share * common::kGravity_m_s2);
 }
 
 Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config,
@@ -104,7 +105,7 @@ Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig
     : vehicle_(vehicle), config_(scaledTo(vehicle, config)), battery_(vehicle, config_.battery, battery_remaining) {
   vehicle_.mass_kg *= config.mass_share;
   state_.T_world_body = T_world_body;
-  state_.specific_force_body_m_s2 = kGravity_m_s2 * Vector3d::UnitZ();
+  state_.specific_force_body_m_s2 = common::kGravity_m_s2 * Vector3d::UnitZ();
 }
 
 void Quadrotor::spinMotors(const std::array<double, 4>& throttles, double step_s) {
@@ -134,7 +135,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   Vector3d force_world = R_world_body * Vector3d(0.0, 0.0, groundEffect(floor_world_m) * (f[0] + f[1] + f[2] + f[3])) +
                          drag_world + Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
   if (config_.wall_effect_share > 0.0) force_world.head<2>() += (f[0] + f[1] + f[2] + f[3]) * wall_pull_world_;
-  const Vector3d acceleration_world = force_world / vehicle_.mass_kg - kGravity_m_s2 * Vector3d::UnitZ();
+  const Vector3d acceleration_world = force_world / vehicle_.mass_kg - common::kGravity_m_s2 * Vector3d::UnitZ();
 
   // Euler's equation in the body frame. Motors: front left, front right, rear right, rear left.
   const double lever_m = config_.arm_m / std::sqrt(2.0);
@@ -157,7 +158,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   if (state_.standing) applyFriction(gear_n, step_s);
 
   const Vector3d felt_world =
-      (state_.velocity_world_m_s - velocity_before) / step_s + kGravity_m_s2 * Vector3d::UnitZ();
+      (state_.velocity_world_m_s - velocity_before) / step_s + common::kGravity_m_s2 * Vector3d::UnitZ();
   state_.specific_force_body_m_s2 = state_.T_world_body.rotation.conjugate() * felt_world;
 }
 
@@ -168,7 +169,8 @@ void Quadrotor::holdOnBench(int axis_body, const Vector3d& place_world_m) {
   state_.T_world_body = {Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis)), place_world_m};
   state_.velocity_world_m_s.setZero();
   state_.angular_velocity_body_rad_s = axis * state_.angular_velocity_body_rad_s[axis_body];
-  state_.specific_force_body_m_s2 = state_.T_world_body.rotation.conjugate() * Vector3d(0.0, 0.0, kGravity_m_s2);
+  state_.specific_force_body_m_s2 =
+      state_.T_world_body.rotation.conjugate() * Vector3d(0.0, 0.0, common::kGravity_m_s2);
 }
 
 double Quadrotor::groundEffect(double floor_world_m) const {
@@ -187,7 +189,7 @@ void Quadrotor::feelWall(const Eigen::Vector2d& towards_wall_world, double gap_m
 double Quadrotor::gearForce_n(double floor_world_m) const {
   const double pressed_m = floor_world_m + config_.gear_height_m - state_.T_world_body.position_m.z();
   if (!(pressed_m > 0.0)) return 0.0;
-  const double frequency_rad_s = std::sqrt(kGravity_m_s2 / kGearSag_m);
+  const double frequency_rad_s = std::sqrt(common::kGravity_m_s2 / kGearSag_m);
   return std::max(
       0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
 }
@@ -197,7 +199,7 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
 Vector3d Quadrotor::gearAngularAcceleration(double gear_n) const {
   // Critically damped; 1 / 33 s = 0.03 s.
   constexpr double kFrequency_rad_s = 33.0;
-  const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * kGravity_m_s2));
+  const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * common::kGravity_m_s2));
   const common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
   const Vector3d lean_rad(angles.roll_rad, angles.pitch_rad, 0.0);
   return -carried *

@@ -16,8 +16,6 @@
 
 namespace swiftlet::simulation {
 
-inline constexpr double kGravity_m_s2 = 9.81;
-
 struct QuadrotorConfig {
   double inertia_xx_kg_m2 = 0.020;
   double inertia_yy_kg_m2 = 0.021;

@@ -201,7 +201,10 @@ sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::P
   try {
     return root.Load(file, config);
   } catch (const std::exception& exception) {
-    throw InputError(Problem{{file}, "", fmt::format("libsdformat gave up: {}", exception.what()), ""});
+    throw InputError(Problem{{file},
+                             "",
+                             fmt::format("libsdformat gave up: {}", exception.what()),
+                             "leave out what was changed last, or halves of its models, to find the element"});
   }
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/gravity.hpp"
+
 namespace swiftlet::simulation {
 namespace {
 
@@ -96,7 +98,7 @@ void VehicleModel::push(Time now) {
 void VehicleModel::fall() {
   const double height_m = quadrotor_.state().T_world_body.position_m.z() - 0.5 * placed_.scenario.vehicle.hull_height_m;
   const double room_m = std::max(0.0, height_m - referee_.floor_world_m());
-  falling_m_s_ += kGravity_m_s2 * kStep_s;
+  falling_m_s_ += common::kGravity_m_s2 * kStep_s;
   fallen_m_ = std::min(room_m, fallen_m_ + falling_m_s_ * kStep_s);
 }
 

@@ -137,7 +137,9 @@ class Loader {
                planeTriangles(Eigen::Vector3d::UnitZ(), Eigen::Vector2d::Constant(kEndlessPlane_m)),
                Color::Constant(0.6F));
     if (!problems_.empty()) throw InputError(problems_);
-    if (world_.shapes.empty()) throw InputError(Problem{{world_.file}, "", "it has no geometry at all", ""});
+    if (world_.shapes.empty())
+      throw InputError(Problem{
+          {world_.file}, "", "it has no geometry at all", "give its models links with <collision> or <visual>"});
     return std::move(world_);
   }
 

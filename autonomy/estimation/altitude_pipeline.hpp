@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "common/geometry.hpp"
+#include "common/key_pose.hpp"
 #include "common/level_map.hpp"
 #include "common/time.hpp"
 #include "perception/altitude/fan_ground.hpp"
@@ -45,6 +46,12 @@ class AltitudePipeline {
 
   /// Starts with the vehicle standing at the origin of the map, and its body `height_m` above the take-off floor.
   void initialize(common::Time time, double height_m);
+
+  /// Call it with the key scans of the map before what is added next: what was seen of the ground moves with them.
+  void follow(const common::KeyPoses& keys, int newest_key) {
+    seen_.follow(keys, newest_key);
+    slopes_.follow(keys, newest_key);
+  }
 
   /// Learns how the ground slopes from a depth image and the pose of its camera.
   void lookAtGround(const common::DepthImage& depth, const common::PinholeCamera& camera,

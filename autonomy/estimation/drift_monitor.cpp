@@ -27,7 +27,7 @@ double greatestSigma_m(const Eigen::Matrix2d& covariance_m2) {
 }  // namespace
 
 double DriftMonitor::add(const PositionFix& fix) {
-  const bool fixed = fix.matched && !fix.unseen_direction_odom;
+  const bool fixed = fix.matched && !fix.unobservable_direction_odom;
   if (isHeld(fix)) {
     recall(fix.known_key);
     drift_m2_ = reference_drift_m2_;
@@ -44,12 +44,12 @@ double DriftMonitor::add(const PositionFix& fix) {
 Eigen::Matrix2d DriftMonitor::grownSince(const PositionFix& fix) const {
   const Eigen::Matrix2d difference_m2 = fix.covariance_odom_m2 - covariance_m2_;
   if (!fix.matched) return positivePart(difference_m2);
-  const Eigen::Vector2d& along = *fix.unseen_direction_odom;
+  const Eigen::Vector2d& along = *fix.unobservable_direction_odom;
   return std::max(0.0, along.dot(difference_m2 * along)) * along * along.transpose();
 }
 
 bool DriftMonitor::isHeld(const PositionFix& fix) {
-  if (!fix.matched || fix.unseen_direction_odom) {
+  if (!fix.matched || fix.unobservable_direction_odom) {
     fixed_since_.reset();
     return false;
   }

@@ -21,7 +21,7 @@ struct PositionFix {
   Eigen::Matrix2d covariance_odom_m2;  ///< The filter's, of the horizontal position, after the scan.
   bool matched = false;
   /// Unit vector along which a match does not fix the position; none if it fixes every direction.
-  std::optional<Eigen::Vector2d> unseen_direction_odom;
+  std::optional<Eigen::Vector2d> unobservable_direction_odom;
   /// Later scans are matched to this one, so its error is theirs.
   bool new_reference = false;
   /// The key scan of the map to which the pose is relative, and one of an earlier pass to which alone it was matched in

@@ -53,14 +53,14 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
       relative->covariance + tiltCovariance(scan, config_.match_floor_m, config_.match_floor_deg);
   step.measurement = {track_.clone, relative->to, T_clone_body,
                       common::turned(covariance, track_.T_clone_reference.yaw_rad), std::nullopt};
-  if (relative->unseen_direction)
-    step.measurement->unseen_direction =
-        unseenDirection(Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unseen_direction);
+  if (relative->unobservable_direction)
+    step.measurement->unobservable_direction =
+        unobservableDirection(Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unobservable_direction);
   if (!relative->reference_changed) return step;
 
   track_.T_clone_reference = T_clone_body;
-  if (relative->unseen_direction) {
-    track_ = {relative->to, {}, Eigen::Rotation2Dd(-T_clone_body.yaw_rad) * *step.measurement->unseen_direction};
+  if (relative->unobservable_direction) {
+    track_ = {relative->to, {}, Eigen::Rotation2Dd(-T_clone_body.yaw_rad) * *step.measurement->unobservable_direction};
     step.clone_after = relative->to;
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
@@ -72,12 +72,13 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
 
 /// The walls along which a vehicle flies do not turn, but each scan measures their direction a little differently. If
 /// the filter took each of these as exact, two of them would fix the position along the walls, which neither has seen.
-Eigen::Vector2d LaserPipeline::unseenDirection(const Eigen::Vector2d& measured_clone) {
-  constexpr double kSameWalls_rad = 5.0 * common::kRadPerDeg;
-  const auto& last_clone = track_.unseen_direction_clone;
+Eigen::Vector2d LaserPipeline::unobservableDirection(const Eigen::Vector2d& measured_clone) {
+  constexpr double kSameWalls_rad =
+      5.0 * common::kRadPerDeg;  // Above the noise of a direction, below the least bend of a corridor.
+  const auto& last_clone = track_.unobservable_direction_clone;
   if (!last_clone || std::abs(last_clone->dot(measured_clone)) < std::cos(kSameWalls_rad))
-    track_.unseen_direction_clone = measured_clone;
-  return *track_.unseen_direction_clone;
+    track_.unobservable_direction_clone = measured_clone;
+  return *track_.unobservable_direction_clone;
 }
 
 /// Starts a local map with this scan. After an interruption the motion since the last match is unknown, so its

@@ -53,7 +53,7 @@ class LaserPipeline {
   common::Time clone() const { return track_.clone; }
 
  private:
-  Eigen::Vector2d unseenDirection(const Eigen::Vector2d& measured_clone);
+  Eigen::Vector2d unobservableDirection(const Eigen::Vector2d& measured_clone);
   OdometryStep restart(const perception::RelativePose& relative, bool interrupted);
   Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan, double floor_m, double floor_deg) const;
 
@@ -67,7 +67,7 @@ class LaserPipeline {
     common::Time clone;
     common::Pose2 T_clone_reference;
     /// The unit vector along which a scan last did not fix the position, in the clone's level frame.
-    std::optional<Eigen::Vector2d> unseen_direction_clone;
+    std::optional<Eigen::Vector2d> unobservable_direction_clone;
   } track_;
 };
 

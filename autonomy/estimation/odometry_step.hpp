@@ -15,8 +15,8 @@ struct RelativePoseMeasurement {
   common::Time from;
   common::Time to;
   common::Pose2 T_from_to;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
-  std::optional<Eigen::Vector2d> unseen_direction;       ///< Direction without information, in the frame at `from`.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
+  std::optional<Eigen::Vector2d> unobservable_direction;  ///< Direction without information, in the frame at `from`.
 };
 
 /// The same in space, of a camera; see perception::ErrorStateFilter::addRelativePose3.

@@ -23,7 +23,7 @@ bool mayPass(const planning::PlanFailure& failure) {
 
 /// A point of the path where something may stand that blocks it.
 std::optional<Eigen::Vector2d> pointAhead(const std::vector<Eigen::Vector2d>& path_map_m) {
-  constexpr double kAhead_m = 1.5;
+  constexpr double kAhead_m = 1.5;  // Farther than the vehicle brakes, near enough to be in sight.
   if (path_map_m.empty()) return std::nullopt;
   for (const Eigen::Vector2d& point : path_map_m)
     if ((point - path_map_m.front()).norm() > kAhead_m) return point;
@@ -52,6 +52,9 @@ bool GoTo::looksAsAsked(const common::VehicleState& state) const {
 
 std::string GoTo::reached() const {
   const double off_m = (place_map_m_ - intent_.goal_map_m).norm();
+  if (intent_.goal_given_m && off_m > 0.0)
+    return fmt::format("reached a place {:.2f} m beside {}, which is not free", off_m, placeOf(intent_));
+  if (intent_.goal_given_m) return "reached " + placeOf(intent_);
   return fmt::format("reached ({:.2f}, {:.2f})", place_map_m_.x(), place_map_m_.y()) +
          (off_m > 0.0 ? fmt::format(", {:.2f} m beside the goal, which is not free", off_m) : "");
 }
@@ -93,7 +96,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   const Eigen::Vector2d& end_map_m = (*answer.path)->points_map_m.back();
   place_map_m_ = (end_map_m - intent_.goal_map_m).norm() > intent_.tolerance_m ? end_map_m : intent_.goal_map_m;
   flight_.offer(**answer.path, now, state);
-  return Progress::running(fmt::format("flying to ({:.2f}, {:.2f})", intent_.goal_map_m.x(), intent_.goal_map_m.y()));
+  return Progress::running("flying to " + placeOf(intent_));
 }
 
 Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {

@@ -55,8 +55,14 @@ std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const Ma
 
 std::string Inspect::doing(const ManeuverInput& input) const {
   if (passed() == 0) return "flying to the circle";
-  const double off_m = std::abs((input.position_map_m() - intent_.point_map_m).norm() - intent_.radius_m);
-  return off_m < kOnCircle_m ? "inspecting" : "flying around what stands on the circle";
+  return isOnCircle(input) ? "inspecting" : "flying around what stands on the circle";
+}
+
+/// At the first place it turns to the point; it has left that place when it passes the second.
+bool Inspect::inspecting(const ManeuverInput& input) const { return passed() > 1 && isOnCircle(input); }
+
+bool Inspect::isOnCircle(const ManeuverInput& input) const {
+  return std::abs((input.position_map_m() - intent_.point_map_m).norm() - intent_.radius_m) < kOnCircle_m;
 }
 
 bool Inspect::ready(const ManeuverInput& input) {

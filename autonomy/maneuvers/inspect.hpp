@@ -13,6 +13,8 @@ class Inspect final : public Tour {
  private:
   std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
   bool ready(const ManeuverInput& input) override;
+  bool inspecting(const ManeuverInput& input) const override;
+  bool isOnCircle(const ManeuverInput& input) const;
   std::string doing(const ManeuverInput& input) const override;
 
   common::InspectIntent intent_;

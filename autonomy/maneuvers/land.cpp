@@ -7,7 +7,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-constexpr double kStopping_s = 1.5;
+constexpr double kStopping_s = 1.5;  ///< From the greatest speed to a hover, with what then settles.
 /// Nearer than this the place is reached: the margin of the place is larger.
 constexpr double kTolerance_m = 0.08;
 /// Time for the flight of at most LandingNeeds::reach_m at careful speed, a plan and an arrival.

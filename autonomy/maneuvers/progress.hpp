@@ -13,10 +13,11 @@ struct Progress {
   /// For people: what it does or waits for, what it reached, or why it failed. If it is empty while running, the last
   /// reason stays.
   std::string reason;
+  bool inspecting = false;  ///< See IntentStatus; with an empty reason the last one stays.
 
-  static Progress running(std::string reason = {}) { return {common::IntentState::kRunning, std::move(reason)}; }
-  static Progress done(std::string reason) { return {common::IntentState::kSucceeded, std::move(reason)}; }
-  static Progress failed(std::string reason) { return {common::IntentState::kFailed, std::move(reason)}; }
+  static Progress running(std::string reason = {}) { return {common::IntentState::kRunning, std::move(reason), false}; }
+  static Progress done(std::string reason) { return {common::IntentState::kSucceeded, std::move(reason), false}; }
+  static Progress failed(std::string reason) { return {common::IntentState::kFailed, std::move(reason), false}; }
 };
 
 }  // namespace swiftlet::autonomy

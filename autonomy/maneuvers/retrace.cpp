@@ -15,7 +15,7 @@ constexpr common::FlightMode kMode = common::FlightMode::kCareful;
 /// small motion of a hover; flown point by point the vehicle would turn with each of them instead of looking where it
 /// came from.
 std::vector<Eigen::Vector2d> straightened(const std::vector<Eigen::Vector2d>& path) {
-  constexpr double kWithin_m = 0.06, kLongest_m = 1.0;
+  constexpr double kWithin_m = 0.06, kLongest_m = 1.0;  // A trail is passable only near itself.
   std::vector<Eigen::Vector2d> corners;
   for (std::size_t from = 0; from < path.size();) {
     corners.push_back(path[from]);

@@ -60,7 +60,8 @@ Progress Tour::fly(const ManeuverInput& input) {
   if (flight_.mayAsk()) asked_.reset();  // An answer that came during a retreat was dropped.
   const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
   if (!under_way && !asked_ && ready(input)) flyOn(*map, input, *station);
-  return Progress::running(fmt::format("{}, {} of {} places", doing(input), passed(), stations_.size()));
+  return {common::IntentState::kRunning, fmt::format("{}, {} of {} places", doing(input), passed(), stations_.size()),
+          inspecting(input)};
 }
 
 /// Opens the stations that are not passed, where the map has a free place for them.

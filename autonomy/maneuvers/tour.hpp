@@ -35,11 +35,12 @@ class Tour : public PathManeuver {
                                                  const Eigen::Vector2d& place_map_m) const;
   /// Whether it may fly on from where it is.
   virtual bool ready(const ManeuverInput&) { return true; }
+  /// Whether it looks at what it was sent to look at.
+  virtual bool inspecting(const ManeuverInput&) const { return false; }
   /// "surveying", for people.
   virtual std::string doing(const ManeuverInput& input) const = 0;
 
   std::size_t passed() const;
-  std::size_t stations() const { return stations_.size(); }
 
  private:
   enum class State { kOpen, kPassed, kLeft };

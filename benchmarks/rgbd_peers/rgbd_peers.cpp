@@ -111,27 +111,11 @@ Result run(Peer& peer, const Options& options) {
 /// nearest stamp, would be up to 5 ms off, which is a quarter of a degree when the camera turns by 50 deg/s.
 std::vector<evaluation::PosePair> paired(const common::Trajectory& estimate, const common::Trajectory& reference,
                                          double offset_s) {
-  constexpr double kLongestGap_s = 0.1;
+  constexpr common::Duration kLongestGap = common::Duration::fromMilliseconds(100);
   std::vector<evaluation::PosePair> pairs;
-  for (const common::StampedPose& at : estimate) {
-    const common::Time stamp = at.stamp + common::Duration::fromSeconds(offset_s);
-    const auto after =
-        std::lower_bound(reference.begin(), reference.end(), stamp,
-                         [](const common::StampedPose& pose, common::Time time) { return pose.stamp < time; });
-    if (after == reference.end()) continue;
-    if (after->stamp == stamp) {
-      pairs.push_back({at.stamp, at.pose, after->pose});
-      continue;
-    }
-    if (after == reference.begin()) continue;
-    const common::StampedPose& before = *(after - 1);
-    const double gap_s = (after->stamp - before.stamp).seconds();
-    if (gap_s > kLongestGap_s) continue;
-    const double part = (stamp - before.stamp).seconds() / gap_s;
-    pairs.push_back({at.stamp, at.pose,
-                     Pose3{before.pose.rotation.slerp(part, after->pose.rotation),
-                           before.pose.position_m + part * (after->pose.position_m - before.pose.position_m)}});
-  }
+  for (const common::StampedPose& at : estimate)
+    if (const auto pose = common::poseAt(reference, at.stamp + common::Duration::fromSeconds(offset_s), kLongestGap))
+      pairs.push_back({at.stamp, at.pose, *pose});
   return pairs;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/geometry.hpp"
+#include "common/gravity.hpp"
 #include "control/actuation.hpp"
 
 namespace swiftlet::control {
@@ -122,7 +123,7 @@ common::Setpoint Lqr::tick(const ControlInput& input, ThrustModel& thrust) {
   advance(errors, wanted_m_s2, given_m_s2, input.dt_s);
   if (!input.on_ground) {
     const double learned_m_s2 = thrust.learn(trim_odom_m_s2(thrust).z(), input.dt_s);
-    if (gains_[2][0] > 0.0) integral_m_s_.z() -= learned_m_s2 * model_.up.gain / kGravity_m_s2 / gains_[2][0];
+    if (gains_[2][0] > 0.0) integral_m_s_.z() -= learned_m_s2 * model_.up.gain / common::kGravity_m_s2 / gains_[2][0];
   }
   return setpoint;
 }
@@ -138,7 +139,7 @@ void Lqr::advance(const ControlErrors& errors, const Eigen::Vector3d& wanted_m_s
     const double refused_m_s2 = wanted_m_s2[axis] - given_m_s2[axis];
     if (integral_gain <= 0.0 || refused_m_s2 * errors.position_odom_m[axis] > 1e-9) continue;
     // Vertically it also makes up for a thrust that is far from that of the identified flight.
-    const double most_m_s = (axis == 2 ? kGravity_m_s2 : limits_.max_integral_m_s2) / integral_gain;
+    const double most_m_s = (axis == 2 ? common::kGravity_m_s2 : limits_.max_integral_m_s2) / integral_gain;
     integral_m_s_[axis] = std::clamp(integral_m_s_[axis] + dt_s * errors.position_odom_m[axis], -most_m_s, most_m_s);
   }
 }
@@ -149,14 +150,14 @@ Eigen::Vector3d Lqr::trim_odom_m_s2(const ThrustModel&) const {
   Eigen::Vector3d trim_m_s2;
   for (int axis = 0; axis < 3; ++axis)
     trim_m_s2[axis] = gains_[static_cast<std::size_t>(axis)][0] * integral_m_s_[axis];
-  trim_m_s2.z() = kGravity_m_s2 * ((trim_m_s2.z() - model_.up.offset) / model_.up.gain - 1.0);
+  trim_m_s2.z() = common::kGravity_m_s2 * ((trim_m_s2.z() - model_.up.offset) / model_.up.gain - 1.0);
   return trim_m_s2;
 }
 
 void Lqr::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel&) {
   started_ = true;
   Eigen::Vector3d wanted_m_s2 = trim_odom_m_s2;
-  wanted_m_s2.z() = model_.up.gain * (1.0 + trim_odom_m_s2.z() / kGravity_m_s2) + model_.up.offset;
+  wanted_m_s2.z() = model_.up.gain * (1.0 + trim_odom_m_s2.z() / common::kGravity_m_s2) + model_.up.offset;
   for (int axis = 0; axis < 3; ++axis) {
     const double gain = gains_[static_cast<std::size_t>(axis)][0];
     integral_m_s_[axis] = gain > 0.0 ? wanted_m_s2[axis] / gain : 0.0;

@@ -7,6 +7,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/geometry.hpp"
+#include "common/gravity.hpp"
 #include "control/actuation.hpp"
 
 namespace swiftlet::control {
@@ -56,21 +57,21 @@ common::Setpoint VoltagePid::tick(const ControlInput& input, ThrustModel& thrust
 void VoltagePid::integrate(const ControlErrors& errors, const Eigen::Vector3d& refused, double dt_s) {
   const double horizontal = config_.horizontal_i_deg_m_s * kRadPerDeg;
   control::integrate(integral_, {horizontal, horizontal, config_.vertical_i_1_m_s}, errors.position_odom_m, refused,
-                     limits_.max_integral_m_s2 / kGravity_m_s2, dt_s);
+                     limits_.max_integral_m_s2 / common::kGravity_m_s2, dt_s);
 }
 
 void VoltagePid::learnOffset(ThrustModel& thrust, double dt_s) {
   const double offset = thrust.hoverCommand();
-  thrust.learn(kGravity_m_s2 * integral_.z() / offset, dt_s);
+  thrust.learn(common::kGravity_m_s2 * integral_.z() / offset, dt_s);
   integral_.z() -= thrust.hoverCommand() - offset;
 }
 
 Eigen::Vector3d VoltagePid::trim_odom_m_s2(const ThrustModel& thrust) const {
-  return kGravity_m_s2 * Eigen::Vector3d(integral_.x(), integral_.y(), integral_.z() / thrust.hoverCommand());
+  return common::kGravity_m_s2 * Eigen::Vector3d(integral_.x(), integral_.y(), integral_.z() / thrust.hoverCommand());
 }
 
 void VoltagePid::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel& thrust) {
-  integral_ = trim_odom_m_s2 / kGravity_m_s2;
+  integral_ = trim_odom_m_s2 / common::kGravity_m_s2;
   integral_.z() *= thrust.hoverCommand();
 }
 

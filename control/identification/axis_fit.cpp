@@ -9,11 +9,10 @@
 #include <Eigen/Dense>
 
 #include "common/first_order_lag.hpp"
+#include "common/normal_distribution.hpp"
 
 namespace swiftlet::control {
 namespace {
-
-constexpr double k95 = 1.96;  // Of the normal distribution.
 
 /// The equations of all windows: rows of (int u, T, int v) and the changes of velocity.
 struct Equations {
@@ -89,7 +88,7 @@ Solution solved(const Equations& equations) {
   solution.residual_square = residuals.squaredNorm() / std::max(free, 1.0);
   const Eigen::MatrixXd covariance = solution.residual_square * inflation(residuals) *
                                      factored.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
-  solution.intervals = k95 * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  solution.intervals = common::kNormal95 * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   return solution;
 }
 

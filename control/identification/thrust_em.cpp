@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "common/gravity.hpp"
+
 namespace swiftlet::control {
 namespace {
 
@@ -29,7 +31,7 @@ void addHovers(const FlightSamples& flight, const ThrustEmOptions& options, std:
         (after.velocity_odom_m_s.z() - before.velocity_odom_m_s.z()) / (after.stamp - before.stamp).seconds();
     double mean = 0.0;
     for (std::size_t j = i - half; j < i + half; ++j) mean += flight[j].thrust * flight[j].tilt_cos;
-    const double command = mean / static_cast<double>(2 * half) / (1.0 + up_m_s2 / kGravity_m_s2);
+    const double command = mean / static_cast<double>(2 * half) / (1.0 + up_m_s2 / common::kGravity_m_s2);
     if (std::isfinite(command) && command > 0.0) hovers.push_back({now.battery_v, command, period_s});
   }
 }
@@ -105,7 +107,7 @@ struct Mixture {
       sum += weights[i];
       square += weights[i] * residuals[i] * residuals[i];
     }
-    constexpr double kLeastSigma = 1e-4;
+    constexpr double kLeastSigma = 1e-4;  // Keeps the mixture from closing in on single samples.
     sigma = std::max(kLeastSigma, std::sqrt(square / std::max(sum, 1e-9)));
     keeping = std::clamp(sum / static_cast<double>(residuals.size()), 0.01, 0.999);
   }
@@ -140,7 +142,7 @@ tl::expected<ThrustEm, std::string> thrustByVoltage(const std::vector<FlightSamp
   if (flown_s < options.shortest_s)
     return tl::unexpected(fmt::format("{:.1f} s of flight with a known voltage are too few, at least {:g} s are needed",
                                       flown_s, options.shortest_s));
-  constexpr double kLeastSpan_v = 0.05;
+  constexpr double kLeastSpan_v = 0.05;  // A table needs some width where the voltage did not change.
   Table table(low_v, std::max(high_v, low_v + kLeastSpan_v), options.knots);
   Mixture mixture;
   ThrustEm result;

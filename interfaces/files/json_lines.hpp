@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "common/event.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -23,9 +22,5 @@ class EventWriter {
   explicit EventWriter(AppendFile file) : file_(std::move(file)) {}
   AppendFile file_;
 };
-
-/// Throws InputError with file and line. A last line without its newline comes from a process that was killed while
-/// writing, and is left out.
-std::vector<common::Event> readEvents(const std::filesystem::path& file);
 
 }  // namespace swiftlet::interfaces

@@ -167,10 +167,13 @@ common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_
     constexpr std::size_t kChunk = std::size_t{1} << 20;
     const std::size_t before = bytes.size();
     if (before > common::kMostFileBytes)
-      throw common::InputError(common::Problem{{file.string()}, "", "the octree is larger than 1 GiB", ""});
+      throw common::InputError(common::Problem{
+          {file.string()}, "", "the octree is larger than 1 GiB", "prune it, or write it with a coarser resolution"});
     bytes.resize(before + kChunk);
     const BytesRead read = stream.read(bytes.data() + before, kChunk);
-    if (!read) throw common::InputError(common::Problem{{file.string()}, "", read.error(), ""});
+    if (!read)
+      throw common::InputError(common::Problem{
+          {file.string()}, "", read.error(), "give a whole .bt or .ot, plain or packed by gzip, bzip2 or xz"});
     bytes.resize(before + *read);
     if (*read == 0) return parseOctree(bytes, file.string(), most_blocks);
   }

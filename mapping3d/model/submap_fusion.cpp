@@ -103,14 +103,4 @@ VoxelMap fuse(const std::vector<common::Submap3d>& submaps, const common::KeyPos
   return map;
 }
 
-std::int8_t evidenceAt(const Vector3d& point_map_m, const std::vector<common::Submap3d>& submaps,
-                       const common::KeyPoses& scans) {
-  std::int8_t sum = VoxelBlock::kUnknown;
-  for (const common::Submap3d& submap : submaps) {
-    const Vector3d point_m = submap.T_map_submap(scans).inverse() * point_map_m;
-    addTo(sum, submap.voxels->evidence(submap.voxels->voxelAt(point_m)));
-  }
-  return sum;
-}
-
 }  // namespace swiftlet::mapping3d

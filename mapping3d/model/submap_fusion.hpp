@@ -18,8 +18,4 @@ namespace swiftlet::mapping3d {
 /// the result has too, and their key scans must be in `scans`.
 common::VoxelMap fuse(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& scans, double resolution_m);
 
-/// What the submaps tell of a point, without fusing them: kUnknown, or their evidence as in fuse().
-std::int8_t evidenceAt(const Eigen::Vector3d& point_map_m, const std::vector<common::Submap3d>& submaps,
-                       const common::KeyPoses& scans);
-
 }  // namespace swiftlet::mapping3d

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "common/config_fields.hpp"
+#include "common/normal_distribution.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
@@ -21,8 +22,6 @@ constexpr double kLeastCertain_m = 0.01;
 constexpr double kLeastCertain_rad = 0.005;
 /// Learning anew after each frame would cost more than it gives.
 constexpr std::uint64_t kLearnEvery = 10;
-/// The standard deviation of a Gaussian by the median of its magnitude.
-constexpr double kSigmaOfMedian = 1.4826;
 
 /// Errors of neighbouring points are alike, so that an alignment is less certain than independent points would make it.
 constexpr double kSigmaFactor = 5.0;
@@ -72,18 +71,8 @@ RecordedSeeds::RecordedSeeds(common::Trajectory poses, const RecordedSeedsConfig
     : poses_(std::move(poses)), config_(config) {}
 
 std::optional<Pose3> RecordedSeeds::poseAt(common::Time stamp, double lateness_s) const {
-  const common::Time time = stamp + common::Duration::fromSeconds(lateness_s);
-  const auto after = std::lower_bound(poses_.begin(), poses_.end(), time,
-                                      [](const common::StampedPose& pose, common::Time t) { return pose.stamp < t; });
-  if (after == poses_.end()) return std::nullopt;
-  if (after->stamp == time) return after->pose;
-  if (after == poses_.begin()) return std::nullopt;
-  const common::StampedPose& before = *(after - 1);
-  const double gap_s = (after->stamp - before.stamp).seconds();
-  if (gap_s > config_.longest_gap_s) return std::nullopt;
-  const double part = (time - before.stamp).seconds() / gap_s;
-  return Pose3{before.pose.rotation.slerp(part, after->pose.rotation),
-               before.pose.position_m + part * (after->pose.position_m - before.pose.position_m)};
+  return common::poseAt(poses_, stamp + common::Duration::fromSeconds(lateness_s),
+                        common::Duration::fromSeconds(config_.longest_gap_s));
 }
 
 std::optional<CameraSeed> RecordedSeeds::at(common::Time stamp) const {
@@ -150,7 +139,7 @@ void RecordedSeeds::learnSpread() {
   rate_covariance_ = Matrix6d::Zero();
   for (int axis = 0; axis < 6; ++axis) {
     const double floor = axis < 3 ? config_.speed_floor_m_s : config_.rate_floor_rad_s;
-    const double sigma = std::max(floor, kSigmaOfMedian * medianOf(rates[static_cast<std::size_t>(axis)]));
+    const double sigma = std::max(floor, common::kSigmaOfMedian * medianOf(rates[static_cast<std::size_t>(axis)]));
     (*rate_covariance_)(axis, axis) = sigma * sigma;
   }
 }

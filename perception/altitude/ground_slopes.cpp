@@ -1,6 +1,7 @@
 #include "perception/altitude/ground_slopes.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "perception/altitude/ground_plane.hpp"
 #include "perception/altitude/slope_limits.hpp"
@@ -16,17 +17,14 @@ constexpr int kEvery_px = 3;
 constexpr double kBelow_m = 0.3;
 /// Farther away the depths of structured-light cameras are too noisy for a gradient [Khoshelham 2012].
 constexpr double kRange_m = 4.0;
-constexpr int kLeastImages = 3;
+constexpr int kLeastImages = 3;  ///< So that no single image decides.
 
 /// Share of a cell's gradient that becomes part of the bias: some hundred cells of level ground make it known.
 constexpr double kBiasGain = 0.01;
 
 }  // namespace
 
-common::CellIndex GroundSlopes::cellAt(const Eigen::Vector2d& place_map_m) {
-  return {static_cast<int>(std::floor(place_map_m.x() / kCell_m)),
-          static_cast<int>(std::floor(place_map_m.y() / kCell_m))};
-}
+GroundSlopes::GroundSlopes() : cells_(kCell_m) {}
 
 void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCamera& camera,
                        const common::Pose3& T_map_camera) {
@@ -41,7 +39,7 @@ void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCam
       const Eigen::Vector3d point = T_map_camera.rotation * camera.point_camera_m(u, v, depth_m);
       if (point.z() > -kBelow_m) continue;
       const Eigen::Vector2d place_map_m = (from_map_m + point).head<2>();
-      if (place_map_m.allFinite()) planes[cellAt(place_map_m)].add(point);
+      if (place_map_m.allFinite()) planes[cells_.cellAt(place_map_m)].add(point);
     }
   const Eigen::Vector3d ahead = T_map_camera.rotation * Eigen::Vector3d::UnitX();
   const Eigen::Rotation2Dd R_map_camera(std::atan2(ahead.y(), ahead.x()));
@@ -50,17 +48,22 @@ void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCam
     if (!seen) continue;
     const Eigen::Vector2d gradient = *seen - R_map_camera * bias_;
     if (gradient.norm() < kLeastGradient) bias_ += kBiasGain * (R_map_camera.inverse() * gradient);
-    Cell& cell = cells_[index];
-    cell.gradient_sum += gradient;
-    ++cell.images;
+    auto& square = cells_.at(index);
+    square.content.gradient_sum += Eigen::Rotation2Dd(-square.T_map_square.yaw_rad) * gradient;
+    ++square.content.images;
   }
 }
 
 std::optional<Eigen::Vector2d> GroundSlopes::gradientAt(const Eigen::Vector2d& place_map_m) const {
   if (!place_map_m.allFinite()) return std::nullopt;
-  const auto found = cells_.find(cellAt(place_map_m));
-  if (found == cells_.end() || found->second.images < kLeastImages) return std::nullopt;
-  const Eigen::Vector2d mean = found->second.gradient_sum / found->second.images;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int images = 0;
+  cells_.visit(cells_.cellAt(place_map_m), [&](const KeyedCells<Cell>::Square& square) {
+    sum += Eigen::Rotation2Dd(square.T_map_square.yaw_rad) * square.content.gradient_sum;
+    images += square.content.images;
+  });
+  if (images < kLeastImages) return std::nullopt;
+  const Eigen::Vector2d mean = sum / images;
   return mean.norm() < kLeastGradient ? Eigen::Vector2d(0.0, 0.0) : mean;
 }
 

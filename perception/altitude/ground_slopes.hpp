@@ -6,23 +6,27 @@
 //                   slope, as attitude and mount are wrong --> mean gradient of the cell
 #pragma once
 
-#include <map>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
 #include "common/rgbd_frame.hpp"
-#include "common/tiled_grid.hpp"
+#include "perception/altitude/keyed_cells.hpp"
 
 namespace swiftlet::perception {
 
 /// One thread. In the frame `map`.
 class GroundSlopes {
  public:
+  GroundSlopes();
+
   /// The standard deviation of a gradient (rise over run): what is left of the error of attitude and mount;
   /// 0.016 over eight ramps of trials/ramp.yaml.
   static constexpr double kGradientSigma = 0.02;
+
+  /// Moves and turns what was seen with the key scans of the map; see KeyedCells.
+  void follow(const common::KeyPoses& keys, int newest_key) { cells_.follow(keys, newest_key); }
 
   /// Takes in a depth image, taken from that pose. Only differences of height count, so that a wrong height of the pose
   /// does no harm. Cells with a step, furniture or too few points in them are left out.
@@ -34,11 +38,10 @@ class GroundSlopes {
 
  private:
   struct Cell {
-    Eigen::Vector2d gradient_sum = Eigen::Vector2d::Zero();
+    Eigen::Vector2d gradient_sum = Eigen::Vector2d::Zero();  ///< Along the axes of its square.
     int images = 0;
   };
-  static common::CellIndex cellAt(const Eigen::Vector2d& place_map_m);
-  std::map<common::CellIndex, Cell> cells_;
+  KeyedCells<Cell> cells_;
   /// The gradient that level ground seems to have, ahead and to the left of the camera.
   Eigen::Vector2d bias_ = Eigen::Vector2d::Zero();
 };

@@ -2,18 +2,24 @@
 // for a moment only. Levels are for the height of the vehicle; this is for the feet of its gear.
 #pragma once
 
-#include <map>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "common/level_map.hpp"
+#include "perception/altitude/keyed_cells.hpp"
 
 namespace swiftlet::perception {
 
 /// One thread.
 class SeenSurfaces {
  public:
+  SeenSurfaces();
+
+  /// Moves what was seen with the key scans of the map; see KeyedCells.
+  void follow(const common::KeyPoses& keys, int newest_key) { cells_.follow(keys, newest_key); }
+
   /// A beam that met a surface of that height over the take-off floor. Ignores what is not finite.
   void add(const Eigen::Vector2d& point_map_m, double height_m);
 
@@ -29,7 +35,11 @@ class SeenSurfaces {
     double height_m = 0.0;  ///< Mean.
     int beams = 0;
   };
-  std::map<common::CellIndex, std::vector<Cluster>> cells_;
+  using Clusters = std::vector<Cluster>;
+  static Cluster* sameAs(std::span<Cluster> clusters, double height_m);
+  Clusters clustersAt(common::CellIndex cell) const;
+
+  KeyedCells<Clusters> cells_;
 };
 
 }  // namespace swiftlet::perception

@@ -8,7 +8,7 @@ namespace {
 
 /// Slower, nothing below changes because of the path.
 constexpr double kLeastSpeed_m_s = 0.2;
-constexpr double kSmoothing_s = 0.5;
+constexpr double kSmoothing_s = 0.5;  ///< Of the speed from scan to scan; a ramp takes longer.
 /// Longer than the delay of the multilevel filter, 0.15 s.
 constexpr double kRemembered_s = 0.5;
 

@@ -6,12 +6,12 @@
 
 #include <Eigen/LU>
 
-#include "perception/fusion/filter_tape.hpp"
+#include "common/normal_distribution.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-constexpr double kInterval_s = 1.0;
+constexpr double kInterval_s = 1.0;  ///< Errors at instants nearer to each other are alike.
 constexpr int kFigures = 3;
 constexpr const char* kNames[kFigures] = {"horizontal velocity", "climb", "height"};
 constexpr int kDegrees[kFigures] = {2, 1, 1};
@@ -43,22 +43,16 @@ Sample sampleOf(const ErrorStateFilter& filter, const TrueVelocity& truth) {
 }
 
 Replay replayed(const TapedFlight& flight, const FusionConfig& config) {
-  ErrorStateFilter filter(config);
+  TapedReplay taped(flight, config);
+  const ErrorStateFilter& filter = taped.filter();
   Replay replay;
-  std::size_t next = 0;
   std::optional<common::Time> last;
-  const auto arrivesAfter = [](const FilterInput& input, common::Time time) {
-    const auto* imu = std::get_if<common::ImuSample>(&input);
-    return imu != nullptr && imu->stamps.arrived > time;
-  };
-  for (const TrueVelocity& truth : flight.truth) {
-    for (; next < flight.inputs.size() && !arrivesAfter(flight.inputs[next], truth.stamp); ++next)
-      tell(filter, flight.inputs[next]);
-    if (last && (truth.stamp - *last).seconds() < kInterval_s - 1e-6) continue;
-    last = truth.stamp;
+  while (const TrueVelocity* truth = taped.next()) {
+    if (last && (truth->stamp - *last).seconds() < kInterval_s - 1e-6) continue;
+    last = truth->stamp;
     replay.diverged = !filter.initialized() || filter.health().status == FusionStatus::kDiverged;
     if (replay.diverged) return replay;
-    replay.samples.push_back(sampleOf(filter, truth));
+    replay.samples.push_back(sampleOf(filter, *truth));
   }
   replay.counts = filter.counts();
   return replay;
@@ -86,10 +80,9 @@ ConsistencyFigure figureOf(int index, const std::vector<Replay>& replays, std::s
 }  // namespace
 
 ChiSquaredBounds chiSquaredBounds95(double degrees) {
-  constexpr double kNormal = 1.959964;
   const double spread = 2.0 / (9.0 * degrees);
   const auto quantile = [&](double normal) { return std::pow(1.0 - spread + normal * std::sqrt(spread), 3.0); };
-  return {quantile(-kNormal), quantile(kNormal)};
+  return {quantile(-common::kNormal95), quantile(common::kNormal95)};
 }
 
 Consistency consistencyOf(const std::vector<TapedFlight>& flights, const FusionConfig& config) {

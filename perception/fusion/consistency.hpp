@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "perception/fusion/noise_tuning.hpp"
+#include "perception/fusion/taped_flight.hpp"
 
 namespace swiftlet::perception {
 

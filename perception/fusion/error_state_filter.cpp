@@ -158,8 +158,9 @@ Insertion ErrorStateFilter::addClone(Time time) {
 
 Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Pose2& T_from_to,
                                             const Eigen::Matrix3d& covariance,
-                                            const std::optional<Eigen::Vector2d>& unseen_direction) {
-  const bool direction_valid = !unseen_direction || std::abs(unseen_direction->norm() - 1.0) < kUnitTolerance;
+                                            const std::optional<Eigen::Vector2d>& unobservable_direction) {
+  const bool direction_valid =
+      !unobservable_direction || std::abs(unobservable_direction->norm() - 1.0) < kUnitTolerance;
   if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance) || !direction_valid)
     return impl_->counted(Insertion::kInvalid);
   if (!hasClone(from)) return impl_->counted(Insertion::kUnknownReference);
@@ -169,7 +170,7 @@ Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Po
   m.from = from;
   m.pose = T_from_to;
   m.covariance = covariance;
-  m.unseen_direction = unseen_direction;
+  m.unobservable_direction = unobservable_direction;
   return impl_->insert(m);
 }
 

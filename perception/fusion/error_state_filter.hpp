@@ -66,12 +66,12 @@ class ErrorStateFilter {
   /// that, the least recently used one is dropped.
   Insertion addClone(common::Time time);
   /// Adds a relative pose: T_from_to in the level frame of the body at `from`, which must be cloned, with the
-  /// covariance of (x, y, yaw). Along `unseen_direction`, a unit vector in the frame at `from`, nothing was measured
-  /// and nothing is used, whatever the pose and covariance say. Otherwise a guess repeated with each scan, however
-  /// uncertain, would soon count as certain.
+  /// covariance of (x, y, yaw). Along `unobservable_direction`, a unit vector in the frame at `from`, nothing was
+  /// measured and nothing is used, whatever the pose and covariance say. Otherwise a guess repeated with each scan,
+  /// however uncertain, would soon count as certain.
   Insertion addRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
                             const Eigen::Matrix3d& covariance,
-                            const std::optional<Eigen::Vector2d>& unseen_direction = std::nullopt);
+                            const std::optional<Eigen::Vector2d>& unobservable_direction = std::nullopt);
   /// Adds a relative pose in space: T_from_to of the body, whose pose at `from` must be cloned, with the covariance of
   /// its error (position, rotation vector) in the axes of the body at `to`. A direction in which nothing was measured
   /// has a large variance.

@@ -17,6 +17,13 @@ constexpr double kAhrsGate = 3.0;
 /// Across a longer gap between samples the specific force is unknown.
 constexpr double kLongestDragStep_s = 0.05;
 
+/// The greatest squared Mahalanobis distance of K degrees of freedom with about the tail probability of `gate_sigma` in
+/// one. With 3 sigma it is 14.0 for three and 21.5 for six; the quantiles of chi-squared are 14.2 and 20.1.
+template <int K>
+double gateLimit2(double gate_sigma) {
+  return square(gate_sigma) + 2.5 * (K - 1);
+}
+
 }  // namespace
 
 FilterStep::FilterStep(const FusionConfig& config)
@@ -83,9 +90,9 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
       if (m.kind == MeasurementKind::kRelativePose3)
         updateBySpatialPose(state, clone, m);
-      else if (m.unseen_direction)
+      else if (m.unobservable_direction)
         gatedUpdate(state, state.relative_gate,
-                    relativePoseAcross(state, clone, m.pose, m.covariance, *m.unseen_direction));
+                    relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_direction));
       else
         gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance));
       return;
@@ -98,7 +105,7 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
 void FilterStep::updateBySpatialPose(FilterState& state, int clone, const Measurement& m) const {
   const Linearized<6> pose = relativePose3(state, clone, m.pose3, m.covariance6);
   GateMemory& gate = state.spatial_gate;
-  if (mahalanobis2(state, pose) > square(config_.gate_sigma) + 2.5 * (6 - 1)) {
+  if (mahalanobis2(state, pose) > gateLimit2<6>(config_.gate_sigma)) {
     if (!gate.closed) gate.closed_since = state.stamp;
     gate.closed = true;
     ++gate.rejected;
@@ -179,8 +186,7 @@ void FilterStep::updateByDrag(FilterState& state, double accelerometer_noise_m_s
 
 template <int K>
 void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m) const {
-  // Approximately the same tail probability for K degrees of freedom.
-  const double limit2 = square(config_.gate_sigma) + 2.5 * (K - 1);
+  const double limit2 = gateLimit2<K>(config_.gate_sigma);
   const double innovation2 = mahalanobis2(state, m);
   gate.innovations.sum += innovation2;
   gate.innovations.degrees += static_cast<std::uint64_t>(K);

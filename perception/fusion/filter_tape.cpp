@@ -17,7 +17,7 @@ struct Tell {
   void operator()(const TapedPredicted& p) const { filter.setPredicted(p.predicted); }
   void operator()(const TapedClone& clone) const { (void)filter.addClone(clone.time); }
   void operator()(const TapedRelativePose& m) const {
-    (void)filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unseen_direction);
+    (void)filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unobservable_direction);
   }
   void operator()(const TapedHeight& m) const {
     (void)filter.addHeight(m.time, m.height_m, m.variance_m2, m.common_variance_m2);
@@ -38,11 +38,11 @@ struct Print {
   std::string operator()(const TapedPredicted& p) const { return fmt::format("predicted {:d}\n", p.predicted); }
   std::string operator()(const TapedClone& c) const { return fmt::format("clone {}\n", c.time.nanoseconds()); }
   std::string operator()(const TapedRelativePose& m) const {
-    const Eigen::Vector2d unseen = m.unseen_direction.value_or(Eigen::Vector2d::Zero());
+    const Eigen::Vector2d unobservable = m.unobservable_direction.value_or(Eigen::Vector2d::Zero());
     const Eigen::Matrix3d& c = m.covariance;
     return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {}\n", m.from.nanoseconds(), m.to.nanoseconds(),
                        m.T_from_to.x_m, m.T_from_to.y_m, m.T_from_to.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
-                       c(1, 2), c(2, 2), m.unseen_direction.has_value(), unseen.x(), unseen.y());
+                       c(1, 2), c(2, 2), m.unobservable_direction.has_value(), unobservable.x(), unobservable.y());
   }
   std::string operator()(const TapedHeight& m) const {
     return fmt::format("height {} {} {} {}\n", m.time.nanoseconds(), m.height_m, m.variance_m2, m.common_variance_m2);
@@ -95,9 +95,9 @@ TapedRelativePose poseOf(Numbers& n) {
   m.T_from_to.yaw_rad = n.number();
   for (int row = 0; row < 3; ++row)
     for (int column = row; column < 3; ++column) m.covariance(row, column) = m.covariance(column, row) = n.number();
-  const bool unseen = n.number() != 0.0;
+  const bool unobservable = n.number() != 0.0;
   const double x = n.number(), y = n.number();
-  if (unseen) m.unseen_direction = Eigen::Vector2d(x, y);
+  if (unobservable) m.unobservable_direction = Eigen::Vector2d(x, y);
   return m;
 }
 

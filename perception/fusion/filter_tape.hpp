@@ -32,7 +32,7 @@ struct TapedRelativePose {
   common::Time from, to;
   common::Pose2 T_from_to;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector2d> unseen_direction;
+  std::optional<Eigen::Vector2d> unobservable_direction;
 };
 struct TapedHeight {
   common::Time time;

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/gravity.hpp"
 
 namespace swiftlet::perception {
 
 struct FusionConfig {
   double history_s = 1.0;
-  double gravity_m_s2 = 9.81;
+  double gravity_m_s2 = common::kGravity_m_s2;
   double accelerometer_noise_m_s2_rthz = 0.02;
   double gyroscope_noise_rad_s_rthz = 0.002;
   double predicted_force_noise_m_s2_rthz = 0.5;

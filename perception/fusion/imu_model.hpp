@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "common/gravity.hpp"
 #include "common/time.hpp"
 #include "perception/fusion/filter_state.hpp"
 
@@ -24,7 +25,7 @@ struct ImuNoise {
   double gyroscope_walk_rad_s2_rthz = 0.0;
   double drag_walk_1_s_rts = 0.0;  ///< Random walk of the drag.
   double wind_walk_m_s_rts = 0.0;  ///< Random walk of the wind.
-  double gravity_m_s2 = 9.81;
+  double gravity_m_s2 = common::kGravity_m_s2;
 };
 
 /// Propagates state and covariance from `begin` to `end` by the midpoint rule. state.stamp must be begin.stamp. The

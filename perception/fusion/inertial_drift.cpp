@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "common/geometry.hpp"
+#include "common/gravity.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -17,9 +18,8 @@ class Integration {
   void add(const common::ImuSample& sample) {
     const bool finite = sample.specific_force_body_m_s2.allFinite() && sample.rotation_ahrs_body.coeffs().allFinite();
     if (!finite) return;
-    constexpr double kGravity_m_s2 = 9.81;
     const Vector3d acceleration_m_s2 =
-        sample.rotation_ahrs_body * sample.specific_force_body_m_s2 - kGravity_m_s2 * Vector3d::UnitZ();
+        sample.rotation_ahrs_body * sample.specific_force_body_m_s2 - common::kGravity_m_s2 * Vector3d::UnitZ();
     if (last_) velocity_m_s_ += (sample.stamps.measured - *last_).seconds() * acceleration_m_s2;
     last_ = sample.stamps.measured;
     yaw_rad_ = common::yawOf(sample.rotation_ahrs_body);
@@ -28,7 +28,7 @@ class Integration {
   void setForward(const Vector3d& level_m_s) {
     velocity_m_s_ = Eigen::AngleAxisd(yaw_rad_, Vector3d::UnitZ()) * level_m_s;
   }
-  double forward_m_s() const { return (Eigen::AngleAxisd(-yaw_rad_, Vector3d::UnitZ()) * velocity_m_s_).x(); }
+  double forward_m_s() const { return inLevelBody(yaw_rad_, velocity_m_s_).x(); }
 
  private:
   std::optional<common::Time> last_;
@@ -36,37 +36,26 @@ class Integration {
   double yaw_rad_ = 0.0;
 };
 
-Vector3d levelBody(double yaw_rad, const Vector3d& velocity_m_s) {
-  return Eigen::AngleAxisd(-yaw_rad, Vector3d::UnitZ()) * velocity_m_s;
-}
-
-bool isImuAfter(const FilterInput& input, common::Time time) {
-  const auto* imu = std::get_if<common::ImuSample>(&input);
-  return imu != nullptr && imu->stamps.arrived > time;
-}
-
 }  // namespace
 
 std::vector<ForwardVelocity> inertialDrift(const TapedFlight& flight, const FusionConfig& config) {
-  ErrorStateFilter filter(config);
+  TapedReplay replay(flight, config);
   Integration integration;
+  const auto integrate = [&](const FilterInput& input) {
+    if (const auto* imu = std::get_if<common::ImuSample>(&input)) integration.add(*imu);
+  };
   std::vector<ForwardVelocity> velocities;
   std::optional<common::Time> first;
-  std::size_t next = 0;
-  for (const TrueVelocity& truth : flight.truth) {
-    for (; next < flight.inputs.size() && !isImuAfter(flight.inputs[next], truth.stamp); ++next) {
-      tell(filter, flight.inputs[next]);
-      if (const auto* imu = std::get_if<common::ImuSample>(&flight.inputs[next])) integration.add(*imu);
-    }
-    if (!filter.initialized()) continue;
-    const Vector3d true_m_s = levelBody(truth.yaw_map_rad, truth.velocity_map_m_s);
+  while (const TrueVelocity* truth = replay.next(integrate)) {
+    if (!replay.filter().initialized()) continue;
+    const Vector3d true_m_s = inLevelBody(truth->yaw_map_rad, truth->velocity_map_m_s);
     if (!first) {
-      first = truth.stamp;
+      first = truth->stamp;
       integration.setForward(true_m_s);
     }
-    const common::VehicleState state = filter.state();
-    velocities.push_back({(truth.stamp - *first).seconds(), true_m_s.x(),
-                          levelBody(common::yawOf(state.T_odom_body.rotation), state.velocity_odom_m_s).x(),
+    const common::VehicleState state = replay.filter().state();
+    velocities.push_back({(truth->stamp - *first).seconds(), true_m_s.x(),
+                          inLevelBody(common::yawOf(state.T_odom_body.rotation), state.velocity_odom_m_s).x(),
                           integration.forward_m_s()});
   }
   return velocities;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "perception/fusion/noise_tuning.hpp"
+#include "perception/fusion/taped_flight.hpp"
 
 namespace swiftlet::perception {
 

@@ -29,10 +29,10 @@ enum class MeasurementKind : std::uint8_t {
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;                                ///< Of a relative pose: time of the cloned reference.
-  common::Pose2 pose;                               ///< kRelativePose, kAbsolutePose.
-  std::optional<Eigen::Vector2d> unseen_direction;  ///< kRelativePose: in the level frame at `from`.
-  double value = 0;                                 ///< kHeight: m; kVerticalSpeed: m/s.
+  common::Time from;                                      ///< Of a relative pose: time of the cloned reference.
+  common::Pose2 pose;                                     ///< kRelativePose, kAbsolutePose.
+  std::optional<Eigen::Vector2d> unobservable_direction;  ///< kRelativePose: in the level frame at `from`.
+  double value = 0;                                       ///< kHeight: m; kVerticalSpeed: m/s.
   double common_variance_m2 = 0.0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight, kVerticalSpeed: only (0, 0).
   common::Pose3 pose3;                                   ///< kRelativePose3.

@@ -67,10 +67,11 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
 }
 
 Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
-                                 const Eigen::Matrix3d& covariance, const Eigen::Vector2d& unseen_direction_clone) {
+                                 const Eigen::Matrix3d& covariance,
+                                 const Eigen::Vector2d& unobservable_direction_clone) {
   const Linearized<3> whole = relativePose(state, clone, T_clone_body, covariance);
   Eigen::Matrix<double, 2, 3> seen;
-  seen << -unseen_direction_clone.y(), unseen_direction_clone.x(), 0.0, 0.0, 0.0, 1.0;
+  seen << -unobservable_direction_clone.y(), unobservable_direction_clone.x(), 0.0, 0.0, 0.0, 1.0;
   Linearized<2> m;
   m.residual = seen * whole.residual;
   m.jacobian = seen * whole.jacobian;

@@ -22,7 +22,8 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
 /// Relative pose where the scene does not constrain the position along one direction (a unit vector in the level frame
 /// at the clone). Measures the position across it and the heading; along it nothing is measured.
 Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
-                                 const Eigen::Matrix3d& covariance, const Eigen::Vector2d& unseen_direction_clone);
+                                 const Eigen::Matrix3d& covariance,
+                                 const Eigen::Vector2d& unobservable_direction_clone);
 /// Pose of the body relative to that at a clone. Residual and noise are errors (position, rotation vector) with the
 /// axes of the body now: T_clone_body * exp(error).
 Linearized<6> relativePose3(const FilterState& state, int clone, const common::Pose3& T_clone_body,

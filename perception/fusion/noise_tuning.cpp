@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include "common/random.hpp"
 
@@ -17,27 +17,16 @@ struct Errors {
   double count = 0.0;
 };
 
-Eigen::Vector3d inLevelBody(double yaw_rad, const Eigen::Vector3d& velocity_m_s) {
-  return Eigen::AngleAxisd(-yaw_rad, Eigen::Vector3d::UnitZ()) * velocity_m_s;
-}
-
-bool arrivesAfter(const FilterInput& input, common::Time time) {
-  const auto* imu = std::get_if<common::ImuSample>(&input);
-  return imu != nullptr && imu->stamps.arrived > time;
-}
-
 Errors errorsOf(const TapedFlight& flight, const FusionConfig& config) {
-  ErrorStateFilter filter(config);
+  TapedReplay replay(flight, config);
+  const ErrorStateFilter& filter = replay.filter();
   Errors errors;
-  std::size_t next = 0;
-  for (const TrueVelocity& truth : flight.truth) {
-    for (; next < flight.inputs.size() && !arrivesAfter(flight.inputs[next], truth.stamp); ++next)
-      tell(filter, flight.inputs[next]);
+  while (const TrueVelocity* truth = replay.next()) {
     if (!filter.initialized() || filter.health().status == FusionStatus::kDiverged)
       return {std::numeric_limits<double>::infinity(), 1.0};
     const common::VehicleState state = filter.state();
     const Eigen::Vector3d error = inLevelBody(common::yawOf(state.T_odom_body.rotation), state.velocity_odom_m_s) -
-                                  inLevelBody(truth.yaw_map_rad, truth.velocity_map_m_s);
+                                  inLevelBody(truth->yaw_map_rad, truth->velocity_map_m_s);
     errors.square += error.squaredNorm();
     errors.count += 1.0;
   }
@@ -110,7 +99,7 @@ Tuning tuneNoise(const std::vector<const TapedFlight*>& flights, const FusionCon
     // The relative slope along the direction; where one side diverges, away from it.
     const double slope = std::isinf(up) || std::isinf(down) ? (std::isinf(up) ? 1.0 : -1.0)
                                                             : (up - down) / (up + down) / options.perturbation;
-    constexpr double kGain = 8.0;
+    constexpr double kGain = 8.0;  // A relative slope of an eighth makes the greatest step.
     const double rate = options.rate / std::sqrt(1.0 + 0.2 * step);
     logs -= std::clamp(kGain * slope, -1.0, 1.0) * rate * direction;
     const Eigen::VectorXd reach = Eigen::VectorXd::Constant(logs.size(), most);

@@ -7,25 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "perception/fusion/filter_tape.hpp"
 #include "perception/fusion/fusion_config.hpp"
+#include "perception/fusion/taped_flight.hpp"
 
 namespace swiftlet::perception {
-
-struct TrueVelocity {
-  common::Time stamp;
-  double yaw_map_rad = 0.0;
-  Eigen::Vector3d velocity_map_m_s = Eigen::Vector3d::Zero();
-  double height_m = 0.0;  ///< Of the body origin above the take-off floor.
-};
-
-/// What one flight's filter was told, and the truth while it flew, in the order of time.
-struct TapedFlight {
-  std::vector<FilterInput> inputs;
-  std::vector<TrueVelocity> truth;
-};
 
 /// RMS of the velocity error in the level body frame, which needs no common frame, over all flights; infinity if the
 /// filter diverges in one of them or does not start.

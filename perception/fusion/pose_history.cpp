@@ -7,17 +7,6 @@
 
 namespace swiftlet::perception {
 
-common::Pose3 interpolate(const common::Pose3& first, const common::Pose3& second, double share) {
-  // The arc between two IMU samples is a few hundredths of a radian. The normalized linear interpolation differs from
-  // slerp by less than 1e-6 rad and is four times faster.
-  const double sign = first.rotation.dot(second.rotation) < 0.0 ? -1.0 : 1.0;
-  common::Pose3 pose;
-  pose.rotation.coeffs() =
-      ((1.0 - share) * first.rotation.coeffs() + sign * share * second.rotation.coeffs()).normalized();
-  pose.position_m = first.position_m + share * (second.position_m - first.position_m);
-  return pose;
-}
-
 PoseHistory::PoseHistory(std::vector<common::StampedPose> poses) : poses_(std::move(poses)) {
   for (std::size_t i = 1; i < poses_.size(); ++i)
     SWIFTLET_CHECK(poses_[i - 1].stamp < poses_[i].stamp, i, poses_[i].stamp.nanoseconds());
@@ -45,7 +34,7 @@ std::optional<common::Pose3> PoseHistory::at(common::Time time) const {
   const common::StampedPose& before = poses_[segment_];
   const common::StampedPose& after = poses_[segment_ + 1];
   const double share = (time - before.stamp).seconds() / (after.stamp - before.stamp).seconds();
-  return interpolate(before.pose, after.pose, share);
+  return common::blended(before.pose, after.pose, share);
 }
 
 }  // namespace swiftlet::perception

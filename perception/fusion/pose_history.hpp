@@ -29,7 +29,4 @@ class PoseHistory {
   mutable std::size_t segment_ = 0;  ///< Segment of the last query; only speeds up the next one.
 };
 
-/// The pose between two others; `share` is 0 at the first and 1 at the second.
-common::Pose3 interpolate(const common::Pose3& first, const common::Pose3& second, double share);
-
 }  // namespace swiftlet::perception

@@ -143,8 +143,7 @@ std::optional<common::Pose3> StateHistory::poseAt(Time time) {
   // A measurement between the two samples makes the estimate jump. Before the jump the pose is extrapolated from the
   // earlier state, after it from the later one.
   const auto measured = measurements_.within(a.stamp, b.stamp);
-  if (measured.empty())
-    return perception::interpolate(begin, end, (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());
+  if (measured.empty()) return common::blended(begin, end, (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());
   return extrapolated(slot(time < measured.front().stamp ? low : high), time);
 }
 

@@ -70,7 +70,7 @@ Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& r
     motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
   else if (relative && relative->from != relative->to)
     motion.correct(relative->T_from_to, relative->covariance,
-                   atReference(relative->unseen_direction, relative->T_from_to));
+                   atReference(relative->unobservable_direction, relative->T_from_to));
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
   Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);

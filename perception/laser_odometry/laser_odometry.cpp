@@ -277,7 +277,8 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
       propagated(reference.covariance_local, reference.T_local_body, match.T_reference_body, match.covariance),
       -reference.T_local_body.yaw_rad);
   if (match.unobservable_direction)
-    relative.unseen_direction = Eigen::Rotation2Dd(-match.T_reference_body.yaw_rad) * *match.unobservable_direction;
+    relative.unobservable_direction =
+        Eigen::Rotation2Dd(-match.T_reference_body.yaw_rad) * *match.unobservable_direction;
   return relative;
 }
 

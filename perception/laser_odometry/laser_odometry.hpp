@@ -31,7 +31,7 @@ struct RelativePose {
   bool otherwise = false;  ///< The match was found from the other guess.
   /// Unit vector in the frame at `to` along which the scene does not fix the position. The position along it is that of
   /// the guess.
-  std::optional<Eigen::Vector2d> unseen_direction;
+  std::optional<Eigen::Vector2d> unobservable_direction;
 };
 
 /// Another pose at which a scan may have been taken, and how far around it to search.

@@ -123,7 +123,7 @@ void MotionPrediction::follow(const Source& source) {
 }
 
 void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& covariance,
-                               const std::optional<Eigen::Vector2d>& unseen_direction) {
+                               const std::optional<Eigen::Vector2d>& unobservable_direction) {
   const Eigen::Matrix<double, 6, 3> gain =
       covariance_.leftCols<3>() * (covariance_.topLeftCorner<3, 3>() + covariance).inverse();
   const Eigen::Vector3d off(matched.x_m - pose_.x_m, matched.y_m - pose_.y_m,
@@ -134,19 +134,20 @@ void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& cova
   covariance_ -= gain * covariance_.topRows<3>();
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
 
-  std::optional<Eigen::Vector2d> unseen_before;
-  if (unseen_direction) unseen_before = Eigen::Rotation2Dd(-before_.yaw_rad) * *unseen_direction;
+  std::optional<Eigen::Vector2d> unobservable_before;
+  if (unobservable_direction) unobservable_before = Eigen::Rotation2Dd(-before_.yaw_rad) * *unobservable_direction;
   const Pose2 step = between(before_, matched);
-  learn(wheels_, step, unseen_before);
-  learn(inertia_, step, unseen_before);
+  learn(wheels_, step, unobservable_before);
+  learn(inertia_, step, unobservable_before);
 }
 
-void MotionPrediction::learn(Source& source, const Pose2& step, const std::optional<Eigen::Vector2d>& unseen) const {
+void MotionPrediction::learn(Source& source, const Pose2& step,
+                             const std::optional<Eigen::Vector2d>& unobservable) const {
   if (!source.step) return;
   Eigen::Vector2d error_m = step.position_m() - source.step->position_m();
   double seen_axes = 2.0;
-  if (unseen) {
-    error_m -= *unseen * unseen->dot(error_m);
+  if (unobservable) {
+    error_m -= *unobservable * unobservable->dot(error_m);
     seen_axes = 1.0;
   }
   const double share = 1.0 / config_.memory_steps;

@@ -8,6 +8,7 @@
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
 #include "common/small_matrices.hpp"
+#include "common/systematic_resampling.hpp"
 #include "common/validation.hpp"
 #include "perception/localization/beam_sums.hpp"
 #include "perception/localization/evenly_spread.hpp"
@@ -189,17 +190,10 @@ void ParticleFilter::resample() {
   config_.adaptive ? resampleAdaptively(random) : resampleAll(random);
 }
 
-/// The low-variance sampler of Probabilistic Robotics, Table 4.4.
 void ParticleFilter::resampleAll(common::RandomStream& random) {
   const auto count = static_cast<std::size_t>(config_.max_particles);
-  const double step = std::accumulate(weights_.begin(), weights_.end(), 0.0) / static_cast<double>(count);
-  double next = step * random.uniform(), sum = 0.0;
-  chosen_.clear();
-  for (std::size_t i = 0; i < size(); ++i) {
-    sum += static_cast<double>(weights_[i]);
-    for (; next < sum && chosen_.size() < count; next += step) chosen_.push_back(static_cast<std::uint32_t>(i));
-  }
-  while (chosen_.size() < count) chosen_.push_back(static_cast<std::uint32_t>(size() - 1));
+  const double all = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  common::drawSystematically(weights_, all, count, random.uniform(), chosen_);
   keep(chosen_);
 }
 

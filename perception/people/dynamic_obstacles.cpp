@@ -48,7 +48,7 @@ enum class Beside {
 /// both surfaces.
 Beside beside(std::span<const Eigen::Vector2f> points_map_m, std::size_t edge, std::ptrdiff_t step,
               const Point& sensor_map_m) {
-  constexpr double kBehind_m = 0.3, kApart_m = 0.3;
+  constexpr double kBehind_m = 0.3, kApart_m = 0.3;  // More than the depth of a body: another surface.
   constexpr std::ptrdiff_t kSplit = 3;
   const auto range_m = [&](std::ptrdiff_t i) { return (points_map_m[i].cast<double>() - sensor_map_m).norm(); };
   const auto at = static_cast<std::ptrdiff_t>(edge), count = static_cast<std::ptrdiff_t>(points_map_m.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/normal_distribution.hpp"
 #include "common/validation.hpp"
 #include "perception/scan_matching/oriented_points.hpp"
 
@@ -12,8 +13,6 @@ namespace {
 
 using common::Pose2;
 
-/// Ratio of a Gaussian's standard deviation to the median of its absolute value.
-constexpr double kSigmaOfMedian = 1.4826;
 /// A step smaller than this ends the search. If the last step is larger than `kConverged_m`, it did not converge.
 constexpr double kSmallStep_m = 0.0002;
 constexpr double kConverged_m = 0.005;
@@ -78,7 +77,7 @@ double PointToLineMatcher::Impl::trimAt() {
   for (const Pair& pair : pairs) distances.push_back(std::abs(pair.distance_m));
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
-  return config.trim_sigmas * kSigmaOfMedian * *middle;
+  return config.trim_sigmas * common::kSigmaOfMedian * *middle;
 }
 
 MatchResult PointToLineMatcher::Impl::verdict(const LeastSquaresMatch& match, const Pose2& pose, double moved_m) {

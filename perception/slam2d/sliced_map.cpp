@@ -36,7 +36,7 @@ Incidence incidenceAt(const std::vector<Eigen::Vector2f>& points_level_m, std::s
   // With the ranges' noise of a centimetre, such a line is right within some 5 deg.
   constexpr float kReach_m = 0.10F, kLeast_m = 0.12F, kStep_m = 0.06F;
   constexpr float kAlong = 0.985F, kAslant = 0.87F;  // Cosines of 10 and 30 deg.
-  constexpr std::size_t kMostBeams = 40;
+  constexpr std::size_t kMostBeams = 40;             // Bounds the time where the beams are dense.
   const Eigen::Vector2f& hit = points_level_m[i];
   const auto near = [&](std::size_t from, std::size_t to) {
     return (points_level_m[to] - points_level_m[from]).squaredNorm() < kStep_m * kStep_m &&

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/check.hpp"
+#include "common/trajectory.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -12,7 +13,7 @@ using common::Duration;
 using common::Pose3;
 using common::Time;
 
-/// Between two moments the pose is blended linearly, which is exact to a microradian over a millisecond.
+/// At the ends the pose of the end.
 Pose3 poseAt(Time time, std::span<const Moment> track) {
   const auto after =
       std::find_if(track.begin(), track.end(), [time](const Moment& moment) { return moment.time >= time; });
@@ -20,9 +21,7 @@ Pose3 poseAt(Time time, std::span<const Moment> track) {
   if (after == track.end()) return track.back().T_world_body;
   const Pose3 &a = (after - 1)->T_world_body, &b = after->T_world_body;
   const double share = (time - (after - 1)->time).seconds() / (after->time - (after - 1)->time).seconds();
-  const double sign = a.rotation.dot(b.rotation) < 0.0 ? -1.0 : 1.0;
-  const Eigen::Vector4d blend = (1.0 - share) * a.rotation.coeffs() + share * sign * b.rotation.coeffs();
-  return {Eigen::Quaterniond(blend.normalized()), (1.0 - share) * a.position_m + share * b.position_m};
+  return common::blended(a, b, share);
 }
 
 Eigen::Isometry3f isometry(const Pose3& pose) {

@@ -69,6 +69,21 @@ TEST_F(Ground, ARampIsSeenWhereItIs) {
   EXPECT_NEAR(ramp->y(), 0.0, 0.03);
 }
 
+/// A loop closure turns the map by 90 degrees: east becomes north, and so does the way up.
+TEST_F(Ground, ARampMovesAndTurnsWithTheKeyScanItHangsOn) {
+  common::KeyPoses keys{1, {{{}, common::Pose2{}}}};
+  slopes_.follow(keys, 0);
+  see([](const Eigen::Vector2d& at) { return std::max(0.0, kRamp * (at.x() - 2.4)); });
+  keys.version = 2;
+  keys.keys[0].T_map_key = {1.0, 0.0, 0.5 * std::numbers::pi};
+  slopes_.follow(keys, 0);
+  const auto ramp = slopes_.gradientAt(keys.keys[0].T_map_key * Eigen::Vector2d(3.0, 0.2));
+  ASSERT_TRUE(ramp);
+  EXPECT_NEAR(ramp->x(), 0.0, 0.03);
+  EXPECT_NEAR(ramp->y(), kRamp, 0.02);
+  EXPECT_FALSE(slopes_.gradientAt({3.0, 0.2})) << "where it was";
+}
+
 TEST_F(Ground, AStepIsNoSlope) {
   see([](const Eigen::Vector2d& at) { return at.x() > 2.6 ? 0.3 : 0.0; });
   const auto beside = slopes_.gradientAt({2.6, 0.2});

@@ -17,7 +17,7 @@ class Drift : public testing::Test {
         common::Time::fromSeconds(time_s_), Eigen::Matrix2d::Zero(), matched, {}, new_reference, key_, known_key_};
     fix.covariance_odom_m2(0, 0) = variance_x_m2;
     fix.covariance_odom_m2(1, 1) = 7.0;  // It does not grow.
-    if (matched && !sees_x) fix.unseen_direction_odom = Eigen::Vector2d::UnitX();
+    if (matched && !sees_x) fix.unobservable_direction_odom = Eigen::Vector2d::UnitX();
     return monitor_.add(fix);
   }
   /// `count` scans that see every direction; returns the drift after them.

@@ -79,8 +79,8 @@ TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
   for (int i = 0; i < 80; ++i) {
     const OdometryStep step = see(corridor, {0.03 * i, 0.0, 0.004 * i});
     ASSERT_TRUE(step.matched) << i;
-    if (step.measurement && step.measurement->unseen_direction) {
-      const Eigen::Vector2d& along = *step.measurement->unseen_direction;
+    if (step.measurement && step.measurement->unobservable_direction) {
+      const Eigen::Vector2d& along = *step.measurement->unobservable_direction;
       const double now_rad = std::atan2(along.y(), along.x()) + clone_yaw_rad;
       if (unseen++ > 0) {
         EXPECT_NEAR(std::sin(now_rad - axis_odom_rad), 0.0, 1e-9) << i;

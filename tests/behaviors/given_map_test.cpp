@@ -63,6 +63,17 @@ TEST(GivenMap, FollowPathPassesItsPointsThereAndFollowsTheMap) {
   EXPECT_EQ(flight.last.reason, "FollowPath: point 2: its place in the given map is not known");
 }
 
+TEST(GivenMap, AClickThatIsRefusedIsToldPlacesOfTheMapThatItWasMadeIn) {
+  Flight flight("<Sequence><TakeOff/><OperatorCommand/></Sequence>");
+  placed(flight, 1.0).tick();
+  flight.succeeds().tick();
+  // The wall at x = 4.05 of `map`.
+  flight.command({0, common::GoalCommand{{4.05, 0.0}, Eigen::Vector2d(-2.0, -3.05)}}).tick();
+  EXPECT_THAT(flight.results(),
+              ElementsAre("1 refused: goal (-2.00, -3.05) in the given map is in an obstacle at clearance 0.10 m, the "
+                          "nearest free place is (-2.00, -2.62)"));
+}
+
 TEST(GivenMap, PatrolVisitsItsPointsThere) {
   Flight flight(R"(<Patrol points="3;-1" rounds="1" pause_s="0"/>)");
   placed(flight, 1.0).tick();

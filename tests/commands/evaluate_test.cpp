@@ -124,7 +124,8 @@ TEST_F(Evaluate, ReportsTheRelativeError) {
 TEST_F(Evaluate, RefusesBadInput) {
   const std::string broken = write("broken.relations", "1 2 0 0 0 0 0\n"), none = write("none", "# nothing\n");
   expectRefused({"relations", estimate(), broken}, "broken.relations:1:13: relation: 7 numbers instead of 8");
-  expectRefused({"relations", estimate(), none}, "holds no relations");
+  expectRefused({"relations", estimate(), none},
+                "holds no relations, a line of them is `from to x y z roll pitch yaw`");
   expectRefused({"relations", none, relations()}, "holds no poses");
   expectRefused({"relations", path("nowhere.tum"), relations()}, "nowhere.tum");
   expectRefused({"ate", estimate(), write("odd.txt", "1 2 3\n")}, "odd.txt:1:5: pose: 3 numbers");
@@ -133,11 +134,12 @@ TEST_F(Evaluate, RefusesBadInput) {
   expectRefused({"ate", estimate(), reference(), "--align", "none", "--scale"}, "--scale: is fitted with");
   expectRefused({"ate", write("up.tum", "1 0 0 0 0 0 0 1\n2 0.1 0 5 0 0 0 1\n"),
                  write("down.tum", "1 0 0 0 0 0 0 1\n2 0.1 0 -5 0 0 0 1\n"), "--align", "planar", "--scale"},
-                "no scale above zero fits");
+                "no scale above zero fits, it moves against the reference");
   expectRefused({"ate", estimate(), reference(), "--align", "sideways"}, "sideways");
   expectRefused({"ate", estimate(), reference(), "--max-difference", "-1"}, "-1");
   expectRefused({"rpe", estimate(), reference(), "--delta", "0"}, "`0`");
-  expectRefused({"rpe", estimate(), reference(), "--delta", "1.5"}, "--delta: 1.5 is no number of frames");
+  expectRefused({"rpe", estimate(), reference(), "--delta", "1.5"},
+                "--delta: 1.5 is no number of frames, give a whole one");
   expectRefused({"rpe", estimate(), reference(), "--delta", "9"}, "no stretch of 9 frames");
   expectRefused({"rpe", estimate(), reference(), "--unit", "miles"}, "miles");
   expectRefused({"rpe", estimate()}, "reference");

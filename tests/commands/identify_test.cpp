@@ -93,6 +93,18 @@ TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {
   EXPECT_THAT(readText(path("drift.svg")), HasSubstr("integrated acceleration"));
 }
 
+TEST_F(Identify, TheDriftOfAFilterThatNeverStartedIsRefused) {
+  const std::string run = hop("run");
+  std::istringstream tape(readText(run + "/fusion.tsv"));
+  std::string without;
+  for (std::string line; std::getline(tape, line);)
+    if (!line.starts_with("start ")) without += line + "\n";
+  write("run/fusion.tsv", without);
+  expectRefused(runSwiftlet({"consistency", run, "--drift", path("drift.svg")}),
+                "run: --drift: its filter never started while the truth was known, put a run first that took off");
+  EXPECT_FALSE(fs::exists(path("drift.svg")));
+}
+
 TEST_F(Identify, TuneSearchesGainsThatCanBeNamed) {
   const std::string out = path("found.yaml");
   const auto tune = [&](const std::string& flights, const std::string& only) {

@@ -36,6 +36,18 @@ TEST_F(Map3d, RefusesAFolderWithoutFramesAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
+TEST_F(Map3d, SaysWhatAFrameNeedsWhereNoneCanBeUsed) {
+  fs::create_directories(folder_ / "junk");
+  write("junk/associations.txt", "0.1 a.png 0.1 b.png\n");
+  write("junk/a.png", "no picture");
+  write("junk/b.png", "no depths");
+  const ProgramEnd end = runSwiftlet({"map3d", path("junk"), "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("junk: of 1 frame none can be used, the notes above say why"));
+  EXPECT_THAT(end.err, HasSubstr("1 frame was skipped")) << "the note above";
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
 TEST_F(Map3d, NamesTheSettingOfACalibrationThatIsWrong) {
   fs::create_directories(folder_ / "empty");
   const std::string file = write("lens.yaml", "color: {fx_pix: 500}\n");

@@ -126,6 +126,23 @@ TEST(Config, OutOfBoundsIsReportedWithItsPlaceInSectionsAndLists) {
             "test.yaml:2:7: corners_m[3]: nan is not within -10 and 10");
 }
 
+/// A file that is read over another gives a list whole: its items keep nothing of those in their place.
+TEST(Config, AListReplacesTheOneBefore) {
+  Branch branch;
+  branch.leaves.resize(3);
+  branch.leaves[0].count = 7;
+  branch.leaves[0].on = false;
+  config::YamlReader::fromText("leaves:\n  - {share: 0.25}\n", "test.yaml").read(branch);
+  ASSERT_EQ(branch.leaves.size(), 1u);
+  EXPECT_EQ(branch.leaves[0].share, 0.25);
+  EXPECT_EQ(branch.leaves[0].count, Leaf().count);
+  EXPECT_EQ(branch.leaves[0].on, Leaf().on);
+  branch.leaves[0].count = 5;
+  config::YamlReader::fromText("near_m: 0.5\n", "test.yaml").read(branch);
+  ASSERT_EQ(branch.leaves.size(), 1u) << "a file without it leaves it as it is";
+  EXPECT_EQ(branch.leaves[0].count, 5);
+}
+
 TEST(Config, AViolatedRelationIsReportedAtTheFieldItNames) {
   EXPECT_EQ(problemsOf<Branch>("near_m: 5\nfar_m: 4\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 4");
   EXPECT_EQ(problemsOf<Branch>("near_m: 1\nleaf: {count: 1, share: 0.95}\n"),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config_check.hpp"
+#include "common/gravity.hpp"
 #include "control/control_errors.hpp"
 #include "tests/control/controller_fixtures.hpp"
 
@@ -28,7 +29,7 @@ struct Bench {
     thrust.setLearning(false);
     thrust.observeVoltage(vehicle.battery_full_v, 0.01);
   }
-  double hover() const { return vehicle.mass_kg * kGravity_m_s2 / vehicle.max_thrust_n; }
+  double hover() const { return vehicle.mass_kg * common::kGravity_m_s2 / vehicle.max_thrust_n; }
 };
 
 TEST(VoltagePid, IsEquations3To5) {
@@ -75,7 +76,7 @@ TEST(CascadedPid, IsAPidOfThePositionThatTiltsTheThrust) {
   bench.input.reference.velocity_odom_m_s = {0.2, 0.0, 0.0};
   CascadedPid pid({.horizontal_p_1_s2 = 3, .horizontal_i_1_s3 = 0, .horizontal_d_1_s = 2}, bench.limits, bench.vehicle);
   const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
-  EXPECT_NEAR(std::tan(setpoint.pitch_rad), (3 * 0.1 + 2 * 0.2) / kGravity_m_s2, 1e-9);
+  EXPECT_NEAR(std::tan(setpoint.pitch_rad), (3 * 0.1 + 2 * 0.2) / common::kGravity_m_s2, 1e-9);
   EXPECT_NEAR(setpoint.thrust, bench.hover() / std::cos(setpoint.pitch_rad), 1e-9);
 }
 
@@ -137,7 +138,7 @@ TEST(Lqr, SolvesTheModelForItsCommands) {
   Lqr lqr(config, bench.limits, bench.vehicle, model);
   const common::Setpoint setpoint = lqr.tick(bench.input, bench.thrust);
   EXPECT_NEAR(setpoint.pitch_rad, -0.4 / 8.0, 1e-9);
-  EXPECT_NEAR(setpoint.thrust, bench.hover() * kGravity_m_s2 / 20.0, 1e-9);
+  EXPECT_NEAR(setpoint.thrust, bench.hover() * common::kGravity_m_s2 / 20.0, 1e-9);
 }
 
 TEST(SlidingMode, ReachesTheSurfaceAndStaysThere) {
@@ -149,7 +150,7 @@ TEST(SlidingMode, ReachesTheSurfaceAndStaysThere) {
     bench.input.state.T_odom_body.position_m.x() = position_m;
     bench.input.state.velocity_odom_m_s.x() = velocity_m_s;
     const double pitch_rad = controller.tick(bench.input, bench.thrust).pitch_rad;
-    velocity_m_s += 0.01 * (kGravity_m_s2 * std::tan(pitch_rad) - 0.5);
+    velocity_m_s += 0.01 * (common::kGravity_m_s2 * std::tan(pitch_rad) - 0.5);
     position_m += 0.01 * velocity_m_s;
   }
   EXPECT_NEAR(position_m, 0.0, 1e-3);
@@ -166,8 +167,8 @@ TEST(Controllers, ATrimIsTakenOverWhole) {
     EXPECT_LT((controller->trim_odom_m_s2(bench.thrust) - trim_m_s2).norm(), 1e-9)
         << toString(static_cast<ControllerKind>(kind));
     const common::Setpoint setpoint = controller->tick(bench.input, bench.thrust);
-    EXPECT_NEAR(setpoint.pitch_rad, 0.4 / kGravity_m_s2, 0.005) << toString(static_cast<ControllerKind>(kind));
-    EXPECT_NEAR(setpoint.thrust, bench.hover() * (1.0 + 0.2 / kGravity_m_s2), 0.003)
+    EXPECT_NEAR(setpoint.pitch_rad, 0.4 / common::kGravity_m_s2, 0.005) << toString(static_cast<ControllerKind>(kind));
+    EXPECT_NEAR(setpoint.thrust, bench.hover() * (1.0 + 0.2 / common::kGravity_m_s2), 0.003)
         << toString(static_cast<ControllerKind>(kind));
   }
 }

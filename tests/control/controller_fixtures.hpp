@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/gravity.hpp"
 #include "control/flight_controller.hpp"
 
 namespace swiftlet::control {
@@ -15,11 +16,11 @@ inline VehicleModel sheetModel() {
   model.battery_full_v = sheet.battery_full_v;
   model.battery_empty_v = sheet.battery_empty_v;
   model.battery_capacity_ah = sheet.battery_capacity_ah;
-  model.forward.gain = kGravity_m_s2;
-  model.left.gain = -kGravity_m_s2;
+  model.forward.gain = common::kGravity_m_s2;
+  model.left.gain = -common::kGravity_m_s2;
   model.forward.lag_s = model.left.lag_s = 0.2;
-  model.up.gain = kGravity_m_s2;
-  model.up.offset = -kGravity_m_s2;
+  model.up.gain = common::kGravity_m_s2;
+  model.up.offset = -common::kGravity_m_s2;
   model.up.lag_s = 0.05;
   model.yaw.gain = 1.0;
   return model;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/gravity.hpp"
 #include "control/identification/identify.hpp"
 #include "tests/control/controller_fixtures.hpp"
 #include "tests/control/flight_story.hpp"
@@ -56,11 +57,11 @@ FlightSamples flightOf(std::uint64_t seed, double seconds, double thrust_factor 
 TEST(Identify, FindsTheModelOfMit) {
   const Identification found = identify({flightOf(1, 60), flightOf(2, 60)}, {});
   EXPECT_THAT(found.problems, IsEmpty());
-  EXPECT_NEAR(found.model.forward.gain, kGravity_m_s2, 1.5);
-  EXPECT_NEAR(found.model.left.gain, -kGravity_m_s2, 1.5);
+  EXPECT_NEAR(found.model.forward.gain, common::kGravity_m_s2, 1.5);
+  EXPECT_NEAR(found.model.left.gain, -common::kGravity_m_s2, 1.5);
   EXPECT_NEAR(found.model.yaw.gain, 1.0, 0.05);
-  EXPECT_NEAR(found.model.up.gain, kGravity_m_s2, 1.5);
-  EXPECT_NEAR(found.model.up.offset, -kGravity_m_s2, 1.5);
+  EXPECT_NEAR(found.model.up.gain, common::kGravity_m_s2, 1.5);
+  EXPECT_NEAR(found.model.up.offset, -common::kGravity_m_s2, 1.5);
   EXPECT_GT(found.model.forward.lag_s, 0.08);
   EXPECT_LT(found.model.forward.lag_s, 0.3);
   // A drag of 0.18 1/s is within what the noise and the wind leave of k2, as in the paper.
@@ -74,7 +75,8 @@ TEST(Identify, ItsIntervalsHoldTheTruth) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 10; seed < 20; ++seed) {
     const Identification found = identify({flightOf(seed, 60)}, {});
-    held += std::abs(found.model.forward.gain - kGravity_m_s2) < found.model.forward.gain_interval + 0.5 ? 1 : 0;
+    held +=
+        std::abs(found.model.forward.gain - common::kGravity_m_s2) < found.model.forward.gain_interval + 0.5 ? 1 : 0;
     held += std::abs(found.model.yaw.gain - 1.0) < found.model.yaw.gain_interval + 0.03 ? 1 : 0;
     all += 2;
   }
@@ -116,7 +118,7 @@ TEST(ThrustEm, FindsTheCommandOfEachVoltageOverFlights) {
   ASSERT_TRUE(em) << em.error();
   for (const ThrustPoint& point : em->points) {
     if (point.seen_s < 2.0) continue;
-    const double truth = sheet.mass_kg * kGravity_m_s2 /
+    const double truth = sheet.mass_kg * common::kGravity_m_s2 /
                          (sheet.max_thrust_n * 0.9 * std::pow(point.voltage_v / sheet.battery_full_v, 2));
     EXPECT_NEAR(point.hover_command / truth, 1.0, 0.02) << point.voltage_v << " V";
   }

@@ -1,5 +1,6 @@
 // The learned table of hover commands: laws that hold for every flight, and stories of vehicles unlike their sheet.
 #include "control/thrust_table.hpp"
+#include "common/gravity.hpp"
 
 #include <cmath>
 
@@ -25,7 +26,7 @@ struct TrueVehicle {
   VehicleConfig sheet;
 
   double hover(double voltage_v) const {
-    return factor * sheet.mass_kg * kGravity_m_s2 / sheet.max_thrust_n *
+    return factor * sheet.mass_kg * common::kGravity_m_s2 / sheet.max_thrust_n *
            std::pow(voltage_v / sheet.battery_full_v, -exponent);
   }
 };
@@ -122,7 +123,7 @@ TEST(ThrustTable, NamesWhatIsWrongWithRows) {
 TEST(ThrustModel, MarginIsTheGreatestCommandOverThatOfTheHover) {
   ThrustModel model({}, {});
   model.observeVoltage(12.6, kStep_s);
-  EXPECT_NEAR(model.margin(), 0.95 * 28.0 / (1.6 * kGravity_m_s2), 0.01);
+  EXPECT_NEAR(model.margin(), 0.95 * 28.0 / (1.6 * common::kGravity_m_s2), 0.01);
   EXPECT_LT(model.marginAt(10.5), 0.72 * model.marginAt(12.6));
   model.setLearning(false);
   EXPECT_EQ(model.learn(1.0, kStep_s), 0.0);

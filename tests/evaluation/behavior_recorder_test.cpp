@@ -29,8 +29,8 @@ class Behaviors : public testing::Test {
     recorder_.tick(truth, pose, {});
     now_ += common::Duration::fromMilliseconds(100);
   }
-  void intent(common::IntentKind kind, const std::string& reason, std::uint64_t id = 1) {
-    recorder_.intent({id, std::move(kind)}, {id, common::IntentState::kRunning, reason, false});
+  void intent(common::IntentKind kind, std::uint64_t id = 1, bool inspecting = false) {
+    recorder_.intent({id, std::move(kind)}, {id, common::IntentState::kRunning, "", false, inspecting});
   }
   void believed(double x_m) {
     test::Layers layers;
@@ -64,7 +64,7 @@ TEST_F(Behaviors, FollowingCountsFromTheRightDistanceOn) {
   believed(2.0);
   at(-4.0, 0.0);
   EXPECT_TRUE(recorder_.record().follows.empty()) << "nobody follows yet";
-  intent(common::FollowIntent{}, "following, 6.0 m");
+  intent(common::FollowIntent{});
   at(-4.0, 0.0);
   EXPECT_TRUE(recorder_.record().follows.empty()) << "still on its way";
   for (int i = 0; i < 30; ++i) at(0.0, 0.0);
@@ -81,13 +81,13 @@ TEST_F(Behaviors, EachModeOfFollowingHasItsFiguresAndTheLeastShareCounts) {
   recorder_.people({{2.0, 0.0}});
   believed(2.0);
   common::FollowIntent follow;
-  intent(follow, "following, 2.0 m", 1);
+  intent(follow, 1);
   for (int i = 0; i < 20; ++i) at(0.0, 0.0);
-  intent(follow, "following, 2.0 m", 2);  // After an interruption.
+  intent(follow, 2);  // After an interruption.
   for (int i = 0; i < 20; ++i) at(0.0, 0.0);
   EXPECT_EQ(recorder_.record().follows.size(), 1u);
   follow.mode = common::FlightMode::kBrisk;
-  intent(follow, "following, 2.0 m", 3);
+  intent(follow, 3);
   at(-2.0, 0.0);
   for (int i = 0; i < 30; ++i) at(0.0, 0.0);
   for (int i = 0; i < 10; ++i) at(-2.0, 0.0);
@@ -99,10 +99,10 @@ TEST_F(Behaviors, EachModeOfFollowingHasItsFiguresAndTheLeastShareCounts) {
 }
 
 TEST_F(Behaviors, InspectingCountsOnceItHasTurnedToThePoint) {
-  intent(common::InspectIntent{}, "inspecting, 1 of 25 places");
+  intent(common::InspectIntent{});
   at(1.0, 0.0);
   EXPECT_TRUE(recorder_.record().inspecting.empty());
-  intent(common::InspectIntent{}, "inspecting, 2 of 25 places");
+  intent(common::InspectIntent{}, 1, true);
   at(1.0, 0.0);
   EXPECT_EQ(recorder_.record().inspecting.size(), 1u);
 }

@@ -1,4 +1,4 @@
-// The velocity by integrated acceleration alone.
+// A taped flight given again, and the velocity by integrated acceleration alone.
 #include "perception/fusion/inertial_drift.hpp"
 
 #include <gtest/gtest.h>
@@ -26,6 +26,26 @@ TapedFlight hover(double accelerometer_error_m_s2, double yaw_rad) {
     if (i > 200 && i % 20 == 0) flight.truth.push_back({now, 0.3, Eigen::Vector3d::Zero(), 1.0});
   }
   return flight;
+}
+
+TEST(TapedReplay, TellsEachInputOnceAndNoneBeforeItArrived) {
+  TapedFlight flight = hover(0.0, 0.0);
+  flight.truth.erase(flight.truth.begin(), flight.truth.begin() + 50);  // Inputs before the first truth are told too.
+  TapedReplay replay(flight, FusionConfig{});
+  std::size_t told = 0;
+  Time newest;
+  std::size_t instants = 0;
+  while (const TrueVelocity* truth = replay.next([&](const FilterInput& input) {
+    EXPECT_EQ(input.index(), flight.inputs[told++].index());
+    if (const auto* imu = std::get_if<common::ImuSample>(&input)) newest = imu->stamps.arrived;
+  })) {
+    EXPECT_EQ(newest, truth->stamp);
+    EXPECT_EQ(replay.filter().newest(), truth->stamp);
+    ++instants;
+  }
+  EXPECT_EQ(instants, flight.truth.size());
+  EXPECT_EQ(told, flight.inputs.size());
+  EXPECT_EQ(replay.next(), nullptr) << "the end stays the end";
 }
 
 TEST(InertialDrift, GrowsWithTheErrorOfTheAccelerometer) {

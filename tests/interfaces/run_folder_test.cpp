@@ -138,7 +138,7 @@ TEST(RunFolder, ContainsEveryFile) {
   const common::Trajectory trajectory = readTum(path / "trajectory.tum");
   EXPECT_EQ(trajectory.size(), 251u) << "25 Hz for 10 s";
   EXPECT_EQ(trajectory.back().pose.position_m, Eigen::Vector3d(10, 0.5, 1)) << "in map, not in odom";
-  EXPECT_EQ(readEvents(path / "events.jsonl").size(), 1u);
+  EXPECT_EQ(linesOfJson(path / "events.jsonl").size(), 1u);
   const StoredMap map = readMap(path / "map.yaml");
   EXPECT_TRUE(common::occupancy::isOccupied(map.grid.at(map.grid.cellAt(10.0, 1.0))));
   EXPECT_EQ(bytesOf(path / "map.png"), kPng);
@@ -255,7 +255,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
   const json mission = json::parse(bytesOf(folder / "run/mission.json"));
   EXPECT_EQ(mission["outcome"], "flying");
   EXPECT_GE(mission["mission_time_s"].get<double>(), 9.0);
-  EXPECT_GE(readEvents(folder / "run/events.jsonl").size(), 1000u);
+  EXPECT_GE(linesOfJson(folder / "run/events.jsonl").size(), 1000u);
   EXPECT_GE(readTum(folder / "run/trajectory.tum").size(), 250u);
   EXPECT_FALSE(knownExtent(readMap(folder / "run/map.yaml").grid).empty());
   EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("</html>"));

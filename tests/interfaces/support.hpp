@@ -13,8 +13,10 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
 
@@ -56,6 +58,15 @@ inline std::string bytesOf(const fs::path& file) {
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   return std::move(bytes).str();
+}
+
+/// The objects of a file with one a line, without what a writer that was killed left of its last line.
+inline std::vector<nlohmann::json> linesOfJson(const fs::path& file) {
+  const std::string bytes = bytesOf(file);
+  std::vector<nlohmann::json> objects;
+  for (std::size_t begin = 0, end = 0; (end = bytes.find('\n', begin)) != std::string::npos; begin = end + 1)
+    objects.push_back(nlohmann::json::parse(bytes.substr(begin, end - begin)));
+  return objects;
 }
 
 /// What a shell command prints; none when it fails.

@@ -23,6 +23,19 @@ using Eigen::Vector3d;
 
 constexpr double kRate_Hz = 15.0;
 
+/// The sum of what the submaps tell of a point; unknown if none of them knows it.
+int evidenceAt(const Vector3d& point_map_m, const std::vector<Submap3d>& submaps, const KeyPoses& scans) {
+  int sum = 0;
+  bool known = false;
+  for (const Submap3d& submap : submaps) {
+    const common::VoxelIndex voxel = submap.voxels->voxelAt(submap.T_map_submap(scans).inverse() * point_map_m);
+    if (!submap.voxels->isKnown(voxel)) continue;
+    sum += submap.voxels->evidence(voxel);
+    known = true;
+  }
+  return known ? sum : common::VoxelBlock::kUnknown;
+}
+
 /// Along the room and back, looking around.
 Pose3 flight(double time_s) {
   return {common::quaternionFrom(

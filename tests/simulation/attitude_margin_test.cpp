@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "common/gravity.hpp"
 #include "quadrotor_fixtures.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/nature.hpp"
@@ -51,7 +52,7 @@ AttitudeLoop loopOf(const Scenario& drawn) {
   const QuadrotorConfig& airframe = drawn.quadrotor;
   const double weight = 1.0 / thrustOverWeight(drawn.vehicle, airframe, drawn.battery_remaining, 1.0);
   const double exponent = airframe.throttle_exponent, throttle = std::pow(weight, 1.0 / exponent);
-  const double hover_n = airframe.mass_share * drawn.vehicle.mass_kg * kGravity_m_s2;
+  const double hover_n = airframe.mass_share * drawn.vehicle.mass_kg * common::kGravity_m_s2;
   return {drawn.autopilot, airframe.motor_lag_s, exponent * hover_n / throttle / drawn.vehicle.max_thrust_n};
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/gravity.hpp"
 #include "common/rgbd_frame.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/simulated_vehicle.hpp"
@@ -104,10 +105,10 @@ class TruthPilot {
         Eigen::Rotation2Dd(-common::yawOf(truth.T_world_body.rotation)) * acceleration.head<2>();
     return {vehicle_.now(),
             motors_on_,
-            -level.y() / kGravity_m_s2,
-            level.x() / kGravity_m_s2,
+            -level.y() / common::kGravity_m_s2,
+            level.x() / common::kGravity_m_s2,
             yaw_rate_rad_s,
-            airframe.mass_kg * (kGravity_m_s2 + 2.0 * acceleration.z()) / airframe.max_thrust_n};
+            airframe.mass_kg * (common::kGravity_m_s2 + 2.0 * acceleration.z()) / airframe.max_thrust_n};
   }
 
   SimulatedVehicle& vehicle_;

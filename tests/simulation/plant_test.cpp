@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/gravity.hpp"
 #include "fixtures.hpp"
 #include "quadrotor_fixtures.hpp"
 #include "simulation/autopilot.hpp"
@@ -137,7 +138,7 @@ TEST(Plant, ThrustOverWeightIsWhatTheMotorsGive) {
     Quadrotor quadrotor(kVehicle, config, inTheAir(), charge);
     for (int i = 0; i < 500; ++i) quadrotor.step({0.95, 0.95, 0.95, 0.95}, Vector3d::Zero(), kNoFloor, 0.001);
     EXPECT_NEAR(thrustOverWeight(kVehicle, config, charge, 0.95),
-                thrust_n(quadrotor) / (1.05 * kVehicle.mass_kg * kGravity_m_s2), 0.01)
+                thrust_n(quadrotor) / (1.05 * kVehicle.mass_kg * common::kGravity_m_s2), 0.01)
         << charge;
   }
 }

@@ -1,4 +1,5 @@
 #include "simulation/quadrotor.hpp"
+#include "common/gravity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,24 +38,25 @@ void fly(Quadrotor& quadrotor, Autopilot& autopilot, const common::Setpoint& set
 TEST(Quadrotor, FallsFreelyWithMotorsOffAndNoDrag) {
   Quadrotor quadrotor(kVehicle, withoutDrag(), inTheAir(), 1.0);
   for (int i = 0; i < 1000; ++i) quadrotor.step({}, Vector3d::Zero(), kNoFloor, kStep_s);
-  EXPECT_NEAR(quadrotor.state().velocity_world_m_s.z(), -kGravity_m_s2, 1e-9);
-  EXPECT_NEAR(quadrotor.state().T_world_body.position_m.z(), 10 - 0.5 * kGravity_m_s2, 0.01);
+  EXPECT_NEAR(quadrotor.state().velocity_world_m_s.z(), -common::kGravity_m_s2, 1e-9);
+  EXPECT_NEAR(quadrotor.state().T_world_body.position_m.z(), 10 - 0.5 * common::kGravity_m_s2, 0.01);
   EXPECT_NEAR(quadrotor.state().specific_force_body_m_s2.norm(), 0.0, 1e-9) << "weightless";
 }
 
 TEST(Quadrotor, DragSlowsAFallAndWindMovesIt) {
   Quadrotor quadrotor(kVehicle, kAirframe, inTheAir(), 1.0);
-  double energy = kGravity_m_s2 * 10;
+  double energy = common::kGravity_m_s2 * 10;
   for (int i = 0; i < 20'000; ++i) {
     quadrotor.step({}, Vector3d::Zero(), kNoFloor, kStep_s);
     const auto& state = quadrotor.state();
-    const double now = kGravity_m_s2 * state.T_world_body.position_m.z() + 0.5 * state.velocity_world_m_s.squaredNorm();
+    const double now =
+        common::kGravity_m_s2 * state.T_world_body.position_m.z() + 0.5 * state.velocity_world_m_s.squaredNorm();
     ASSERT_LE(now, energy + 1e-9);
     energy = now;
   }
   // Terminal speed: m g = (k1 + k2 v) v.
   const double k1 = kAirframe.linear_drag_n_s_m, k2 = kAirframe.quadratic_drag_n_s2_m2;
-  const double terminal = (-k1 + std::sqrt(k1 * k1 + 4 * k2 * kVehicle.mass_kg * kGravity_m_s2)) / (2 * k2);
+  const double terminal = (-k1 + std::sqrt(k1 * k1 + 4 * k2 * kVehicle.mass_kg * common::kGravity_m_s2)) / (2 * k2);
   EXPECT_NEAR(-quadrotor.state().velocity_world_m_s.z(), terminal, 0.01);
   for (int i = 0; i < 30'000; ++i) quadrotor.step({}, Vector3d(2, -1, 0), kNoFloor, kStep_s);
   EXPECT_NEAR(quadrotor.state().velocity_world_m_s.x(), 2.0, 0.02);
@@ -66,16 +68,18 @@ TEST(Quadrotor, HoverThrottleBalancesTheWeightAtThePresentVoltage) {
   Autopilot autopilot(kVehicle, kAirframe, {});
   common::Setpoint setpoint{.stamp = {}, .motors_on = true};
   for (int i = 0; i < 300; ++i) {
-    setpoint.thrust = kVehicle.mass_kg * kGravity_m_s2 / (kVehicle.max_thrust_n * quadrotor.battery().thrustShare());
+    setpoint.thrust =
+        kVehicle.mass_kg * common::kGravity_m_s2 / (kVehicle.max_thrust_n * quadrotor.battery().thrustShare());
     fly(quadrotor, autopilot, setpoint, 0.01);
   }
   const double speed_after_start = quadrotor.state().velocity_world_m_s.z();
   for (int i = 0; i < 300; ++i) {
-    setpoint.thrust = kVehicle.mass_kg * kGravity_m_s2 / (kVehicle.max_thrust_n * quadrotor.battery().thrustShare());
+    setpoint.thrust =
+        kVehicle.mass_kg * common::kGravity_m_s2 / (kVehicle.max_thrust_n * quadrotor.battery().thrustShare());
     fly(quadrotor, autopilot, setpoint, 0.01);
   }
   EXPECT_LT(std::abs(quadrotor.state().velocity_world_m_s.z()), std::abs(speed_after_start) + 1e-3);
-  EXPECT_NEAR(quadrotor.state().specific_force_body_m_s2.z(), kGravity_m_s2, 0.1);
+  EXPECT_NEAR(quadrotor.state().specific_force_body_m_s2.z(), common::kGravity_m_s2, 0.1);
 }
 
 TEST(Quadrotor, TheSameThrottleLiftsLessOnAnEmptierBattery) {
@@ -120,7 +124,7 @@ TEST(Quadrotor, StandsOnItsGear) {
   for (int i = 0; i < 2000; ++i) quadrotor.step({}, Vector3d(1, 1, 0), 0.0, kStep_s);
   EXPECT_TRUE(quadrotor.state().standing);
   EXPECT_LT((quadrotor.state().T_world_body.position_m - pose.position_m).norm(), 0.01);
-  EXPECT_NEAR(quadrotor.state().specific_force_body_m_s2.z(), kGravity_m_s2, 1e-3);
+  EXPECT_NEAR(quadrotor.state().specific_force_body_m_s2.z(), common::kGravity_m_s2, 1e-3);
 }
 
 TEST(Quadrotor, APushChangesTheSpeedByImpulseOverMass) {

@@ -221,7 +221,7 @@ TEST_F(WorldFile, ReportsThePlaceOfMistakes) {
   folder_.write("bad.dae", "<COLLADA>");
   EXPECT_THAT(problemOf(model("a", "<mesh><uri>bad.dae</uri></mesh>")),
               AllOf(HasSubstr("w.sdf:4: mesh"), HasSubstr("bad.dae")));
-  EXPECT_THAT(problemOf(""), HasSubstr("no geometry"));
+  EXPECT_THAT(problemOf(""), AllOf(HasSubstr("w.sdf: "), HasSubstr("no geometry at all, give its models")));
 }
 
 TEST_F(WorldFile, AnyContentIsLoadedOrRefusedWithoutACrash) {

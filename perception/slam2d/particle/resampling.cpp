@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/check.hpp"
+#include "common/systematic_resampling.hpp"
 
 namespace swiftlet::perception {
 
@@ -25,15 +26,8 @@ double effectiveSampleSize(const std::vector<double>& weights) {
 }
 
 std::vector<std::size_t> resampled(const std::vector<double>& weights, common::RandomStream& random) {
-  const std::size_t count = weights.size();
-  const double share = 1.0 / static_cast<double>(count);
   std::vector<std::size_t> chosen;
-  chosen.reserve(count);
-  double pointer = random.uniform() * share, sum = weights.front();
-  for (std::size_t i = 0; chosen.size() < count; pointer += share) {
-    while (pointer >= sum && i + 1 < count) sum += weights[++i];
-    chosen.push_back(i);
-  }
+  common::drawSystematically(weights, 1.0, weights.size(), random.uniform(), chosen);
   return chosen;
 }
 

@@ -69,6 +69,23 @@ TEST_F(GoToManeuver, FliesToTheNearestFreePlaceInsteadOfAGoalThatIsNotFree) {
   EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.5);
 }
 
+TEST_F(GoToManeuver, NamesThePlaceAsTheMissionDoesInTheGivenMap) {
+  build(true);
+  common::GoToIntent goal = to(6.0, 3.2);
+  goal.goal_given_m = Eigen::Vector2d(-1.0, 7.5);
+  want(goal);
+  run(0.5);
+  EXPECT_EQ(executor_.status().reason, "flying to (-1.00, 7.50) in the given map");
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_EQ(executor_.status().reason, "reached (-1.00, 7.50) in the given map");
+  fill(grid_, {{122, 60}, {126, 70}}, kWallCell);  // 0.1 m beside the goal.
+  goal.instead_within_m = 0.5;
+  goal.goal_map_m.x() += 0.05;
+  want(goal);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_THAT(executor_.status().reason, HasSubstr(" m beside (-1.00, 7.50) in the given map, which is not free"));
+}
+
 TEST_F(GoToManeuver, SucceedsOnceNearAndSlowForAWhile) {
   follows_ = false;
   want(to(2.0, 2.0));

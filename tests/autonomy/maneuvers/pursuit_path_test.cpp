@@ -5,6 +5,7 @@
 
 #include "planning/search/planner.hpp"
 #include "tests/planning/flatland.hpp"
+#include "tests/planning/grid_builder.hpp"
 
 namespace swiftlet::autonomy {
 namespace {

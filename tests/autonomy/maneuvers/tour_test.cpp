@@ -80,8 +80,7 @@ TEST_F(TourInFlight, AnInspectionOrbitsWithTheNoseOnThePoint) {
       [&] {
         if (ended()) return true;
         const Eigen::Vector2d from = position_m() - intent.point_map_m;
-        const std::string& doing = executor_.status().reason;
-        if (!doing.starts_with("inspecting, ") || doing.starts_with("inspecting, 1 of")) return false;
+        if (!executor_.status().inspecting) return false;
         const double angle_rad = std::atan2(from.y(), from.x());
         const double yaw_rad = state_.T_map_body_planar().yaw_rad;
         worst_rad = std::max(worst_rad, std::abs(common::wrapAngle(std::atan2(-from.y(), -from.x()) - yaw_rad)));

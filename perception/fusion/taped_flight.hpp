@@ -1,0 +1,51 @@
+// A recorded flight, given again to a filter, with the truth beside it: what consistency, noise and drift are judged
+// by.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "perception/fusion/filter_tape.hpp"
+#include "perception/fusion/fusion_config.hpp"
+
+namespace swiftlet::perception {
+
+struct TrueVelocity {
+  common::Time stamp;
+  double yaw_map_rad = 0.0;
+  Eigen::Vector3d velocity_map_m_s = Eigen::Vector3d::Zero();
+  double height_m = 0.0;  ///< Of the body origin above the take-off floor.
+};
+
+/// What one flight's filter was told, and the truth while it flew, in the order of time.
+struct TapedFlight {
+  std::vector<FilterInput> inputs;
+  std::vector<TrueVelocity> truth;
+};
+
+/// A filter that is told a flight from one instant of its truth to the next. One thread; the flight must outlive it.
+class TapedReplay {
+ public:
+  using Told = std::function<void(const FilterInput&)>;
+
+  TapedReplay(const TapedFlight& flight, const FusionConfig& config) : flight_(flight), filter_(config) {}
+
+  /// Tells the filter what arrived until the next instant of the truth, and returns that instant; null when there is
+  /// none. `told`, if there is one, gets each input after the filter.
+  const TrueVelocity* next(const Told& told = nullptr);
+  const ErrorStateFilter& filter() const { return filter_; }
+
+ private:
+  const TapedFlight& flight_;
+  ErrorStateFilter filter_;
+  std::size_t next_input_ = 0, next_truth_ = 0;
+};
+
+/// A velocity in the level body frame, whose heading is `yaw_rad` in the velocity's own frame. Velocities in frames
+/// without a common heading are compared there.
+Eigen::Vector3d inLevelBody(double yaw_rad, const Eigen::Vector3d& velocity_m_s);
+
+}  // namespace swiftlet::perception
