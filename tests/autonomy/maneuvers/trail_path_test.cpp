@@ -52,7 +52,7 @@ TEST_F(Trail, LeadsRoundWhatThePersonWalkedRound) {
   const planning::CostMap costs = planning::test::mapOf(grid_);
   for (std::size_t i = 1; i < path.points_map_m.size(); ++i)
     EXPECT_FALSE(planning::segmentCost(costs, path.points_map_m[i - 1], path.points_map_m[i]).lethal);
-  EXPECT_LT(path.length_m, 8.5) << "it cuts corners short";
+  EXPECT_LT(path.length_m, 9.0) << "it cuts corners short";
 }
 
 TEST_F(Trail, PassesBesideAWallThatThePersonWalkedCloseTo) {
@@ -71,7 +71,7 @@ TEST_F(Trail, LeadsAsFarAsItIsFree) {
   walk(trail, {8.0, 5.0});
   const TrailPath path = along({2.0, 5.0}, trail);
   EXPECT_GT(path.points_map_m.back().x(), 4.2);
-  EXPECT_LT(path.points_map_m.back().x(), 5.0 - 0.37);
+  EXPECT_LT(path.points_map_m.back().x(), 5.0 - 0.34) << "the hull with its clearance, by the cell";
 }
 
 TEST_F(Trail, IsToStayWhereThePersonIsNear) {
