@@ -48,7 +48,7 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   if (input.anybody_walks) memory_.exploration.people_seen = now_;
   if (intent.id != intent_.id) begin(intent);
   if (maneuver_) note(maneuver_->step(input));
-  desk_.refresh(input, client());
+  desk_.refresh(maneuver_ ? maneuver_->planningInput(input) : input, client());
   status_.released = controller_.stopped() && !retreat_.active();
 }
 

@@ -105,6 +105,8 @@ class FlightController {
   tl::expected<void, std::string> command(const FlightCommand& command);
   /// Allowed only while flying (Table 1). An empty path stops.
   tl::expected<void, std::string> follow(const FlightPath& path);
+  /// Greatest speed on the present path; see PathFollower::setPace.
+  void setPace(double speed_m_s) { follower_.setPace(speed_m_s); }
   /// Leaves the path and flies at that velocity until the next command; see PathFollower::setVelocity. Allowed only
   /// while flying.
   tl::expected<void, std::string> followVelocity(const Eigen::Vector2d& velocity_map_m_s, double acceleration_m_s2,

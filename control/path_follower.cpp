@@ -33,6 +33,7 @@ PathFollower::PathFollower(const Config& config)
     : config_(config),
       limits_(config.careful),
       speed_limit_m_s_(std::numeric_limits<double>::infinity()),
+      pace_m_s_(std::numeric_limits<double>::infinity()),
       laid_acceleration_m_s2_(limits_.acceleration_m_s2) {
   reset(Eigen::Vector3d::Zero(), 0.0);
 }
@@ -54,6 +55,7 @@ void PathFollower::lay(std::vector<Eigen::Vector3d> points, double acceleration_
   speeds_m_s_ = speedsAlong(points_, {limits_.speed_m_s, acceleration_m_s2, climbSpeed_m_s(), kKink_m_s});
   carrot_m_ = 0.0;
   follows_path_ = false;
+  pace_m_s_ = std::numeric_limits<double>::infinity();
   velocity_target_.reset();
 }
 
@@ -149,6 +151,8 @@ void PathFollower::setSpeedLimit(double speed_m_s) {
   speed_limit_m_s_ = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
 }
 
+void PathFollower::setPace(double speed_m_s) { pace_m_s_ = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s); }
+
 void PathFollower::setShares(double speed, double acceleration) {
   speed_share_ = speed;
   acceleration_share_ = acceleration;
@@ -202,7 +206,7 @@ PathFollower::Carrot PathFollower::advanceAlongPath(double dt_s) {
 }
 
 double PathFollower::allowedSpeed(double dt_s) const {
-  double speed = std::min(speed_share_ * limits_.speed_m_s, speed_limit_m_s_);
+  double speed = std::min({speed_share_ * limits_.speed_m_s, speed_limit_m_s_, pace_m_s_});
   if (points_.size() < 2) return 0.0;
   const std::size_t segment = segmentAt(carrot_m_);
   const double to_next_m = distances_m_[segment + 1] - carrot_m_;

@@ -66,6 +66,9 @@ class PathFollower {
   void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { look_at_odom_m_ = point_odom_m; }
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
+  /// Greatest speed on the present path, and 0 halts on it; infinity lifts the limit, as does every other path,
+  /// velocity or stop.
+  void setPace(double speed_m_s);
   /// Shares in (0, 1] of the mode's speed, from now on, and of the acceleration that paths are planned with, from the
   /// next path on. Braking for the reactive layer, and stopping, keep the mode's whole acceleration.
   void setShares(double speed, double acceleration);
@@ -111,6 +114,7 @@ class PathFollower {
   Config config_;
   Limits limits_;
   double speed_limit_m_s_;
+  double pace_m_s_;
   double speed_share_ = 1.0, acceleration_share_ = 1.0;
   double laid_acceleration_m_s2_;  ///< With which the present lines are flown.
   std::vector<Eigen::Vector3d> points_;

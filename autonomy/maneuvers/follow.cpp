@@ -6,11 +6,21 @@
 #include <fmt/format.h>
 
 #include "autonomy/maneuvers/pursuit_path.hpp"
+#include "autonomy/maneuvers/trail_path.hpp"
+#include "autonomy/maneuvers/world_without_person.hpp"
 #include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::Time;
+
+namespace {
+
+/// A person without a track may stand where last seen for this long: while the vehicle tilts to accelerate or to brake,
+/// beams pass above and below the heights in which people are tracked.
+constexpr double kMayStand_s = 1.5;
+
+}  // namespace
 
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "follow a person", intent.mode), config_(setup.config.follow), intent_(intent) {}
@@ -23,6 +33,13 @@ void Follow::begin(Time now) {
   if (!recent || intent_.until_near) memory.person = std::make_shared<PersonWatch>(config_.watch);
   person_ = memory.person;
   if (setup_.memory.person_map_m && intent_.until_near) person_->remember(*setup_.memory.person_map_m, now);
+}
+
+ManeuverInput Follow::planningInput(const ManeuverInput& input) const {
+  if (!person_ || !person_->known()) return input;
+  return worldWithoutPerson(
+      input, *person_,
+      {config_.watch.walking.half_width_m + input.grid->resolution_m(), config_.pursuit.mapped_within_m});
 }
 
 void Follow::watch(const ManeuverInput& input) {
@@ -39,6 +56,7 @@ Progress Follow::fly(const ManeuverInput& input) {
   setup_.controller.lookAt(place_map_m);
   (void)flight_.keep(input);
   if ((input.now - asked_).seconds() >= config_.replan_s) pursue(input);
+  if (on_trail_) flight_.setPace(pace_m_s(input));
   return progress(input);
 }
 
@@ -82,14 +100,25 @@ void Follow::pursue(const ManeuverInput& input) {
   const auto map = setup_.desk.costMap();
   if (!map) return;
   asked_ = input.now;
+  if (comesTooNear(input)) return giveWay(input, *map);
+  if (flyAlongTrail(input, *map)) return;
+  flyTo(input, person_->hidden() ? person_->place_map_m(input.now) : placeBehind());
+}
+
+bool Follow::comesTooNear(const ManeuverInput& input) const {
+  const Eigen::Vector2d offset_m = person_->place_map_m(input.now) - input.position_map_m();
+  const double distance_m = offset_m.norm();
+  if (distance_m < 1e-3) return true;
+  const double closing_m_s = std::max(0.0, -person_->velocity_map_m_s().dot(offset_m) / distance_m);
+  return distance_m - config_.pace.gives_way_s * closing_m_s < intent_.distance_m - config_.pursuit.nearer_m;
+}
+
+void Follow::giveWay(const ManeuverInput& input, const planning::CostMap& costs) {
+  on_trail_ = false;
   const std::vector<PossibleWalk> walks = person_->walks(input.now);
   const PursuitPath path =
-      pursuitPath({*map, *input.grid, input.position_map_m(), walks, person_->trail_map_m(), intent_.distance_m,
+      pursuitPath({costs, *input.grid, input.position_map_m(), walks, person_->trail_map_m(), intent_.distance_m,
                    setup_.controller.speed_m_s(intent_.mode), config_.pursuit, config_.watch.walking.half_width_m});
-  // In a few seconds it comes neither in sight nor near: along the person's trail, or to the likeliest place.
-  const double left_m = (person_->place_map_m(input.now) - path.points_map_m.back()).norm();
-  if (path.in_sight < config_.pursuit.least_in_sight || left_m > intent_.distance_m + config_.pursuit.too_far_m)
-    return flyTo(input, person_->hidden() ? person_->place_map_m(input.now) : placeBehind());
   const Eigen::Vector2d end = path.points_map_m.back();
   if (path.points_map_m.size() == 1) {
     if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
@@ -102,6 +131,45 @@ void Follow::pursue(const ManeuverInput& input) {
   target_map_m_ = end;
   flight_.release();
   flight_.offer({path.points_map_m, length_m, path.cost_m}, input.now, input.state);
+}
+
+/// From the reference on, so that the path grows where the person walks and stays where it was behind the vehicle.
+bool Follow::flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs) {
+  const Eigen::Vector2d reference_odom_m = setup_.controller.reference().position_odom_m.head<2>();
+  const Eigen::Vector2d person_map_m = person_->place_map_m(input.now);
+  const TrailPath path = trailPath({costs, input.state.T_map_odom * reference_odom_m, person_map_m,
+                                    person_->trail_map_m(), config_.pace.ends_at_m, config_.pace.aside_m});
+  if (path.points_map_m.size() == 1) {
+    const double distance_m = (person_map_m - input.position_map_m()).norm();
+    if (person_->hidden() || distance_m > intent_.distance_m + config_.pursuit.farther_m) return false;
+    if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
+    target_map_m_.reset();
+    return true;
+  }
+  target_map_m_ = path.points_map_m.back();
+  flight_.release();
+  flight_.offer({path.points_map_m, path.length_m, path.cost_m}, input.now, input.state);
+  on_trail_ = true;
+  return true;
+}
+
+/// Constant time headway: the distance to be kept grows with the person's speed, by what it takes to stop behind a
+/// person who stops.
+double Follow::pace_m_s(const ManeuverInput& input) const {
+  const std::vector<Eigen::Vector2d> rest_map_m = flight_.remaining_map_m();
+  if (rest_map_m.empty()) return 0.0;
+  const Eigen::Vector2d to_person_m = person_->place_map_m(input.now) - rest_map_m.back();
+  double gap_m = to_person_m.norm();
+  for (std::size_t i = 1; i < rest_map_m.size(); ++i) gap_m += (rest_map_m[i] - rest_map_m[i - 1]).norm();
+  const PaceConfig& pace = config_.pace;
+  const double along_m_s = person_->velocity_map_m_s().dot(to_person_m.normalized());
+  const double standing_m = intent_.distance_m - pace.stands_nearer_m;
+  if (!person_->hidden())
+    return along_m_s + pace.gain_1_s * (gap_m - standing_m - pace.headway_s * std::max(0.0, along_m_s));
+  const double nearer_m_s = along_m_s + pace.gain_1_s * (gap_m - pace.ends_at_m);
+  if (person_->unseen_s(input.now) > kMayStand_s) return nearer_m_s;
+  const double last_seen_m = (person_->trail_map_m().back() - input.position_map_m()).norm();
+  return std::min(nearer_m_s, pace.gain_1_s * (last_seen_m - standing_m));
 }
 
 /// The place on the person's trail that is the wanted distance behind the person, along the trail.
@@ -126,6 +194,7 @@ void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map
 
 Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
   if (!answer.path || !*answer.path) return Progress::running();
+  on_trail_ = false;
   flight_.release();
   flight_.offer(**answer.path, now, state);
   return Progress::running();

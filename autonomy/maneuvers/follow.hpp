@@ -20,6 +20,8 @@ class Follow final : public PathManeuver {
   Follow(const common::FollowIntent& intent, const ManeuverSetup& setup);
   Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
   std::optional<Eigen::Vector2d> goal_map_m() const override { return target_map_m_; }
+  /// Without the person.
+  ManeuverInput planningInput(const ManeuverInput& input) const override;
 
  private:
   void watch(const ManeuverInput& input) override;
@@ -27,8 +29,12 @@ class Follow final : public PathManeuver {
   void begin(common::Time now);
   Progress search(const ManeuverInput& input);
   Progress progress(const ManeuverInput& input);
-  /// Flies so that the person stays in sight.
+  /// Flies behind the person, or gives way.
   void pursue(const ManeuverInput& input);
+  bool comesTooNear(const ManeuverInput& input) const;
+  void giveWay(const ManeuverInput& input, const planning::CostMap& costs);
+  bool flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs);
+  double pace_m_s(const ManeuverInput& input) const;
   Eigen::Vector2d placeBehind() const;
   void flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m);
 
@@ -39,6 +45,7 @@ class Follow final : public PathManeuver {
   std::optional<common::Time> since_, near_since_;
   std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for somebody.
   common::Time asked_;
+  bool on_trail_ = false;  ///< The plan leads along the trail.
   bool lost_ = false;
 };
 

@@ -74,6 +74,19 @@ void PursuitConfig::describe(Fields& fields) {
          "A path is of no use if its end is farther from the person than the wanted distance by more than this.");
 }
 
+void PaceConfig::describe(Fields& fields) {
+  fields("stands_nearer_m", stands_nearer_m, {0, 1},
+         "Behind a person who stands the distance is smaller than the wanted one by this, as the person may set off "
+         "faster than the vehicle.");
+  fields("headway_s", headway_s, {0, 5},
+         "Behind a person who walks the distance is larger by the path that the person walks in this time.");
+  fields("gain_1_s", gain_1_s, {0.05, 5}, "Speed over that of the person by the error of the distance.");
+  fields("ends_at_m", ends_at_m, {0.5, 5}, "The path along the trail ends at this distance from the person.");
+  fields("aside_m", aside_m, {0, 2},
+         "A place where the person walked too near to a wall is passed at most this far beside it.");
+  fields("gives_way_s", gives_way_s, {0, 5}, "The vehicle gives way to a person who comes too near within this time.");
+}
+
 void FollowConfig::describe(Fields& fields) {
   fields("replan_s", replan_s, {0.05, 5}, "Time between two paths.");
   fields("replan_m", replan_m, {0.05, 5}, "A place to fly to that moved by less is the same.");
@@ -84,6 +97,7 @@ void FollowConfig::describe(Fields& fields) {
          "Somebody to be followed is waited for ahead for this long; then the vehicle turns around.");
   fields("looks_around_deg_s", looks_around_deg_s, {1, 180}, "Rate of turning around meanwhile.");
   fields.section("watch", watch, "Which track is the person's.");
+  fields.section("pace", pace, "Path and speed along the person's trail.");
   fields.section("pursuit", pursuit, "What a path behind the person costs.");
 }
 

@@ -64,8 +64,20 @@ struct PursuitConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// The law of the speed along the person's trail.
+struct PaceConfig {
+  double stands_nearer_m = 0.3;
+  double headway_s = 0.6;
+  double gain_1_s = 1.8;
+  double ends_at_m = 1.0;
+  double aside_m = 0.5;
+  double gives_way_s = 1.0;
+
+  void describe(common::config::Fields& fields);
+};
+
 struct FollowConfig {
-  double replan_s = 0.4;
+  double replan_s = 0.2;
   double replan_m = 0.4;
   double lost_s = 3.0;
   double tolerance_m = 0.5;
@@ -73,6 +85,7 @@ struct FollowConfig {
   double looks_ahead_s = 8.0;
   double looks_around_deg_s = 25.0;
   PersonWatchConfig watch;
+  PaceConfig pace;
   PursuitConfig pursuit;
 
   void describe(common::config::Fields& fields);

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "common/geometry.hpp"
 #include "common/occupied_near.hpp"
 #include "perception/slam2d/particle/resampling.hpp"
 
@@ -20,12 +19,6 @@ constexpr double kStep_s = 0.1;
 constexpr std::size_t kEveryPlace = 8, kEveryWalk = 10;
 /// Below that sum of weights by the particle the person is nowhere where the particles are.
 constexpr double kNowhere = 1e-6;
-
-/// The degree of the bearing.
-std::size_t degreeOf(const Eigen::Vector2d& offset_m) {
-  const double degrees = (std::atan2(offset_m.y(), offset_m.x()) + std::numbers::pi) / common::kRadPerDeg;
-  return std::min<std::size_t>(359, static_cast<std::size_t>(std::max(0.0, degrees)));
-}
 
 }  // namespace
 
@@ -54,7 +47,7 @@ void HiddenPerson::advance(const Sight& sight, common::Time now) {
   const double since_s = (now - now_).seconds();
   if (since_s <= 0.0) return;
   now_ = now;
-  if (sight.seen != nullptr) view_.take(*sight.seen);
+  if (sight.seen != nullptr) view_ = SeenRanges(*sight.seen);
   const int steps = static_cast<int>(std::ceil(since_s / kStep_s));
   for (int i = 0; i < steps; ++i) {
     for (Particle& particle : particles_) {
@@ -91,11 +84,11 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
 /// again begins some steps later.
 void HiddenPerson::lookFor(Particle& particle, const Sight& sight, double dt_s) const {
   const HiddenPersonConfig& hidden = config_.hidden;
-  const Eigen::Vector2d offset_m = particle.place_map_m - view_.from_map_m;
+  const Eigen::Vector2d offset_m = particle.place_map_m - view_.from_map_m();
   const double distance_m = offset_m.norm(), range_m = view_.range_m(offset_m);
   particle.shown = false;
   if (distance_m > config_.tracked_m || range_m < distance_m - hidden.outline_m) return;  // Out of sight.
-  const Eigen::Vector2d end_map_m = view_.from_map_m + range_m / std::max(1e-3, distance_m) * offset_m;
+  const Eigen::Vector2d end_map_m = view_.from_map_m() + range_m / std::max(1e-3, distance_m) * offset_m;
   const int reach = static_cast<int>(std::lround(hidden.explained_within_m / before_->resolution_m()));
   const bool passed = range_m > distance_m + hidden.outline_m;
   const bool somebody_else = std::any_of(sight.others_map_m.begin(), sight.others_map_m.end(), [&](const auto& other) {
@@ -104,19 +97,6 @@ void HiddenPerson::lookFor(Particle& particle, const Sight& sight, double dt_s) 
   particle.shown = !passed && !somebody_else && !common::occupiedNear(*before_, before_->cellAt(end_map_m), reach);
   particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / hidden.seen_s);
 }
-
-void HiddenPerson::View::take(const perception::SeenPoints& seen) {
-  from_map_m = seen.from_map_m;
-  ranges_m.fill(0.0);
-  for (const Eigen::Vector2f& point : seen.points_map_m) {
-    if (!point.allFinite()) continue;
-    const Eigen::Vector2d offset_m = point.cast<double>() - from_map_m;
-    double& range_m = ranges_m[degreeOf(offset_m)];
-    range_m = range_m > 0.0 ? std::min(range_m, offset_m.norm()) : offset_m.norm();
-  }
-}
-
-double HiddenPerson::View::range_m(const Eigen::Vector2d& offset_m) const { return ranges_m[degreeOf(offset_m)]; }
 
 /// Systematic resampling, once half of the particles carry the weight.
 void HiddenPerson::resample() {

@@ -3,7 +3,6 @@
 // filter of Thrun 2005, chapter 4.3, whose measurement is that nobody is seen.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "autonomy/maneuvers/follow_config.hpp"
 #include "autonomy/maneuvers/pursuit_path.hpp"
+#include "autonomy/maneuvers/seen_ranges.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
@@ -60,17 +60,8 @@ class HiddenPerson {
   void resample();
   void findLikeliest();
 
-  /// How far the newest scan sees, degree by degree of the bearing in `map`; 0: not at all.
-  struct View {
-    Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
-    std::array<double, 360> ranges_m{};
-
-    void take(const perception::SeenPoints& seen);
-    double range_m(const Eigen::Vector2d& offset_m) const;
-  };
-
   PersonWatchConfig config_;
-  View view_;
+  SeenRanges view_;
   std::shared_ptr<const common::OccupancyGrid> before_;
   std::vector<Particle> particles_;
   common::RandomStream random_;

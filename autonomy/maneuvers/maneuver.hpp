@@ -54,6 +54,8 @@ class Maneuver {
   /// outdated then. `state` is the newest.
   virtual Progress answered(const PlanningAnswer&, common::Time, const common::VehicleState&) { return {}; }
 
+  /// The world of which the cost map is made while this maneuver flies.
+  virtual ManeuverInput planningInput(const ManeuverInput& input) const { return input; }
   /// The place it is flying to, in `map`, for display.
   virtual std::optional<Eigen::Vector2d> goal_map_m() const { return std::nullopt; }
   /// The unknown place that it explores, in `map`.

@@ -47,6 +47,12 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   flown.mode = mode_;
   flown.goal_yaw_map_rad = goal_yaw_map_rad_;
   (void)controller_.follow(flown);
+  pace_m_s_ = std::numeric_limits<double>::infinity();
+}
+
+void PathFlight::setPace(double speed_m_s) {
+  pace_m_s_ = std::max(0.0, speed_m_s);
+  controller_.setPace(pace_m_s_);
 }
 
 void PathFlight::abandon() {
@@ -73,7 +79,7 @@ std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {
 }
 
 Eigen::Vector2d PathFlight::wantedVelocity_map_m_s() const {
-  return velocityAlong(remaining_map_m(), controller_.speed_m_s(mode_));
+  return velocityAlong(remaining_map_m(), std::min(pace_m_s_, controller_.speed_m_s(mode_)));
 }
 
 }  // namespace swiftlet::autonomy

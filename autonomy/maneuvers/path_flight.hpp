@@ -2,6 +2,7 @@
 // and reports arrival at a goal.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,6 +34,8 @@ class PathFlight {
   void release() { keeper_.clear(); }
   /// Stops. The next plan that is offered is flown.
   void abandon();
+  /// Greatest speed on the present plan; the next one that is flown has none.
+  void setPace(double speed_m_s);
   /// The heading at the end of later paths; none for the direction of flight.
   void setGoalYaw(std::optional<double> yaw_map_rad) { goal_yaw_map_rad_ = yaw_map_rad; }
 
@@ -44,7 +47,7 @@ class PathFlight {
   const planning::Path* plan() const { return controller_.followsPath() ? keeper_.plan() : nullptr; }
   /// The rest of the plan, from the place where the vehicle was last seen; empty without a plan.
   std::vector<Eigen::Vector2d> remaining_map_m() const;
-  /// The velocity along the plan at the mode's speed; zero without a plan.
+  /// The velocity along the plan at the mode's speed and the pace; zero without a plan.
   Eigen::Vector2d wantedVelocity_map_m_s() const;
 
  private:
@@ -55,6 +58,7 @@ class PathFlight {
   PlanningClient client_;
   common::FlightMode mode_;
   planning::PlanKeeper keeper_;
+  double pace_m_s_ = std::numeric_limits<double>::infinity();
   std::optional<double> goal_yaw_map_rad_;
   std::optional<common::Time> within_since_;  ///< Since when the tolerances of the goal have been met.
 };

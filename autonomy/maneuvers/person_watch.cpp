@@ -60,7 +60,10 @@ void PersonWatch::update(std::span<const common::DynamicObstacle> obstacles, con
         without_others.others_map_m.push_back(obstacle.center_map_m);
     hidden_->advance(without_others, now);
   }
-  if (hidden_ && hidden_->inSight()) last_->last_seen = now;
+  if (hidden_ && hidden_->inSight()) {
+    last_->last_seen = now;
+    addToTrail(hidden_->place_map_m());
+  }
   if (const common::DynamicObstacle* found = likeliest(obstacles, now)) see(*found);
 }
 
@@ -134,8 +137,12 @@ void PersonWatch::see(const common::DynamicObstacle& obstacle) {
   last_ = obstacle;
   hidden_.reset();
   remembered_ = false;
-  if (!trail_map_m_.empty() && (trail_map_m_.back() - obstacle.center_map_m).norm() < kTrailSpacing_m) return;
-  trail_map_m_.push_back(obstacle.center_map_m);
+  addToTrail(obstacle.center_map_m);
+}
+
+void PersonWatch::addToTrail(const Eigen::Vector2d& place_map_m) {
+  if (!trail_map_m_.empty() && (trail_map_m_.back() - place_map_m).norm() < kTrailSpacing_m) return;
+  trail_map_m_.push_back(place_map_m);
   if (trail_map_m_.size() > kTrailPoints) trail_map_m_.erase(trail_map_m_.begin());
 }
 

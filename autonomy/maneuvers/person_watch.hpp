@@ -47,6 +47,7 @@ class PersonWatch {
  private:
   const common::DynamicObstacle* likeliest(std::span<const common::DynamicObstacle> obstacles, common::Time now) const;
   void see(const common::DynamicObstacle& obstacle);
+  void addToTrail(const Eigen::Vector2d& place_map_m);
 
   std::vector<PossibleWalk> walksFromRest(const Eigen::Vector2d& place_map_m) const;
 

@@ -46,6 +46,23 @@ struct Watch {
   }
 };
 
+TEST(PathFollower, KeepsThePaceOfItsPathUntilTheNext) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
+  watch.follower.setPace(0.4);
+  for (int i = 0; i < 300; ++i) watch.step();
+  EXPECT_NEAR(watch.follower.reference().velocity_odom_m_s.x(), 0.4, 1e-6);
+  EXPECT_LE(watch.worst_speed_m_s, 0.4 + 1e-6);
+  watch.follower.setPace(0.0);
+  for (int i = 0; i < 300; ++i) watch.step();
+  EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 1e-3);
+  EXPECT_TRUE(watch.follower.followsPath());
+  EXPECT_LE(watch.worst_acceleration_m_s2, 1.5);
+  watch.follower.setPath({watch.follower.reference().position_odom_m, {10, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 300; ++i) watch.step();
+  EXPECT_NEAR(watch.worst_speed_m_s, 1.0, 1e-3);
+}
+
 TEST(PathFollower, FacesAPointWhileItFliesPastAndWhileItHolds) {
   Watch watch;
   watch.follower.lookAt(Eigen::Vector2d(2.0, 1.5));

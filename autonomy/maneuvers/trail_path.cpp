@@ -1,0 +1,100 @@
+#include "autonomy/maneuvers/trail_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "planning/search/planner.hpp"
+#include "planning/search/wavefront.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using Point = Eigen::Vector2d;
+using Points = std::vector<Point>;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// The places that the path may lead over: the start, those of the trail where the hull may be, and the person's.
+Points placesOf(const TrailQuestion& ask, const Point& start) {
+  Points places{start};
+  const auto add = [&](const Point& place) {
+    if (ask.costs.costAt(ask.costs.cellAt(place)) != planning::CostMap::kLethal)
+      places.push_back(place);
+    else if (const auto beside = planning::nearestFree(ask.costs, place, ask.aside_m))
+      places.push_back(*beside);
+  };
+  for (const Point& place : ask.trail_map_m) add(place);
+  add(ask.person_map_m);
+  return places;
+}
+
+/// From the first place to the last one that can be reached, each after all earlier ones.
+Points cheapestChain(const planning::CostMap& costs, const Points& places) {
+  std::vector<double> cost_m(places.size(), kNever);
+  std::vector<std::size_t> came_from(places.size(), 0);
+  cost_m[0] = 0.0;
+  std::size_t last = 0;
+  for (std::size_t to = 1; to < places.size(); ++to) {
+    for (std::size_t from = 0; from < to; ++from) {
+      if (cost_m[from] + (places[to] - places[from]).norm() >= cost_m[to]) continue;
+      const planning::SegmentCost leg = planning::segmentCost(costs, places[from], places[to]);
+      if (leg.lethal || cost_m[from] + leg.cost_m >= cost_m[to]) continue;
+      cost_m[to] = cost_m[from] + leg.cost_m;
+      came_from[to] = from;
+    }
+    if (cost_m[to] < kNever) last = to;
+  }
+  Points chain{places[last]};
+  for (std::size_t at = last; at != 0; at = came_from[at]) chain.push_back(places[came_from[at]]);
+  std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+/// As the planner leads to the last place, where no chain of straight lines does.
+Points planned(const planning::CostMap& costs, const Points& places, const Points& otherwise) {
+  if (otherwise.back() == places.back() || places.size() < 2) return otherwise;
+  const auto path = planning::Wavefront().plan(costs, places.front(), places.back());
+  return path ? path->points_map_m : otherwise;
+}
+
+/// The chain up to the circle around the person.
+Points cut(const Points& chain, const Point& person, double radius_m) {
+  Points kept;
+  for (const Point& to : chain) {
+    if ((to - person).norm() > radius_m) {
+      kept.push_back(to);
+      continue;
+    }
+    if (kept.empty()) return {chain.front()};
+    const Point along = to - kept.back(), off = kept.back() - person;
+    const double a = along.squaredNorm(), b = off.dot(along), c = off.squaredNorm() - radius_m * radius_m;
+    kept.push_back(kept.back() + std::clamp((-b - std::sqrt(std::max(0.0, b * b - a * c))) / a, 0.0, 1.0) * along);
+    break;
+  }
+  return kept;
+}
+
+}  // namespace
+
+TrailPath trailPath(const TrailQuestion& question) {
+  Points points{question.from_map_m};
+  const auto escape = planning::escapeFrom(question.costs, question.costs.cellAt(question.from_map_m));
+  for (std::size_t i = 1; escape && i < escape->size(); ++i) points.push_back(question.costs.centerOf((*escape)[i]));
+  const Points places = placesOf(question, points.back());
+  const Points chain = cut(planned(question.costs, places, cheapestChain(question.costs, places)),
+                           question.person_map_m, question.ends_at_m);
+  points.insert(points.end(), chain.begin() + 1, chain.end());
+
+  TrailPath path{std::move(points)};
+  for (std::size_t i = 1; i < path.points_map_m.size(); ++i) {
+    const Point &from = path.points_map_m[i - 1], &to = path.points_map_m[i];
+    path.length_m += (to - from).norm();
+    path.cost_m += planning::segmentCost(question.costs, from, to).cost_m;
+  }
+  return path;
+}
+
+}  // namespace swiftlet::autonomy
