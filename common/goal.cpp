@@ -43,7 +43,7 @@ GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eige
 }  // namespace
 
 Goal goalOf(const GoToIntent& intent) {
-  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m, std::nullopt};
+  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m, 0.0, std::nullopt};
 }
 
 Goal tappedGoalOf(const GoToIntent& intent) {

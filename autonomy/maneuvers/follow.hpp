@@ -1,5 +1,5 @@
-// Follow: keeps a distance from a walking person, with the nose on the person, and flies where the person stays in
-// sight whatever that person is likely to do.
+// Follow: keeps a distance from a walking person, with the nose on the person, along the trail that the person walked;
+// gives way where the person comes too near.
 #pragma once
 
 #include <memory>

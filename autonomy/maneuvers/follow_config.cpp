@@ -68,10 +68,6 @@ void PursuitConfig::describe(Fields& fields) {
   fields("per_cost", per_cost, {0, 100}, "Loss by the cost of a step in the cost map above that of open space.");
   fields("mapped_within_m", mapped_within_m, {0, 2},
          "What the map shows this near to where the person walked is the person.");
-  fields("least_in_sight", least_in_sight, {0, 1},
-         "A path is of no use if the person is seen from its end with a smaller probability.");
-  fields("too_far_m", too_far_m, {0, 20},
-         "A path is of no use if its end is farther from the person than the wanted distance by more than this.");
 }
 
 void PaceConfig::describe(Fields& fields) {

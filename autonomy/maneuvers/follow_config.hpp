@@ -58,8 +58,6 @@ struct PursuitConfig {
   double per_move = 0.03;
   double per_cost = 0.02;
   double mapped_within_m = 0.45;
-  double least_in_sight = 0.3;
-  double too_far_m = 1.0;
 
   void describe(common::config::Fields& fields);
 };

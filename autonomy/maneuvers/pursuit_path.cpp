@@ -18,8 +18,8 @@ using Point = Eigen::Vector2d;
 /// a door frame from the distance that it keeps. Persons turn every few seconds, so that later steps would be guesses.
 constexpr int kSteps = 8;
 constexpr double kMove_s = 0.5;
-/// Steps that are flown before there is another answer, with what it takes to stop: 2 s are `replan_s`, the latency of
-/// planning, and 0.9 s to brake from 0.73 m/s at 0.8 m/s2. It waits if it would wait for half of that.
+/// Steps that are flown before there is another answer, with what it takes to stop: 2 s are the latency of planning,
+/// 0.9 s to brake from 0.73 m/s at 0.8 m/s2, and some time between answers. It waits if it would wait for half of that.
 constexpr std::size_t kFlown = 4, kWaits = 2;
 /// Places in each direction: as many as the vehicle can reach, and here itself.
 constexpr int kReach = kSteps, kSide = 2 * kReach + 1;
