@@ -19,6 +19,9 @@ constexpr double kObstacle_m = 1.0;
 /// An end point is on a slope if it is so near to its plane, m, and to the points that it is known from.
 constexpr double kOnPlane_m = 0.08, kBeside_m = 0.8;
 constexpr int kBesideCells = 2;
+/// So many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
+/// branches and rocks may lie on a plane in a single one.
+constexpr int kLeastPlanes = 3;
 common::CellIndex fanCellAt(const Eigen::Vector2d& place_odom_m) {
   return {static_cast<int>(std::floor(place_odom_m.x() / kFanCell_m)),
           static_cast<int>(std::floor(place_odom_m.y() / kFanCell_m))};
@@ -48,15 +51,16 @@ void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body,
 
 bool FanGround::isGround(const Eigen::Vector3d& point_odom_m) const {
   const common::CellIndex center = fanCellAt(point_odom_m.head<2>());
+  int planes = 0;
   for (int dy = -kBesideCells; dy <= kBesideCells; ++dy)
     for (int dx = -kBesideCells; dx <= kBesideCells; ++dx) {
       const auto found = slopes_.find({center.x + dx, center.y + dy});
       if (found == slopes_.end()) continue;
       const Slope& slope = found->second;
       const bool beside = (point_odom_m - slope.point_odom_m()).head<2>().norm() < kBeside_m;
-      if (beside && std::abs(point_odom_m.z() - slope.height_m(point_odom_m.head<2>())) < kOnPlane_m) return true;
+      if (beside && std::abs(point_odom_m.z() - slope.height_m(point_odom_m.head<2>())) < kOnPlane_m) ++planes;
     }
-  return false;
+  return planes >= kLeastPlanes;
 }
 
 void FanGround::remove(ProjectedScan& scan) const {
