@@ -13,7 +13,7 @@ constexpr double kFanCell_m = 0.4;
 constexpr double kTogether_s = 3.0;
 /// Every n-th end point is enough for a plane; farther ones have a height that is wrong by the attitude.
 constexpr std::size_t kEveryPoint = 2;
-constexpr double kFanRange_m = 8.0;
+constexpr double kFanRange_m = 12.0;
 /// Nearer hits are obstacles, also on ground: below 27 cm over a slope of 15 degrees.
 constexpr double kObstacle_m = 1.0;
 /// An end point is on a slope if it is so near to its plane, m, and to the points that it is known from.
@@ -21,7 +21,7 @@ constexpr double kOnPlane_m = 0.08, kBeside_m = 0.8;
 constexpr int kBesideCells = 2;
 /// So many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
 /// branches and rocks may lie on a plane in a single one.
-constexpr int kLeastPlanes = 3;
+constexpr int kLeastPlanes = 2;
 common::CellIndex fanCellAt(const Eigen::Vector2d& place_odom_m) {
   return {static_cast<int>(std::floor(place_odom_m.x() / kFanCell_m)),
           static_cast<int>(std::floor(place_odom_m.y() / kFanCell_m))};
