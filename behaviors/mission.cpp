@@ -181,10 +181,10 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
 /// Why the goal is refused; empty if at least one of the nodes that may take it can fly to it with its tolerance and
 /// clearance.
 std::string Mission::Impl::refusalOfGoal(const Context& context, const common::GoalCommand& command) const {
+  const auto places = NamedPlaces::in(*context.world);
   std::string first;
   for (const OperatorCommand* taker : takers) {
     common::Goal goal = common::tappedGoalOf(taker->goalTo(command));
-    const auto places = NamedPlaces::in(*context.world);
     if (command.goal_given_m && places) goal.T_given_map = places->T_map_named().inverse();
     const auto verdict = common::judgeGoal(goal, context.goal_limits, context.goal_map.get());
     if (verdict) return {};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/random.hpp"
+#include "common/segment.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kLeastAhead_m = 1.5;  // No person steps into the path nearer t
 constexpr double kUnderFoot_m = 0.05;  // Anything lower does not stop a person.
 constexpr double kTrail_m = 0.1;       // Spacing of the remembered trail.
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double length(const std::vector<Vector2d>& path) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
-  return sum;
-}
 
 Vector2d along(const std::vector<Vector2d>& path, double walked_m) {
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -75,7 +70,7 @@ void Walker::step(common::Time now, const WalkedAround& vehicle, double step_s) 
 double Walker::walkedAfter_m(double time_s) const {
   const std::vector<double>& speeds = config_.speeds_m_s;
   if (speeds.empty() && config_.pause_s <= 0.0) return config_.speed_m_s * time_s;
-  const bool loops = config_.at_end == WalkerEnd::kLoop && length(path_world_m_) > 0.0;
+  const bool loops = config_.at_end == WalkerEnd::kLoop && common::polylineLength(path_world_m_) > 0.0;
   double walked_m = 0.0;
   for (std::size_t leg = 0;; ++leg) {
     const std::size_t i = leg % (path_world_m_.size() - 1);
@@ -91,7 +86,7 @@ double Walker::walkedAfter_m(double time_s) const {
 }
 
 void Walker::walkPath(double walked_m) {
-  const double whole_m = length(path_world_m_);
+  const double whole_m = common::polylineLength(path_world_m_);
   const bool over = walked_m > whole_m;
   if (over && config_.at_end == WalkerEnd::kLeave) {
     actor_.reset();
@@ -109,7 +104,7 @@ void Walker::walkPath(double walked_m) {
 void Walker::cross(double now_s, const WalkedAround& vehicle) {
   if (actor_) {
     const double walked_m = config_.speed_m_s * (now_s - path_start_s_);
-    if (walked_m <= length(path_world_m_)) {
+    if (walked_m <= common::polylineLength(path_world_m_)) {
       appearAt(along(path_world_m_, walked_m));
       return;
     }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/segment.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -54,9 +56,7 @@ Progress Explore::fly(const ManeuverInput& input) {
 /// A choice on a large map takes long, and a viewpoint far away seldom changes: it is chosen anew after a share of the
 /// time that its path takes.
 double Explore::reconsiderAfter_s() const {
-  const std::vector<Eigen::Vector2d> rest_map_m = flight_.remaining_map_m();
-  double rest_m = 0.0;
-  for (std::size_t i = 1; i < rest_map_m.size(); ++i) rest_m += (rest_map_m[i] - rest_map_m[i - 1]).norm();
+  const double rest_m = common::polylineLength(flight_.remaining_map_m());
   return std::max(setup_.config.explore_period_s,
                   setup_.config.explore_period_share * rest_m / setup_.controller.speed_m_s(intent_.mode));
 }

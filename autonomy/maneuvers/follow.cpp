@@ -9,6 +9,7 @@
 #include "autonomy/maneuvers/trail_path.hpp"
 #include "autonomy/maneuvers/world_without_person.hpp"
 #include "common/geometry.hpp"
+#include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -125,12 +126,9 @@ void Follow::giveWay(const ManeuverInput& input, const planning::CostMap& costs)
     target_map_m_.reset();
     return;
   }
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.points_map_m.size(); ++i)
-    length_m += (path.points_map_m[i] - path.points_map_m[i - 1]).norm();
   target_map_m_ = end;
   flight_.release();
-  flight_.offer({path.points_map_m, length_m, path.cost_m}, input.now, input.state);
+  flight_.offer({path.points_map_m, common::polylineLength(path.points_map_m), path.cost_m}, input.now, input.state);
 }
 
 /// From the reference on, so that the path grows where the person walks and stays where it was behind the vehicle.
@@ -159,8 +157,7 @@ double Follow::pace_m_s(const ManeuverInput& input) const {
   const std::vector<Eigen::Vector2d> rest_map_m = flight_.remaining_map_m();
   if (rest_map_m.empty()) return 0.0;
   const Eigen::Vector2d to_person_m = person_->place_map_m(input.now) - rest_map_m.back();
-  double gap_m = to_person_m.norm();
-  for (std::size_t i = 1; i < rest_map_m.size(); ++i) gap_m += (rest_map_m[i] - rest_map_m[i - 1]).norm();
+  const double gap_m = to_person_m.norm() + common::polylineLength(rest_map_m);
   const PaceConfig& pace = config_.pace;
   const double along_m_s = person_->velocity_map_m_s().dot(to_person_m.normalized());
   const double standing_m = intent_.distance_m - pace.stands_nearer_m;

@@ -1,14 +1,14 @@
 #include "perception/altitude/fan_ground.hpp"
 
 #include <cmath>
+#include <cstddef>
 
+#include "perception/altitude/ground_cell.hpp"
 #include "perception/altitude/slope_limits.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-/// Side of a cell, as that of GroundSlopes.
-constexpr double kFanCell_m = 0.4;
 /// Points of a cell that are older are left out: the error of the attitude and of the position is the same for so long.
 constexpr double kTogether_s = 3.0;
 /// Every n-th end point is enough for a plane; farther ones have a height that is wrong by the attitude.
@@ -22,10 +22,6 @@ constexpr int kBesideCells = 2;
 /// So many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
 /// branches and rocks may lie on a plane in a single one.
 constexpr int kLeastPlanes = 2;
-common::CellIndex fanCellAt(const Eigen::Vector2d& place_odom_m) {
-  return {static_cast<int>(std::floor(place_odom_m.x() / kFanCell_m)),
-          static_cast<int>(std::floor(place_odom_m.y() / kFanCell_m))};
-}
 
 Eigen::Vector3d pointOdom_m(const ProjectedScan& scan, std::size_t i, const common::Pose2& T_odom_body,
                             double height_m) {
@@ -40,7 +36,7 @@ void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body,
     const float range_m = scan.points_level_m[i].norm();
     if (range_m > kFanRange_m || range_m < kObstacle_m) continue;
     const Eigen::Vector3d point_m = pointOdom_m(scan, i, T_odom_body, height_m);
-    const common::CellIndex index = fanCellAt(point_m.head<2>());
+    const common::CellIndex index = cellAt(point_m.head<2>(), kSlopeCell_m);
     Cell& cell = cells_[index];
     if (cell.plane.points() == 0 || (scan.stamp - cell.since).seconds() > kTogether_s) cell = {scan.stamp, {}};
     cell.plane.add(point_m);
@@ -50,7 +46,7 @@ void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body,
 }
 
 bool FanGround::isGround(const Eigen::Vector3d& point_odom_m) const {
-  const common::CellIndex center = fanCellAt(point_odom_m.head<2>());
+  const common::CellIndex center = cellAt(point_odom_m.head<2>(), kSlopeCell_m);
   int planes = 0;
   for (int dy = -kBesideCells; dy <= kBesideCells; ++dy)
     for (int dx = -kBesideCells; dx <= kBesideCells; ++dx) {

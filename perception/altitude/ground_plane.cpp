@@ -23,12 +23,6 @@ void GroundPlane::add(const Eigen::Vector3d& point_m) {
   products_m2_ += point_m * point_m.transpose();
 }
 
-void GroundPlane::add(const GroundPlane& other) {
-  points_ += other.points_;
-  sum_m_ += other.sum_m_;
-  products_m2_ += other.products_m2_;
-}
-
 std::optional<Eigen::Vector2d> GroundPlane::gradient() const {
   if (points_ < kLeastPoints) return std::nullopt;
   const Eigen::Matrix3d spread_m2 = products_m2_ / points_ - mean_m() * mean_m().transpose();

@@ -12,8 +12,6 @@ class GroundPlane {
  public:
   /// Relative to a place nearby, so that the sums stay small.
   void add(const Eigen::Vector3d& point_m);
-  /// The points of another plane, which are relative to the same place.
-  void add(const GroundPlane& other);
 
   /// The gradient g. None if the points are too few, too near to a line, not on a plane, or it is steeper than ground.
   std::optional<Eigen::Vector2d> gradient() const;

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <map>
 
+#include "perception/altitude/ground_cell.hpp"
 #include "perception/altitude/ground_plane.hpp"
 #include "perception/altitude/slope_limits.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-/// Side of a cell: smaller ones have too few points for a gradient, larger ones do not end where a ramp does.
-constexpr double kCell_m = 0.4;
 /// Every n-th pixel in both directions.
 constexpr int kEvery_px = 3;
 /// Points from so far below the camera on may be ground.
@@ -18,13 +17,12 @@ constexpr double kBelow_m = 0.3;
 /// Farther away the depths of structured-light cameras are too noisy for a gradient [Khoshelham 2012].
 constexpr double kRange_m = 4.0;
 constexpr int kLeastImages = 3;  ///< So that no single image decides.
-
 /// Share of a cell's gradient that becomes part of the bias: some hundred cells of level ground make it known.
 constexpr double kBiasGain = 0.01;
 
 }  // namespace
 
-GroundSlopes::GroundSlopes() : cells_(kCell_m) {}
+GroundSlopes::GroundSlopes() : cells_(kSlopeCell_m) {}
 
 void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCamera& camera,
                        const common::Pose3& T_map_camera) {

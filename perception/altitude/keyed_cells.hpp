@@ -2,7 +2,6 @@
 // these, moves it along.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -13,6 +12,7 @@
 #include "common/geometry.hpp"
 #include "common/key_pose.hpp"
 #include "common/tiled_grid.hpp"
+#include "perception/altitude/ground_cell.hpp"
 
 namespace swiftlet::perception {
 
@@ -32,8 +32,7 @@ class KeyedCells {
   explicit KeyedCells(double side_m) : side_m_(side_m) {}
 
   common::CellIndex cellAt(const Eigen::Vector2d& place_map_m) const {
-    return {static_cast<int>(std::floor(place_map_m.x() / side_m_)),
-            static_cast<int>(std::floor(place_map_m.y() / side_m_))};
+    return perception::cellAt(place_map_m, side_m_);
   }
 
   /// Moves the squares as their key scans have moved. New squares hang on `newest_key`; before the first call, and if
