@@ -53,7 +53,7 @@ endif()
 # so where nothing is built yet. Off by default: a single edited source compiles faster alone.
 option(SWIFTLET_UNITY "Compile several sources of a target as one" OFF)
 if(SWIFTLET_UNITY)
-  add_compile_options(-Wno-subobject-linkage)  # The compiler takes sources in a unity source for headers.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # It takes sources in a unity source for headers.
 endif()
 
 function(swiftlet_unity target)
