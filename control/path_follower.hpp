@@ -32,7 +32,7 @@ class PathFollower {
   struct Config {
     Limits fast{1.0, 1.2, 0.08};
     Limits careful{0.6, 0.8, 0.05};
-    Limits accurate{0.3, 0.5, 0.02};
+    Limits accurate{0.3, 0.3, 0.02};  ///< Tilts by 2 deg at most, so that a camera stays on its point.
     Limits brisk{1.2, 1.0, 0.08};
     double climb_speed_m_s = 0.5;
     double filter_rad_s = 5.0;

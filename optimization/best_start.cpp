@@ -14,6 +14,8 @@ namespace {
 constexpr double kSureDecrease = 4.0;
 /// The robust kernel's widths (sigmas), one after the other, before the plain sum of squares.
 constexpr double kWidths[] = {2.0, 5.0, 20.0};
+/// A chi2 of edges that agree but for rounding: a millionth of a sigma.
+constexpr double kRounding = 1e-12;
 /// So large that the first step is that of Gauss-Newton: the starts are near.
 constexpr double kGaussNewtonRadius = 1e16;
 
@@ -69,13 +71,15 @@ class Search {
     const double chi2 = sum(solution.squared_errors);
     ++best_.starts;
     best_.iterations += solution.iterations;
-    // An attempt that only comes back to the best poses has converged, so it counts although its chi2 is the same.
-    const bool better = best_.starts == 1 || start == Start::kGuess ? chi2 <= best_.chi2 : chi2 < best_.chi2;
-    if (!better) return;
-    best_.poses = std::move(solution.poses);
-    best_.chi2 = chi2;
-    best_.start = start;
-    best_.converged = solution.converged;
+    const bool better = best_.starts == 1 ? chi2 <= best_.chi2 : chi2 < best_.chi2;
+    if (better) {
+      best_.poses = std::move(solution.poses);
+      best_.chi2 = chi2;
+      best_.start = start;
+      best_.converged = solution.converged;
+    } else if (solution.converged && chi2 <= best_.chi2 * (1.0 + config_.relative_decrease) + kRounding) {
+      best_.converged = true;  // It came back to the best poses, but for rounding.
+    }
   }
 
   /// Rough optimizations with robust kernels that widen: edges that are far off pull little at first, and then more.

@@ -35,20 +35,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Where the person may be at the end of each step.
 using Walk = std::array<Point, kSteps + 1>;
 
-/// From here to the first place where the hull may be, as all planned paths begin; here alone where it may be, and
-/// where no such place is near.
-std::vector<Point> escape(const PursuitQuestion& question) {
-  std::vector<Point> points{question.here_map_m};
-  const auto cells = planning::escapeFrom(question.costs, question.costs.cellAt(question.here_map_m));
-  for (std::size_t i = 1; cells && i < cells->size(); ++i) points.push_back(question.costs.centerOf((*cells)[i]));
-  return points;
-}
-
 class Pursuit {
  public:
   explicit Pursuit(const PursuitQuestion& question)
       : ask_(question),
-        escape_map_m_(escape(question)),
+        escape_map_m_(planning::escapePoints_map_m(question.costs, question.here_map_m)),
         from_map_m_(escape_map_m_.back()),
         side_m_(std::max(0.1, question.speed_m_s * kMove_s / std::numbers::sqrt2)) {
     for (const PossibleWalk& walk : ask_.walks) {

@@ -80,9 +80,7 @@ Points cut(const Points& chain, const Point& person, double radius_m) {
 }  // namespace
 
 TrailPath trailPath(const TrailQuestion& question) {
-  Points points{question.from_map_m};
-  const auto escape = planning::escapeFrom(question.costs, question.costs.cellAt(question.from_map_m));
-  for (std::size_t i = 1; escape && i < escape->size(); ++i) points.push_back(question.costs.centerOf((*escape)[i]));
+  Points points = planning::escapePoints_map_m(question.costs, question.from_map_m);
   const Points places = placesOf(question, points.back());
   const Points chain = cut(planned(question.costs, places, cheapestChain(question.costs, places)),
                            question.person_map_m, question.ends_at_m);

@@ -111,6 +111,13 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   return escape ? escape : cheapest(window, start, price, passable);
 }
 
+std::vector<Eigen::Vector2d> escapePoints_map_m(const CostMap& map, const Eigen::Vector2d& start_map_m) {
+  std::vector<Eigen::Vector2d> points{start_map_m};
+  const std::optional<CellPath> escape = escapeFrom(map, map.cellAt(start_map_m));
+  for (std::size_t i = 1; escape && i < escape->size(); ++i) points.push_back(map.centerOf((*escape)[i]));
+  return points;
+}
+
 std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, CellIndex goal) {
   // A lethal cell that is not occupied is much cheaper than an occupied one: it may be a narrow gap, or a person who
   // will leave.

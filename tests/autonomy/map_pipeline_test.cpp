@@ -32,7 +32,6 @@ TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
   };
   std::vector<Seen> seen;
   std::vector<common::Event> events;
-  Pose2 T_odom_last;
   ring.fly(1.25, [&](const perception::ProjectedScan& scan, const Pose2& T_odom_body, const Eigen::Matrix3d& covariance,
                      const Pose2& truth) {
     jobs->deliverDue(scan.stamp);

@@ -86,7 +86,7 @@ TEST(Flight, EachModeIsFlownAtItsSpeedAboveTheLimitOfCorrections) {
         20.0);
     flight.run(1.0);
     EXPECT_NEAR(top_m_s, speed_m_s, 0.1) << toString(mode);
-    EXPECT_NEAR(flight.model.position_m.x(), 8.0, 0.07) << toString(mode);
+    EXPECT_NEAR(flight.model.position_m.x(), 8.0, 0.08) << toString(mode);
   }
 }
 

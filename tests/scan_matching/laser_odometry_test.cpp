@@ -54,7 +54,7 @@ TEST(LaserOdometry, HoveringDoesNotDrift) {
 TEST(LaserOdometry, DriftsLittleOverSeveralReferences) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
-  Pose2 T_start_reference, at_reference;
+  Pose2 T_start_reference;
   common::Time reference;
   int changes = 0;
   for (std::uint64_t frame = 0; frame < 300; ++frame) {
