@@ -117,38 +117,37 @@ bool Follow::comesTooNear(const ManeuverInput& input) const {
 void Follow::giveWay(const ManeuverInput& input, const planning::CostMap& costs) {
   on_trail_ = false;
   const std::vector<PossibleWalk> walks = person_->walks(input.now);
-  const PursuitPath path =
+  const PursuitPath pursuit =
       pursuitPath({costs, *input.grid, input.position_map_m(), walks, person_->trail_map_m(), intent_.distance_m,
                    setup_.controller.speed_m_s(intent_.mode), config_.pursuit, config_.watch.walking.half_width_m});
-  const Eigen::Vector2d end = path.points_map_m.back();
-  if (path.points_map_m.size() == 1) {
-    if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
-    target_map_m_.reset();
-    return;
-  }
-  target_map_m_ = end;
-  flight_.release();
-  flight_.offer({path.points_map_m, common::polylineLength(path.points_map_m), path.cost_m}, input.now, input.state);
+  flyOrStay(pursuit.path, input);
 }
 
 /// From the reference on, so that the path grows where the person walks and stays where it was behind the vehicle.
 bool Follow::flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs) {
   const Eigen::Vector2d reference_odom_m = setup_.controller.reference().position_odom_m.head<2>();
   const Eigen::Vector2d person_map_m = person_->place_map_m(input.now);
-  const TrailPath path = trailPath({costs, input.state.T_map_odom * reference_odom_m, person_map_m,
-                                    person_->trail_map_m(), config_.pace.ends_at_m, config_.pace.aside_m});
+  const planning::Path path = trailPath({costs, input.state.T_map_odom * reference_odom_m, person_map_m,
+                                         person_->trail_map_m(), config_.pace.ends_at_m, config_.pace.aside_m});
   if (path.points_map_m.size() == 1) {
     const double distance_m = (person_map_m - input.position_map_m()).norm();
     if (person_->hidden() || distance_m > intent_.distance_m + config_.pursuit.farther_m) return false;
+  }
+  on_trail_ = on_trail_ || path.points_map_m.size() > 1;
+  flyOrStay(path, input);
+  return true;
+}
+
+/// A path of one point means to stay here.
+void Follow::flyOrStay(const planning::Path& path, const ManeuverInput& input) {
+  if (path.points_map_m.size() == 1) {
     if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
     target_map_m_.reset();
-    return true;
+    return;
   }
   target_map_m_ = path.points_map_m.back();
   flight_.release();
-  flight_.offer({path.points_map_m, path.length_m, path.cost_m}, input.now, input.state);
-  on_trail_ = true;
-  return true;
+  flight_.offer(path, input.now, input.state);
 }
 
 /// Constant time headway: the distance to be kept grows with the person's speed, by what it takes to stop behind a

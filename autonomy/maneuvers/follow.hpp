@@ -33,6 +33,7 @@ class Follow final : public PathManeuver {
   void pursue(const ManeuverInput& input);
   bool comesTooNear(const ManeuverInput& input) const;
   void giveWay(const ManeuverInput& input, const planning::CostMap& costs);
+  void flyOrStay(const planning::Path& path, const ManeuverInput& input);
   bool flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs);
   double pace_m_s(const ManeuverInput& input) const;
   Eigen::Vector2d placeBehind() const;

@@ -4,13 +4,12 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "autonomy/maneuvers/follow_config.hpp"
 #include "common/occupancy_grid.hpp"
-#include "planning/costs/cost_map.hpp"
+#include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -38,8 +37,7 @@ struct PursuitQuestion {
 struct PursuitPath {
   /// From here; one point: it is best to stay. In the lethal zone it begins with the escape from there, which is flown
   /// also if it is best to stay behind it.
-  std::vector<Eigen::Vector2d> points_map_m;
-  double cost_m = 0.0;    ///< Of the path in the cost map.
+  planning::Path path;
   double in_sight = 0.0;  ///< Probability that the person is seen from its end, at the end.
 };
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "planning/search/planner.hpp"
 #include "planning/search/wavefront.hpp"
 
 namespace swiftlet::autonomy {
@@ -79,18 +78,17 @@ Points cut(const Points& chain, const Point& person, double radius_m) {
 
 }  // namespace
 
-TrailPath trailPath(const TrailQuestion& question) {
-  Points points = planning::escapePoints_map_m(question.costs, question.from_map_m);
+planning::Path trailPath(const TrailQuestion& question) {
+  planning::Path path{planning::escapePoints_map_m(question.costs, question.from_map_m)};
+  Points& points = path.points_map_m;
+  path.escape_points = points.size() - 1;
   const Points places = placesOf(question, points.back());
   const Points chain = cut(planned(question.costs, places, cheapestChain(question.costs, places)),
                            question.person_map_m, question.ends_at_m);
   points.insert(points.end(), chain.begin() + 1, chain.end());
-
-  TrailPath path{std::move(points)};
-  for (std::size_t i = 1; i < path.points_map_m.size(); ++i) {
-    const Point &from = path.points_map_m[i - 1], &to = path.points_map_m[i];
-    path.length_m += (to - from).norm();
-    path.cost_m += planning::segmentCost(question.costs, from, to).cost_m;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    path.length_m += (points[i] - points[i - 1]).norm();
+    path.cost_m += planning::segmentCost(question.costs, points[i - 1], points[i]).cost_m;
   }
   return path;
 }

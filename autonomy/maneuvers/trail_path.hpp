@@ -3,11 +3,11 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "planning/costs/cost_map.hpp"
+#include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -21,14 +21,8 @@ struct TrailQuestion {
   double aside_m = 0.5;  ///< A place where the person walked too near to a wall is passed at most this far beside it.
 };
 
-struct TrailPath {
-  /// To the place nearest to the person that can be reached; one point: to stay here.
-  std::vector<Eigen::Vector2d> points_map_m;
-  double length_m = 0.0;
-  double cost_m = 0.0;  ///< In the cost map.
-};
-
-/// A pure function; safe from any thread.
-TrailPath trailPath(const TrailQuestion& question);
+/// To the place nearest to the person that can be reached; one point: to stay here. A pure function; safe from any
+/// thread.
+planning::Path trailPath(const TrailQuestion& question);
 
 }  // namespace swiftlet::autonomy

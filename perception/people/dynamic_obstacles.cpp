@@ -103,6 +103,9 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
   fields("followed_share", followed_share, {0, 1},
          "An obstacle that was in a smaller share of the scans is not said to move: furniture that a tilting laser "
          "meets comes and goes.");
+  fields("reaches_m", reaches_m, {-5, 5},
+         "An obstacle of which nothing so high above the body was seen while it is kept is not said to move: a dipping "
+         "laser meets the top of a table now nearer, now farther.");
   fields("smoothing_s", smoothing_s, {0.01, 5}, "Time constant of the filter on position and velocity.");
   fields("keep_out_m", keep_out_m, {0, 2},
          "Added to the radius for the planner, so that it does not plan what makes the vehicle retreat.");
@@ -112,13 +115,15 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
 
 DynamicObstacles::DynamicObstacles(const Config& config) : config_(config) {}
 
-std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const Eigen::Vector2f> points_map_m,
-                                                                 const Point& sensor_map_m,
+std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoints& seen,
                                                                  const common::OccupancyGrid& background) const {
+  const std::vector<Eigen::Vector2f>& points_map_m = seen.points_map_m;
+  const Point& sensor_map_m = seen.from_map_m;
   const int cells = static_cast<int>(std::lround(config_.explained_within_m / background.resolution_m()));
   std::vector<Cluster> clusters;
   std::vector<Point> members;
   std::size_t first = 0, last = 0;
+  float top_m = 0.0F;
   bool is_revealed = false;
   // A wall that is not where the map has it, because the position is wrong, joins other walls or leaves the field of
   // view; a person ends at least at one side.
@@ -138,7 +143,7 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
       for (const Point& p : members) extent_m = std::max(extent_m, (p - mean).norm());
       const Point away = mean - sensor_map_m;
       const Point center = away.norm() > 1e-6 ? Point(mean + away.normalized() * config_.assumed_depth_m) : mean;
-      clusters.push_back({center, std::clamp(extent_m, config_.assumed_depth_m, config_.max_radius_m)});
+      clusters.push_back({center, std::clamp(extent_m, config_.assumed_depth_m, config_.max_radius_m), top_m});
     }
     members.clear();
     is_revealed = false;
@@ -150,6 +155,7 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
     const bool is_free = unexplained(background, p, cells);
     if (!is_free && !revealed(background, p, sensor_map_m, cells)) continue;
     if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
+    top_m = members.empty() ? seen.above_body_m[i] : std::max(top_m, seen.above_body_m[i]);
     if (members.empty()) first = i;
     last = i;
     is_revealed = is_revealed || !is_free;
@@ -176,30 +182,35 @@ DynamicObstacles::Track* DynamicObstacles::nearestFree(const Cluster& seen, comm
   return nearest;
 }
 
-void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m,
-                              const Point& sensor_map_m, const common::OccupancyGrid& background) {
+void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background) {
+  const auto reached = [&](const Cluster& seen) {
+    return seen.top_above_body_m >= config_.reaches_m ? std::optional(stamp) : std::nullopt;
+  };
   for (Track& track : tracks_) ++track.scans;
   const std::size_t known = tracks_.size();
   std::vector<bool> taken(known, false);
   std::vector<Track> fresh;
-  for (const Cluster& seen : cluster(points_map_m, sensor_map_m, background)) {
+  for (const Cluster& seen : cluster(scan, background)) {
     Track* const track = nearestFree(seen, stamp, tracks_, taken);
     if (track == nullptr) {
       fresh.push_back({{next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, stamp},
                        seen.center_map_m,
                        stamp,
                        0,
-                       0});
+                       0,
+                       reached(seen)});
       continue;
     }
     taken[static_cast<std::size_t>(track - tracks_.data())] = true;
+    if (const auto now = reached(seen)) track->reached = now;
     correct(*track, seen, stamp);
   }
   tracks_.insert(tracks_.end(), fresh.begin(), fresh.end());
   std::erase_if(tracks_, [&](const Track& track) {
     const double age_s = (stamp - track.obstacle.last_seen).seconds();
     return age_s > config_.time_to_live_s ||
-           (age_s > config_.refuted_after_s && violatesFreeSpace(track.obstacle, age_s, points_map_m, sensor_map_m));
+           (age_s > config_.refuted_after_s &&
+            violatesFreeSpace(track.obstacle, age_s, scan.points_map_m, scan.from_map_m));
   });
   obstacles_.clear();
   for (const Track& track : tracks_) obstacles_.push_back(track.obstacle);
@@ -230,8 +241,9 @@ void DynamicObstacles::judgeMotion(Track& track) const {
   const bool moved = (o.center_map_m - track.anchor_map_m).norm() >= config_.moved_m;
   const bool followed = since_s >= config_.followed_s && track.sightings >= config_.followed_share * track.scans;
   if (!(moved && followed) && since_s < config_.moved_within_s) return;
+  const bool reaches = track.reached && (o.last_seen - *track.reached).seconds() <= config_.time_to_live_s;
   // A moving obstacle may have been hidden meanwhile; it remains moving.
-  o.moving = moved && (followed || o.moving);
+  o.moving = reaches && moved && (followed || o.moving);
   track.anchor_map_m = o.center_map_m;
   track.anchor_stamp = o.last_seen;
   track.scans = track.sightings = 0;

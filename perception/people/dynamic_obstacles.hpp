@@ -2,6 +2,7 @@
 // Grzonka 2012, section IV-E) are clustered, and the clusters are tracked.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@
 #include "common/time.hpp"
 
 namespace swiftlet::perception {
+
+/// The end points of a scan, in order of bearing, and where it was taken; NaN for beams that tell nothing.
+struct SeenPoints {
+  Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2f> points_map_m;
+  std::vector<float> above_body_m;  ///< The height of each point.
+};
 
 /// Detects and tracks dynamic obstacles. Not thread-safe.
 class DynamicObstacles {
@@ -31,6 +39,7 @@ class DynamicObstacles {
     double moved_within_s = 1.0;
     double followed_s = 0.15;
     double followed_share = 0.5;
+    double reaches_m = -0.02;
     double smoothing_s = 0.15;
     double keep_out_m = 0.25;
     double max_range_m = 6.0;
@@ -41,12 +50,10 @@ class DynamicObstacles {
 
   explicit DynamicObstacles(const Config& config);
 
-  /// Takes in one scan. `points_map_m`: its end points in order of bearing, seen from `sensor_map_m`; points that are
-  /// not finite are ignored. A point is unexplained when it lies in space that the background knows as free, with
-  /// nothing occupied or unknown near. A point in unknown space is new, not dynamic, unless it is on a thing that
-  /// stands by itself behind a place from which something has gone: a person who walks straight away from the laser.
-  void update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
-              const common::OccupancyGrid& background);
+  /// Takes in one scan. A point is unexplained when it lies in space that the background knows as free, with nothing
+  /// occupied or unknown near. A point in unknown space is new, not dynamic, unless it is on a thing that stands by
+  /// itself behind a place from which something has gone: a person who walks straight away from the laser.
+  void update(common::Time stamp, const SeenPoints& seen, const common::OccupancyGrid& background);
 
   /// The current obstacles, by id.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_; }
@@ -59,9 +66,9 @@ class DynamicObstacles {
   struct Cluster {
     Eigen::Vector2d center_map_m;
     double radius_m;
+    double top_above_body_m;
   };
-  std::vector<Cluster> cluster(std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
-                               const common::OccupancyGrid& background) const;
+  std::vector<Cluster> cluster(const SeenPoints& seen, const common::OccupancyGrid& background) const;
   /// An obstacle and the evidence for its motion.
   struct Track {
     common::DynamicObstacle obstacle;
@@ -69,6 +76,7 @@ class DynamicObstacles {
     common::Time anchor_stamp;                               ///< When it was there.
     int scans = 0;                                           ///< Scans since anchor_stamp.
     int sightings = 0;                                       ///< Scans since anchor_stamp that saw it.
+    std::optional<common::Time> reached;                     ///< When it was last seen as high as `reaches_m`.
   };
   Track* nearestFree(const Cluster& seen, common::Time stamp, std::span<Track> tracks, const std::vector<bool>& taken);
   void correct(Track& track, const Cluster& seen, common::Time stamp) const;

@@ -40,6 +40,7 @@ void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, c
   const auto above_m = static_cast<float>(band_.above_body_m), below_m = static_cast<float>(band_.below_body_m);
   constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   seen_.from_map_m = T_map_body.position_m();
+  seen_.above_body_m = scan.heights_level_m;
   seen_.points_map_m.clear();
   seen_.points_map_m.reserve(scan.points_level_m.size());
   for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
@@ -48,8 +49,7 @@ void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, c
         in_band ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())
                 : Eigen::Vector2f(kNowhere, kNowhere));
   }
-  if (const auto background = background_.at(scan.stamp))
-    obstacles_.update(scan.stamp, seen_.points_map_m, seen_.from_map_m, *background);
+  if (const auto background = background_.at(scan.stamp)) obstacles_.update(scan.stamp, seen_, *background);
 }
 
 std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {

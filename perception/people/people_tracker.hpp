@@ -27,12 +27,6 @@ struct HeightBand {
   double below_body_m = 0.25;
 };
 
-/// The end points of a scan in the height band, in order of bearing, and where it was taken; NaN at other heights.
-struct SeenPoints {
-  Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2f> points_map_m;
-};
-
 /// Not thread-safe. Deterministic.
 class PeopleTracker {
  public:
@@ -46,7 +40,7 @@ class PeopleTracker {
 
   /// The current obstacles, each as at its last sighting.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_.obstacles(); }
-  /// Of the newest scan.
+  /// Of the newest scan: its end points in the height band, NaN at other heights.
   const SeenPoints& seen() const { return seen_; }
   /// Whether any obstacle is moving now.
   bool anyMoves() const { return obstacles_.anyMoves(); }

@@ -134,7 +134,7 @@ Path shortened(const CostMap& map, const CellPath& cells, std::size_t escape_cel
   }
 
   Path path;
-  const std::size_t kept = std::min(escape_cells, points_m.size() - 1);
+  const std::size_t kept = path.escape_points = std::min(escape_cells, points_m.size() - 1);
   path.points_map_m.assign(points_m.begin(), points_m.begin() + static_cast<std::ptrdiff_t>(kept));
   points_m.erase(points_m.begin(), points_m.begin() + static_cast<std::ptrdiff_t>(kept));
   const std::vector<Point> rest = pulled(map, points_m);

@@ -16,14 +16,14 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// The cost of the rest of a plan. It may begin in the lethal zone, which the vehicle must leave; after that, a lethal
-/// segment blocks it.
+/// The cost of the rest of a plan. It may begin in the lethal zone, which the vehicle must leave, and its first
+/// `escape_points` lines may lead through it; after that, a lethal segment blocks it.
 struct Rest {
   double cost_m = 0.0;
   std::optional<Point> blocked_map_m;
 };
 
-Rest costOf(const CostMap& map, const std::vector<Point>& points_m) {
+Rest costOf(const CostMap& map, const std::vector<Point>& points_m, std::size_t escape_points) {
   Rest rest;
   bool leaving = map.costAt(map.cellAt(points_m.front())) == CostMap::kLethal;
   for (std::size_t i = 1; i < points_m.size(); ++i) {
@@ -34,7 +34,7 @@ Rest costOf(const CostMap& map, const std::vector<Point>& points_m) {
       continue;
     }
     const bool out = map.costAt(map.cellAt(points_m[i])) != CostMap::kLethal;
-    if (!leaving) {
+    if (!leaving && i > escape_points) {
       rest.blocked_map_m = points_m[i];
       return rest;
     }
@@ -66,7 +66,7 @@ PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const 
   const std::vector<Point> rest = remaining();
   const double deviation_m = (position_map_m - rest.front()).norm();
   Check result{true, (now - stamp_).seconds() >= config_.max_age_s, ""};
-  if (const Rest left = costOf(map, rest); left.blocked_map_m) {
+  if (const Rest left = costOf(map, rest, remainingEscape()); left.blocked_map_m) {
     result = {false, true,
               fmt::format("blocked before ({:.2f}, {:.2f})", left.blocked_map_m->x(), left.blocked_map_m->y())};
   } else if (deviation_m > config_.max_deviation_m + braking_m) {
@@ -80,7 +80,7 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const CostMap& map, c
   if (path_ && valid_ && path.points_map_m.back() == path_->points_map_m.back()) {
     advanceTo(position_map_m);
     stamp_ = now;
-    const Rest old = costOf(map, remaining());
+    const Rest old = costOf(map, remaining(), remainingEscape());
     if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - config_.better_by)) return false;
   }
   path_ = path;
@@ -114,6 +114,10 @@ void PlanKeeper::advanceTo(const Point& position_map_m) {
   }
   segment_ = best_segment;
   along_ = best_along;
+}
+
+std::size_t PlanKeeper::remainingEscape() const {
+  return path_->escape_points - std::min(path_->escape_points, segment_);
 }
 
 std::vector<Point> PlanKeeper::remaining() const {

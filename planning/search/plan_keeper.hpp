@@ -51,6 +51,8 @@ class PlanKeeper {
 
  private:
   void advanceTo(const Eigen::Vector2d& position_map_m);
+  /// The points of the escape that remaining() has after its first one.
+  std::size_t remainingEscape() const;
 
   Config config_;
   std::optional<Path> path_;

@@ -19,6 +19,8 @@ struct Path {
   std::vector<Eigen::Vector2d> points_map_m;  ///< At least two, or one when start and goal coincide.
   double length_m = 0.0;
   double cost_m = 0.0;  ///< Equivalent length in open space: the integral of the cost, which is 1 there.
+  /// So many points after the start are the escape: the lines up to them may lead through the lethal zone.
+  std::size_t escape_points = 0;
 };
 
 /// Why there is no path.

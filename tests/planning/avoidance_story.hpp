@@ -101,7 +101,8 @@ class Story {
     std::vector<Eigen::Vector2f> points_map;
     for (const auto& p : points) points_map.push_back((at * Point(p.cast<double>())).cast<float>());
     if (live_map && ++scans_ % 4 == 0) mapScan(points_map);
-    dynamic_.update(stamp, points_map, at.position_m(), *background_.at(stamp));
+    dynamic_.update(stamp, {at.position_m(), points_map, std::vector<float>(points_map.size(), 0.0F)},
+                    *background_.at(stamp));
     const Eigen::Rotation2Dd to_level(-at.yaw_rad);
     std::vector<Point> edges_level_m;
     for (const Point& edge : keep_out_map_m) edges_level_m.push_back(at.inverse() * edge);

@@ -119,6 +119,25 @@ TEST_F(PlanKeeping, APlanThatLeavesTheInflatedZoneIsValid) {
   EXPECT_TRUE(keeper.check(at(0.1), map, pushed).valid);
 }
 
+/// The escape from a pocket of passable cells begins outside of the lethal zone and leads through it.
+TEST_F(PlanKeeping, APlanThatLeavesAPocketIsValid) {
+  test::fill(grid, {{70, 0}, {72, 75}}, test::kWallCell);  // A gap of half a metre at x = 3.5 m, y = 3.75 to 4.25 m.
+  test::fill(grid, {{70, 85}, {72, 160}}, test::kWallCell);
+  map.update(grid.snapshot(), {});
+  Path path{{{2, 4}, {5, 4}, {10, 4}}, 8.0, 8.0};
+  ASSERT_TRUE(segmentCost(map, {2, 4}, {5, 4}).lethal);
+  keeper.offer(path, at(0), map, {2, 4});
+  EXPECT_FALSE(keeper.check(at(0.1), map, {2, 4}).valid) << "no escape";
+  path.escape_points = 1;
+  keeper.clear();
+  keeper.offer(path, at(0), map, {2, 4});
+  EXPECT_TRUE(keeper.check(at(0.1), map, {2, 4}).valid);
+  EXPECT_TRUE(keeper.check(at(0.2), map, {4, 4}).valid);
+  test::fill(grid, {{160, 0}, {162, 160}}, test::kWallCell);
+  map.update(grid.snapshot(), {});
+  EXPECT_FALSE(keeper.check(at(0.3), map, {6, 4}).valid) << "behind the escape";
+}
+
 TEST_F(PlanKeeping, DoesNotAlternateBetweenTwoEqualPaths) {
   // A box in the middle, paths of equal length on both sides, a map that flickers: one path is kept.
   test::fill(grid, {{110, 60}, {130, 100}}, test::kWallCell);

@@ -36,7 +36,7 @@ TEST(PersonWatch, ChoosesTheNearestWhoWalks) {
 
 /// What a laser with a beam a degree sees all around.
 perception::SeenPoints seenFrom(const common::OccupancyGrid& grid, const Eigen::Vector2d& from_map_m) {
-  perception::SeenPoints seen{from_map_m, {}};
+  perception::SeenPoints seen{from_map_m, {}, {}};
   for (int degree = 0; degree < 360; ++degree) {
     const double angle_rad = (degree + 0.5) * common::kRadPerDeg - std::numbers::pi;
     const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));

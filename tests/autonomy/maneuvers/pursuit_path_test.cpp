@@ -28,17 +28,17 @@ class Pursuing : public testing::Test {
 };
 
 TEST_F(Pursuing, StaysAtTheDistanceOfOneWhoStands) {
-  const PursuitPath path = from({3.0, 5.0}, {{{5.0, 5.0}, {0.0, 0.0}}});
-  EXPECT_EQ(path.points_map_m.size(), 1u);
-  EXPECT_NEAR(path.in_sight, 1.0, 1e-9);
+  const PursuitPath pursuit = from({3.0, 5.0}, {{{5.0, 5.0}, {0.0, 0.0}}});
+  EXPECT_EQ(pursuit.path.points_map_m.size(), 1u);
+  EXPECT_NEAR(pursuit.in_sight, 1.0, 1e-9);
 }
 
 TEST_F(Pursuing, FollowsOneWhoWalksAwayAndGivesWayToOneWhoComes) {
   const PursuitPath behind = from({3.0, 5.0}, {{{5.0, 5.0}, {0.5, 0.0}}});
-  EXPECT_GT(behind.points_map_m.back().x(), 3.4);
+  EXPECT_GT(behind.path.points_map_m.back().x(), 3.4);
   const PursuitPath away = from({3.9, 5.0}, {{{5.0, 5.0}, {-0.1, 0.0}}});
-  ASSERT_GT(away.points_map_m.size(), 1u);
-  EXPECT_GT((away.points_map_m.back() - Point(5.0, 5.0)).norm(), 1.6);
+  ASSERT_GT(away.path.points_map_m.size(), 1u);
+  EXPECT_GT((away.path.points_map_m.back() - Point(5.0, 5.0)).norm(), 1.6);
 }
 
 /// He walks north behind a box, at whose south side the vehicle is: to see him it must fly round a corner before.
@@ -46,10 +46,10 @@ TEST_F(Pursuing, FliesWhereABoxWillNotHideHim) {
   wall({{100, 90}, {120, 140}});
   const Point here(4.5, 4.2);
   const std::vector<PossibleWalk> walks{{{6.4, 4.2}, {0.0, 0.5}}};
-  const PursuitPath path = from(here, walks);
-  ASSERT_GT(path.points_map_m.size(), 1u);
-  EXPECT_GT(path.in_sight, 0.9);
-  EXPECT_GT(path.points_map_m.back().x(), 5.0) << "round the south-east corner of the box";
+  const PursuitPath pursuit = from(here, walks);
+  ASSERT_GT(pursuit.path.points_map_m.size(), 1u);
+  EXPECT_GT(pursuit.in_sight, 0.9);
+  EXPECT_GT(pursuit.path.points_map_m.back().x(), 5.0) << "round the south-east corner of the box";
 }
 
 TEST_F(Pursuing, WhatTheMapShowsWhereHeWalkedHidesNothing) {
@@ -64,12 +64,12 @@ TEST_F(Pursuing, WhatTheMapShowsWhereHeWalkedHidesNothing) {
 
 TEST_F(Pursuing, LeavesAPlaceTooNearToAWallAlsoIfItIsBestToStay) {
   wall({{50, 0}, {55, 199}});
-  const PursuitPath path = from({3.0, 5.0}, {{{5.2, 5.0}, {0.0, 0.0}}});
-  ASSERT_GT(path.points_map_m.size(), 1u);
-  EXPECT_EQ(path.points_map_m.front(), Point(3.0, 5.0));
-  EXPECT_GT(path.points_map_m.back().x(), 2.725 + 0.375) << "the wall, and the hull with its clearance";
-  EXPECT_LT(path.points_map_m.back().x(), 3.4);
-  EXPECT_GT(path.cost_m, 0.1);
+  const PursuitPath pursuit = from({3.0, 5.0}, {{{5.2, 5.0}, {0.0, 0.0}}});
+  ASSERT_GT(pursuit.path.points_map_m.size(), 1u);
+  EXPECT_EQ(pursuit.path.points_map_m.front(), Point(3.0, 5.0));
+  EXPECT_GT(pursuit.path.points_map_m.back().x(), 2.725 + 0.375) << "the wall, and the hull with its clearance";
+  EXPECT_LT(pursuit.path.points_map_m.back().x(), 3.4);
+  EXPECT_GT(pursuit.path.cost_m, 0.1);
 }
 
 /// As the planners' paths do: what is likelier to be free comes first, so that no corner of a thing is cut.
@@ -81,18 +81,19 @@ TEST_F(Pursuing, EscapesCellByCell) {
   costs.update(grid_.snapshot(), planning::Footprint{});
   const auto escape = planning::escapeFrom(costs, costs.cellAt(here));
   ASSERT_TRUE(escape && escape->size() > 3);
-  const PursuitPath path = from(here, {{{6.5, 5.0}, {0.4, 0.0}}});
-  ASSERT_GE(path.points_map_m.size(), escape->size());
-  EXPECT_EQ(path.points_map_m.front(), here);
-  for (std::size_t i = 1; i < escape->size(); ++i) EXPECT_EQ(path.points_map_m[i], costs.centerOf((*escape)[i]));
+  const PursuitPath pursuit = from(here, {{{6.5, 5.0}, {0.4, 0.0}}});
+  ASSERT_GE(pursuit.path.points_map_m.size(), escape->size());
+  EXPECT_EQ(pursuit.path.points_map_m.front(), here);
+  for (std::size_t i = 1; i < escape->size(); ++i)
+    EXPECT_EQ(pursuit.path.points_map_m[i], costs.centerOf((*escape)[i]));
 }
 
 TEST_F(Pursuing, LeavesAPlaceTooNearToAWallFirst) {
   wall({{50, 0}, {55, 199}});
-  const PursuitPath path = from({3.0, 5.0}, {{{6.5, 5.0}, {0.4, 0.0}}});
-  ASSERT_GT(path.points_map_m.size(), 1u);
-  EXPECT_EQ(path.points_map_m.front(), Point(3.0, 5.0));
-  EXPECT_GT(path.points_map_m.back().x(), 3.5);
+  const PursuitPath pursuit = from({3.0, 5.0}, {{{6.5, 5.0}, {0.4, 0.0}}});
+  ASSERT_GT(pursuit.path.points_map_m.size(), 1u);
+  EXPECT_EQ(pursuit.path.points_map_m.front(), Point(3.0, 5.0));
+  EXPECT_GT(pursuit.path.points_map_m.back().x(), 3.5);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class Trail : public testing::Test {
  protected:
   Trail() { planning::test::fill(grid_, {{0, 0}, {199, 199}}, planning::test::kFreeCell); }
   void wall(const common::CellRect& cells) { planning::test::fill(grid_, cells, planning::test::kWallCell); }
-  TrailPath along(const Point& from, const std::vector<Point>& trail) {
+  planning::Path along(const Point& from, const std::vector<Point>& trail) {
     const planning::CostMap costs = planning::test::mapOf(grid_);
     return trailPath({costs, from, trail.back(), trail});
   }
@@ -34,7 +34,7 @@ TEST_F(Trail, IsAStraightLineInTheOpenAndEndsAtItsDistance) {
   std::vector<Point> trail{{3.0, 5.0}};
   walk(trail, {5.0, 6.0});
   walk(trail, {7.0, 5.0});
-  const TrailPath path = along({2.0, 5.0}, trail);
+  const planning::Path path = along({2.0, 5.0}, trail);
   ASSERT_EQ(path.points_map_m.size(), 2u);
   EXPECT_EQ(path.points_map_m.front(), Point(2.0, 5.0));
   EXPECT_LT((path.points_map_m.back() - Point(6.0, 5.0)).norm(), 1e-6);
@@ -47,7 +47,7 @@ TEST_F(Trail, LeadsRoundWhatThePersonWalkedRound) {
   walk(trail, {3.0, 3.2});
   walk(trail, {7.0, 3.2});
   walk(trail, {7.0, 6.0});
-  const TrailPath path = along({2.5, 6.5}, trail);
+  const planning::Path path = along({2.5, 6.5}, trail);
   EXPECT_NEAR((path.points_map_m.back() - trail.back()).norm(), 1.0, 1e-6);
   const planning::CostMap costs = planning::test::mapOf(grid_);
   for (std::size_t i = 1; i < path.points_map_m.size(); ++i)
@@ -59,7 +59,7 @@ TEST_F(Trail, PassesBesideAWallThatThePersonWalkedCloseTo) {
   wall({{0, 110}, {199, 199}});
   std::vector<Point> trail{{2.0, 5.25}};  // 0.25 m from the wall.
   walk(trail, {8.0, 5.25});
-  const TrailPath path = along({2.0, 5.0}, trail);
+  const planning::Path path = along({2.0, 5.0}, trail);
   ASSERT_GT(path.points_map_m.size(), 1u);
   EXPECT_GT(path.points_map_m.back().x(), 6.8);
   EXPECT_LT(path.points_map_m.back().y(), 5.5 - 0.37) << "the hull with its clearance";
@@ -69,7 +69,7 @@ TEST_F(Trail, LeadsAsFarAsItIsFree) {
   wall({{100, 0}, {102, 199}});
   std::vector<Point> trail{{3.0, 5.0}};
   walk(trail, {8.0, 5.0});
-  const TrailPath path = along({2.0, 5.0}, trail);
+  const planning::Path path = along({2.0, 5.0}, trail);
   EXPECT_GT(path.points_map_m.back().x(), 4.2);
   EXPECT_LT(path.points_map_m.back().x(), 5.0 - 0.34) << "the hull with its clearance, by the cell";
 }
@@ -80,7 +80,7 @@ TEST_F(Trail, IsToStayWhereThePersonIsNear) {
 
 TEST_F(Trail, LeavesTheZoneOfAWallFirst) {
   wall({{50, 0}, {55, 199}});
-  const TrailPath path = along({3.0, 5.0}, {{5.0, 5.0}, {6.5, 5.0}});
+  const planning::Path path = along({3.0, 5.0}, {{5.0, 5.0}, {6.5, 5.0}});
   ASSERT_GT(path.points_map_m.size(), 2u) << "cell by cell, as the planners do";
   EXPECT_NEAR(path.points_map_m.back().x(), 5.5, 0.1);
 }
