@@ -62,7 +62,7 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.candidates = estimate.candidates;
   if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
     events_.push_back({now, common::Severity::kWarning, "localization", "this is not the map of this place",
-                       "many of its places explain a part of what is seen, and none of them stands out"});
+                       "many of its places fit a part of what is seen, and none of them fits all of it"});
   if (!estimate.event) return;
   const bool lost = estimate.event->state == LocalizationState::kLost;
   std::string text = toString(estimate.event->state);

@@ -216,7 +216,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
-  if (!was_localized) map_doubt.add(config, found.places, tracker.path_length_m());
+  if (!was_localized) map_doubt.add(config, found.places, found.task->path_length_m);
   if (found.places.empty() && !found.complete) {
     places = 0;
     fits_nowhere = false;
