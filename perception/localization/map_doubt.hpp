@@ -7,25 +7,27 @@
 #include <optional>
 #include <vector>
 
+#include "common/time.hpp"
 #include "perception/localization/localizer_config.hpp"
 #include "perception/localization/place_posterior.hpp"
 
 namespace swiftlet::perception {
 
 /// Page's cumulative sum test (1954), as LostTest is, over metres of path: the path to each search counts against the
-/// map if no place fits, and for it if one is convincing. A vehicle that hovers learns nothing, so nothing is counted;
-/// rooms that look alike fit equally well, which counts neither way. For a vehicle that has not been localized yet.
+/// map if no place fits, and for it if one is convincing. Rooms that look alike fit equally well, which counts neither
+/// way. A vehicle that hovers asks for no search, so nothing is counted. For a vehicle that has not been localized yet.
 class MapDoubt {
  public:
-  /// The places that a search at `path_length_m` found, the likeliest first.
-  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, double path_length_m) {
-    // Far apart, when searches have become rare, a single one must not decide.
-    constexpr double kMost_m = 1.0;
-    const double step_m = std::clamp(path_length_m - path_length_m_.value_or(path_length_m), 0.0, kMost_m);
-    path_length_m_ = path_length_m;
-    if (!places.empty() && places.front().probability >= config.convincing_probability)
+  /// The places that a search found, the likeliest first, at that path length and time.
+  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, double path_length_m,
+           common::Time now) {
+    const double step_m = stepTo(path_length_m, now);
+    // If nothing comes near, that says more than a place that almost fits.
+    if (places.empty())
+      against_m_ += 2.0 * step_m;
+    else if (places.front().probability >= config.convincing_probability)
       against_m_ -= step_m;
-    else if (places.empty() || places.front().fit < config.fitting)
+    else if (places.front().fit < config.fitting)
       against_m_ += step_m;
     against_m_ = std::clamp(against_m_, 0.0, config.refuted_after_m);
     refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
@@ -35,8 +37,24 @@ class MapDoubt {
   bool refuted() const { return refuted_; }
 
  private:
-  double against_m_ = 0.0;               ///< Path over which no place fitted, in excess of that over which one did.
-  std::optional<double> path_length_m_;  ///< At the last search.
+  struct Search {
+    double path_length_m = 0.0;
+    common::Time at;
+  };
+
+  /// The path since the last search. It counts for more if the vehicle was slow, in narrow rooms for example, because
+  /// it looked around meanwhile: so the time is bounded, too. When searches have become rare, a single one must not
+  /// decide.
+  double stepTo(double path_length_m, common::Time now) {
+    constexpr double kLeast_m_s = 0.25, kMost_m = 1.0;
+    const Search before = last_.value_or(Search{path_length_m, now});
+    last_ = Search{path_length_m, now};
+    const double slow_m = kLeast_m_s * (now - before.at).seconds();
+    return std::clamp(std::max(path_length_m - before.path_length_m, slow_m), 0.0, kMost_m);
+  }
+
+  double against_m_ = 0.0;  ///< Path over which no place fitted, in excess of that over which one did.
+  std::optional<Search> last_;
   bool refuted_ = false;
 };
 

@@ -9,14 +9,17 @@ namespace {
 class MapDoubtStory : public testing::Test {
  protected:
   /// A search `step_m` farther along the path, and the best of the places it found.
-  void search(double step_m, double fit, double probability) {
+  void search(double step_m, double fit, double probability) { search(step_m, {{{}, fit, 0.0, probability, 0.0}}); }
+  void search(double step_m, const std::vector<LikelyPlace>& places) {
     path_length_m_ += step_m;
-    doubt_.add(config_, {{{}, fit, 0.0, probability, 0.0}}, path_length_m_);
+    now_ += common::Duration::fromSeconds(step_m / speed_m_s_);
+    doubt_.add(config_, places, path_length_m_, now_);
   }
 
   LocalizerConfig config_;
   MapDoubt doubt_;
-  double path_length_m_ = 0.0;
+  double path_length_m_ = 0.0, speed_m_s_ = 0.7;
+  common::Time now_;
 };
 
 TEST_F(MapDoubtStory, NoPlaceFitsForThreeMetres) {
@@ -27,8 +30,20 @@ TEST_F(MapDoubtStory, NoPlaceFitsForThreeMetres) {
   EXPECT_TRUE(doubt_.refuted());
 }
 
-TEST_F(MapDoubtStory, ASearchWithoutAnyPlaceCountsAsOneWhereNoneFits) {
-  for (int i = 0; i < 7; ++i) doubt_.add(config_, {}, 0.5 * i);
+TEST_F(MapDoubtStory, NothingThatComesNearCountsTwice) {
+  search(0.0, {});
+  for (int i = 0; i < 2; ++i) search(0.5, {});
+  EXPECT_FALSE(doubt_.refuted());
+  search(0.5, {});
+  EXPECT_TRUE(doubt_.refuted());
+}
+
+TEST_F(MapDoubtStory, ASlowVehicleNeeds12Seconds) {
+  speed_m_s_ = 0.1;
+  search(0.0, 0.6, 0.3);
+  for (int i = 0; i < 3; ++i) search(0.35, 0.65, 0.6);
+  EXPECT_FALSE(doubt_.refuted());
+  search(0.2, 0.65, 0.6);
   EXPECT_TRUE(doubt_.refuted());
 }
 
@@ -51,8 +66,10 @@ TEST_F(MapDoubtStory, ItIsBelievedAgainWhenAsMuchSpeaksForIt) {
   EXPECT_FALSE(doubt_.refuted()) << "three metres, however long it did not fit before";
 }
 
-TEST_F(MapDoubtStory, AVehicleThatHoversLearnsNothing) {
-  for (int i = 0; i < 1000; ++i) search(0.0, 0.6, 0.3);
+TEST_F(MapDoubtStory, ALongHoverDoesNotDecide) {
+  search(0.0, 0.6, 0.3);
+  now_ += common::Duration::fromSeconds(600);
+  search(0.4, 0.6, 0.3);
   EXPECT_FALSE(doubt_.refuted());
 }
 
