@@ -120,7 +120,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
   outcome.drift_m = drift_m_ = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
-  if (outcome.matched) map_.seeLeftPlaces(outcome.scan, outcome.T_map_body);
+  if (outcome.matched) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
   reportHealth(now);
   return outcome;
 }
