@@ -228,7 +228,7 @@ std::optional<common::Localization> Estimator::localization() const {
   return localizer_ ? std::optional(localizer_->localization()) : std::nullopt;
 }
 
-std::vector<common::Event> Estimator::takeEvents() {
+std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names) {
   std::vector<common::Event> events = map_.takeEvents();
   for (common::Event& event : std::exchange(events_, {})) events.push_back(std::move(event));
   if (localizer_)
@@ -238,7 +238,7 @@ std::vector<common::Event> Estimator::takeEvents() {
   if (vertical_laser_)
     for (common::Event& event : vertical_laser_->takeEvents()) events.push_back(std::move(event));
   if (targets_)
-    for (common::Event& event : targets_->takeEvents()) events.push_back(std::move(event));
+    for (common::Event& event : targets_->takeEvents(names)) events.push_back(std::move(event));
   return events;
 }
 
