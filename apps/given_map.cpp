@@ -43,13 +43,12 @@ interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
   interfaces::StoredMap stored = interfaces::readMap(yaml_file);
   if (const double resolution_m = stored.grid.resolution_m(); resolution_m > kCoarsest_m)
     throw common::InputError(
-        common::Problem{{yaml_file.string()},
-                        "resolution",
+        common::Problem{stored.resolution_location, "resolution",
                         fmt::format("{} m a cell is too coarse: doors close in it", resolution_m),
                         fmt::format("give a map of at most {} m a cell; 0.05 m is usual", kCoarsest_m)});
   if (const std::string why = perception::Localizer::whyUnusable(stored.grid); !why.empty())
     throw common::InputError(
-        common::Problem{{yaml_file.string()}, "", why, "are `negate` and the thresholds those of the picture?"});
+        common::Problem{stored.image_location, "image", why, "are `negate` and the thresholds those of the picture?"});
   return stored;
 }
 

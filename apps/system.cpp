@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
@@ -16,11 +18,28 @@
 namespace swiftlet::apps {
 namespace {
 
+/// "config/sensors has sick_lms_291, urg_04lx", of the shipped files; empty if there are too many to read.
+std::string namesIn(const std::string& folder) {
+  constexpr std::size_t kMost = 12;
+  std::set<std::string> names;
+  std::error_code error;
+  for (const std::filesystem::path& data : common::dataFolders())
+    for (const auto& entry : std::filesystem::directory_iterator(data / "config" / folder, error))
+      if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
+  return names.empty() || names.size() > kMost ? "" : fmt::format("config/{} has {}", folder, fmt::join(names, ", "));
+}
+
 /// "utm_30lx" -> config/sensors/utm_30lx.yaml; anything with a dot or a slash is a file.
 std::string fileFor(const std::string& name, const std::string& folder) {
   if (name.find('/') != std::string::npos || name.find('.') != std::string::npos)
     return common::findData(name).string();
-  return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
+  try {
+    return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
+  } catch (const common::InputError& e) {
+    common::Problem problem = e.problems().front();
+    if (const std::string names = namesIn(folder); !names.empty()) problem.hint = names;
+    throw common::InputError(problem);
+  }
 }
 
 /// What a profile names by `key`: a file of the user is searched for beside the profile first.
@@ -62,6 +81,9 @@ common::config::YamlReader readProfile(const std::string& file, SystemConfig& co
     (void)readProfile(base_file, config, std::move(chain));
   }
   reader.read(config);
+  if (reader.writtenKeys().empty())
+    throw common::InputError(
+        common::Problem{{file}, "", "names no setting, so it is no profile", "the least one is `based_on: swiftlet`"});
   config.based_on.clear();
   return reader;
 }

@@ -182,7 +182,7 @@ bool Autonomy::finished() const {
 std::vector<common::Event> Autonomy::takeEvents() {
   collect(inertial_.takeEvents());
   collect(scan_watch_.takeEvents());
-  collect(estimator_.takeEvents());
+  collect(estimator_.takeEvents(common::PlaceNames::in(given_map_.T_map_given())));
   collect(given_map_.takeEvents());
   collect(supervisor_.takeEvents());
   collect(requests_.takeEvents());
@@ -246,10 +246,11 @@ void Autonomy::tickBehaviors(Time now) {
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
   camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), estimator_.state().T_odom_body.position_m.z());
-  executor_.tick(intent_, {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
-                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
-                           drift_m_, supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(),
-                           &estimator_.people().seen(), requests_.keepOut().zones()});
+  executor_.tick(intent_,
+                 {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
+                  estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
+                  supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(), &estimator_.people().seen(),
+                  requests_.keepOut().zones(), common::PlaceNames::in(given_map_.T_map_given())});
   const bool knows_walls = drift_m_ < config_.supervisor.drift_back_m;
   controller_.setEscape(knows_walls ? executor_.escape_map_m(estimator_.state())
                                     : Eigen::Vector2d(Eigen::Vector2d::Zero()));

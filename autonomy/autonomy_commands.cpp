@@ -25,7 +25,7 @@ void Autonomy::take(const common::OperatorCommand& asked, Time now) {
   if (auto result = supervisor_.take(command, now)) {
     const auto next = missions_.mission().waitingCommand();
     if (result->accepted && next && std::holds_alternative<common::ResumeCommand>(command.kind))
-      result->reason = "next: " + toString(*next);
+      result->reason = "next: " + toString(*next, world_->map->names());
     return answer(command, std::move(*result), now);
   }
   if (auto result = requests_.take(command, *world_)) return answer(command, std::move(*result), now);
@@ -73,7 +73,8 @@ common::CommandResult Autonomy::switchController(std::uint64_t id, const common:
 /// Every command leaves an event, whether it was accepted or refused.
 void Autonomy::answer(const common::OperatorCommand& command, common::CommandResult result, Time now) {
   events_.push_back({now, result.accepted ? common::Severity::kInfo : common::Severity::kWarning, "operator",
-                     toString(command) + (result.accepted ? " accepted" : " refused"), result.reason});
+                     toString(command, world_->map->names()) + (result.accepted ? " accepted" : " refused"),
+                     result.reason});
   results_.push_back(std::move(result));
 }
 

@@ -56,7 +56,7 @@ void Autonomy::takeSnapshot(Time now) {
 void Autonomy::showWaiting(common::MissionLayer& layer) const {
   const auto command = missions_.mission().waitingCommand();
   if (mission_status_.state != MissionState::kHeld || !command) return;
-  layer.waiting = toString(*command);
+  layer.waiting = toString(*command, world_->map->names());
   if (layer.goal_map_m) return;
   const auto* goal = std::get_if<common::GoalCommand>(&command->kind);
   layer.goal_map_m = goal != nullptr ? goal->goal_map_m : world_->vehicle->home_map.position_m();

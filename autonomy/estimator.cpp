@@ -120,7 +120,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
   outcome.drift_m = drift_m_ = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
-  if (outcome.matched) map_.seeLeftPlaces(outcome.scan, outcome.T_map_body);
+  if (outcome.matched) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
   reportHealth(now);
   return outcome;
 }
@@ -228,7 +228,7 @@ std::optional<common::Localization> Estimator::localization() const {
   return localizer_ ? std::optional(localizer_->localization()) : std::nullopt;
 }
 
-std::vector<common::Event> Estimator::takeEvents() {
+std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names) {
   std::vector<common::Event> events = map_.takeEvents();
   for (common::Event& event : std::exchange(events_, {})) events.push_back(std::move(event));
   if (localizer_)
@@ -238,7 +238,7 @@ std::vector<common::Event> Estimator::takeEvents() {
   if (vertical_laser_)
     for (common::Event& event : vertical_laser_->takeEvents()) events.push_back(std::move(event));
   if (targets_)
-    for (common::Event& event : targets_->takeEvents()) events.push_back(std::move(event));
+    for (common::Event& event : targets_->takeEvents(names)) events.push_back(std::move(event));
   return events;
 }
 

@@ -133,7 +133,7 @@ class Estimator {
   /// None if no map was given.
   std::optional<common::Localization> localization() const;
 
-  std::vector<common::Event> takeEvents();
+  std::vector<common::Event> takeEvents(const common::PlaceNames& names = {});
 
  private:
   void initialize(const common::LaserScan& scan);

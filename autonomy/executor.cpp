@@ -45,6 +45,7 @@ Executor::~Executor() = default;
 void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   now_ = input.now;
   state_ = input.state;
+  names_ = input.names;
   if (input.anybody_walks) memory_.exploration.people_seen = now_;
   if (intent.id != intent_.id) begin(intent);
   if (maneuver_) note(maneuver_->step(input));
@@ -55,7 +56,7 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
 void Executor::begin(const common::Intent& intent) {
   maneuver_.reset();
   intent_ = intent;
-  status_ = {intent.id, IntentState::kRunning, toString(intent), false};
+  status_ = {intent.id, IntentState::kRunning, toString(intent, names_), false};
   if (controller_.state() == common::FlightState::kFlying && !retreat_.active()) controller_.hold();
   controller_.lookAt(std::nullopt);
   maneuver_ = makeManeuver(intent.kind,
@@ -72,7 +73,7 @@ void Executor::note(const Progress& progress) {
   maneuver_.reset();
   const bool failed = progress.state == IntentState::kFailed;
   memory_.say(now_, failed ? common::Severity::kWarning : common::Severity::kInfo,
-              toString(intent_) + (failed ? ": failed" : ": done"), progress.reason);
+              toString(intent_, names_) + (failed ? ": failed" : ": done"), progress.reason);
   if (failed && controller_.state() == common::FlightState::kFlying) controller_.hold();
 }
 

@@ -75,6 +75,7 @@ class Executor {
   std::unique_ptr<Maneuver> maneuver_;  ///< The maneuver of the intent; null if the intent has ended.
   common::Time now_;
   common::VehicleState state_;  ///< The newest state.
+  common::PlaceNames names_;    ///< Of the newest tick.
 };
 
 }  // namespace swiftlet::autonomy

@@ -70,9 +70,10 @@ void FlightRequests::addFrame(const std::shared_ptr<const common::RgbdFrame>& fr
 /// Why it is refused; empty if it holds now.
 std::string FlightRequests::addZone(const common::Polygon& zone, KeepOutZones::Owner owner,
                                     const common::World& world) {
-  std::string refusal = keep_out_.add(zone, owner, world.vehicle->home_map.position_m());
+  const common::PlaceNames names = world.map->names();
+  std::string refusal = keep_out_.add(zone, owner, world.vehicle->home_map.position_m(), names);
   if (refusal.empty())
-    say(world.stamp, "keep-out zone with " + toString(zone),
+    say(world.stamp, "keep-out zone with " + toString(zone, names),
         owner == KeepOutZones::Owner::kMission ? "of the mission" : "of the operator");
   return refusal;
 }

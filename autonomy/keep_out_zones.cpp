@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace swiftlet::autonomy {
 namespace {
 
@@ -13,11 +11,11 @@ constexpr double kSpacing_m = 0.05;
 
 }  // namespace
 
-std::string KeepOutZones::add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m) {
+std::string KeepOutZones::add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m,
+                              const common::PlaceNames& names) {
   if (std::string problem = problemOf(zone); !problem.empty()) return problem;
   if (zone.signedDistance_m(home_map_m) < hull_radius_m_)
-    return fmt::format("the take-off place ({:.2f}, {:.2f}) would be in it, expected one that leaves the way home free",
-                       home_map_m.x(), home_map_m.y());
+    return "the take-off place " + names.of(home_map_m) + " would be in it, expected one that leaves the way home free";
   std::vector<common::Polygon>& own = owner == Owner::kMission ? missions_ : operators_;
   if (std::find(own.begin(), own.end(), zone) != own.end()) return {};
   own.push_back(zone);

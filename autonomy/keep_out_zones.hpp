@@ -20,7 +20,8 @@ class KeepOutZones {
 
   enum class Owner { kMission, kOperator };
   /// Why there is no such zone: it is no polygon, or the hull would reach into it at home. Empty if it holds now.
-  std::string add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m);
+  std::string add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m,
+                  const common::PlaceNames& names = {});
   /// The number of the operator's zones, which are gone now.
   std::size_t clearOperators();
 

@@ -26,6 +26,7 @@ void PlanningDesk::ask(const ManeuverInput& input, const PlanningClient& client,
   request.discs = input.discs;
   request.keep_out = input.keep_out;
   request.footprint = {hull_radius_m_, client.clearance_m};
+  request.names = input.names;
   request.T_map_body = input.state.T_map_body_planar();
   request.question = std::move(question);
   last_request_ = input.now;

@@ -24,6 +24,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   layers.levels = request.levels.get();
   if (request.keep_out) layers.keep_out = *request.keep_out;
   map_.update(*request.grid, request.footprint, layers);
+  map_.name(request.names);
 
   PlanningAnswer answer;
   answer.intent_id = request.intent_id;
@@ -92,8 +93,8 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::plan(const E
 tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const GoalRequest& goal,
                                                                          const Eigen::Vector2d& position_map_m) {
   const planning::CostGoalMap goals(map_);
-  const auto place =
-      common::judgeGoal({goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m}, {}, &goals);
+  const auto place = common::judgeGoal(
+      {goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m, 0.0, map_.names()}, {}, &goals);
   if (!place) return tl::make_unexpected(planning::failureOf(place.error()));
   return plan(position_map_m, *place);
 }

@@ -13,6 +13,7 @@
 #include "autonomy/executor_config.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
 #include "common/polygon.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
@@ -50,6 +51,7 @@ struct PlanningRequest {
   std::vector<common::Disc> discs;
   std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null: none.
   planning::Footprint footprint;
+  common::PlaceNames names;  ///< For the texts of the answer.
   common::Pose2 T_map_body;
   PlanningQuestion question;
 };

@@ -6,7 +6,6 @@
 #include "behaviors/flight_tick.hpp"
 #include "behaviors/live_tree.hpp"
 #include "behaviors/mission_check.hpp"
-#include "behaviors/named_places.hpp"
 #include "behaviors/narrator.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/registry.hpp"
@@ -181,11 +180,9 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
 /// Why the goal is refused; empty if at least one of the nodes that may take it can fly to it with its tolerance and
 /// clearance.
 std::string Mission::Impl::refusalOfGoal(const Context& context, const common::GoalCommand& command) const {
-  const auto places = NamedPlaces::in(*context.world);
   std::string first;
   for (const OperatorCommand* taker : takers) {
-    common::Goal goal = common::tappedGoalOf(taker->goalTo(command));
-    if (command.goal_given_m && places) goal.T_given_map = places->T_map_named().inverse();
+    const common::Goal goal = common::tappedGoalOf(taker->goalTo(command), context.world->map->names());
     const auto verdict = common::judgeGoal(goal, context.goal_limits, context.goal_map.get());
     if (verdict) return {};
     if (first.empty()) first = verdict.error().text;
@@ -207,7 +204,9 @@ TickResult Mission::Impl::resultOf(const Context& context, Status status) {
     case Status::kSuspended:
       break;
   }
-  TickResult running{MissionState::kRunning, context.intent ? toString(*context.intent) : "nothing to do", {}};
+  TickResult running{MissionState::kRunning,
+                     context.intent ? toString(*context.intent, context.world->map->names()) : "nothing to do",
+                     {}};
   if (holds(context)) {
     running.state = MissionState::kHeld;
     running.reason = context.hold_reason;

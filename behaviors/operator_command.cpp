@@ -10,6 +10,13 @@
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+std::string nameOf(const common::OperatorCommand& command, const FlightTick& tick) {
+  return toString(command, tick.flight.world->map->names());
+}
+
+}  // namespace
 
 tree::NodeManifest OperatorCommand::manifest() {
   return {.id = "OperatorCommand",
@@ -44,7 +51,8 @@ tree::Status OperatorCommand::act(tree::TickContext& context) {
 void OperatorCommand::take(FlightTick& tick) {
   if (!tick.pending_command) return;
   const common::OperatorCommand next = *std::exchange(tick.pending_command, std::nullopt);
-  if (command_) tick.say(common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
+  if (command_)
+    tick.say(common::Severity::kInfo, nameOf(*command_, tick) + " given up", "replaced by " + nameOf(next, tick));
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? *point : common::GoalCommand{tick.flight.world->vehicle->home_map.position_m()});
@@ -59,8 +67,8 @@ void OperatorCommand::shift(FlightTick& tick) {
       common::judgeGoal(common::tappedGoalOf(*goal_), tick.flight.goal_limits, tick.flight.goal_map.get());
   const double off_m = place ? (*place - goal_->goal_map_m).norm() : 0.0;
   if (off_m <= goal_->tolerance_m) return;
-  tick.say(common::Severity::kInfo, toString(*command_) + fmt::format(" shifted by {:.2f} m", off_m),
-           fmt::format("to ({:.2f}, {:.2f}), the nearest free place", place->x(), place->y()));
+  tick.say(common::Severity::kInfo, nameOf(*command_, tick) + fmt::format(" shifted by {:.2f} m", off_m),
+           "to " + tick.flight.world->map->names().of(*place) + ", the nearest free place");
   goal_->goal_map_m = *place;
 }
 
@@ -72,7 +80,7 @@ void OperatorCommand::followGivenMap(FlightTick& tick) {
     goal_->goal_map_m = places->inMap_m(*goal_->goal_given_m);
     return;
   }
-  tick.say(common::Severity::kWarning, toString(*command_) + " given up", places.error());
+  tick.say(common::Severity::kWarning, nameOf(*command_, tick) + " given up", places.error());
   command_.reset();
   goal_.reset();
 }
@@ -84,10 +92,10 @@ void OperatorCommand::finish(FlightTick& tick) {
     case common::IntentState::kRunning:
       return;
     case common::IntentState::kSucceeded:
-      tick.say(common::Severity::kInfo, toString(*command_) + " reached", {});
+      tick.say(common::Severity::kInfo, nameOf(*command_, tick) + " reached", {});
       break;
     case common::IntentState::kFailed:
-      tick.say(common::Severity::kWarning, toString(*command_) + " not reached", tick.flight.status.reason);
+      tick.say(common::Severity::kWarning, nameOf(*command_, tick) + " not reached", tick.flight.status.reason);
       break;
   }
   command_.reset();

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "common/given_map.hpp"
+#include "common/place_names.hpp"
 #include "common/polygon.hpp"
 
 namespace swiftlet::common {
@@ -64,6 +65,7 @@ struct CommandResult {
   std::string reason;  ///< Why it was refused; of an accepted one what comes before it or next, if anything does.
 };
 
-std::string toString(const OperatorCommand& command);
+/// For events and the page.
+std::string toString(const OperatorCommand& command, const PlaceNames& names = {});
 
 }  // namespace swiftlet::common

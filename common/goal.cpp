@@ -17,38 +17,30 @@ using Reason = GoalRefusal::Reason;
 constexpr double kShareOfTolerance = 0.8;
 constexpr double kReach_m = 3.0;  ///< A free place farther away is another goal, not the next best.
 
-/// A place of `map` for people, in the frame that the goal's texts use.
-std::string inWords(const Eigen::Vector2d& place_map_m, const Goal& goal) {
-  const Eigen::Vector2d named_m = goal.T_given_map ? *goal.T_given_map * place_map_m : place_map_m;
-  return fmt::format("({:.2f}, {:.2f})", named_m.x(), named_m.y());
-}
-
 GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eigen::Vector2d>& nearest) {
-  const std::string place = "goal " + inWords(goal.place_map_m, goal) + (goal.T_given_map ? " in the given map" : "");
+  const std::string place = "goal " + goal.names.of(goal.place_map_m);
+  const std::string instead =
+      nearest ? ", the nearest free place is " + goal.names.coordinatesOf(*nearest) : std::string();
   if (state == PlaceState::kOutsideMap) return {Reason::kOutsideMap, place + " is outside the map", nearest};
-  if (state == PlaceState::kKeptOut) {
-    const std::string instead = nearest ? ", the nearest free place is " + inWords(*nearest, goal) : std::string();
+  if (state == PlaceState::kKeptOut)
     return {Reason::kKeptOut, fmt::format("{} is in a keep-out zone{}", place, instead), nearest};
-  }
   const auto [reason, why] = state == PlaceState::kObstacle ? std::pair(Reason::kObstacle, "is in an obstacle")
                              : state == PlaceState::kUnseen
                                  ? std::pair(Reason::kUnseen, "is in space never seen")
                                  : std::pair(Reason::kTooClose, "is too close to an obstacle or to unknown space");
-  return {reason,
-          fmt::format("{} {} at clearance {:.2f} m{}", place, why, goal.clearance_m,
-                      nearest ? ", the nearest free place is " + inWords(*nearest, goal) : std::string()),
-          nearest};
+  return {reason, fmt::format("{} {} at clearance {:.2f} m{}", place, why, goal.clearance_m, instead), nearest};
 }
 
 }  // namespace
 
 Goal goalOf(const GoToIntent& intent) {
-  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m, 0.0, std::nullopt};
+  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m, 0.0, {}};
 }
 
-Goal tappedGoalOf(const GoToIntent& intent) {
+Goal tappedGoalOf(const GoToIntent& intent, const PlaceNames& names) {
   constexpr double kFingertip_m = 0.25;
   Goal goal = goalOf(intent);
+  goal.names = names;
   // A place in the given map moves with the localization and stays as it is.
   if (!intent.goal_given_m) goal.shift_m = kFingertip_m;
   return goal;

@@ -22,6 +22,7 @@
 
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
+#include "common/place_names.hpp"
 
 namespace swiftlet::common {
 
@@ -35,13 +36,12 @@ struct Goal {
   double clearance_m = 0.0;  ///< Between hull and obstacle.
   /// How far from it a free place will do as well, even beyond the tolerance: a finger on a map is not exact.
   double shift_m = 0.0;
-  /// For texts, which then name places in the given map; none: in `map`.
-  std::optional<Pose2> T_given_map = std::nullopt;
+  PlaceNames names = {};  ///< For the text of a refusal.
 };
 Goal goalOf(const GoToIntent& intent);
 /// A place that an operator tapped on: it may be shifted by a quarter of a metre, as wide as a fingertip on a tablet
 /// that shows a floor of 10 m.
-Goal tappedGoalOf(const GoToIntent& intent);
+Goal tappedGoalOf(const GoToIntent& intent, const PlaceNames& names = {});
 
 /// Above the take-off floor.
 struct GoalLimits {

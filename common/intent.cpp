@@ -6,17 +6,17 @@ namespace swiftlet::common {
 namespace {
 
 struct Describe {
+  const PlaceNames& names;
+
   std::string operator()(const HoldIntent&) const { return "hold"; }
   std::string operator()(const TakeOffIntent& i) const { return fmt::format("take off to {:.2f} m", i.height_m); }
   std::string operator()(const LandIntent&) const { return "land"; }
   std::string operator()(const ExploreIntent&) const { return "explore"; }
-  std::string operator()(const GoToIntent& i) const { return "go to " + placeOf(i); }
+  std::string operator()(const GoToIntent& i) const { return "go to " + placeOf(i, names); }
   std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
   std::string operator()(const EmergencyLandIntent&) const { return "emergency landing"; }
-  std::string operator()(const SurveyIntent& i) const { return "survey an area with " + toString(i.area); }
-  std::string operator()(const InspectIntent& i) const {
-    return fmt::format("inspect ({:.2f}, {:.2f})", i.point_map_m.x(), i.point_map_m.y());
-  }
+  std::string operator()(const SurveyIntent& i) const { return "survey an area with " + toString(i.area, names); }
+  std::string operator()(const InspectIntent& i) const { return "inspect " + names.of(i.point_map_m); }
   std::string operator()(const FollowIntent& i) const {
     return i.until_near ? "return to the person" : "follow a person";
   }
@@ -25,11 +25,10 @@ struct Describe {
 
 }  // namespace
 
-std::string placeOf(const GoToIntent& goal) {
-  const Eigen::Vector2d& named_m = goal.goal_given_m ? *goal.goal_given_m : goal.goal_map_m;
-  return fmt::format("({:.2f}, {:.2f}){}", named_m.x(), named_m.y(), goal.goal_given_m ? " in the given map" : "");
+std::string placeOf(const GoToIntent& goal, const PlaceNames& names) {
+  return goal.goal_given_m ? nameOfGivenPlace(*goal.goal_given_m) : names.of(goal.goal_map_m);
 }
 
-std::string toString(const Intent& intent) { return std::visit(Describe{}, intent.kind); }
+std::string toString(const Intent& intent, const PlaceNames& names) { return std::visit(Describe{names}, intent.kind); }
 
 }  // namespace swiftlet::common

@@ -12,6 +12,7 @@
 
 #include "common/flight_mode.hpp"
 #include "common/geometry.hpp"
+#include "common/place_names.hpp"
 #include "common/polygon.hpp"
 
 namespace swiftlet::common {
@@ -114,9 +115,9 @@ struct IntentStatus {
   bool operator==(const IntentStatus&) const = default;
 };
 
-/// Where the goal is, in the frame in which it was named: "(3.00, -1.50)", or "(3.00, -1.50) in the given map".
-std::string placeOf(const GoToIntent& goal);
+/// Where the goal is: exactly as it was named if that was in the given map.
+std::string placeOf(const GoToIntent& goal, const PlaceNames& names = {});
 /// "go to (3.00, -1.50)", for events and the page.
-std::string toString(const Intent& intent);
+std::string toString(const Intent& intent, const PlaceNames& names = {});
 
 }  // namespace swiftlet::common

@@ -92,11 +92,11 @@ std::string problemOf(const Polygon& polygon) {
   return {};
 }
 
-std::string toString(const Polygon& polygon) {
+std::string toString(const Polygon& polygon, const PlaceNames& names) {
   Point sum = Point::Zero();
   for (const Point& corner : polygon.corners_map_m) sum += corner;
   const Point middle = sum / static_cast<double>(std::max<std::size_t>(1, polygon.corners_map_m.size()));
-  return fmt::format("{} corners about ({:.2f}, {:.2f})", polygon.corners_map_m.size(), middle.x(), middle.y());
+  return fmt::format("{} corners about {}", polygon.corners_map_m.size(), names.of(middle));
 }
 
 }  // namespace swiftlet::common

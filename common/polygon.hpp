@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "common/place_names.hpp"
+
 namespace swiftlet::common {
 
 /// In the `map` frame, the corners in order, either way round. Valid if problemOf() finds nothing.
@@ -33,6 +35,6 @@ inline constexpr double kGreatestCoordinate_m = 1e5;
 /// Empty if it is sound.
 std::string problemOf(const Polygon& polygon);
 /// "4 corners about (1.00, 2.00)".
-std::string toString(const Polygon& polygon);
+std::string toString(const Polygon& polygon, const PlaceNames& names = {});
 
 }  // namespace swiftlet::common

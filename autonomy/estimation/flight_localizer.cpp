@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/place_names.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -62,13 +63,13 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.candidates = estimate.candidates;
   if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
     events_.push_back({now, common::Severity::kWarning, "localization", "this is not the map of this place",
-                       "many of its places explain a part of what is seen, and none of them stands out"});
+                       "many of its places fit a part of what is seen, and none of them fits all of it"});
   if (!estimate.event) return;
   const bool lost = estimate.event->state == LocalizationState::kLost;
   std::string text = toString(estimate.event->state);
   if (localization_.localized())
-    text += fmt::format(" at ({:.2f}, {:.2f}), heading {:.0f} deg in the given map", localization_.T_given_body.x_m,
-                        localization_.T_given_body.y_m, localization_.T_given_body.yaw_rad / common::kRadPerDeg);
+    text += fmt::format(" at {}, heading {:.0f} deg", common::nameOfGivenPlace(localization_.T_given_body.position_m()),
+                        localization_.T_given_body.yaw_rad / common::kRadPerDeg);
   events_.push_back({now, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization", std::move(text),
                      estimate.event->reason});
 }

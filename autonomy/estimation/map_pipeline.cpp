@@ -18,7 +18,7 @@ MapPipeline::MapPipeline(const perception::SlamMethodConfig& config, common::Dur
       slam_(makeSlam(config)),
       published_grid_(std::make_shared<common::OccupancyGrid>(slam_->snapshot())),
       published_keys_(std::make_shared<common::KeyPoses>()),
-      clears_left_places_(config.grid.glass_fade_scans == 1) {}
+      clears_vacated_places_(config.grid.glass_fade_scans == 1) {}
 
 MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
   covariance_since_map_ += mapped.step_covariance;

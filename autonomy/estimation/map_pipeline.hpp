@@ -53,8 +53,8 @@ class MapPipeline {
   MapStep add(const MappedScan& mapped, common::Time now);
 
   /// Clears places that something has left in grid(). Call it after add() with the same scan.
-  void seeLeftPlaces(const perception::ProjectedScan& scan, const common::Pose2& T_map_body) {
-    if (clears_left_places_ && vacated_.update(scan, T_map_body, *published_grid_)) ++grid_version_;
+  void updateVacatedPlaces(const perception::ProjectedScan& scan, const common::Pose2& T_map_body) {
+    if (clears_vacated_places_ && vacated_.update(scan, T_map_body, *published_grid_)) ++grid_version_;
   }
 
   /// It jumps when the method corrects the odometry: by millimetres at a match, by more at a loop closure.
@@ -84,7 +84,7 @@ class MapPipeline {
   std::shared_ptr<const common::OccupancyGrid> published_grid_;
   std::shared_ptr<const common::KeyPoses> published_keys_;
   VacatedPlaces vacated_;
-  bool clears_left_places_;  ///< Not where the map keeps glass, which beams pass after they ended on it.
+  bool clears_vacated_places_;  ///< Not where the map keeps glass, which beams pass after they ended on it.
   std::vector<common::Event> events_;
 };
 

@@ -19,7 +19,8 @@ struct RelativePoseMeasurement {
   std::optional<Eigen::Vector2d> unobservable_direction;  ///< Direction without information, in the frame at `from`.
 };
 
-/// The same in space, of a camera; see perception::ErrorStateFilter::addRelativePose3.
+/// What a camera measures: the pose in space relative to the filter's clone of its pose at `from`; see
+/// perception::ErrorStateFilter::addRelativePose3.
 struct SpatialPoseMeasurement {
   common::Time from;
   common::Time to;

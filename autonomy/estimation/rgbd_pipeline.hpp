@@ -37,9 +37,8 @@ struct BodyAtFrame {
 
 /// What the estimator knows at the time of a frame.
 struct FrameSituation {
-  /// Pose of the body; none if it is not known.
-  std::optional<common::KeyRelativePose> at_key;
-  std::optional<BodyAtFrame> body;  ///< The same.
+  std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body; none if it is not known.
+  std::optional<BodyAtFrame> body;                ///< Its motion; none if that is not known.
   /// Whether a measurement has just supported the position, so that it is a pose in the map and not only predicted.
   bool supported = false;
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
@@ -94,8 +93,8 @@ class RgbdPipeline {
   struct Outcome {
     std::shared_ptr<const common::RgbdFrame> frame;
     common::Time time;                              ///< That of its pose.
-    std::optional<common::KeyRelativePose> at_key;  ///< As in FrameSituation.
-    std::optional<BodyAtFrame> body;                ///< The same.
+    std::optional<common::KeyRelativePose> at_key;  ///< FrameSituation::at_key.
+    std::optional<BodyAtFrame> body;                ///< FrameSituation::body.
     std::shared_ptr<const common::KeyPoses> scans;
     mapping3d::MappedFrame mapped;
     std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.

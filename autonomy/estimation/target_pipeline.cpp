@@ -86,11 +86,17 @@ void TargetPipeline::take(const std::vector<perception::TargetSighting>& sightin
     if (target.state != common::TargetState::kFound) continue;
     if (std::find(found_.begin(), found_.end(), target.id) != found_.end()) continue;
     found_.push_back(target.id);
-    events_.push_back(
-        {delivered, common::Severity::kInfo, "targets", labelOf(target) + " found",
-         fmt::format("at ({:.2f}, {:.2f}, {:.2f}) +- {:.2f} m, seen from {} places", target.position_map_m.x(),
-                     target.position_map_m.y(), target.position_map_m.z(), target.sigma_m(), target.views)});
+    unsaid_.push_back({delivered, target});
   }
+}
+
+std::vector<common::Event> TargetPipeline::takeEvents(const common::PlaceNames& names) {
+  std::vector<common::Event> events;
+  for (const Found& found : std::exchange(unsaid_, {}))
+    events.push_back({found.at, common::Severity::kInfo, "targets", labelOf(found.target) + " found",
+                      fmt::format("at {} +- {:.2f} m, seen from {} places", names.of(found.target.position_map_m),
+                                  found.target.sigma_m(), found.target.views)});
+  return events;
 }
 
 }  // namespace swiftlet::autonomy

@@ -16,6 +16,7 @@
 #include "common/event.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
+#include "common/place_names.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "common/world/targets_layer.hpp"
@@ -54,7 +55,7 @@ class TargetPipeline {
   void look(const FrameSituation& situation, const common::CameraEstimate& camera, double drift_m, common::Time now);
 
   std::vector<common::Target> targets(const common::KeyPoses& keys) const { return tracker_.targets(keys); }
-  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
+  std::vector<common::Event> takeEvents(const common::PlaceNames& names);
 
  private:
   /// Where a frame was taken.
@@ -64,6 +65,10 @@ class TargetPipeline {
     double position_sigma_m = 0.0;
     double turn_rate_rad_s = 0.0;
     std::shared_ptr<const common::KeyPoses> keys;
+  };
+  struct Found {
+    common::Time at;
+    common::Target target;
   };
   void take(const std::vector<perception::TargetSighting>& sightings, const common::RgbdFrame& frame,
             const Place& place, common::Time delivered);
@@ -75,7 +80,7 @@ class TargetPipeline {
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_taken_;            ///< When the last frame that was looked at was measured.
   std::vector<int> found_;                            ///< The ids of those that were reported.
-  std::vector<common::Event> events_;
+  std::vector<Found> unsaid_;                         ///< For the next events.
 };
 
 }  // namespace swiftlet::autonomy

@@ -29,7 +29,7 @@ void sortOnce(Cells& cells) {
 
 }  // namespace
 
-bool VacatedPlaces::Met::left() const {
+bool VacatedPlaces::Met::vacated() const {
   return hits >= kHits && passed_since && passes >= kPasses && (passed_last - *passed_since).seconds() >= kPassed_s;
 }
 
@@ -41,8 +41,8 @@ bool VacatedPlaces::update(const perception::ProjectedScan& scan, const common::
   last_pose_ = T_map_body;
   forget(scan.stamp);
   const Beams beams = levelBeams(scan, T_map_body, grid, still);
-  const bool left = pass(beams, scan.stamp);
-  return meet(beams, scan.stamp) || left;
+  const bool vacated = pass(beams, scan.stamp);
+  return meet(beams, scan.stamp) || vacated;
 }
 
 void VacatedPlaces::forget(Time now) {
@@ -50,7 +50,7 @@ void VacatedPlaces::forget(Time now) {
   forgot_ = now;
   std::erase_if(met_, [&](const auto& entry) {
     const bool old = (now - entry.second.seen).seconds() > kForgotten_s;
-    if (old) left_.erase(entry.first);
+    if (old) vacated_.erase(entry.first);
     return old;
   });
 }
@@ -103,7 +103,7 @@ bool VacatedPlaces::pass(const Beams& beams, Time now) {
     if (found == met_.end()) continue;
     Met& met = found->second;
     if (endsNear(cell)) {
-      changed = left_.erase(cell) > 0 || changed;
+      changed = vacated_.erase(cell) > 0 || changed;
       met.passed_since.reset();
       met.passes = 0;
       continue;
@@ -111,7 +111,7 @@ bool VacatedPlaces::pass(const Beams& beams, Time now) {
     if (!met.passed_since) met.passed_since = now;
     ++met.passes;
     met.seen = met.passed_last = now;
-    if (met.left()) changed = left_.insert(cell).second || changed;
+    if (met.vacated()) changed = vacated_.insert(cell).second || changed;
   }
   return changed;
 }
@@ -126,7 +126,7 @@ bool VacatedPlaces::meet(const Beams& beams, Time now) {
         met.hits = std::min(met.hits + 1, kHits);
         met.seen = now;
         if (dx != 0 || dy != 0) continue;
-        changed = left_.erase(cell) > 0 || changed;
+        changed = vacated_.erase(cell) > 0 || changed;
         met.passed_since.reset();
         met.passes = 0;
       }
@@ -135,7 +135,7 @@ bool VacatedPlaces::meet(const Beams& beams, Time now) {
 }
 
 void VacatedPlaces::clear(common::OccupancyGrid& grid) const {
-  for (const auto& [x, y] : left_)
+  for (const auto& [x, y] : vacated_)
     if (common::occupancy::isOccupied(grid.at({x, y}))) grid.set({x, y}, 0);
 }
 

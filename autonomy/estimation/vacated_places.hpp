@@ -27,7 +27,7 @@ class VacatedPlaces {
   bool update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
               const common::OccupancyGrid& grid);
 
-  /// Makes the cells of left places free.
+  /// Makes the cells of vacated places free.
   void clear(common::OccupancyGrid& grid) const;
 
  private:
@@ -39,7 +39,7 @@ class VacatedPlaces {
     std::optional<common::Time> passed_since;  ///< From when on beams have passed it and none has ended near it.
     common::Time passed_last;
     int passes = 0;  ///< Scans since then.
-    bool left() const;
+    bool vacated() const;
   };
   struct CellHash {
     std::size_t operator()(const Cell& cell) const {
@@ -60,7 +60,7 @@ class VacatedPlaces {
   void forget(common::Time now);
 
   std::unordered_map<Cell, Met, CellHash> met_;
-  std::set<Cell> left_;  ///< Those of `met_` that something has left.
+  std::set<Cell> vacated_;  ///< Those of `met_` that something has left.
   std::optional<common::Time> last_, forgot_;
   common::Pose2 last_pose_;
 };

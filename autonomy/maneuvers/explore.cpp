@@ -134,10 +134,11 @@ std::optional<Eigen::Vector2d> Explore::blockedFrontier(const planning::Explorat
 
 Progress Explore::explored(const planning::ExplorationResult& result, Time now) {
   for (const common::Frontier& frontier : result.frontiers)
-    setup_.memory.say(now, common::Severity::kInfo,
-                      fmt::format("frontier of {:.2f} m at ({:.2f}, {:.2f}) left: {}", frontier.length_m,
-                                  frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), toString(frontier.reason)),
-                      frontier.explanation);
+    setup_.memory.say(
+        now, common::Severity::kInfo,
+        fmt::format("frontier of {:.2f} m at {} left: {}", frontier.length_m,
+                    setup_.desk.costMap()->names().of(frontier.centroid_map_m), toString(frontier.reason)),
+        frontier.explanation);
   setup_.memory.exploration.attempts.clear();
   return Progress::done(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason",
                                     result.explored_area_m2, result.frontiers.size()));

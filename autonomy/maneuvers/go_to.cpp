@@ -50,18 +50,18 @@ bool GoTo::looksAsAsked(const common::VehicleState& state) const {
   return std::abs(common::wrapAngle(state.T_map_body_planar().yaw_rad - *intent_.yaw_map_rad)) < kNear_rad;
 }
 
-std::string GoTo::reached() const {
+std::string GoTo::reached(const common::PlaceNames& names) const {
   const double off_m = (place_map_m_ - intent_.goal_map_m).norm();
   if (intent_.goal_given_m && off_m > 0.0)
     return fmt::format("reached a place {:.2f} m beside {}, which is not free", off_m, placeOf(intent_));
   if (intent_.goal_given_m) return "reached " + placeOf(intent_);
-  return fmt::format("reached ({:.2f}, {:.2f})", place_map_m_.x(), place_map_m_.y()) +
+  return "reached " + names.of(place_map_m_) +
          (off_m > 0.0 ? fmt::format(", {:.2f} m beside the goal, which is not free", off_m) : "");
 }
 
 Progress GoTo::fly(const ManeuverInput& input) {
   if (flight_.arrived(input, place_map_m_, intent_.tolerance_m) && looksAsAsked(input.state))
-    return Progress::done(reached());
+    return Progress::done(reached(input.names));
   if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());
   const bool replan = flight_.keep(input);
   if (no_path_) {
@@ -96,7 +96,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   const Eigen::Vector2d& end_map_m = (*answer.path)->points_map_m.back();
   place_map_m_ = (end_map_m - intent_.goal_map_m).norm() > intent_.tolerance_m ? end_map_m : intent_.goal_map_m;
   flight_.offer(**answer.path, now, state);
-  return Progress::running("flying to " + placeOf(intent_));
+  return Progress::running("flying to " + placeOf(intent_, answer.cost_map->names()));
 }
 
 Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {

@@ -23,7 +23,7 @@ class GoTo final : public PathManeuver {
     planning::PlanFailure failure;
   };
 
-  std::string reached() const;
+  std::string reached(const common::PlaceNames& names) const;
   bool looksAsAsked(const common::VehicleState& state) const;
   Progress fly(const ManeuverInput& input) override;
   void watchTheWay();

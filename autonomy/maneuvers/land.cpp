@@ -49,8 +49,7 @@ void Land::choose(const ManeuverInput& input) {
     return descend(input.now, fmt::format("no level place for the hull is known within {:.0f} m", needs.reach_m));
   const double distance_m = (*place_map_m_ - here_map_m).norm();
   if (distance_m > kTolerance_m)
-    setup_.memory.say(input.now, Severity::kInfo,
-                      fmt::format("landing at ({:.2f}, {:.2f})", place_map_m_->x(), place_map_m_->y()),
+    setup_.memory.say(input.now, Severity::kInfo, "landing at " + input.names.of(*place_map_m_),
                       fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
 }
 

@@ -9,6 +9,7 @@
 #include "common/dynamic_obstacle.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
 #include "common/polygon.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
@@ -33,6 +34,7 @@ struct ManeuverInput {
   std::vector<common::DynamicObstacle> people = {};  ///< What the map does not explain, as last seen.
   const perception::SeenPoints* seen = nullptr;      ///< By the newest scan; null before the first one.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
+  common::PlaceNames names = {};                                      ///< For texts.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
 };

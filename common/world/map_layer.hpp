@@ -9,6 +9,7 @@
 #include "common/level_map.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
 #include "common/polygon.hpp"
 #include "common/world/frontier.hpp"
 
@@ -27,6 +28,8 @@ struct MapLayer {
   std::shared_ptr<const std::vector<Polygon>> keep_out = std::make_shared<const std::vector<Polygon>>();
   std::shared_ptr<const OccupancyGrid> flown;  ///< What this flight has seen; without a given map the same as `grid`.
   std::shared_ptr<const GivenMap> given;       ///< Null: the flight was given no map.
+
+  PlaceNames names() const { return PlaceNames::in(T_map_given); }
 };
 
 }  // namespace swiftlet::common

@@ -140,7 +140,8 @@ class PgmHeader {
 
 /// The grid of the picture. Its cells are shifted by whole cells as far as the origin asks.
 StoredMap place(const GreyImage& image, const MapYaml& yaml) {
-  StoredMap map{common::makeOccupancyGrid(yaml.resolution_m), {yaml.origin[0], yaml.origin[1], yaml.origin[2]}};
+  StoredMap map{.grid = common::makeOccupancyGrid(yaml.resolution_m),
+                .T_map_grid = {yaml.origin[0], yaml.origin[1], yaml.origin[2]}};
   common::CellIndex corner;
   if (std::abs(map.T_map_grid.yaw_rad) < 1e-9) {
     corner = {static_cast<int>(std::lround(yaml.origin[0] / yaml.resolution_m)),
@@ -191,9 +192,19 @@ Written writeMap(const std::filesystem::path& folder, const std::string& name, c
 }
 
 StoredMap readMap(const std::filesystem::path& yaml_file) {
-  const auto yaml = common::config::readFile<MapYaml>(yaml_file.string());
+  auto reader = common::config::YamlReader::fromFile(yaml_file.string());
+  MapYaml yaml;
+  reader.read(yaml);
   const std::filesystem::path image_file = yaml_file.parent_path() / yaml.image;
-  return place(parsePgm(common::readBytes(image_file), image_file.string()), yaml);
+  std::error_code error;
+  if (!std::filesystem::exists(image_file, error))
+    throw InputError(Problem{reader.locationOf("image"), "image",
+                             fmt::format("`{}`: no such file", image_file.string()),
+                             "it is looked for beside the YAML"});
+  StoredMap map = place(parsePgm(common::readBytes(image_file), image_file.string()), yaml);
+  map.resolution_location = reader.locationOf("resolution");
+  map.image_location = reader.locationOf("image");
+  return map;
 }
 
 GreyImage parsePgm(std::string_view bytes, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/error.hpp"
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -32,6 +33,7 @@ std::string toMapYaml(const common::OccupancyGrid& grid, const std::string& imag
 struct StoredMap {
   common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
   common::Pose2 T_map_grid;
+  common::SourceLocation resolution_location = {}, image_location = {};  ///< Of these keys in the YAML, for messages.
 };
 
 /// Reads the YAML and the PGM that it names (relative to it); modes trinary, scale and raw, negate, P2 and P5 of up to

@@ -47,12 +47,12 @@ void GlobalSearchConfig::describe(common::config::Fields& fields) {
 GlobalSearch::GlobalSearch(std::shared_ptr<const MapField> map, const GlobalSearchConfig& config,
                            Instructions instructions)
     : map_(std::move(map)), config_(config), instructions_(instructions) {
-  buildLevels();
+  layOut();
+  buildFinestLevel();
+  buildCoarserLevels();
 }
 
-/// Builds the pyramid. A value of level k bounds the value of a point anywhere in its block when it is moved by 0 ..
-/// 2^k - 1 positions, as in LikelihoodField.
-void GlobalSearch::buildLevels() {
+void GlobalSearch::layOut() {
   cell_m_ = std::max(config_.cell_m, map_->resolution_m());
   const Eigen::Vector2d size_m = map_->high_m() - map_->low_m();
   reach_m_ = std::min(kMaxReach_m, size_m.norm() + cell_m_);
@@ -66,7 +66,9 @@ void GlobalSearch::buildLevels() {
   // Windows of sums are 16 blocks wide and may begin at the last block.
   width_ = columns_ + 2 * border_ + kWindowColumns * kBlock;
   height_ = rows_ + 2 * border_ + 2 * kBlock;
+}
 
+void GlobalSearch::buildFinestLevel() {
   const MapFieldConfig& field = map_->config();
   std::vector<std::uint8_t>& finest = fields_[0];
   finest.assign(indexOf(0, height_, width_) + kSearchOverread, 0);
@@ -83,6 +85,11 @@ void GlobalSearch::buildLevels() {
         free_[0][indexOf(column, row, columns_)] = place.free ? 1 : 0;
     }
   }
+}
+
+/// A value of level k bounds the value of a point anywhere in its block when it is moved by 0 .. 2^k - 1 positions, as
+/// in LikelihoodField.
+void GlobalSearch::buildCoarserLevels() {
   for (int k = 1; k < kLevels; ++k) {
     const std::vector<std::uint8_t>& fine = fields_[static_cast<std::size_t>(k - 1)];
     std::vector<std::uint8_t>& coarse = fields_[static_cast<std::size_t>(k)];

@@ -63,7 +63,9 @@ class GlobalSearch {
 
   class Descent;
 
-  void buildLevels();
+  void layOut();
+  void buildFinestLevel();
+  void buildCoarserLevels();
   bool isFree(int level, int x, int y) const;
 
   std::shared_ptr<const MapField> map_;

@@ -46,7 +46,7 @@ struct Localizer::Impl {
   void lookElsewhere(const LocalizationResult::Data& found);
   void lose(std::string reason);
   void find(const LocalizationInput& input);
-  void ask(const ProjectedScan& scan);
+  void requestSearch(const ProjectedScan& scan);
   void forgetSearches();
   void forgetAll();
   void apply(const LocalizationResult::Data& found);
@@ -56,6 +56,7 @@ struct Localizer::Impl {
   void localize(const LikelyPlace& place, const Pose2& T_odom_middle);
   void enter(LocalizationState next, std::string reason);
   LocalizationEstimate estimate();
+
   LocalizerConfig config;
   Pose2 T_map_grid;
   std::shared_ptr<const MapField> map;
@@ -85,14 +86,13 @@ struct Localizer::Impl {
   bool fits_nowhere = false;
   MapDoubt map_doubt;
 
-  // The requested search, and whether one is running.
-  struct Question {
+  struct SearchRequest {
     std::vector<Eigen::Vector2f> scan_body_m;
     Pose2 T_odom_scan;
     double path_length_m = 0.0;
   };
-  std::optional<Question> question;
-  bool searching = false;
+  std::optional<SearchRequest> request;
+  bool searching = false;   ///< The result of a search is pending.
   std::uint64_t epoch = 0;  ///< Results of a search from an earlier epoch are discarded.
 
   SkippedInputs skipped;
@@ -154,7 +154,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
   since_search_s += elapsed_s;
   if (since_search_s < config.distrust_search_s) return;
   since_search_s = 0.0;
-  ask(input.scan);
+  requestSearch(input.scan);
 }
 
 void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
@@ -175,7 +175,7 @@ void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
 void Localizer::Impl::lose(std::string reason) {
   enter(was_localized ? LocalizationState::kLost : LocalizationState::kGlobal, std::move(reason));
   candidate.reset();
-  question.reset();
+  request.reset();
   searched_path_length_m.reset();
   patience.begin(tracker.path_length_m());
   lost_test.reset();
@@ -191,15 +191,15 @@ void Localizer::Impl::find(const LocalizationInput& input) {
   const double here_m = tracker.path_length_m();
   if (searched_path_length_m && here_m - *searched_path_length_m < patience.spacing_m(here_m, config)) return;
   searched_path_length_m = here_m;
-  ask(input.scan);
+  requestSearch(input.scan);
 }
 
-void Localizer::Impl::ask(const ProjectedScan& scan) {
-  question = Question{scan.points_level_m, tracker.T_odom_body(), tracker.path_length_m()};
+void Localizer::Impl::requestSearch(const ProjectedScan& scan) {
+  request = SearchRequest{scan.points_level_m, tracker.T_odom_body(), tracker.path_length_m()};
 }
 
 void Localizer::Impl::forgetSearches() {
-  question.reset();
+  request.reset();
   ++epoch;
 }
 
@@ -216,7 +216,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
-  if (!was_localized) map_doubt.add(config, found.places, tracker.path_length_m());
+  if (!was_localized) map_doubt.add(config, found.places, found.task->path_length_m, now);
   if (found.places.empty() && !found.complete) {
     places = 0;
     fits_nowhere = false;
@@ -370,18 +370,18 @@ LocalizationEstimate Localizer::follow(const LocalizationInput& given) {
 
 std::optional<LocalizationTask> Localizer::takeTask() {
   Impl& self = *impl_;
-  if (self.searching || !self.question || self.local_map.empty()) return std::nullopt;
+  if (self.searching || !self.request || self.local_map.empty()) return std::nullopt;
   auto data = std::make_shared<LocalizationTask::Data>();
   data->epoch = self.epoch;
   data->doubted = self.state == LocalizationState::kLocalized;
   data->local_map = self.local_map;
-  data->scan_body_m = std::move(self.question->scan_body_m);
-  data->T_odom_scan = self.question->T_odom_scan;
-  data->path_length_m = self.question->path_length_m;
+  data->scan_body_m = std::move(self.request->scan_body_m);
+  data->T_odom_scan = self.request->T_odom_scan;
+  data->path_length_m = self.request->path_length_m;
   data->config = self.config;
   data->map = self.map;
   data->search = self.search;
-  self.question.reset();
+  self.request.reset();
   self.searching = true;
   return LocalizationTask{std::move(data)};
 }

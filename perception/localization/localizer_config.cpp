@@ -36,14 +36,13 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
          "A pose is not believed while the map explains a smaller share of the local map.");
   fields("confirm_distance_m", confirm_distance_m, {0, 100},
          "Distance over which a pose must hold before it is believed.");
-  fields("refuted_after_m", refuted_after_m, {0, 1000},
-         "From this path length on, a map in which no place stands out is doubted.");
-  fields("refuted_searches", refuted_searches, {1, 1000},
-         "After so many searches in a row in which no place stands out the map is called that of another place.");
-  fields("convincing_explained", convincing_explained, {0, 1},
-         "A place that explains this share of the local map stands out, however many others do.");
+  fields("refuted_after_m", refuted_after_m, {0.1, 1000},
+         "Path length over which no place fits, in excess of that over which one is convincing, after which the map is "
+         "called that of another place.");
+  fields("fitting", fitting, {0, 1},
+         "Mean value of the likelihood field at the local map from which on a place fits it, however many others do.");
   fields("convincing_probability", convincing_probability, {0, 1},
-         "A place that is this probable stands out, however little it explains.");
+         "A place that is this probable is convincing, however little it fits.");
   fields("distrust_search_s", distrust_search_s, {0, 100},
          "Time between searches of the whole map while the pose explains too little.");
   fields("elsewhere_nats", elsewhere_nats, {0, 1000},

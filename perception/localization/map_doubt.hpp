@@ -1,29 +1,60 @@
-// Whether the given map is that of this place. In the map of another place many places explain a part of what is seen
-// and none of them much of it; in the right one a place stands out within some metres, even if much has been moved.
+// Whether the given map is that of this place. In the map of another place many places fit a part of what is seen, and
+// none of them fits all of it; in the right map one place stands out within a metre or two, even if much has been
+// moved. Private to localization.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
+#include "common/time.hpp"
 #include "perception/localization/localizer_config.hpp"
 #include "perception/localization/place_posterior.hpp"
 
 namespace swiftlet::perception {
 
-/// For a vehicle that has not been localized yet.
+/// Page's cumulative sum test (1954), as LostTest is, over metres of path: the path to each search counts against the
+/// map if no place fits, and for it if one is convincing. Rooms that look alike fit equally well, which counts neither
+/// way. A vehicle that hovers asks for no search, so nothing is counted. For a vehicle that has not been localized yet.
 class MapDoubt {
  public:
-  /// The places that a search found, the likeliest first, `path_length_m` from the start.
-  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, double path_length_m) {
-    const bool stands_out = !places.empty() && (places.front().explained >= config.convincing_explained ||
-                                                places.front().probability >= config.convincing_probability);
-    searches_ = stands_out || path_length_m < config.refuted_after_m ? 0 : searches_ + 1;
-    refuted_ = searches_ >= config.refuted_searches;
+  /// The places that a search found, the likeliest first, at that path length and time.
+  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, double path_length_m,
+           common::Time now) {
+    const double step_m = stepTo(path_length_m, now);
+    // If nothing comes near, that says more than a place that almost fits.
+    if (places.empty())
+      against_m_ += 2.0 * step_m;
+    else if (places.front().probability >= config.convincing_probability)
+      against_m_ -= step_m;
+    else if (places.front().fit < config.fitting)
+      against_m_ += step_m;
+    against_m_ = std::clamp(against_m_, 0.0, config.refuted_after_m);
+    refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
   }
   void reset() { *this = {}; }
+  /// From the moment when all is against the map, until nothing is.
   bool refuted() const { return refuted_; }
 
  private:
-  int searches_ = 0;  ///< In a row, in which no place stood out.
+  struct Search {
+    double path_length_m = 0.0;
+    common::Time at;
+  };
+
+  /// The path since the last search. It counts for more if the vehicle was slow, in narrow rooms for example, because
+  /// it looked around meanwhile: so the time is bounded, too. When searches have become rare, a single one must not
+  /// decide.
+  double stepTo(double path_length_m, common::Time now) {
+    constexpr double kLeast_m_s = 0.25, kMost_m = 1.0;
+    const Search before = last_.value_or(Search{path_length_m, now});
+    last_ = Search{path_length_m, now};
+    const double slow_m = kLeast_m_s * (now - before.at).seconds();
+    return std::clamp(std::max(path_length_m - before.path_length_m, slow_m), 0.0, kMost_m);
+  }
+
+  double against_m_ = 0.0;  ///< Path over which no place fitted, in excess of that over which one did.
+  std::optional<Search> last_;
   bool refuted_ = false;
 };
 

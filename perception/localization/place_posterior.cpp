@@ -127,7 +127,8 @@ std::vector<LikelyPlace> likelyPlaces(Instructions instructions, const MapField&
   std::vector<LikelyPlace> climbed_places;
   for (const FittingPlace& place : found) {
     const Pose2 pose = climbed(scorer, place.T_grid_points);
-    climbed_places.push_back({pose, scorer.score(pose) * nats, 0.0, 0.0});
+    const std::int32_t score = scorer.score(pose);
+    climbed_places.push_back({pose, score / (255.0 * static_cast<double>(points_m.size())), score * nats, 0.0, 0.0});
   }
   std::stable_sort(climbed_places.begin(), climbed_places.end(),
                    [](const LikelyPlace& a, const LikelyPlace& b) { return a.log_likelihood > b.log_likelihood; });

@@ -11,6 +11,7 @@ namespace swiftlet::perception {
 
 struct LikelyPlace {
   common::Pose2 T_grid_points;
+  double fit = 0.0;             ///< Mean field value at the points, in [0, 1].
   double log_likelihood = 0.0;  ///< In nats, relative to points that are far from every wall.
   double probability = 0.0;     ///< Relative to the other places.
   double explained = 0.0;       ///< Share of the points on known cells that have a wall nearby.

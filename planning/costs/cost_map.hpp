@@ -16,6 +16,7 @@
 #include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
 #include "common/polygon.hpp"
 #include "planning/costs/cell_state.hpp"
 
@@ -72,6 +73,10 @@ class CostMap {
   /// resolution; a copy of it (with shared tiles) is kept. The reach is radius plus comfort distance, at most
   /// kMaxReachCells cells.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
+
+  /// How the texts of a failed plan name places.
+  void name(const common::PlaceNames& names) { names_ = names; }
+  const common::PlaceNames& names() const { return names_; }
 
   const Footprint& footprint() const { return footprint_; }
   double resolution_m() const { return grid_.resolution_m(); }
@@ -142,6 +147,7 @@ class CostMap {
   Config config_;
   common::OccupancyGrid grid_;  ///< The snapshot last read, for the identity of its tiles.
   Footprint footprint_{-1.0, -1.0};
+  common::PlaceNames names_;
   common::CellRect rect_;
   int reach_cells_ = 0;
   int unknown_reach_cells_ = 0;

@@ -145,9 +145,8 @@ ExplorationResult FrontierSurvey::finish(std::optional<Viewpoint> next, bool kep
   result.next = std::move(next);
   result.kept_current = kept_current;
   if (result.next) {
-    const Point place_m = result.next->pose_map.position_m();
-    result.reason = fmt::format("{} open frontiers, next viewpoint ({:.1f}, {:.1f}) for {:.1f} m2", open, place_m.x(),
-                                place_m.y(), result.next->gain_m2);
+    result.reason = fmt::format("{} open frontiers, next viewpoint {} for {:.1f} m2", open,
+                                map_.names().of(result.next->pose_map.position_m()), result.next->gain_m2);
   } else if (shut_in_) {
     result.reason = fmt::format("the vehicle is shut in at clearance {:.2f} m", map_.footprint().clearance_m);
   } else {

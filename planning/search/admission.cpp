@@ -11,8 +11,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-std::string inWords(const Point& point_m) { return fmt::format("({:.2f}, {:.2f})", point_m.x(), point_m.y()); }
-
 }  // namespace
 
 tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start_map_m, const Point& goal_map_m) {
@@ -22,15 +20,16 @@ tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start
   };
   if (!start_map_m.allFinite()) return refuse(Reason::kOutsideMap, "the start is not a point of the map");
   const CostGoalMap goals(map);
-  const auto goal = common::judgeGoal({goal_map_m, std::nullopt, 0.0, map.footprint().clearance_m}, {}, &goals);
+  const auto goal =
+      common::judgeGoal({goal_map_m, std::nullopt, 0.0, map.footprint().clearance_m, 0.0, map.names()}, {}, &goals);
   if (!goal) return tl::make_unexpected(failureOf(goal.error()));
   const common::CellIndex start = map.cellAt(start_map_m);
   if (!map.contains(start))
-    return refuse(Reason::kOutsideMap, fmt::format("start {} is outside the map", inWords(start_map_m)));
+    return refuse(Reason::kOutsideMap, fmt::format("start {} is outside the map", map.names().of(start_map_m)));
   std::optional<CellPath> escape = escapeFrom(map, start);
   if (!escape)
-    return refuse(Reason::kStartBlocked, fmt::format("start {} is shut in at clearance {:.2f} m", inWords(start_map_m),
-                                                     map.footprint().clearance_m));
+    return refuse(Reason::kStartBlocked, fmt::format("start {} is shut in at clearance {:.2f} m",
+                                                     map.names().of(start_map_m), map.footprint().clearance_m));
   return *std::move(escape);
 }
 
@@ -46,7 +45,8 @@ PlanFailure failureOf(const common::GoalRefusal& refusal) {
 
 PlanFailure unreachable(const CostMap& map, const Point& goal_map_m) {
   return {PlanFailure::Reason::kUnreachable,
-          fmt::format("goal {} is unreachable at clearance {:.2f} m", inWords(goal_map_m), map.footprint().clearance_m),
+          fmt::format("goal {} is unreachable at clearance {:.2f} m", map.names().of(goal_map_m),
+                      map.footprint().clearance_m),
           std::nullopt};
 }
 

@@ -67,8 +67,7 @@ PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const 
   const double deviation_m = (position_map_m - rest.front()).norm();
   Check result{true, (now - stamp_).seconds() >= config_.max_age_s, ""};
   if (const Rest left = costOf(map, rest, remainingEscape()); left.blocked_map_m) {
-    result = {false, true,
-              fmt::format("blocked before ({:.2f}, {:.2f})", left.blocked_map_m->x(), left.blocked_map_m->y())};
+    result = {false, true, "blocked before " + map.names().of(*left.blocked_map_m)};
   } else if (deviation_m > config_.max_deviation_m + braking_m) {
     result = {false, true, fmt::format("{:.2f} m off the plan", deviation_m)};
   }

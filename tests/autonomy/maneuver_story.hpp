@@ -121,7 +121,8 @@ class ManeuverStory : public testing::Test {
             {},
             people_,
             seen_.points_map_m.empty() ? nullptr : &seen_,
-            keep_out_};
+            keep_out_,
+            names_};
   }
 
   common::Time now_;
@@ -133,6 +134,7 @@ class ManeuverStory : public testing::Test {
   std::vector<common::DynamicObstacle> people_;
   perception::SeenPoints seen_;  ///< Empty: none.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
+  common::PlaceNames names_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
   bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.

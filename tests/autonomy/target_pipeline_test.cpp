@@ -56,10 +56,18 @@ TEST_F(TargetStory, ATargetIsPlacedAndSaidOnceWhenItIsFound) {
   const auto targets = pipeline_.targets(*keys_);
   ASSERT_EQ(targets.size(), 1u);
   EXPECT_LT((targets[0].position_map_m - kTarget).norm(), 0.06);
-  const auto events = pipeline_.takeEvents();
+  const auto events = pipeline_.takeEvents({});
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].text, "red 1 found");
   EXPECT_THAT(events[0].reason, testing::HasSubstr("seen from 3 places"));
+}
+
+TEST_F(TargetStory, ItsPlaceIsSaidInTheGivenMap) {
+  for (int i = 0; i < 5; ++i) look(common::lifted({0.1 * i, -0.4 + 0.3 * i, -0.05}, 0.0), 1.0 + 0.3 * i);
+  const auto events = pipeline_.takeEvents({common::Pose2{100.0, 0.0, 0.0}});
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_THAT(events[0].reason, testing::MatchesRegex("at \\(102\\.4.*\\) in the given map \\+- .*"));
+  EXPECT_TRUE(pipeline_.takeEvents({}).empty());
 }
 
 TEST_F(TargetStory, ItMovesWithTheKeyScans) {

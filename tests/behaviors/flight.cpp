@@ -62,7 +62,8 @@ std::string Flight::tick() {
   context.now += common::Duration::fromMilliseconds(100);
   last = mission.tick(context);
   std::string text = upper(common::toString(last.state));
-  if (context.intent) text += " " + std::to_string(context.intent->id) + " " + toString(*context.intent);
+  if (context.intent)
+    text += " " + std::to_string(context.intent->id) + " " + toString(*context.intent, context.world->map->names());
   return text;
 }
 

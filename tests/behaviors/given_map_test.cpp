@@ -9,6 +9,7 @@
 namespace swiftlet::behaviors::testing {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -72,6 +73,16 @@ TEST(GivenMap, AClickThatIsRefusedIsToldPlacesOfTheMapThatItWasMadeIn) {
   EXPECT_THAT(flight.results(),
               ElementsAre("1 refused: goal (-2.00, -3.05) in the given map is in an obstacle at clearance 0.10 m, the "
                           "nearest free place is (-2.00, -2.62)"));
+}
+
+TEST(GivenMap, AClickThatIsShiftedIsToldItsPlaceThere) {
+  Flight flight("<Sequence><TakeOff/><OperatorCommand/></Sequence>");
+  placed(flight, 1.0).tick();
+  flight.succeeds().tick();
+  // 0.2 m before the wall at x = 4.05 of `map`, clicked on in the frame `map`.
+  EXPECT_EQ(flight.goal(3.85, 0.0).tick(), "RUNNING 3 go to (-2.00, -2.62) in the given map");
+  EXPECT_THAT(flight.events(), Contains("goal (-2.00, -2.85) in the given map shifted by 0.23 m (to (-2.00, -2.62) "
+                                        "in the given map, the nearest free place)"));
 }
 
 TEST(GivenMap, PatrolVisitsItsPointsThere) {

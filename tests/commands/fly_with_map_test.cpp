@@ -122,14 +122,19 @@ TEST_F(FlyWithMap, AnInvalidMapIsRefusedBeforeAnythingMoves) {
                                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
   const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--map", grey, "--out", path("run")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
-  EXPECT_THAT(end.err, HasSubstr("no free cells"));
+  EXPECT_THAT(end.err, HasSubstr("grey.yaml:1:8: image: the map has no free cells"));
   const std::string coarse = write("coarse.yaml",
                                    "image: grey.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\n"
                                    "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
   const ProgramEnd too_coarse = runSwiftlet({"fly", mission, "--headless", "--map", coarse, "--out", path("run")});
   EXPECT_EQ(too_coarse.exit_code, 2) << describe(too_coarse);
-  EXPECT_THAT(too_coarse.err, HasSubstr("coarse.yaml: resolution: 0.5 m a cell is too coarse: doors close in it, give "
-                                        "a map of at most 0.2 m a cell"));
+  EXPECT_THAT(too_coarse.err,
+              HasSubstr("coarse.yaml:2:13: resolution: 0.5 m a cell is too coarse: doors close in it, give "
+                        "a map of at most 0.2 m a cell"));
+  const std::string lacking = write("lacking.yaml", "image: gone.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
+  const ProgramEnd no_picture = runSwiftlet({"fly", mission, "--headless", "--map", lacking, "--out", path("run")});
+  EXPECT_EQ(no_picture.exit_code, 2) << describe(no_picture);
+  EXPECT_THAT(no_picture.err, HasSubstr("lacking.yaml:1:8: image: `" + path("gone.pgm") + "`: no such file"));
   EXPECT_FALSE(std::filesystem::exists(path("run")));
 }
 

@@ -177,7 +177,7 @@ TEST(MapServer, ReportsThePlaceOfMistakesInYaml) {
   EXPECT_THAT(problem(good + "mode: colour\n"), HasSubstr("m.yaml:4:"));
   EXPECT_THAT(problem(good + "treshold: 1\n"), HasSubstr("unknown key `treshold`"));
   EXPECT_THAT(problem("image: m.png\nresolution: 0.05\norigin: [0, 0, 0]\n"), HasSubstr("is not a .pgm picture"));
-  EXPECT_THAT(problem(good), HasSubstr("m.pgm: cannot be opened"));
+  EXPECT_THAT(problem(good), HasSubstr("m.pgm`: no such file"));
 }
 
 struct Counts {

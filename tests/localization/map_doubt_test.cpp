@@ -8,40 +8,85 @@ namespace {
 
 class MapDoubtStory : public testing::Test {
  protected:
-  void search(double path_length_m, double explained, double probability) {
-    LikelyPlace place;
-    place.explained = explained;
-    place.probability = probability;
-    doubt_.add(config_, {place}, path_length_m);
+  /// A search `step_m` farther along the path, and the best of the places it found.
+  void search(double step_m, double fit, double probability) { search(step_m, {{{}, fit, 0.0, probability, 0.0}}); }
+  void search(double step_m, const std::vector<LikelyPlace>& places) {
+    path_length_m_ += step_m;
+    now_ += common::Duration::fromSeconds(step_m / speed_m_s_);
+    doubt_.add(config_, places, path_length_m_, now_);
   }
 
   LocalizerConfig config_;
   MapDoubt doubt_;
+  double path_length_m_ = 0.0, speed_m_s_ = 0.7;
+  common::Time now_;
 };
 
-TEST_F(MapDoubtStory, NoPlaceStandsOutForLong) {
-  search(7.5, 0.7, 0.3);
-  search(8.0, 0.75, 0.6);
+TEST_F(MapDoubtStory, NoPlaceFitsForThreeMetres) {
+  search(0.0, 0.6, 0.3);
+  for (int i = 0; i < 5; ++i) search(0.5, 0.65, 0.6);
   EXPECT_FALSE(doubt_.refuted());
-  search(8.5, 0.7, 0.2);
+  search(0.5, 0.6, 0.2);
   EXPECT_TRUE(doubt_.refuted());
-  search(9.0, 0.7, 0.95);
-  EXPECT_FALSE(doubt_.refuted()) << "one stands out after all";
 }
 
-TEST_F(MapDoubtStory, TheFirstMetresTellNothing) {
-  for (int i = 0; i < 10; ++i) search(0.6 * i, 0.7, 0.3);
+TEST_F(MapDoubtStory, NothingThatComesNearCountsTwice) {
+  search(0.0, {});
+  for (int i = 0; i < 2; ++i) search(0.5, {});
+  EXPECT_FALSE(doubt_.refuted());
+  search(0.5, {});
+  EXPECT_TRUE(doubt_.refuted());
+}
+
+TEST_F(MapDoubtStory, ASlowVehicleNeeds12Seconds) {
+  speed_m_s_ = 0.1;
+  search(0.0, 0.6, 0.3);
+  for (int i = 0; i < 3; ++i) search(0.35, 0.65, 0.6);
+  EXPECT_FALSE(doubt_.refuted());
+  search(0.2, 0.65, 0.6);
+  EXPECT_TRUE(doubt_.refuted());
+}
+
+TEST_F(MapDoubtStory, OneConvincingSearchDoesNotMakeItStartAnew) {
+  search(0.0, 0.6, 0.3);
+  for (int i = 0; i < 5; ++i) search(0.5, 0.65, 0.6);
+  search(0.5, 0.7, 0.96);
+  search(0.5, 0.6, 0.2);
+  EXPECT_FALSE(doubt_.refuted());
+  search(0.5, 0.6, 0.2);
+  EXPECT_TRUE(doubt_.refuted());
+}
+
+TEST_F(MapDoubtStory, ItIsBelievedAgainWhenAsMuchSpeaksForIt) {
+  search(0.0, 0.6, 0.3);
+  for (int i = 0; i < 20; ++i) search(0.5, 0.65, 0.6);
+  for (int i = 0; i < 5; ++i) search(0.5, 0.8, 0.99);
+  EXPECT_TRUE(doubt_.refuted());
+  search(0.5, 0.8, 0.99);
+  EXPECT_FALSE(doubt_.refuted()) << "three metres, however long it did not fit before";
+}
+
+TEST_F(MapDoubtStory, ALongHoverDoesNotDecide) {
+  search(0.0, 0.6, 0.3);
+  now_ += common::Duration::fromSeconds(600);
+  search(0.4, 0.6, 0.3);
   EXPECT_FALSE(doubt_.refuted());
 }
 
 TEST_F(MapDoubtStory, TwoLikeRoomsAreNoReason) {
-  for (int i = 0; i < 10; ++i) search(10.0 + i, 0.9, 0.5);
-  EXPECT_FALSE(doubt_.refuted()) << "either explains nearly all";
+  for (int i = 0; i < 100; ++i) search(0.5, 0.85, 0.5);
+  EXPECT_FALSE(doubt_.refuted()) << "either fits";
 }
 
 TEST_F(MapDoubtStory, AMapInWhichMuchHasMovedIsNoReason) {
-  for (int i = 0; i < 10; ++i) search(10.0 + i, 0.66, 0.99);
-  EXPECT_FALSE(doubt_.refuted()) << "only one explains it";
+  for (int i = 0; i < 100; ++i) search(0.5, 0.6, 0.99);
+  EXPECT_FALSE(doubt_.refuted()) << "only one fits at all";
+}
+
+TEST_F(MapDoubtStory, ASingleSearchAfterALongWayDoesNotDecide) {
+  search(0.0, 0.6, 0.3);
+  search(12.0, 0.6, 0.3);
+  EXPECT_FALSE(doubt_.refuted());
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// How texts for people name places: in the frame that the reader sees on the page, which is that of the given map while
+// the vehicle is localized in it, and `map` otherwise (decision 060).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+
+namespace swiftlet::common {
+
+/// A value. Made from the pose that the page uses too (MapLayer::T_map_given), so that both name the same place alike.
+struct PlaceNames {
+  std::optional<Pose2> T_given_map;  ///< None: places are named in `map`.
+
+  static PlaceNames in(const std::optional<Pose2>& T_map_given) {
+    return {T_map_given ? std::optional(T_map_given->inverse()) : std::nullopt};
+  }
+
+  /// "(1.00, 2.00)", or "(1.00, 2.00) in the given map".
+  std::string of(const Eigen::Vector2d& place_map_m) const;
+  /// With the height over the take-off floor, which both frames share.
+  std::string of(const Eigen::Vector3d& place_map_m) const;
+  /// Without the frame, for a second place in a text that has named it.
+  std::string coordinatesOf(const Eigen::Vector2d& place_map_m) const;
+};
+
+/// A place that is known in the given map.
+std::string nameOfGivenPlace(const Eigen::Vector2d& place_given_m);
+
+}  // namespace swiftlet::common
