@@ -11,7 +11,7 @@
 
 #include "behaviors/tree/node.hpp"
 #include "behaviors/tree/node_manifest.hpp"
-#include "behaviors/tree/script/script.hpp"
+#include "behaviors/tree/script/program.hpp"
 
 namespace swiftlet::tree {
 
