@@ -41,18 +41,6 @@ std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
   return {};
 }
 
-struct Use {
-  const Document* document = nullptr;
-  const XmlElement* element = nullptr;
-};
-
-/// Depth is bounded by that of the XML.
-void collectSubTrees(const Document& document, const XmlElement& element, std::map<std::string, Use>& uses) {
-  if (isSubTree(element))
-    if (const std::string* id = element.attribute("ID")) uses.try_emplace(*id, Use{&document, &element});
-  for (const XmlElement& child : element.children) collectSubTrees(document, child, uses);
-}
-
 }  // namespace
 
 Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts)
@@ -132,6 +120,8 @@ void Checker::checkSubTree(const Document& document, const XmlElement& element) 
   else if (!documents_.trees.contains(*id))
     report({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + *id + "\">",
             didYouMean(*id, tree_names_)});
+  else
+    uses_[tree_id_].try_emplace(*id, Use{&document, &element});
   if (!element.children.empty()) report({document.at(element), element.name, "a SubTree has no children here", {}});
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, nullptr);
 }
@@ -246,31 +236,28 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
           {}});
 }
 
-/// Depth-first over "uses". A tree that is reached again while it is open contains itself.
+/// Depth-first over the uses. A tree that is reached again while it is open contains itself.
 void Checker::checkRecursion() {
-  std::map<std::string, std::map<std::string, Use>> uses;
-  for (const auto& [id, tree] : documents_.trees) collectSubTrees(*tree.document, *tree.element, uses[id]);
-
   enum class Mark : unsigned char { kNew, kOpen, kDone };
   std::map<std::string, Mark> marks;
-  for (const auto& [start, unused] : uses) {
+  for (const auto& [start, unused] : uses_) {
     if (marks[start] == Mark::kDone) continue;
     using Next = std::map<std::string, Use>::const_iterator;
-    std::vector<std::pair<std::string, Next>> path = {{start, uses[start].begin()}};
+    std::vector<std::pair<std::string, Next>> path = {{start, uses_[start].begin()}};
     marks[start] = Mark::kOpen;
     while (!path.empty() && !problems_.full()) {
       auto& [id, next] = path.back();
-      if (next == uses[id].end()) {
+      if (next == uses_[id].end()) {
         marks[id] = Mark::kDone;
         path.pop_back();
         continue;
       }
       const std::string& used = next->first;
       const Use& use = (next++)->second;
-      if (!uses.contains(used) || marks[used] == Mark::kDone) continue;
+      if (!uses_.contains(used) || marks[used] == Mark::kDone) continue;
       if (marks[used] == Mark::kNew) {
         marks[used] = Mark::kOpen;
-        path.emplace_back(used, uses[used].begin());
+        path.emplace_back(used, uses_[used].begin());
         continue;
       }
       std::string chain;

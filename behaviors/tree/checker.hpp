@@ -36,12 +36,19 @@ class Checker {
   void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkRecursion();
 
+  struct Use {
+    const Document* document = nullptr;
+    const XmlElement* element = nullptr;
+  };
+
   const Documents& documents_;
   const Registry& registry_;
   Problems& problems_;
   Scripts& scripts_;
   std::string tree_id_;                  ///< Of the tree that is being checked.
   std::vector<const XmlElement*> open_;  ///< From its root to the element that is being checked.
+  /// By the ID of a tree: the trees that it uses, each with the first SubTree that does.
+  std::map<std::string, std::map<std::string, Use>> uses_;
   std::vector<std::string> node_names_;
   std::vector<std::string> tree_names_;
 };
