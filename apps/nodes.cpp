@@ -1,5 +1,7 @@
-// swiftlet nodes: the node types of missions, for editors and people.
+// swiftlet nodes: the node types of missions, for people and editors.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/command.hpp"
 #include "apps/show.hpp"
@@ -9,20 +11,40 @@ namespace swiftlet::apps {
 namespace {
 
 struct NodesOptions {
+  std::vector<std::string> names;
   bool xml = false;
   bool xsd = false;
   bool markdown = false;
 };
 
+/// All nodes that are named, or all names that are no node's.
+int printNamed(const std::vector<std::string>& names, const tree::Registry& registry) {
+  std::string help, problems;
+  for (const std::string& name : names) {
+    if (const tree::NodeType* type = registry.find(name))
+      help += tree::writeNodeHelp(type->manifest);
+    else
+      problems +=
+          toString(tree::Problem{{}, "nodes", "unknown node `" + name + "`", tree::didYouMean(name, registry.ids())}) +
+          "\n";
+  }
+  show(help);
+  showError(problems);
+  return problems.empty() ? kDone : kBadInput;
+}
+
 int printNodes(const NodesOptions& options) {
-  if (int{options.xml} + int{options.xsd} + int{options.markdown} != 1) {
-    showError("nodes: expected one of --xml, --xsd and --markdown\n");
+  const int forms = int{options.xml} + int{options.xsd} + int{options.markdown};
+  if (forms > 1 || (forms == 1 && !options.names.empty())) {
+    showError("nodes: expected names of nodes, or one of --xml, --xsd and --markdown\n");
     return kBadInput;
   }
   const tree::Registry& registry = behaviors::missionRegistry();
-  show(options.xml   ? tree::writeTreeNodesModel(registry)
-       : options.xsd ? tree::writeSchema(registry)
-                     : tree::writeNodeTable(registry));
+  if (!options.names.empty()) return printNamed(options.names, registry);
+  show(options.xml        ? tree::writeTreeNodesModel(registry)
+       : options.xsd      ? tree::writeSchema(registry)
+       : options.markdown ? tree::writeNodeTable(registry)
+                          : tree::writeNodeList(registry));
   return kDone;
 }
 
@@ -30,11 +52,13 @@ int printNodes(const NodesOptions& options) {
 
 void addNodes(Command& program) {
   auto options = std::make_shared<NodesOptions>();
-  Command command = program.command("nodes", "Print the node types of missions with their ports.");
+  Command command = program.command("nodes", "Print the node types of missions, or the ports of those that are named.");
+  command.optionalArguments("nodes", options->names,
+                            "Nodes of which to print each port with unit, bounds and meaning.");
   command.flag("--xml", options->xml, "The palette that Groot2 loads: missions/groot2/palette.xml.");
   command.flag("--xsd", options->xsd, "A schema for other editors: missions/swiftlet.xsd.");
   command.flag("--markdown", options->markdown, "A table with bounds and defaults: docs/nodes.md.");
-  command.footer("Example: swiftlet nodes --xml");
+  command.footer("Example: swiftlet nodes MoveToGoal Photograph");
   command.runs([options] { return printNodes(*options); });
 }
 

@@ -15,11 +15,7 @@ tree::NodeManifest MoveToGoal::manifest() {
                 {.name = "height_m",
                  .type = tree::PortType::kDouble,
                  .description = "Above the take-off floor, where the goal has no z. Not given: the present height."},
-                {.name = "yaw_deg",
-                 .type = tree::PortType::kDouble,
-                 .minimum = -360.0,
-                 .maximum = 360.0,
-                 .description = "Heading at the goal in the map frame, counter-clockwise. Not given: any."},
+                headingPort(false),
                 modePort()},
       .description = "Flies to a point of the map."};
 }

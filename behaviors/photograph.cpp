@@ -8,7 +8,7 @@ tree::NodeManifest Photograph::manifest() {
   return {.id = "Photograph",
           .kind = tree::NodeKind::kAction,
           .ports = {fileNamePort("photo")},
-          .description = "Takes a picture with the camera, with its place."};
+          .description = "Stops, and takes a picture with the camera, which looks ahead, with its place."};
 }
 
 void Photograph::onStart(tree::TickContext& context) {

@@ -30,7 +30,19 @@ inline tree::PortManifest tolerancePort() {
           .default_value = "0.05",
           .minimum = 0.01,
           .maximum = 5.0,
-          .description = "Arrived when nearer to the goal than this."};
+          .description =
+              "Arrived when nearer to the goal than this; where the goal is not free, a place so near to it will do."};
+}
+
+inline tree::PortManifest headingPort(bool required) {
+  return {.name = "yaw_deg",
+          .type = tree::PortType::kDouble,
+          .required = required,
+          .minimum = -360.0,
+          .maximum = 360.0,
+          .description = std::string("Heading in the map frame, counter-clockwise; 0 is that of the take-off, or the x "
+                                     "axis of the given map.") +
+                         (required ? "" : " Not given: any.")};
 }
 
 /// A place that must be given.

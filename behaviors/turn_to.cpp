@@ -1,6 +1,7 @@
 #include "behaviors/turn_to.hpp"
 
 #include "behaviors/named_places.hpp"
+#include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 
@@ -9,13 +10,7 @@ namespace swiftlet::behaviors {
 tree::NodeManifest TurnTo::manifest() {
   return {.id = "TurnTo",
           .kind = tree::NodeKind::kAction,
-          .ports = {{.name = "yaw_deg",
-                     .type = tree::PortType::kDouble,
-                     .required = true,
-                     .minimum = -360.0,
-                     .maximum = 360.0,
-                     .description = "Heading in the map frame, counter-clockwise; 0 is that of the take-off, or the x "
-                                    "axis of the given map."}},
+          .ports = {headingPort(true)},
           .description = "Turns on the spot."};
 }
 

@@ -32,18 +32,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::uint8_t bits = data[0];
   const std::string text(reinterpret_cast<const char*>(data + 1), size - 1);
-  ScriptResult result = Script::compile(text, {{"RED", 1}, {"GREEN", 2}});
-  if ((result.script != nullptr) != result.problem.empty()) __builtin_trap();
-  if (!result.script) return 0;
+  const Constants constants = {{"RED", 1}, {"GREEN", 2}};
+  Scripts scripts(constants);
+  const auto [script, problem] = scripts.add(text);
+  if ((script != nullptr) != problem.empty()) __builtin_trap();
+  if (script == nullptr) return 0;
   std::deque<Slot> slots;
-  for (std::size_t i = 0; i < result.script->entries().size(); ++i) {
+  for (std::size_t i = 0; i < script->entries().size(); ++i) {
     Slot& slot = slots.emplace_back();
-    slot.name = result.script->entries()[i].name;
+    slot.name = script->entries()[i].name;
     if ((bits >> (i % 8) & 1U) != 0) slot.value = valueFor(bits, i);
-    result.script->bind(i, &slot);
+    script->bind(i, &slot);
   }
   for (int run = 0; run < 4; ++run)
-    if (!result.script->holds() && result.script->problem().empty()) __builtin_trap();
+    if (!script->holds() && script->problem().empty()) __builtin_trap();
   for (const Slot& slot : slots)
     if (slot.value) (void)toString(*slot.value);
   return 0;

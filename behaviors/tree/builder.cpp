@@ -13,8 +13,12 @@ namespace swiftlet::tree {
 struct Builder::Scope {
   Scope* outer = nullptr;
   bool autoremap = false;
-  std::map<std::string, Slot*, std::less<>> names;
-  std::set<std::string, std::less<>> used;
+  struct Entry {
+    Slot* slot = nullptr;
+    bool passed = false;  ///< The SubTree gives it.
+    bool used = false;    ///< A node of the tree uses it.
+  };
+  std::map<std::string, Entry, std::less<>> names;
 };
 
 namespace {
@@ -27,19 +31,10 @@ std::size_t countOf(const XmlElement& element) {
 
 }  // namespace
 
-Builder::Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
-                 CompiledScripts& scripts)
-    : documents_(documents),
-      registry_(registry),
-      options_(options),
-      problems_(problems),
-      scripts_(scripts),
-      tree_(std::make_unique<TreeParts>()) {
+Builder::Builder(Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
+                 std::unique_ptr<TreeParts> tree)
+    : documents_(documents), registry_(registry), options_(options), problems_(problems), tree_(std::move(tree)) {
   tree_->name = documents.main_id;
-  for (const auto& document : documents.documents) {
-    files_[document.get()] = tree_->sources.size();
-    tree_->sources.push_back(document->source);
-  }
 }
 
 Builder::~Builder() = default;
@@ -54,6 +49,7 @@ Tree Builder::build() {
   tree_->setups.reserve(nodes);
   tree_->origins.reserve(nodes);
   tree_->root = makeNode({main.document, &main.element->children.front(), -1, 0}, scope);
+  tree_->documents = std::move(documents_.documents);
   if (!gave_up_) checkEntries(*tree_, problems_);
   return Tree(std::move(tree_));
 }
@@ -74,13 +70,11 @@ std::unique_ptr<Node> Builder::makeSubTree(const Place& place, Scope& scope) {
 
   Scope inner;
   bindSubTree(place, scope, inner);
-  std::set<std::string> passed;
-  for (const auto& [port, slot] : inner.names) passed.insert(port);
   const TreeDefinition& definition = documents_.trees.find(id)->second;
   if (auto child =
           makeNode({definition.document, &definition.element->children.front(), record, place.depth + 1}, inner))
     node->addChild(std::move(child));
-  if (!gave_up_) checkUnused(place, inner, passed);
+  if (!gave_up_) checkUnused(place, inner);
   return node;
 }
 
@@ -89,13 +83,13 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner) {
   inner.autoremap = isAutoremapped(*place.element);
   const auto bind = [&](const std::string& port, const std::string& text) {
     if (const auto entry = entryOf(text, port)) {
-      inner.names[port] = find(outer, *entry);
+      inner.names[port] = {.slot = find(outer, *entry), .passed = true};
       return;
     }
     Slot* slot = makeSlot(port);
     slot->value = text;
     tree_->flows[slot->id].literals.push_back({text, originOf(place), port});
-    inner.names[port] = slot;
+    inner.names[port] = {.slot = slot, .passed = true};
   };
   for (const XmlAttribute& attribute : place.element->attributes)
     if (!isStructural(*place.element, attribute.name) && !conditionOf(attribute.name))
@@ -106,15 +100,15 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner) {
     if (text && !inner.names.contains(port)) bind(port, *text);
 }
 
-void Builder::checkUnused(const Place& place, const Scope& inner, const std::set<std::string>& passed) {
+void Builder::checkUnused(const Place& place, const Scope& inner) {
   const std::string& id = *place.element->attribute("ID");
   const auto model = documents_.subtree_models.find(id);
-  for (const std::string& port : passed) {
-    if (inner.used.contains(port)) continue;
+  for (const auto& [port, entry] : inner.names) {
+    if (entry.used) continue;
     if (model != documents_.subtree_models.end() && model->second.contains(port)) continue;
     std::vector<std::string> candidates;
-    for (const std::string& name : inner.used)
-      if (!passed.contains(name)) candidates.push_back(name);
+    for (const auto& [name, other] : inner.names)
+      if (!other.passed) candidates.push_back(name);
     problems_.add({place.document->at(*place.element, port), "SubTree",
                    "the tree `" + id + "` has no entry {" + port + "}", didYouMean(port, candidates)});
   }
@@ -151,17 +145,19 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
   for (const PortManifest& port : manifest.ports) {
     PortBinding& binding = setup.ports.emplace_back();
     binding.manifest = &port;
-    const std::string* text = place.element->attribute(port.name);
-    if (text == nullptr && port.default_value) text = &*port.default_value;
-    if (text == nullptr) continue;
-    if (port.type == PortType::kScript)
-      binding.script = makeScript(place, scope, manifest.id, port, *text);
-    else if (const auto entry = entryOf(*text, port.name))
+    const XmlAttribute* given = place.element->find(port.name);
+    if (given == nullptr && !port.default_value) continue;
+    const std::string* text = given == nullptr ? &*port.default_value : &given->value;
+    if (port.type == PortType::kScript) {
+      binding.script = given == nullptr ? tree_->scripts.add(*text).script : scriptOf(*given);
+      if (binding.script != nullptr) bindScript(*binding.script, place, scope, manifest.id, port);
+    } else if (const auto entry = entryOf(*text, port.name)) {
       binding.slot = find(scope, *entry);
-    else if (port.direction == Direction::kOutput)
+    } else if (port.direction == Direction::kOutput) {
       binding.slot = find(scope, *text);
-    else
+    } else {
       binding.literal = readValue(port, *text).value;
+    }
   }
 }
 
@@ -185,39 +181,42 @@ void Builder::recordFlow(const NodeOrigin& origin, const NodeManifest& manifest,
   }
 }
 
-std::shared_ptr<Conditions> Builder::makeConditions(const Place& place, Scope& scope, const std::string& owner) {
-  std::shared_ptr<Conditions> conditions;
+Conditions* Builder::makeConditions(const Place& place, Scope& scope, const std::string& owner) {
+  Conditions* conditions = nullptr;
   for (const XmlAttribute& attribute : place.element->attributes) {
     const auto kind = conditionOf(attribute.name);
     if (!kind) continue;
-    if (conditions == nullptr) conditions = std::make_shared<Conditions>();
-    conditions->scripts[static_cast<std::size_t>(*kind)] =
-        makeScript(place, scope, owner, portOf(*kind), attribute.value);
+    if (conditions == nullptr) conditions = &tree_->conditions.emplace_back();
+    Script* script = scriptOf(attribute);
+    bindScript(*script, place, scope, owner, portOf(*kind));
+    conditions->scripts[static_cast<std::size_t>(*kind)] = script;
   }
   return conditions;
 }
 
-/// The text compiles, because Checker has compiled it.
-std::shared_ptr<Script> Builder::makeScript(const Place& place, Scope& scope, const std::string& owner,
-                                            const PortManifest& port, const std::string& text) {
-  const ProgramResult& compiled = scripts_.compile(text);
-  if (!compiled.program) return nullptr;
-  auto script = std::make_shared<Script>(compiled.program);
-  for (std::size_t i = 0; i < script->entries().size(); ++i) {
-    Slot* slot = find(scope, script->entries()[i].name);
-    script->bind(i, slot);
-    if (script->entries()[i].read) recordRead(slot->id, originOf(place), owner, port);
+/// The one that the Checker has made; another where a subtree is used again, because each use has entries of its own.
+Script* Builder::scriptOf(const XmlAttribute& attribute) {
+  Script* script = std::exchange(attribute.script, nullptr);
+  return script != nullptr ? script : tree_->scripts.add(attribute.value).script;
+}
+
+void Builder::bindScript(Script& script, const Place& place, Scope& scope, const std::string& owner,
+                         const PortManifest& port) {
+  const auto entries = script.entries();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    Slot* slot = find(scope, entries[i].name);
+    script.bind(i, slot);
+    if (entries[i].read) recordRead(slot->id, originOf(place), owner, port);
   }
-  recordWrites(*script, originOf(place), port.name);
-  return script;
+  recordWrites(script, originOf(place), port.name);
 }
 
 void Builder::recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute) {
   for (const ScriptWrite& write : script.writes()) {
     EntryFlow& flow = tree_->flows[script.slot(write.entry).id];
     flow.changes += write.makes ? 0 : 1;
-    if (write.literal)
-      flow.literals.push_back({*write.literal, origin, attribute});
+    if (write.constant)
+      flow.literals.push_back({toString(script.constant(*write.constant)), origin, attribute});
     else if (write.copied)
       flow.copied_from.push_back(script.slot(*write.copied).id);
     else
@@ -245,17 +244,19 @@ void Builder::finishRecord(int id, Node& node) {
   tree_->records[static_cast<std::size_t>(id)].node = &node;
 }
 
-Slot* Builder::find(Scope& scope, const std::string& name) {
+Slot* Builder::find(Scope& scope, std::string_view name) {
   if (name.starts_with('@')) return find(*main_scope_, name.substr(1));
-  scope.used.insert(name);
-  if (const auto known = scope.names.find(name); known != scope.names.end()) return known->second;
+  if (const auto known = scope.names.find(name); known != scope.names.end()) {
+    known->second.used = true;
+    return known->second.slot;
+  }
   const bool outer = scope.autoremap && scope.outer != nullptr && !name.starts_with('_');
   Slot* slot = outer ? find(*scope.outer, name) : makeSlot(name);
-  scope.names.emplace(name, slot);
+  scope.names.emplace(name, Scope::Entry{.slot = slot, .used = true});
   return slot;
 }
 
-Slot* Builder::makeSlot(const std::string& name) {
+Slot* Builder::makeSlot(std::string_view name) {
   Slot& slot = tree_->slots.emplace_back();
   slot.name = name;
   slot.id = tree_->slots.size() - 1;
@@ -265,7 +266,7 @@ Slot* Builder::makeSlot(const std::string& name) {
 
 /// Of the node whose record was added last: its children follow when all of it is known.
 NodeOrigin Builder::originOf(const Place& place) const {
-  return {files_.at(place.document), place.element->offset, static_cast<int>(tree_->records.size()) - 1};
+  return {place.document, place.element->offset, static_cast<int>(tree_->records.size()) - 1};
 }
 
 bool Builder::tooLarge(const Place& place) {

@@ -8,13 +8,11 @@
 
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/registry.hpp"
-#include "behaviors/tree/script/compiled_scripts.hpp"
 #include "behaviors/tree/tree.hpp"
 #include "behaviors/tree/tree_parts.hpp"
 
@@ -22,12 +20,13 @@ namespace swiftlet::tree {
 
 class Builder {
  public:
-  /// Takes the scripts that the Checker has compiled.
-  Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
-          CompiledScripts& scripts);
+  /// Into `tree`, where the Checker has put the scripts.
+  Builder(Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
+          std::unique_ptr<TreeParts> tree);
   ~Builder();
 
-  /// For documents in which Checker found no problem. The tree is valid if there is still none afterwards.
+  /// For documents in which Checker found no problem. The tree is valid if there is still none afterwards. It takes
+  /// the files with it.
   Tree build();
 
  private:
@@ -43,28 +42,26 @@ class Builder {
   std::unique_ptr<Node> makeSubTree(const Place& place, Scope& scope);
   std::unique_ptr<Node> makeTyped(const Place& place, Scope& scope);
   void bindSubTree(const Place& place, Scope& outer, Scope& inner);
-  void checkUnused(const Place& place, const Scope& inner, const std::set<std::string>& passed);
+  void checkUnused(const Place& place, const Scope& inner);
   void bindPorts(const Place& place, Scope& scope, const NodeManifest& manifest, NodeSetup& setup);
   void recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup);
   void recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner, const PortManifest& port);
-  std::shared_ptr<Conditions> makeConditions(const Place& place, Scope& scope, const std::string& owner);
-  std::shared_ptr<Script> makeScript(const Place& place, Scope& scope, const std::string& owner,
-                                     const PortManifest& port, const std::string& text);
+  Conditions* makeConditions(const Place& place, Scope& scope, const std::string& owner);
+  Script* scriptOf(const XmlAttribute& attribute);
+  void bindScript(Script& script, const Place& place, Scope& scope, const std::string& owner, const PortManifest& port);
   void recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute);
   int addRecord(const Place& place, const NodeManifest* manifest);
   void finishRecord(int id, Node& node);
-  Slot* find(Scope& scope, const std::string& name);
-  Slot* makeSlot(const std::string& name);
+  Slot* find(Scope& scope, std::string_view name);
+  Slot* makeSlot(std::string_view name);
   NodeOrigin originOf(const Place& place) const;
   bool tooLarge(const Place& place);
 
-  const Documents& documents_;
+  Documents& documents_;
   const Registry& registry_;
   const ParseOptions& options_;
   Problems& problems_;
-  CompiledScripts& scripts_;
   std::unique_ptr<TreeParts> tree_;
-  std::map<const Document*, std::size_t> files_;
   Scope* main_scope_ = nullptr;
   bool gave_up_ = false;
 };

@@ -41,21 +41,9 @@ std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
   return {};
 }
 
-struct Use {
-  const Document* document = nullptr;
-  const XmlElement* element = nullptr;
-};
-
-/// Depth is bounded by that of the XML.
-void collectSubTrees(const Document& document, const XmlElement& element, std::map<std::string, Use>& uses) {
-  if (isSubTree(element))
-    if (const std::string* id = element.attribute("ID")) uses.try_emplace(*id, Use{&document, &element});
-  for (const XmlElement& child : element.children) collectSubTrees(document, child, uses);
-}
-
 }  // namespace
 
-Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, CompiledScripts& scripts)
+Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts)
     : documents_(documents), registry_(registry), problems_(problems), scripts_(scripts), node_names_(registry.ids()) {
   node_names_.push_back("SubTree");
   for (const auto& [id, tree] : documents.trees) tree_names_.push_back(id);
@@ -94,8 +82,8 @@ void Checker::checkElement(const Document& document, const XmlElement& element) 
   open_.push_back(&element);
   if (isSubTree(element))
     checkSubTree(document, element);
-  else if (typeOf(element, registry_) != nullptr)
-    checkNode(document, element);
+  else if (const NodeType* type = typeOf(element, registry_))
+    checkNode(document, element, type->manifest);
   else
     checkUnknown(document, element);
   if (element.text_offset)
@@ -132,12 +120,13 @@ void Checker::checkSubTree(const Document& document, const XmlElement& element) 
   else if (!documents_.trees.contains(*id))
     report({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + *id + "\">",
             didYouMean(*id, tree_names_)});
+  else
+    uses_[tree_id_].try_emplace(*id, Use{&document, &element});
   if (!element.children.empty()) report({document.at(element), element.name, "a SubTree has no children here", {}});
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, nullptr);
 }
 
-void Checker::checkNode(const Document& document, const XmlElement& element) {
-  const NodeManifest& manifest = typeOf(element, registry_)->manifest;
+void Checker::checkNode(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
   if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind)
     report({document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
             std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"});
@@ -151,19 +140,19 @@ void Checker::checkNode(const Document& document, const XmlElement& element) {
 
 void Checker::checkUnknown(const Document& document, const XmlElement& element) {
   const bool is_explicit = explicitKind(element.name).has_value();
-  const std::string* id = is_explicit ? element.attribute("ID") : &element.name;
-  if (id == nullptr) {
+  if (is_explicit && element.attribute("ID") == nullptr) {
     report({document.at(element), element.name, "the attribute `ID` is missing", {}});
     return;
   }
-  std::string message = "unknown node `" + *id + "`";
-  std::string hint = didYouMean(*id, node_names_);
-  if (documents_.trees.contains(*id)) {
-    hint = "a tree is used as <SubTree ID=\"" + *id + "\"/>";
+  const std::string& id = typeNameOf(element);
+  std::string message = "unknown node `" + id + "`";
+  std::string hint = didYouMean(id, node_names_);
+  if (documents_.trees.contains(id)) {
+    hint = "a tree is used as <SubTree ID=\"" + id + "\"/>";
   } else if (const auto* other = std::find_if(kElsewhere.begin(), kElsewhere.end(),
-                                              [&](const auto& known) { return known.first == *id; });
+                                              [&](const auto& known) { return known.first == id; });
              other != kElsewhere.end()) {
-    message = "`" + *id + "` is a node of BehaviorTree.CPP that this engine does not have";
+    message = "`" + id + "` is a node of BehaviorTree.CPP that this engine does not have";
     hint = other->second;
   }
   report({is_explicit ? document.at(element, "ID") : document.at(element), element.name, std::move(message),
@@ -174,43 +163,41 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
                              const NodeManifest* manifest) {
   const std::string& name = attribute.name;
   const auto place = [&] { return document.at(element, name); };
-  const std::string owner = manifest == nullptr ? element.name : manifest->id;
+  const auto owner = [&] { return typeNameOf(element); };
   if (isStructural(element, name)) {
     if (name == "_autoremap" && !parseValue(attribute.value, PortType::kBool, {}))
-      report({place(), owner + "." + name, "`" + attribute.value + "` is not true or false", {}});
+      report({place(), owner() + "." + name, "`" + attribute.value + "` is not true or false", {}});
     return;
   }
   if (const auto condition = conditionOf(name)) {
-    checkScript(document, element, attribute, owner + "." + name, portOf(*condition));
+    checkScript(document, element, attribute, portOf(*condition));
     return;
   }
   const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
   const bool script = port != nullptr && port->type == PortType::kScript;
   if (const auto entry = entryOf(attribute.value, name); entry && !script && !isEntryName(*entry)) {
-    report({place(), owner + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
+    report({place(), owner() + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
     return;
   }
   if (port != nullptr) {
     checkPort(document, element, attribute, *port);
   } else if (name.starts_with('_')) {
-    report({place(), owner, "unknown attribute `" + name + "`",
+    report({place(), owner(), "unknown attribute `" + name + "`",
             name == "__shared_blackboard" ? "did you mean `_autoremap`?" : ""});
   } else if (manifest != nullptr) {
     const auto names = portNames(*manifest);
     std::string message = otherUnit(name, *manifest);
     if (message.empty())
       message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : joined(names));
-    report({place(), owner, std::move(message), didYouMean(name, names)});
+    report({place(), owner(), std::move(message), didYouMean(name, names)});
   }
 }
 
 void Checker::checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                         const PortManifest& port) {
-  const auto where = [&] {
-    return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
-  };
+  const auto where = [&] { return typeNameOf(element) + "." + port.name; };
   if (port.type == PortType::kScript) {
-    checkScript(document, element, attribute, where(), port);
+    checkScript(document, element, attribute, port);
     return;
   }
   if (entryOf(attribute.value, port.name)) return;
@@ -226,12 +213,14 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
 }
 
 void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
-                          std::string owner, const PortManifest& port) {
-  const ProgramResult& result = scripts_.compile(attribute.value);
-  if (!result.program)
-    report({document.at(element, attribute.name), std::move(owner), result.problem, {}});
-  else if (port.asked && !result.program->writes.empty())
-    report({document.at(element, attribute.name), std::move(owner), "it assigns to an entry, but is only asked",
+                          const PortManifest& port) {
+  const auto where = [&] { return typeNameOf(element) + "." + port.name; };
+  auto [script, problem] = scripts_.add(attribute.value);
+  attribute.script = script;
+  if (script == nullptr)
+    report({document.at(element, attribute.name), where(), std::move(problem), {}});
+  else if (port.asked && !script->writes().empty())
+    report({document.at(element, attribute.name), where(), "it assigns to an entry, but is only asked",
             "use == to compare"});
 }
 
@@ -247,31 +236,28 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
           {}});
 }
 
-/// Depth-first over "uses". A tree that is reached again while it is open contains itself.
+/// Depth-first over the uses. A tree that is reached again while it is open contains itself.
 void Checker::checkRecursion() {
-  std::map<std::string, std::map<std::string, Use>> uses;
-  for (const auto& [id, tree] : documents_.trees) collectSubTrees(*tree.document, *tree.element, uses[id]);
-
   enum class Mark : unsigned char { kNew, kOpen, kDone };
   std::map<std::string, Mark> marks;
-  for (const auto& [start, unused] : uses) {
+  for (const auto& [start, unused] : uses_) {
     if (marks[start] == Mark::kDone) continue;
     using Next = std::map<std::string, Use>::const_iterator;
-    std::vector<std::pair<std::string, Next>> path = {{start, uses[start].begin()}};
+    std::vector<std::pair<std::string, Next>> path = {{start, uses_[start].begin()}};
     marks[start] = Mark::kOpen;
     while (!path.empty() && !problems_.full()) {
       auto& [id, next] = path.back();
-      if (next == uses[id].end()) {
+      if (next == uses_[id].end()) {
         marks[id] = Mark::kDone;
         path.pop_back();
         continue;
       }
       const std::string& used = next->first;
       const Use& use = (next++)->second;
-      if (!uses.contains(used) || marks[used] == Mark::kDone) continue;
+      if (!uses_.contains(used) || marks[used] == Mark::kDone) continue;
       if (marks[used] == Mark::kNew) {
         marks[used] = Mark::kOpen;
-        path.emplace_back(used, uses[used].begin());
+        path.emplace_back(used, uses_[used].begin());
         continue;
       }
       std::string chain;

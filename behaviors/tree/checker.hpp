@@ -8,40 +8,47 @@
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/registry.hpp"
-#include "behaviors/tree/script/compiled_scripts.hpp"
+#include "behaviors/tree/script/script.hpp"
 
 namespace swiftlet::tree {
 
 class Checker {
  public:
-  /// Scripts that compile are kept in `scripts`.
-  Checker(const Documents& documents, const Registry& registry, Problems& problems, CompiledScripts& scripts);
+  /// Adds every script to `scripts`, and notes it at its attribute.
+  Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts);
   void check();
 
  private:
   void checkTree(const std::string& id, const TreeDefinition& tree);
   void checkElement(const Document& document, const XmlElement& element);
   void checkSubTree(const Document& document, const XmlElement& element);
-  void checkNode(const Document& document, const XmlElement& element);
+  void checkNode(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkUnknown(const Document& document, const XmlElement& element);
   void checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                       const NodeManifest* manifest);
   void checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                  const PortManifest& port);
   void checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
-                   std::string owner, const PortManifest& port);
+                   const PortManifest& port);
   /// With the path of the element that is being checked.
   void report(Problem problem);
   std::string path() const;
   void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkRecursion();
 
+  struct Use {
+    const Document* document = nullptr;
+    const XmlElement* element = nullptr;
+  };
+
   const Documents& documents_;
   const Registry& registry_;
   Problems& problems_;
-  CompiledScripts& scripts_;
+  Scripts& scripts_;
   std::string tree_id_;                  ///< Of the tree that is being checked.
   std::vector<const XmlElement*> open_;  ///< From its root to the element that is being checked.
+  /// By the ID of a tree: the trees that it uses, each with the first SubTree that does.
+  std::map<std::string, std::map<std::string, Use>> uses_;
   std::vector<std::string> node_names_;
   std::vector<std::string> tree_names_;
 };

@@ -70,7 +70,7 @@ std::optional<bool> Conditions::ask(ConditionKind kind) {
 }
 
 bool Conditions::run(ConditionKind kind) {
-  Script* script = scripts[static_cast<std::size_t>(kind)].get();
+  Script* script = scripts[static_cast<std::size_t>(kind)];
   if (script == nullptr || script->run()) return true;
   problem_ = std::string(attributeOf(kind)) + ": " + script->problem();
   return false;

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,7 +46,7 @@ struct StartDecision {
 };
 
 struct Conditions {
-  std::array<std::shared_ptr<Script>, kConditionKinds> scripts;  ///< Null where the file gives none.
+  std::array<Script*, kConditionKinds> scripts{};  ///< Null where the file gives none.
   /// How the node ends when it has let go, because _while is no longer true.
   std::optional<Status> leaving;
 

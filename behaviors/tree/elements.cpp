@@ -14,15 +14,20 @@ bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words
 }  // namespace
 
 std::optional<NodeKind> explicitKind(std::string_view tag) {
-  for (const NodeKind kind : {NodeKind::kAction, NodeKind::kCondition, NodeKind::kControl, NodeKind::kDecorator})
-    if (tag == toString(kind)) return kind;
+  if (tag == "Action") return NodeKind::kAction;
+  if (tag == "Condition") return NodeKind::kCondition;
+  if (tag == "Control") return NodeKind::kControl;
+  if (tag == "Decorator") return NodeKind::kDecorator;
   return std::nullopt;
 }
 
+const std::string& typeNameOf(const XmlElement& element) {
+  const std::string* id = explicitKind(element.name) ? element.attribute("ID") : nullptr;
+  return id == nullptr ? element.name : *id;
+}
+
 const NodeType* typeOf(const XmlElement& element, const Registry& registry) {
-  if (!explicitKind(element.name)) return registry.find(element.name);
-  const std::string* id = element.attribute("ID");
-  return id == nullptr ? nullptr : registry.find(*id);
+  return registry.find(typeNameOf(element));
 }
 
 std::string displayNameOf(const XmlElement& element) {

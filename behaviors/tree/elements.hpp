@@ -14,6 +14,8 @@ namespace swiftlet::tree {
 /// <Action>, <Condition>, <Control>, <Decorator>: the type is in the attribute ID.
 std::optional<NodeKind> explicitKind(std::string_view tag);
 inline bool isSubTree(const XmlElement& element) { return element.name == "SubTree"; }
+/// The name of the node type: that ID, or the tag.
+const std::string& typeNameOf(const XmlElement& element);
 /// The node type that an element names; null if there is no such type.
 const NodeType* typeOf(const XmlElement& element, const Registry& registry);
 

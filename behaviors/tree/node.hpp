@@ -125,7 +125,7 @@ class Node {
   void setStatus(TickContext& context, Status status);
 
   std::string name_;
-  std::shared_ptr<Conditions> conditions_;  ///< Null without scripted conditions.
+  Conditions* conditions_;  ///< Null without scripted conditions.
   int id_ = -1;
   Status status_ = Status::kIdle;
   LettingGo letting_go_ = LettingGo::kNo;

@@ -1,22 +1,23 @@
 #include "behaviors/tree/parser.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "behaviors/tree/builder.hpp"
 #include "behaviors/tree/checker.hpp"
 #include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/tree_parts.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
-ParseResult finish(const Documents& documents, const Registry& registry, const ParseOptions& options,
-                   Problems& problems) {
+ParseResult finish(Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems) {
   ParseResult result;
-  CompiledScripts scripts(registry.constants());
-  Checker(documents, registry, problems, scripts).check();
+  auto parts = std::make_unique<TreeParts>(registry.constants());
+  Checker(documents, registry, problems, parts->scripts).check();
   // Building requires that subtrees exist and do not contain themselves.
   if (problems.empty() && documents.main != nullptr) {
-    Tree tree = Builder(documents, registry, options, problems, scripts).build();
+    Tree tree = Builder(documents, registry, options, problems, std::move(parts)).build();
     if (problems.empty()) result.tree = std::move(tree);
   }
   result.problems = problems.take();

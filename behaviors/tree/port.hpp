@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,14 +61,14 @@ struct PortBinding {
   const PortManifest* manifest = nullptr;
   std::optional<Value> literal;
   Slot* slot = nullptr;
-  std::shared_ptr<Script> script;  ///< Of a port of the type kScript.
+  Script* script = nullptr;  ///< Of a port of the type kScript; it belongs to the tree.
 };
 
 /// What a node is constructed from. It lives only during construction, so nodes copy what they need.
 struct NodeSetup {
   std::string name;  ///< The attribute `name`, or the type.
   std::vector<PortBinding> ports;
-  std::shared_ptr<Conditions> conditions;  ///< Null without any.
+  Conditions* conditions = nullptr;  ///< Null without any; they belong to the tree.
 
   const PortBinding& port(std::string_view port_name) const;
 };

@@ -11,7 +11,7 @@
 
 #include "behaviors/tree/node.hpp"
 #include "behaviors/tree/node_manifest.hpp"
-#include "behaviors/tree/script/script.hpp"
+#include "behaviors/tree/script/program.hpp"
 
 namespace swiftlet::tree {
 
@@ -57,5 +57,9 @@ std::string writeTreeNodesModel(const Registry& registry);
 std::string writeSchema(const Registry& registry);
 /// A Markdown table of every type: kind, sentence, and its ports with bounds and defaults.
 std::string writeNodeTable(const Registry& registry);
+/// A line for each type: its name and its sentence.
+std::string writeNodeList(const Registry& registry);
+/// A type in plain text: its sentence, and each port with bounds, default and what it means.
+std::string writeNodeHelp(const NodeManifest& manifest);
 
 }  // namespace swiftlet::tree

@@ -44,7 +44,7 @@ std::vector<PortView> Tree::portsOf(int id) const {
   for (const PortBinding& binding : parts_->setups[static_cast<std::size_t>(id)].ports) {
     const std::string& name = binding.manifest->name;
     if (binding.script != nullptr)
-      ports.push_back({name, {}, binding.script->text()});
+      ports.push_back({name, {}, std::string(binding.script->text())});
     else if (binding.literal)
       ports.push_back({name, {}, toString(*binding.literal)});
     else if (binding.slot != nullptr)
@@ -63,9 +63,7 @@ std::uint64_t Tree::writesOfPorts(int id) const {
 
 std::string Tree::pathOf(int id) const { return parts_->pathOf(id); }
 
-const Conditions* Tree::conditionsOf(int id) const {
-  return parts_->setups[static_cast<std::size_t>(id)].conditions.get();
-}
+const Conditions* Tree::conditionsOf(int id) const { return parts_->setups[static_cast<std::size_t>(id)].conditions; }
 
 Location Tree::locationOf(int id, std::string_view attribute) const {
   return parts_->locate(parts_->origins[static_cast<std::size_t>(id)], attribute);
@@ -98,7 +96,7 @@ std::string TreeParts::pathOf(int id) const {
 }
 
 Location TreeParts::locate(const NodeOrigin& origin, std::string_view attribute) const {
-  const SourceText& source = sources[origin.file];
+  const SourceText& source = origin.document->source;
   return attribute.empty() ? source.locate(origin.offset) : source.locate(origin.offset, attribute);
 }
 

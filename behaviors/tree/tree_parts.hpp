@@ -6,15 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "behaviors/tree/conditions.hpp"
+#include "behaviors/tree/document.hpp"
 #include "behaviors/tree/node_record.hpp"
 #include "behaviors/tree/problem.hpp"
-#include "behaviors/tree/xml.hpp"
+#include "behaviors/tree/script/script.hpp"
 
 namespace swiftlet::tree {
 
 /// The position of a node: a file and an offset in it, and its id in the tree.
 struct NodeOrigin {
-  std::size_t file = 0;
+  const Document* document = nullptr;
   std::size_t offset = 0;
   int node = -1;
 };
@@ -44,14 +46,18 @@ struct EntryFlow {
 };
 
 struct TreeParts {
+  explicit TreeParts(const Constants& constants) : scripts(constants) {}
+
   std::string name;
   std::unique_ptr<Node> root;
   std::vector<NodeRecord> records;
-  std::vector<NodeSetup> setups;    ///< By node id.
-  std::vector<NodeOrigin> origins;  ///< By node id.
-  std::vector<SourceText> sources;
-  std::deque<Slot> slots;       ///< Stable addresses.
-  std::deque<EntryFlow> flows;  ///< By slot id.
+  std::vector<NodeSetup> setups;                     ///< By node id.
+  std::vector<NodeOrigin> origins;                   ///< By node id.
+  std::vector<std::unique_ptr<Document>> documents;  ///< From which the tree was made; scripts are read in their text.
+  Scripts scripts;
+  std::deque<Conditions> conditions;  ///< Stable addresses.
+  std::deque<Slot> slots;             ///< Stable addresses.
+  std::deque<EntryFlow> flows;        ///< By slot id.
 
   Location locate(const NodeOrigin& origin, std::string_view attribute = {}) const;
   /// As Tree::pathOf. The tree must be complete.

@@ -55,12 +55,6 @@ std::optional<std::string_view> lookUp(const std::array<Names, N>& names, std::s
 
 std::string inBackticks(std::string_view name) { return "`" + std::string(name) + "`"; }
 
-/// The type of an element in compact or explicit form.
-std::string typeNameOf(const XmlElement& element) {
-  const std::string* id = explicitKind(element.name) ? element.attribute("ID") : nullptr;
-  return id == nullptr ? element.name : *id;
-}
-
 class Version3Reader {
  public:
   explicit Version3Reader(const Document& document) : document_(document), source_(document.source) {}
@@ -75,7 +69,7 @@ class Version3Reader {
  private:
   /// Depth is bounded by that of the XML.
   void readElement(const XmlElement& element) {
-    const std::string type = typeNameOf(element);
+    const std::string& type = typeNameOf(element);
     if (type == "SubTree" || type == "SubTreePlus") readSubTree(element, type == "SubTreePlus");
     if (type.starts_with("BlackboardCheck")) readBlackboardCheck(element, type);
     if (const auto name = lookUp(kRenamedTypes, type)) renameType(element, type, *name);
@@ -191,7 +185,7 @@ class Version3Reader {
 };
 
 bool isOfVersion4(const XmlElement& element) {
-  const std::string type = typeNameOf(element);
+  const std::string& type = typeNameOf(element);
   if (std::find(kTypesOfVersion4.begin(), kTypesOfVersion4.end(), type) != kTypesOfVersion4.end()) return true;
   const auto attributeIs4 = [&](const XmlAttribute& attribute) {
     if (conditionOf(attribute.name) || attribute.name == "_autoremap") return true;

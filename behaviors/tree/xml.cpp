@@ -59,26 +59,24 @@ class Reader {
       stop(name, "elements are nested deeper than " + std::to_string(max_depth_));
       return;
     }
-    XmlElement& element = open_.empty() ? root_.emplace() : open_.back()->children.emplace_back();
+    XmlElement& element = open_.empty() ? root_.emplace() : open_.back().element->children.emplace_back();
     element.name = name;
     element.offset = offset();
+    element.attributes.reserve(static_cast<std::size_t>(XML_GetSpecifiedAttributeCount(parser_.get())) / 2);
     for (; *attributes != nullptr; attributes += 2) element.attributes.push_back({attributes[0], attributes[1]});
-    open_.push_back(&element);
+    const std::size_t tag_end = element.offset + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+    open_.push_back({&element, source_.text().compare(tag_end - 2, 2, "/>") == 0});
   }
 
   void close() {
-    const std::size_t at = offset();
-    const std::string_view text = source_.text();
-    // The end of <Element/> is reported behind it, where the closing tag of its parent may follow.
-    const bool behind_itself = text.substr(0, at).ends_with("/>") && source_.endOfTag(open_.back()->offset) == at;
-    if (text.substr(at).starts_with("</") && !behind_itself) open_.back()->close_offset = at;
+    if (!open_.back().closes_itself) open_.back().element->close_offset = offset();
     open_.pop_back();
   }
 
   void text(std::string_view text) {
-    if (problem_ || open_.empty() || open_.back()->text_offset) return;
+    if (problem_ || open_.empty() || open_.back().element->text_offset) return;
     const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first != std::string_view::npos) open_.back()->text_offset = offset() + first;
+    if (first != std::string_view::npos) open_.back().element->text_offset = offset() + first;
   }
 
   void stop(std::string element, std::string message) {
@@ -91,7 +89,7 @@ class Reader {
     const XML_Error code = XML_GetErrorCode(parser_.get());
     Problem problem{source_.locate(offset()), {}, std::string("malformed XML: ") + XML_ErrorString(code), {}};
     if (!open_.empty()) {
-      const XmlElement& innermost = *open_.back();
+      const XmlElement& innermost = *open_.back().element;
       const Location opened = source_.locate(innermost.offset);
       problem.element = "<" + innermost.name + ">";
       problem.hint = "<" + innermost.name + "> was opened at line " + std::to_string(opened.line);
@@ -110,7 +108,11 @@ class Reader {
   std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate("UTF-8")};
   std::optional<XmlElement> root_;
   // Descends into the last child. Elements do not move while one of their children is open.
-  std::vector<XmlElement*> open_;
+  struct Open {
+    XmlElement* element = nullptr;
+    bool closes_itself = false;  ///< <Element/>
+  };
+  std::vector<Open> open_;
   std::optional<Problem> problem_;
 };
 
@@ -118,10 +120,15 @@ bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U
 
 }  // namespace
 
-const std::string* XmlElement::attribute(std::string_view attribute_name) const {
+const XmlAttribute* XmlElement::find(std::string_view attribute_name) const {
   for (const XmlAttribute& attribute : attributes)
-    if (attribute.name == attribute_name) return &attribute.value;
+    if (attribute.name == attribute_name) return &attribute;
   return nullptr;
+}
+
+const std::string* XmlElement::attribute(std::string_view attribute_name) const {
+  const XmlAttribute* found = find(attribute_name);
+  return found == nullptr ? nullptr : &found->value;
 }
 
 Location SourceText::locate(std::size_t offset) const {

@@ -12,9 +12,12 @@
 
 namespace swiftlet::tree {
 
+class Script;
+
 struct XmlAttribute {
   std::string name;
   std::string value;
+  mutable Script* script = nullptr;  ///< That the value is, from the checker to the builder.
 };
 
 struct XmlElement {
@@ -25,6 +28,9 @@ struct XmlElement {
   std::optional<std::size_t> close_offset;  ///< Offset of the "<" of its closing tag; nothing for <Element/>.
   std::optional<std::size_t> text_offset;   ///< Offset of its first text that is not blank, children excluded.
 
+  /// Null if it has no such attribute.
+  const XmlAttribute* find(std::string_view attribute_name) const;
+  /// Its value.
   const std::string* attribute(std::string_view attribute_name) const;
 };
 

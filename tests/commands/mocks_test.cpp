@@ -51,8 +51,20 @@ TEST(Nodes, PrintsExactlyOneForm) {
   EXPECT_THAT(runSwiftlet({"nodes", "--xml"}).out, HasSubstr("<Action ID=\"TakeOff\">"));
   EXPECT_THAT(runSwiftlet({"nodes", "--xsd"}).out, HasSubstr("<xs:element name=\"TakeOff\">"));
   EXPECT_THAT(runSwiftlet({"nodes", "--markdown"}).out, HasSubstr("| `TakeOff` | Action |"));
-  EXPECT_EQ(runSwiftlet({"nodes"}).exit_code, 2);
   EXPECT_EQ(runSwiftlet({"nodes", "--xml", "--xsd"}).exit_code, 2);
+  EXPECT_EQ(runSwiftlet({"nodes", "--xml", "TakeOff"}).exit_code, 2);
+}
+
+TEST(Nodes, PrintsAListAndThePortsOfThoseThatAreNamed) {
+  EXPECT_THAT(runSwiftlet({"nodes"}).out, HasSubstr("\nTakeOff: Climbs from the floor to a height and hovers.\n"));
+  EXPECT_EQ(runSwiftlet({"nodes", "TurnTo"}).out,
+            "TurnTo: Turns on the spot.\n"
+            "  yaw_deg: a number in degrees from -360 to 360, required\n"
+            "      Heading in the map frame, counter-clockwise; 0 is that of the take-off, or the x axis of the given "
+            "map.\n");
+  const ProgramEnd end = runSwiftlet({"nodes", "TakeOff", "Photografh"});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("nodes: unknown node `Photografh`, did you mean `Photograph`?"));
 }
 
 }  // namespace

@@ -160,6 +160,13 @@ TEST(SubTree, HasItsOwnEntries) {
       "by times=\"{times}\" or _autoremap=\"true\" on the SubTree");
 }
 
+TEST(SubTree, RunsItsScriptsOnTheEntriesOfEachUse) {
+  Story story(R"(<Sequence><Script code="a := 1; b := 10"/><SubTree ID="Add" x="{a}"/><SubTree ID="Add" x="{b}"/>
+                 <A _skipIf="a != 2 || b != 12"/></Sequence>)",
+              R"(<BehaviorTree ID="Add"><Script code="x += 1" _onSuccess="x += x > 10 ? 1 : 0"/></BehaviorTree>)");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+}
+
 TEST(SubTree, AutoremapSharesAllNamesExceptPrivateOnes) {
   const char* autoremap =
       R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice" _autoremap="true"/></Sequence>)";

@@ -24,12 +24,13 @@ class Board {
   }
   /// The value as text, or "! " and the problem.
   std::string run(std::string_view text) {
-    ScriptResult result = Script::compile(text, constants);
-    if (!result.script) return "! " + result.problem;
-    for (std::size_t i = 0; i < result.script->entries().size(); ++i)
-      result.script->bind(i, &slot(result.script->entries()[i].name));
-    const auto value = result.script->run();
-    return value ? toString(valueOf(*value)) : "! " + result.script->problem();
+    Scripts scripts(constants);
+    const auto [script, problem] = scripts.add(text);
+    if (script == nullptr) return "! " + problem;
+    for (std::size_t i = 0; i < script->entries().size(); ++i)
+      script->bind(i, &slot(std::string(script->entries()[i].name)));
+    const auto value = script->run();
+    return value ? toString(valueOf(*value)) : "! " + script->problem();
   }
   std::string at(const std::string& name) {
     return slot(name).value ? toString(*slot(name).value) : std::string("nothing");
@@ -151,16 +152,19 @@ TEST(Script, SaysWhatIsWrongWithAText) {
 }
 
 TEST(Script, TellsWhichEntriesItReadsAndSets) {
-  const ScriptResult result = Script::compile("a := b + 1; c = a; d := 'x'; e := b", {});
-  ASSERT_TRUE(result.script);
+  const Constants no_constants;
+  Scripts scripts(no_constants);
+  scripts.add("other := 'y'");
+  const Script* script = scripts.add("a := b + 1; c = a; d := 'x'; e := b").script;
+  ASSERT_TRUE(script);
   std::string text;
-  for (const ScriptEntry& entry : result.script->entries())
-    text += entry.name + (entry.read ? " read" : "") + (entry.set ? " set" : "") + ", ";
+  for (const ScriptEntry& entry : script->entries())
+    text += std::string(entry.name) + (entry.read ? " read" : "") + (entry.set ? " set" : "") + ", ";
   EXPECT_EQ(text, "b read, a set, c read set, d set, e set, ");
-  const auto& writes = result.script->writes();
+  const auto writes = script->writes();
   ASSERT_EQ(writes.size(), 4u);
-  EXPECT_EQ(writes[2].literal, "x");
-  EXPECT_TRUE(writes[3].copied.has_value());
+  EXPECT_EQ(toString(script->constant(writes[2].constant.value())), "x");
+  EXPECT_EQ(script->entries()[writes[3].copied.value()].name, "b");
 }
 
 RC_GTEST_PROP(Script, SumsAreThoseOfWholeNumbers, (std::int16_t a, std::int16_t b, std::int16_t c)) {

@@ -18,7 +18,7 @@ class Precondition final : public Composite {
   Status run(TickContext& context) override;
   bool onAsked(const TickContext& context) const override;
 
-  std::shared_ptr<Script> if_;
+  Script* if_;
   Input<std::string> else_;
 };
 

@@ -16,7 +16,7 @@ class ScriptNode final : public Leaf {
  private:
   Status act(TickContext& context) override;
 
-  std::shared_ptr<Script> code_;
+  Script* code_;
 };
 
 class ScriptCondition final : public Leaf {
@@ -27,7 +27,7 @@ class ScriptCondition final : public Leaf {
  private:
   Status act(TickContext& context) override;
 
-  std::shared_ptr<Script> code_;
+  Script* code_;
 };
 
 }  // namespace swiftlet::tree

@@ -54,7 +54,7 @@ Status TestNode::act(TickContext& context) {
   return run(context, post_script_) && ran && *status == Status::kSuccess ? Status::kSuccess : Status::kFailure;
 }
 
-bool TestNode::run(TickContext& context, const std::shared_ptr<Script>& script) const {
+bool TestNode::run(TickContext& context, Script* script) const {
   if (script == nullptr || script->run()) return true;
   (void)fail(context, script->problem());
   return false;

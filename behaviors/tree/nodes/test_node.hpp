@@ -21,11 +21,11 @@ class TestNode final : public Leaf {
   void onResume(TickContext& context) override { watch_.resume(context.now_ns); }
   Release onSuspend(TickContext& context) override;
   bool onAsked(const TickContext&) const override;
-  bool run(TickContext& context, const std::shared_ptr<Script>& script) const;
+  bool run(TickContext& context, Script* script) const;
 
   Input<std::string> return_status_;
   Input<Duration> async_delay_msec_;
-  std::shared_ptr<Script> success_script_, failure_script_, post_script_;  ///< Null where not given.
+  Script *success_script_, *failure_script_, *post_script_;  ///< Null where not given.
   Stopwatch watch_;
 };
 

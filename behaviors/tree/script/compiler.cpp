@@ -13,6 +13,38 @@ constexpr int kDeepest = 100;
 /// Bounds the depth of the expression of `a + a + a ...`, which is evaluated from the left.
 constexpr std::size_t kMostTokens = 2000;
 
+/// From loose to tight.
+constexpr int kComparison = 2;
+struct BinarySign {
+  std::string_view text;
+  ScriptOp op;
+  int level;
+};
+constexpr std::array<BinarySign, 16> kBinarySigns = {{{"||", ScriptOp::kOr, 0},
+                                                      {"&&", ScriptOp::kAnd, 1},
+                                                      {"==", ScriptOp::kEqual, kComparison},
+                                                      {"!=", ScriptOp::kUnequal, kComparison},
+                                                      {"<=", ScriptOp::kLessEqual, kComparison},
+                                                      {">=", ScriptOp::kGreaterEqual, kComparison},
+                                                      {"<", ScriptOp::kLess, kComparison},
+                                                      {">", ScriptOp::kGreater, kComparison},
+                                                      {"|", ScriptOp::kOrBits, 3},
+                                                      {"^", ScriptOp::kXorBits, 4},
+                                                      {"&", ScriptOp::kAndBits, 5},
+                                                      {"..", ScriptOp::kJoin, 6},
+                                                      {"+", ScriptOp::kAdd, 7},
+                                                      {"-", ScriptOp::kSubtract, 7},
+                                                      {"*", ScriptOp::kMultiply, 8},
+                                                      {"/", ScriptOp::kDivide, 8}}};
+
+/// The sign between two operands that the token is, if it is one and not looser than `loosest`.
+const BinarySign* binarySign(const Token& token, int loosest) {
+  if (token.kind != TokenKind::kSign) return nullptr;
+  const auto* sign = std::find_if(kBinarySigns.begin(), kBinarySigns.end(),
+                                  [&](const BinarySign& known) { return token.isSign(known.text); });
+  return sign == kBinarySigns.end() || sign->level < loosest ? nullptr : sign;
+}
+
 std::string place(std::string_view text, const Token& token) {
   if (token.kind == TokenKind::kEnd) return "at the end of `" + std::string(text) + "`";
   const bool endless = token.kind == TokenKind::kBad && token.text.front() == '\'';
@@ -21,38 +53,42 @@ std::string place(std::string_view text, const Token& token) {
 
 }  // namespace
 
-ProgramResult ScriptProgram::compile(std::string_view text, const Constants& constants) {
-  return ScriptCompiler(text, constants).compile();
-}
-
-ProgramResult ScriptCompiler::compile() {
+ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode& code) {
+  text_ = text;
+  code_ = &code;
+  first_entry_ = code.entries.size();
+  readTokens(text, tokens_);
+  position_ = 0;
+  depth_ = 0;
+  problem_.clear();
+  const std::size_t first_statement = code.statements.size(), first_write = code.writes.size();
   if (tokens_.size() > kMostTokens) problem_ = "it is longer than " + std::to_string(kMostTokens) + " words";
-  program_.expressions.reserve(tokens_.size());
   while (problem_.empty()) {
     while (take(";")) {}
     if (next().kind == TokenKind::kEnd) break;
-    program_.statements.push_back(statement());
+    code.statements.push_back(statement());
     if (problem_.empty() && next().kind != TokenKind::kEnd && !at(";")) fail(next(), "an operator or `;`");
   }
-  if (problem_.empty() && program_.statements.empty()) problem_ = "it has no statement";
-  if (!problem_.empty()) return {nullptr, problem_};
-  program_.text = text_;
-  return {std::make_shared<const ScriptProgram>(std::move(program_)), {}};
+  if (problem_.empty() && code.statements.size() == first_statement) problem_ = "it has no statement";
+  return {{.text = text,
+           .statements = {first_statement, code.statements.size()},
+           .entries = {first_entry_, code.entries.size()},
+           .writes = {first_write, code.writes.size()}},
+          problem_};
 }
 
 ScriptCompiler::Index ScriptCompiler::statement() {
   constexpr std::array<std::string_view, 6> kAssignments = {":=", "=", "+=", "-=", "*=", "/="};
-  const bool named = next().kind == TokenKind::kName && tokens_[position_ + 1].kind == TokenKind::kSign;
-  if (named) {
-    const std::string_view name = next().text, sign = tokens_[position_ + 1].text;
-    if (std::find(kAssignments.begin(), kAssignments.end(), sign) != kAssignments.end()) {
-      if (name == "true" || name == "false" || constants_.contains(name))
-        return fail(next(), "the name of an entry before `" + std::string(sign) + "`, but it is a constant");
-      position_ += 2;
-      return assignment(name, sign);
-    }
-  }
-  return choice();
+  if (next().kind != TokenKind::kName) return choice();
+  const Token& second = tokens_[position_ + 1];
+  const auto* sign = std::find_if(kAssignments.begin(), kAssignments.end(),
+                                  [&](std::string_view known) { return second.isSign(known); });
+  if (sign == kAssignments.end()) return choice();
+  const std::string_view name = next().text;
+  if (name == "true" || name == "false" || constants_.contains(name))
+    return fail(next(), "the name of an entry before `" + std::string(*sign) + "`, but it is a constant");
+  position_ += 2;
+  return assignment(name, *sign);
 }
 
 /// `x += a` is `x = x + a`.
@@ -60,35 +96,36 @@ ScriptCompiler::Index ScriptCompiler::assignment(std::string_view name, std::str
   const bool makes = sign == ":=";
   const bool computes = sign.size() == 2 && !makes;
   std::optional<Index> old;
-  if (computes) old = add({.op = Op::kEntry, .of = static_cast<Index>(entry(name, true))});
+  if (computes) old = add({.op = Op::kEntry, .of = entry(name, true)});
   Index value = choice();
   if (computes) {
     const Op op = sign == "+=" ? Op::kAdd : sign == "-=" ? Op::kSubtract : sign == "*=" ? Op::kMultiply : Op::kDivide;
     value = add({.op = op, .a = *old, .b = value});
   }
   if (!problem_.empty()) return 0;
-  const std::size_t written = entry(name, !makes);
-  recordWrite(written, makes, program_.expressions[value]);
-  return add({.op = makes ? Op::kMake : Op::kAssign, .a = value, .of = static_cast<Index>(written)});
+  const Index written = entry(name, !makes);
+  recordWrite(written, makes, code_->expressions[value]);
+  return add({.op = makes ? Op::kMake : Op::kAssign, .a = value, .of = written});
 }
 
-void ScriptCompiler::recordWrite(std::size_t entry, bool makes, const ScriptProgram::Expression& value) {
-  program_.entries[entry].set = true;
-  ScriptWrite write{.entry = entry, .makes = makes, .literal = {}, .copied = {}, .type = PortType::kAny};
+void ScriptCompiler::recordWrite(Index entry, bool makes, const ScriptExpression& value) {
+  code_->entries[entry].set = true;
+  ScriptWrite& write = code_->writes.emplace_back();
+  write.entry = entry - first_entry_;
+  write.makes = makes;
   if (value.op == Op::kConstant)
-    write.literal = toString(program_.constants[value.of]);
+    write.constant = value.of;
   else if (value.op == Op::kEntry)
-    write.copied = value.of;
+    write.copied = value.of - first_entry_;
   else if (value.op >= Op::kEqual && value.op <= Op::kOr)
     write.type = PortType::kBool;
   else if (value.op == Op::kJoin)
     write.type = PortType::kString;
-  program_.writes.push_back(std::move(write));
 }
 
 ScriptCompiler::Index ScriptCompiler::choice() {
   if (++depth_ > kDeepest) return fail(next(), "fewer than 100 levels");
-  Index condition = logic(0);
+  Index condition = binary(0);
   if (take("?")) {
     const Index yes = choice();
     if (!take(":")) return fail(next(), "`:`");
@@ -99,58 +136,38 @@ ScriptCompiler::Index ScriptCompiler::choice() {
   return condition;
 }
 
-ScriptCompiler::Index ScriptCompiler::logic(std::size_t level) {
-  if (level == 2) return comparison();
-  const std::string_view sign = level == 0 ? "||" : "&&";
-  Index left = logic(level + 1);
-  while (take(sign)) left = add({.op = level == 0 ? Op::kOr : Op::kAnd, .a = left, .b = logic(level + 1)});
+/// An operand, and what the signs that are not looser than `loosest` make of it (precedence climbing).
+ScriptCompiler::Index ScriptCompiler::binary(int loosest) {
+  Index left = unary();
+  while (const BinarySign* sign = binarySign(next(), loosest)) {
+    if (sign->level == kComparison) {
+      left = comparison(left);
+      continue;
+    }
+    ++position_;
+    const Index right = binary(sign->level + 1);
+    const auto buffer = static_cast<Index>(code_->joins);
+    if (sign->op == Op::kJoin) ++code_->joins;
+    left = add({.op = sign->op, .a = left, .b = right, .of = buffer});
+  }
   return left;
 }
 
 /// A chain `a < b < c` is `a < b && b < c`.
-ScriptCompiler::Index ScriptCompiler::comparison() {
-  constexpr std::array<std::pair<std::string_view, Op>, 6> kSigns = {{{"==", Op::kEqual},
-                                                                      {"!=", Op::kUnequal},
-                                                                      {"<=", Op::kLessEqual},
-                                                                      {">=", Op::kGreaterEqual},
-                                                                      {"<", Op::kLess},
-                                                                      {">", Op::kGreater}}};
-  Index left = binary(0);
+ScriptCompiler::Index ScriptCompiler::comparison(Index left) {
   std::optional<Index> chain;
-  while (true) {
-    const auto* sign = std::find_if(kSigns.begin(), kSigns.end(), [&](const auto& known) { return at(known.first); });
-    if (sign == kSigns.end()) return chain.value_or(left);
+  while (const BinarySign* sign = binarySign(next(), kComparison)) {
     ++position_;
-    const Index right = binary(0);
-    const Index link = add({.op = sign->second, .a = left, .b = right});
+    const Index right = binary(kComparison + 1);
+    const Index link = add({.op = sign->op, .a = left, .b = right});
     chain = chain ? add({.op = Op::kAnd, .a = *chain, .b = link}) : link;
     left = right;
   }
-}
-
-ScriptCompiler::Index ScriptCompiler::binary(std::size_t level) {
-  static const std::array<std::vector<std::pair<std::string_view, Op>>, 6> kLevels = {
-      {{{"|", Op::kOrBits}},
-       {{"^", Op::kXorBits}},
-       {{"&", Op::kAndBits}},
-       {{"..", Op::kJoin}},
-       {{"+", Op::kAdd}, {"-", Op::kSubtract}},
-       {{"*", Op::kMultiply}, {"/", Op::kDivide}}}};
-  if (level == kLevels.size()) return unary();
-  Index left = binary(level + 1);
-  while (true) {
-    const auto& signs = kLevels[level];
-    const auto sign = std::find_if(signs.begin(), signs.end(), [&](const auto& known) { return at(known.first); });
-    if (sign == signs.end()) return left;
-    ++position_;
-    const Index right = binary(level + 1);
-    const auto buffer = static_cast<Index>(program_.joins);
-    if (sign->second == Op::kJoin) ++program_.joins;
-    left = add({.op = sign->second, .a = left, .b = right, .of = buffer});
-  }
+  return chain.value_or(left);
 }
 
 ScriptCompiler::Index ScriptCompiler::unary() {
+  if (next().kind != TokenKind::kSign) return operand();
   for (const auto& [sign, op] : Signs{{"-", Op::kNegate}, {"!", Op::kNot}, {"~", Op::kInvertBits}}) {
     if (!take(sign)) continue;
     if (++depth_ > kDeepest) return fail(next(), "fewer than 100 levels");
@@ -191,25 +208,27 @@ ScriptCompiler::Index ScriptCompiler::number(const Token& token) {
 ScriptCompiler::Index ScriptCompiler::name(const Token& token) {
   if (token.text == "true" || token.text == "false") return constant(token.text == "true");
   if (const auto known = constants_.find(token.text); known != constants_.end()) return constant(known->second);
-  return add({.op = Op::kEntry, .of = static_cast<Index>(entry(token.text, true))});
+  return add({.op = Op::kEntry, .of = entry(token.text, true)});
 }
 
-ScriptCompiler::Index ScriptCompiler::add(ScriptProgram::Expression expression) {
-  program_.expressions.push_back(expression);
-  return static_cast<Index>(program_.expressions.size() - 1);
+ScriptCompiler::Index ScriptCompiler::add(ScriptExpression expression) {
+  code_->expressions.push_back(expression);
+  return static_cast<Index>(code_->expressions.size() - 1);
 }
 
-ScriptCompiler::Index ScriptCompiler::constant(Value value) {
-  program_.constants.push_back(std::move(value));
-  return add({.op = Op::kConstant, .of = static_cast<Index>(program_.constants.size() - 1)});
+template <typename T>
+ScriptCompiler::Index ScriptCompiler::constant(T value) {
+  code_->constants.emplace_back(std::move(value));
+  return add({.op = Op::kConstant, .of = static_cast<Index>(code_->constants.size() - 1)});
 }
 
-std::size_t ScriptCompiler::entry(std::string_view name, bool read) {
-  std::vector<ScriptEntry>& entries = program_.entries;
-  auto known = std::find_if(entries.begin(), entries.end(), [&](const auto& other) { return other.name == name; });
-  if (known == entries.end()) known = entries.insert(entries.end(), {.name = std::string(name)});
-  known->read = known->read || (read && !known->set);
-  return static_cast<std::size_t>(known - entries.begin());
+ScriptCompiler::Index ScriptCompiler::entry(std::string_view name, bool read) {
+  std::vector<ScriptEntry>& entries = code_->entries;
+  std::size_t index = first_entry_;
+  while (index < entries.size() && entries[index].name != name) ++index;
+  if (index == entries.size()) entries.push_back({.name = name});
+  entries[index].read = entries[index].read || (read && !entries[index].set);
+  return static_cast<Index>(index);
 }
 
 bool ScriptCompiler::take(std::string_view sign) {

@@ -1,4 +1,4 @@
-// Compiles the text of a script: recursive descent over its tokens, one function for each level of precedence.
+// Compiles the text of a script: recursive descent over its tokens.
 #pragma once
 
 #include <cstdint>
@@ -13,52 +13,54 @@
 
 namespace swiftlet::tree {
 
+/// Used again and again, so that its memory is.
 class ScriptCompiler {
  public:
-  ScriptCompiler(std::string_view text, const Constants& constants)
-      : text_(text), constants_(constants), tokens_(tokensOf(text)) {}
+  explicit ScriptCompiler(const Constants& constants) : constants_(constants) {}
 
-  ProgramResult compile();
+  struct Result {
+    ScriptProgram program;
+    std::string problem;  ///< What is wrong with the text; empty if it is a script.
+  };
+  /// Adds a script to `code`. The text must outlive the code. A text that is no script leaves code that nothing uses.
+  Result compile(std::string_view text, ScriptCode& code);
 
  private:
-  using Op = ScriptProgram::Op;
+  using Op = ScriptOp;
   using Index = std::uint32_t;
   using Signs = std::initializer_list<std::pair<std::string_view, Op>>;
 
   Index statement();
   Index choice();
-  Index logic(std::size_t level);
-  Index comparison();
-  Index binary(std::size_t level);
+  Index binary(int loosest);
+  Index comparison(Index left);
   Index unary();
   Index operand();
   Index number(const Token& token);
   Index name(const Token& token);
 
-  Index add(ScriptProgram::Expression expression);
-  Index constant(Value value);
-  std::size_t entry(std::string_view name, bool read);
+  Index add(ScriptExpression expression);
+  template <typename T>
+  Index constant(T value);
+  Index entry(std::string_view name, bool read);
   Index assignment(std::string_view name, std::string_view sign);
-  void recordWrite(std::size_t entry, bool makes, const ScriptProgram::Expression& value);
+  void recordWrite(Index entry, bool makes, const ScriptExpression& value);
 
   const Token& next() const { return tokens_[position_]; }
-  /// Signs have one or two characters.
-  bool at(std::string_view sign) const {
-    const std::string_view text = next().text;
-    return next().kind == TokenKind::kSign && text.size() == sign.size() && text[0] == sign[0] &&
-           (sign.size() == 1 || text[1] == sign[1]);
-  }
+  bool at(std::string_view sign) const { return next().isSign(sign); }
   bool take(std::string_view sign);
   /// Keeps the first problem and ends the text, so that every function above returns.
   Index fail(const Token& token, std::string_view expected);
 
-  std::string_view text_;
   const Constants& constants_;
+  // Of the text that is being compiled.
+  std::string_view text_;
+  ScriptCode* code_ = nullptr;
+  std::size_t first_entry_ = 0;
   std::vector<Token> tokens_;
   std::size_t position_ = 0;
   int depth_ = 0;
   std::string problem_;
-  ScriptProgram program_;
 };
 
 }  // namespace swiftlet::tree

@@ -1,15 +1,7 @@
 #include "behaviors/tree/script/lexer.hpp"
 
-#include <algorithm>
-#include <array>
-
 namespace swiftlet::tree {
 namespace {
-
-/// Longer signs come before those that they begin with.
-constexpr std::array<std::string_view, 29> kSigns = {":=", "+=", "-=", "*=", "/=", "==", "!=", "<=", ">=", "&&",
-                                                     "||", "..", "=",  "+",  "-",  "*",  "/",  "<",  ">",  "!",
-                                                     "~",  "&",  "|",  "^",  "?",  ":",  "(",  ")",  ";"};
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '@'; }
@@ -36,40 +28,43 @@ std::size_t numberEnd(std::string_view text) {
   return end;
 }
 
-Token quoted(std::string_view rest, std::size_t offset) {
-  const std::size_t close = rest.find(rest.front(), 1);
-  if (close == std::string_view::npos) return {TokenKind::kBad, rest, offset};
-  return {TokenKind::kText, rest.substr(1, close - 1), offset};
+/// Of the sign that `text` begins with; 0 if that is none.
+std::size_t signLength(std::string_view text) {
+  constexpr std::string_view kSingle = "=+-*/<>!~&|^?:();", kBeforeEqual = ":+-*/=!<>", kDoubled = "&|.";
+  const char first = text[0], second = text.size() > 1 ? text[1] : '\0';
+  const std::string_view pairs = second == '=' ? kBeforeEqual : second == first ? kDoubled : std::string_view();
+  if (pairs.find(first) != std::string_view::npos) return 2;
+  return kSingle.find(first) == std::string_view::npos ? 0 : 1;
 }
 
-Token nextToken(std::string_view rest, std::size_t offset) {
-  if (isDigit(rest.front())) return {TokenKind::kNumber, rest.substr(0, numberEnd(rest)), offset};
+Token quoted(std::string_view rest) {
+  const std::size_t close = rest.find(rest.front(), 1);
+  if (close == std::string_view::npos) return {TokenKind::kBad, rest};
+  return {TokenKind::kText, rest.substr(1, close - 1)};
+}
+
+Token nextToken(std::string_view rest) {
+  if (isDigit(rest.front())) return {TokenKind::kNumber, rest.substr(0, numberEnd(rest))};
   if (isLetter(rest.front()))
-    return {TokenKind::kName, rest.substr(0, lengthOf(rest, 1, [](char c) { return isLetter(c) || isDigit(c); })),
-            offset};
-  if (rest.front() == '\'' || rest.front() == '"') return quoted(rest, offset);
-  const auto* sign = std::find_if(kSigns.begin(), kSigns.end(), [&](std::string_view known) {
-    return rest[0] == known[0] && (known.size() == 1 || (rest.size() > 1 && rest[1] == known[1]));
-  });
-  if (sign == kSigns.end()) return {TokenKind::kBad, rest.substr(0, 1), offset};
-  return {TokenKind::kSign, rest.substr(0, sign->size()), offset};
+    return {TokenKind::kName, rest.substr(0, lengthOf(rest, 1, [](char c) { return isLetter(c) || isDigit(c); }))};
+  if (rest.front() == '\'' || rest.front() == '"') return quoted(rest);
+  const std::size_t length = signLength(rest);
+  return length == 0 ? Token{TokenKind::kBad, rest.substr(0, 1)} : Token{TokenKind::kSign, rest.substr(0, length)};
 }
 
 }  // namespace
 
-std::vector<Token> tokensOf(std::string_view script) {
-  std::vector<Token> tokens;
-  tokens.reserve(script.size() / 3 + 2);
+void readTokens(std::string_view script, std::vector<Token>& tokens) {
+  tokens.clear();
   std::size_t offset = 0;
   while (true) {
     offset = lengthOf(script, offset, [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; });
     if (offset == script.size()) break;
-    tokens.push_back(nextToken(script.substr(offset), offset));
+    tokens.push_back(nextToken(script.substr(offset)));
     const std::size_t quotes = tokens.back().kind == TokenKind::kText ? 2 : 0;
     offset += tokens.back().text.size() + quotes;
   }
-  tokens.push_back({TokenKind::kEnd, script.substr(script.size()), script.size()});
-  return tokens;
+  tokens.push_back({TokenKind::kEnd, script.substr(script.size())});
 }
 
 }  // namespace swiftlet::tree

@@ -1,7 +1,6 @@
 // Splits a script into words.
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -11,12 +10,17 @@ enum class TokenKind : unsigned char { kNumber, kText, kName, kSign, kEnd, kBad 
 
 struct Token {
   TokenKind kind = TokenKind::kEnd;
-  std::string_view text;   ///< As written; of kText without the quotes.
-  std::size_t offset = 0;  ///< In the script.
+  std::string_view text;  ///< As written; of kText without the quotes.
+
+  /// Signs have one or two characters.
+  bool isSign(std::string_view sign) const {
+    return kind == TokenKind::kSign && text.size() == sign.size() && text[0] == sign[0] &&
+           (sign.size() == 1 || text[1] == sign[1]);
+  }
 };
 
-/// The tokens of a script, the last of which is kEnd. A character or a text without an end that is no token gives kBad
-/// in front of it.
-std::vector<Token> tokensOf(std::string_view script);
+/// Replaces `tokens` by those of a script, the last of which is kEnd. A character or a text without an end that is no
+/// token gives kBad in front of it.
+void readTokens(std::string_view script, std::vector<Token>& tokens);
 
 }  // namespace swiftlet::tree

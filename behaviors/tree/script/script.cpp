@@ -23,18 +23,23 @@ void append(std::string& text, const Operand& operand) {
 
 }  // namespace
 
-Script::Script(std::shared_ptr<const ScriptProgram> program)
-    : program_(std::move(program)), slots_(program_->entries.size()), joined_(program_->joins) {}
-
-ScriptResult Script::compile(std::string_view text, const Constants& constants) {
-  ProgramResult result = ScriptProgram::compile(text, constants);
-  if (!result.program) return {nullptr, std::move(result.problem)};
-  return {std::make_unique<Script>(std::move(result.program)), {}};
+Scripts::Added Scripts::add(std::string_view text) {
+  ScriptCompiler::Result result = compiler_.compile(text, code_);
+  if (!result.problem.empty()) return {nullptr, std::move(result.problem)};
+  slots_.resize(code_.entries.size());
+  joined_.resize(code_.joins);
+  return {&scripts_.emplace_back(*this, result.program), {}};
 }
+
+std::span<const ScriptEntry> Script::entries() const { return program_.entries.of(owner_->code_.entries); }
+std::span<const ScriptWrite> Script::writes() const { return program_.writes.of(owner_->code_.writes); }
+void Script::bind(std::size_t entry, Slot* slot) { owner_->slots_[program_.entries.begin + entry] = slot; }
+const Slot& Script::slot(std::size_t entry) const { return *owner_->slots_[program_.entries.begin + entry]; }
+const Value& Script::constant(std::size_t index) const { return owner_->code_.constants[index]; }
 
 std::optional<Operand> Script::run() {
   std::optional<Operand> last;
-  for (const std::uint32_t statement : program_->statements) {
+  for (const std::uint32_t statement : program_.statements.of(owner_->code_.statements)) {
     last = evaluate(statement);
     if (!last) return std::nullopt;
   }
@@ -54,14 +59,18 @@ std::nullopt_t Script::fail(std::string problem) {
   return std::nullopt;
 }
 
+std::nullopt_t Script::failUnset(std::uint32_t entry, std::string_view remedy) {
+  return fail("the entry {" + std::string(owner_->code_.entries[entry].name) + "} is not set" + std::string(remedy));
+}
+
 std::optional<Operand> Script::evaluate(std::uint32_t index) {
-  const Expression& expression = program_->expressions[index];
+  const Expression& expression = owner_->code_.expressions[index];
   switch (expression.op) {
     case Op::kConstant:
-      return operandOf(program_->constants[expression.of]);
+      return operandOf(owner_->code_.constants[expression.of]);
     case Op::kEntry: {
-      const Slot& slot = *slots_[expression.of];
-      if (!slot.value) return fail("the entry {" + program_->entries[expression.of].name + "} is not set");
+      const Slot& slot = *owner_->slots_[expression.of];
+      if (!slot.value) return failUnset(expression.of, {});
       return operandOf(*slot.value);
     }
     case Op::kAnd:
@@ -172,7 +181,7 @@ std::optional<Operand> Script::comparison(Op op, const Operand& a, const Operand
 }
 
 std::optional<Operand> Script::join(std::uint32_t buffer, const Operand& a, const Operand& b) {
-  std::string& text = joined_[buffer];
+  std::string& text = owner_->joined_[buffer];
   text.clear();
   append(text, a);
   append(text, b);
@@ -184,9 +193,8 @@ std::optional<Operand> Script::join(std::uint32_t buffer, const Operand& a, cons
 std::optional<Operand> Script::assign(const Expression& expression) {
   const auto value = evaluate(expression.a);
   if (!value) return std::nullopt;
-  Slot& slot = *slots_[expression.of];
-  if (expression.op == Op::kAssign && !slot.value)
-    return fail("the entry {" + program_->entries[expression.of].name + "} is not set; `:=` makes it");
+  Slot& slot = *owner_->slots_[expression.of];
+  if (expression.op == Op::kAssign && !slot.value) return failUnset(expression.of, "; `:=` makes it");
   const auto* words = std::get_if<std::string_view>(&*value);
   if (words != nullptr)
     slot.writeText(*words);

@@ -15,34 +15,37 @@
 // text grows. There are no loops and no calls, so a script always ends.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "behaviors/tree/port.hpp"
+#include "behaviors/tree/script/compiler.hpp"
 #include "behaviors/tree/script/operand.hpp"
 #include "behaviors/tree/script/program.hpp"
 
 namespace swiftlet::tree {
 
-struct ScriptResult;
+class Scripts;
 
 class Script {
  public:
-  explicit Script(std::shared_ptr<const ScriptProgram> program);
-  static ScriptResult compile(std::string_view text, const Constants& constants);
+  /// Made by Scripts, which own the code and the memory that it uses.
+  Script(Scripts& owner, const ScriptProgram& program) : owner_(&owner), program_(program) {}
 
   /// As it was compiled.
-  const std::string& text() const { return program_->text; }
-  const std::vector<ScriptEntry>& entries() const { return program_->entries; }
-  const std::vector<ScriptWrite>& writes() const { return program_->writes; }
-  bool assigns() const { return !program_->writes.empty(); }
+  std::string_view text() const { return program_.text; }
+  std::span<const ScriptEntry> entries() const;
+  std::span<const ScriptWrite> writes() const;
   /// Each entry is bound before the first run.
-  void bind(std::size_t entry, Slot* slot) { slots_[entry] = slot; }
-  const Slot& slot(std::size_t entry) const { return *slots_[entry]; }
+  void bind(std::size_t entry, Slot* slot);
+  const Slot& slot(std::size_t entry) const;
+  const Value& constant(std::size_t index) const;
 
   /// The value of the last statement, valid until the next run or a write to an entry. Nothing if it cannot be
   /// evaluated; then `problem` says why. Statements before the one that fails have been carried out.
@@ -52,8 +55,8 @@ class Script {
   const std::string& problem() const { return problem_; }
 
  private:
-  using Op = ScriptProgram::Op;
-  using Expression = ScriptProgram::Expression;
+  using Op = ScriptOp;
+  using Expression = ScriptExpression;
 
   std::optional<Operand> evaluate(std::uint32_t index);
   std::optional<Operand> evaluateUnary(const Expression& expression, const Operand& a);
@@ -65,16 +68,35 @@ class Script {
   std::optional<Operand> assign(const Expression& expression);
   std::optional<bool> truth(std::uint32_t index);
   std::nullopt_t fail(std::string problem);
+  std::nullopt_t failUnset(std::uint32_t entry, std::string_view remedy);
 
-  std::shared_ptr<const ScriptProgram> program_;
-  std::vector<Slot*> slots_;         ///< Of the entries.
-  std::vector<std::string> joined_;  ///< Texts made by `..`, kept so that their memory is used again.
+  Scripts* owner_;
+  ScriptProgram program_;
   std::string problem_;
 };
 
-struct ScriptResult {
-  std::unique_ptr<Script> script;
-  std::string problem;  ///< What is wrong with the text, if there is no script.
+/// The scripts of a tree. Does not move, because each of them refers to it.
+class Scripts {
+ public:
+  /// The constants must outlive this object.
+  explicit Scripts(const Constants& constants) : compiler_(constants) {}
+  Scripts(const Scripts&) = delete;
+  Scripts& operator=(const Scripts&) = delete;
+
+  struct Added {
+    Script* script = nullptr;  ///< Lives as long as this object.
+    std::string problem;       ///< What is wrong with the text, if there is no script.
+  };
+  /// The text must outlive this object.
+  Added add(std::string_view text);
+
+ private:
+  friend class Script;
+  ScriptCompiler compiler_;
+  ScriptCode code_;
+  std::vector<Slot*> slots_;         ///< Of the entries of the code.
+  std::vector<std::string> joined_;  ///< Texts made by `..`, kept so that their memory is used again.
+  std::deque<Script> scripts_;       ///< Stable addresses.
 };
 
 }  // namespace swiftlet::tree
