@@ -1,6 +1,6 @@
-// FollowMe: stays `distance_m` behind a walking person, the camera on him; RUNNING until something above it ends it,
-// and FAILURE when he is not seen for `lost_s`. ReturnToMe: flies to where the person was last followed, SUCCESS near
-// him.
+// FollowMe: stays `distance_m` behind a walking person, with the camera on that person; RUNNING until something above
+// it ends it, and FAILURE when nobody is seen for `lost_s`. ReturnToMe: flies to where the person was last followed;
+// SUCCESS near that person.
 #pragma once
 
 #include <string>

@@ -7,9 +7,8 @@ using tree::Status;
 LiveTree::LiveTree(const tree::Tree& tree)
     : tree_(tree), told_s_(tree.nodes().size(), -1.0), shown_writes_(tree.nodes().size()) {
   for (const tree::NodeView& node : tree.view()) {
-    const tree::NodeManifest* manifest = tree.nodes()[static_cast<std::size_t>(node.id)].manifest;
-    view_.push_back(
-        {node.id, node.parent, node.name, toString(node.status), manifest == nullptr ? "SubTree" : manifest->id});
+    const tree::NodeRecord& record = tree.nodes()[static_cast<std::size_t>(node.id)];
+    view_.push_back({node.id, node.parent, node.name, toString(node.status), std::string(typeNameOf(record))});
     showPorts(node.id);
   }
 }

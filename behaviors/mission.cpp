@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "behaviors/flight_tick.hpp"
+#include "behaviors/limits_check.hpp"
 #include "behaviors/live_tree.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/narrator.hpp"
@@ -25,6 +26,17 @@ struct Mission::Impl {
   explicit Impl(tree::Tree parsed)
       : tree(std::move(parsed)), narrator(tree), live(tree), observers({&narrator, &live}) {}
 
+  /// What `act` does to the tree in one tick, told to the observers.
+  template <typename Act>
+  auto observed(Context& context, Act act) {
+    FlightTick tick(context, memory);
+    tick.observer = &observers;
+    narrator.listen(&tick);
+    live.setNow(context.now);
+    const auto answer = act(tick);
+    narrator.listen(nullptr);
+    return answer;
+  }
   void answerCommands(Context& context);
   std::string refusal(const Context& context, const common::OperatorCommand& command) const;
   std::string refusalOfGoal(const Context& context, const common::GoalCommand& command) const;
@@ -96,12 +108,7 @@ TickResult Mission::tick(Context& context) {
 
   for (common::MissionAnswer& answer : std::exchange(context.answers, {}))
     self.memory.answers.push_back(std::move(answer));
-  FlightTick tick(context, self.memory);
-  tick.observer = &self.observers;
-  self.narrator.listen(&tick);
-  self.live.setNow(context.now);
-  const Status status = self.tree.tick(tick);
-  self.narrator.listen(nullptr);
+  const Status status = self.observed(context, [&](FlightTick& tick) { return self.tree.tick(tick); });
   if (status != Status::kRunning) context.intent.reset();  // A leaf that ended in this tick has no intent any more.
   self.result = self.resultOf(context, status);
   return self.result;
@@ -111,12 +118,8 @@ bool Mission::letGo(Context& context) {
   SWIFTLET_CHECK(context.world != nullptr);
   Impl& self = *impl_;
   context.intent.reset();
-  FlightTick tick(context, self.memory);
-  tick.observer = &self.observers;
-  self.narrator.listen(&tick);
-  self.live.setNow(context.now);
-  const bool released = self.tree.halt(tick) == tree::Release::kReleased;
-  self.narrator.listen(nullptr);
+  const bool released =
+      self.observed(context, [&](FlightTick& tick) { return self.tree.halt(tick) == tree::Release::kReleased; });
   if (released) {
     self.memory = {self.memory.last_intent_id, {}, {}, {}, {}, {}};
     self.narrator.forget();

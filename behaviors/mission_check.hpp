@@ -1,7 +1,6 @@
 // Finds what cannot work in flight, from the tree alone.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +14,8 @@ namespace swiftlet::behaviors {
 /// The problems in the type of common.
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems);
 
-/// - A node flies (Explore, Localize, MoveToGoal, GoHome, OperatorCommand) or lands although the vehicle is on the
-///   floor, judged by the statuses that lead there; or nothing ever takes off.
-/// - A clearance that the reactive layer forbids, or a goal that cannot be valid in any map (common/goal.hpp).
-/// - A child of a Priority, other than the last, that is never SKIPPED: the children below it would never get the
-///   vehicle.
+/// Those of flight_order.hpp and limits_check.hpp.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);
-
-/// The greatest `max_height_m` of the tree's TakeOffs; nullopt if none names one.
-std::optional<double> maxHeightOf_m(const tree::Tree& tree);
 
 /// The maps that its LoadMaps name, as they name them; each once.
 std::vector<std::string> mapFilesOf(const tree::Tree& tree);

@@ -10,23 +10,10 @@
 namespace swiftlet::behaviors {
 namespace {
 
-std::string_view typeOf(const tree::NodeRecord& record) {
-  return record.manifest == nullptr ? std::string_view("SubTree") : std::string_view(record.manifest->id);
-}
-
-/// Whether every value that the port may have is that number.
-bool isAlways(const tree::Tree& tree, const tree::NodeRecord& record, std::string_view port, std::int64_t number) {
-  const std::vector<tree::Value> values = tree.knownValues(record.node->id(), port);
-  return !values.empty() && std::all_of(values.begin(), values.end(), [&](const tree::Value& value) {
-    const auto* whole = std::get_if<std::int64_t>(&value);
-    return whole != nullptr && *whole == number;
-  });
-}
-
 std::optional<tree::Outcomes> outcomesOfLeaf(const tree::Tree& tree, const tree::NodeRecord& leaf) {
-  if (typeOf(leaf) == "LogEvent") return tree::Outcomes{.success = true};
-  if (typeOf(leaf) == "OperatorCommand") return tree::Outcomes{.failure = true};
-  if (typeOf(leaf) == "Patrol" && isAlways(tree, leaf, "rounds", 0)) return tree::Outcomes{.failure = true};
+  if (typeNameOf(leaf) == "LogEvent") return tree::Outcomes{.success = true};
+  if (typeNameOf(leaf) == "OperatorCommand") return tree::Outcomes{.failure = true};
+  if (typeNameOf(leaf) == "Patrol" && tree::isAlways(tree, leaf, "rounds", 0)) return tree::Outcomes{.failure = true};
   return std::nullopt;
 }
 
@@ -40,7 +27,7 @@ class Warnings {
     const std::vector<tree::Unreached> unreached = tree::unreachedNodes(tree_, outcomes);
     for (const tree::Unreached& node : unreached) warn(node.node, "is never reached: " + node.why, {});
     for (const tree::NodeRecord& record : tree_.nodes())
-      if (typeOf(record).starts_with("Parallel")) checkParallel(*record.node);
+      if (typeNameOf(record).starts_with("Parallel")) checkParallel(*record.node);
     checkLanding(unreached);
     return std::move(warnings_);
   }
@@ -48,8 +35,8 @@ class Warnings {
  private:
   void warn(int node, std::string message, std::string hint) {
     const tree::NodeRecord& record = tree_.nodes()[static_cast<std::size_t>(node)];
-    warnings_.push_back(
-        {tree_.locationOf(node), std::string(typeOf(record)), std::move(message), std::move(hint), tree_.pathOf(node)});
+    warnings_.push_back({tree_.locationOf(node), std::string(typeNameOf(record)), std::move(message), std::move(hint),
+                         tree_.pathOf(node)});
   }
 
   /// The first leaf below that has the vehicle whenever it is ticked; null without one.
@@ -79,7 +66,7 @@ class Warnings {
       return false;
     };
     for (const tree::NodeRecord& record : tree_.nodes()) {
-      const std::string_view type = typeOf(record);
+      const std::string_view type = typeNameOf(record);
       const bool lands = type.find("Land") != std::string_view::npos || type == "OperatorCommand";
       if (lands && !isUnreached(record.node->id())) return;
     }

@@ -57,11 +57,8 @@ void Relocalize::planLooks(const FlightTick& tick, double clearance_m, double ra
     look.yaw_map_rad = common::wrapAngle(T_map_body.yaw_rad + i * 2.0 * std::numbers::pi / kTurns);
     looks_.push_back(look);
   }
-  const common::GoToIntent here = [&] {
-    common::GoToIntent back = look;
-    back.yaw_map_rad.reset();
-    return back;
-  }();
+  common::GoToIntent here = look;
+  here.yaw_map_rad.reset();
   for (int i = 0; i < kDirections; ++i) {
     common::GoToIntent out = here;
     const Eigen::Rotation2Dd turned(i * 2.0 * std::numbers::pi / kDirections);

@@ -42,7 +42,7 @@ StartDecision Conditions::atStart() {
                                      Question{ConditionKind::kSkipIf, true, Status::kSkipped},
                                      Question{ConditionKind::kWhile, false, Status::kSkipped}};
   for (const Question& question : kQuestions) {
-    if (scripts[static_cast<std::size_t>(question.kind)] == nullptr) continue;
+    if (!has(question.kind)) continue;
     const auto answer = ask(question.kind);
     if (!answer) return {true, Status::kFailure};
     if (*answer == question.decides) return {false, question.status};
@@ -50,9 +50,7 @@ StartDecision Conditions::atStart() {
   return {};
 }
 
-std::optional<bool> Conditions::goesOn() {
-  return scripts[static_cast<std::size_t>(ConditionKind::kWhile)] == nullptr ? true : ask(ConditionKind::kWhile);
-}
+std::optional<bool> Conditions::goesOn() { return has(ConditionKind::kWhile) ? ask(ConditionKind::kWhile) : true; }
 
 bool Conditions::afterwards(Status status) {
   if (status != Status::kSuccess && status != Status::kFailure) return true;

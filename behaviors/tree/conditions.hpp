@@ -50,6 +50,7 @@ struct Conditions {
   /// How the node ends when it has let go, because _while is no longer true.
   std::optional<Status> leaving;
 
+  bool has(ConditionKind kind) const { return scripts[static_cast<std::size_t>(kind)] != nullptr; }
   StartDecision atStart();
   /// _while of a node that is under way; nothing if it cannot be evaluated.
   std::optional<bool> goesOn();

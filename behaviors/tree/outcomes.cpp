@@ -112,22 +112,13 @@ class OutcomeJudge {
     return kAny;
   }
 
-  bool isForever(const NodeRecord& record, std::string_view port) const {
-    const std::vector<Value> values = tree_.knownValues(record.node->id(), port);
-    return !values.empty() && std::all_of(values.begin(), values.end(), [](const Value& value) {
-      const auto* count = std::get_if<std::int64_t>(&value);
-      return count != nullptr && *count == -1;
-    });
-  }
+  bool isForever(const NodeRecord& record, std::string_view port) const { return isAlways(tree_, record, port, -1); }
 
   Outcomes withConditions(int id, Outcomes outcomes) const {
     const Conditions* conditions = tree_.conditionsOf(id);
     if (conditions == nullptr) return outcomes;
-    const auto given = [&](ConditionKind kind) {
-      return conditions->scripts[static_cast<std::size_t>(kind)] != nullptr;
-    };
-    return either(outcomes, {given(ConditionKind::kSuccessIf), given(ConditionKind::kFailureIf),
-                             given(ConditionKind::kSkipIf) || given(ConditionKind::kWhile)});
+    return either(outcomes, {conditions->has(ConditionKind::kSuccessIf), conditions->has(ConditionKind::kFailureIf),
+                             conditions->has(ConditionKind::kSkipIf) || conditions->has(ConditionKind::kWhile)});
   }
 
   const Tree& tree_;
@@ -144,6 +135,14 @@ std::string neverText(const Node& blocker, Outcomes end, ChainRule chain) {
 }
 
 }  // namespace
+
+bool isAlways(const Tree& tree, const NodeRecord& record, std::string_view port, std::int64_t number) {
+  const std::vector<Value> values = tree.knownValues(record.node->id(), port);
+  return !values.empty() && std::all_of(values.begin(), values.end(), [&](const Value& value) {
+    const auto* whole = std::get_if<std::int64_t>(&value);
+    return whole != nullptr && *whole == number;
+  });
+}
 
 std::vector<Outcomes> outcomesOf(const Tree& tree, const LeafOutcomes& leaf_outcomes) {
   return OutcomeJudge(tree, leaf_outcomes).judge();

@@ -1,9 +1,11 @@
 // How the nodes of a tree may end, judged from the file alone, and the children that are therefore never ticked.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "behaviors/tree/tree.hpp"
@@ -21,6 +23,9 @@ struct Outcomes {
 
 /// What an application knows about its own leaves; nothing for a leaf that may end in every way.
 using LeafOutcomes = std::function<std::optional<Outcomes>(const NodeRecord& leaf)>;
+
+/// Whether every value that the port may have before the first tick is that number.
+bool isAlways(const Tree& tree, const NodeRecord& record, std::string_view port, std::int64_t number);
 
 /// By node id.
 std::vector<Outcomes> outcomesOf(const Tree& tree, const LeafOutcomes& leaf_outcomes = {});

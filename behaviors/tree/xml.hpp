@@ -17,7 +17,8 @@ class Script;
 struct XmlAttribute {
   std::string name;
   std::string value;
-  mutable Script* script = nullptr;  ///< That the value is, from the checker to the builder.
+  /// That the value is: noted by the checker, taken by the builder. Reading the file leaves it null.
+  mutable Script* script = nullptr;
 };
 
 struct XmlElement {

@@ -156,5 +156,26 @@ TEST(Check, AChildThatIsNeverSkippedStarvesTheChildrenBelow) {
       ElementsAre(HasSubstr("m.xml:4:1: Sequence: never answers SKIPPED")));
 }
 
+TEST(Check, AChildMayStandAboveOthersWhereItsConditionSkipsIt) {
+  const auto above = [](const std::string& child) {
+    return problemsOf("<Sequence><TakeOff/><Script code=\"rounds := 0\"/><Priority>" + child +
+                      "<Patrol points=\"1;0 | 2;0\"/></Priority><Land/></Sequence>");
+  };
+  EXPECT_THAT(above("<TurnTo yaw_deg=\"90\" _skipIf=\"rounds == 0\"/>"), IsEmpty());
+  EXPECT_THAT(above("<TurnTo yaw_deg=\"90\" _while=\"rounds == 1\"/>"), IsEmpty());
+  EXPECT_THAT(above("<RunOnce><TurnTo yaw_deg=\"90\"/></RunOnce>"), IsEmpty());
+  EXPECT_THAT(above("<Precondition if=\"rounds == 1\" else=\"SKIPPED\"><TurnTo yaw_deg=\"90\"/></Precondition>"),
+              IsEmpty());
+  EXPECT_THAT(above("<Precondition if=\"rounds == 1\"><TurnTo yaw_deg=\"90\"/></Precondition>"),
+              ElementsAre(HasSubstr("Precondition: never answers SKIPPED")));
+  EXPECT_THAT(above("<RunOnce then_skip=\"false\"><TurnTo yaw_deg=\"90\"/></RunOnce>"),
+              ElementsAre(HasSubstr("RunOnce: never answers SKIPPED")));
+}
+
+TEST(Check, AConditionDoesNotLiftAVehicleOffTheFloor) {
+  EXPECT_THAT(problemsOf("<Sequence><MoveToGoal goal=\"1;0\" _skipIf=\"false\"/><TakeOff/><Land/></Sequence>"),
+              ElementsAre(HasSubstr("MoveToGoal: the vehicle stands on the floor here")));
+}
+
 }  // namespace
 }  // namespace swiftlet::behaviors::testing

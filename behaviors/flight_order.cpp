@@ -1,0 +1,171 @@
+#include "behaviors/flight_order.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/conditions.hpp"
+
+namespace swiftlet::behaviors {
+namespace {
+
+/// Possible positions of the vehicle at a point of the tree: on the floor or in the air.
+struct Whereabouts {
+  bool ground = false;
+  bool air = false;
+};
+
+Whereabouts either(Whereabouts a, Whereabouts b) { return {a.ground || b.ground, a.air || b.air}; }
+bool nowhere(Whereabouts w) { return !w.ground && !w.air; }
+
+/// Possible positions when a node ended, for each result.
+struct Exits {
+  Whereabouts success;
+  Whereabouts failure;
+};
+
+/// Walks the tree in the order of ticking and tracks the possible positions of the vehicle.
+class Walk {
+ public:
+  Walk(const tree::Tree& tree, std::vector<tree::Problem>& problems)
+      : tree_(tree), problems_(problems), skips_(tree.nodes().size()) {
+    // Preorder: children come after their parents.
+    for (std::size_t i = tree.nodes().size(); i-- > 0;) skips_[i] = computeMaySkip(tree.nodes()[i]);
+  }
+
+  Exits walk(const tree::Node& node, Whereabouts entry) {
+    const std::string_view id = typeNameOf(recordOf(node));
+    if (node.children().empty()) return walkLeaf(node, id, entry);
+    // AsyncSequence, ReactiveSequence and SequenceWithMemory differ only in when they tick their children again.
+    if (id.find("Sequence") != std::string_view::npos) return walkChain(node, entry, true);
+    if (id.find("Fallback") != std::string_view::npos) return walkChain(node, entry, false);
+    if (id == "Priority") return walkPriority(node, entry);
+    if (node.children().size() > 1) return walkAnyOrder(node, entry);
+    return walkDecorator(node, id, entry);
+  }
+
+  bool takesOff() const { return takes_off_; }
+  bool maySkip(const tree::Node& node) const { return skips_[static_cast<std::size_t>(node.id())]; }
+
+ private:
+  const tree::NodeRecord& recordOf(const tree::Node& node) const {
+    return tree_.nodes()[static_cast<std::size_t>(node.id())];
+  }
+
+  /// Whether the node may answer that it does not want the vehicle.
+  bool computeMaySkip(const tree::NodeRecord& record) const {
+    const int id = record.node->id();
+    const tree::Conditions* conditions = tree_.conditionsOf(id);
+    if (conditions != nullptr &&
+        (conditions->has(tree::ConditionKind::kSkipIf) || conditions->has(tree::ConditionKind::kWhile)))
+      return true;
+    const std::string_view type = typeNameOf(record);
+    if (type == "Delay") return false;
+    if (type == "RunOnce") return mayBe(id, "then_skip", true);
+    if (type == "SkipUnlessUpdated") return true;
+    if (type == "Precondition" && mayBe(id, "else", std::string("SKIPPED"))) return true;
+    const auto& children = record.node->children();
+    if (children.empty()) return record.manifest != nullptr && record.manifest->may_skip;
+    return std::all_of(children.begin(), children.end(), [&](const auto& child) { return maySkip(*child); });
+  }
+
+  bool mayBe(int id, std::string_view port, const tree::Value& value) const {
+    const std::vector<tree::Value> values = tree_.knownValues(id, port);
+    return std::find(values.begin(), values.end(), value) != values.end();
+  }
+
+  Exits walkLeaf(const tree::Node& node, std::string_view id, Whereabouts entry) {
+    if (nowhere(entry)) return {};
+    if (id == "TakeOff") {
+      takes_off_ = true;
+      return {{false, true}, {entry.ground, true}};
+    }
+    if (id == "AlwaysSuccess" || id == "SetBlackboard" || id == "LogEvent" || id == "SetFlightMode") return {entry, {}};
+    if (id == "AlwaysFailure") return {{}, entry};
+    // AvoidObstacle and Hold ask for the vehicle only in flight.
+    const bool flies = dynamic_cast<const FlightLeaf*>(&node) != nullptr && !recordOf(node).manifest->may_skip;
+    if (flies && !entry.air)
+      problems_.push_back({tree_.locationOf(node.id()),
+                           std::string(id),
+                           "the vehicle stands on the floor here, expected a TakeOff before it",
+                           {},
+                           tree_.pathOf(node.id())});
+    if (id == "Land" || id == "EmergencyLand") return {{true, false}, entry};
+    if (id == "OperatorCommand") return {{}, entry};
+    return {entry, entry};
+  }
+
+  /// A Sequence continues after SUCCESS, a Fallback after FAILURE; both continue after SKIPPED.
+  Exits walkChain(const tree::Node& node, Whereabouts entry, bool on_success) {
+    Exits exits;
+    Whereabouts at = entry;
+    for (const auto& child : node.children()) {
+      const Exits child_exits = walk(*child, at);
+      Whereabouts& out = on_success ? exits.failure : exits.success;
+      out = either(out, on_success ? child_exits.failure : child_exits.success);
+      const Whereabouts on = on_success ? child_exits.success : child_exits.failure;
+      at = maySkip(*child) ? either(at, on) : on;
+    }
+    (on_success ? exits.success : exits.failure) = at;
+    return exits;
+  }
+
+  Exits walkPriority(const tree::Node& node, Whereabouts entry) {
+    Exits exits;
+    Whereabouts at = entry;
+    for (const auto& child : node.children()) {
+      const Exits child_exits = walk(*child, at);
+      exits.failure = either(exits.failure, child_exits.failure);
+      at = maySkip(*child) ? either(at, child_exits.success) : child_exits.success;
+      if (child == node.children().back() || maySkip(*child)) continue;
+      problems_.push_back(
+          {tree_.locationOf(child->id()), child->name(),
+           "never answers SKIPPED, so that no child below it in the Priority gets the vehicle",
+           "only what can be SKIPPED may stand above another child: AvoidObstacle, Hold, or a node with _skipIf",
+           tree_.pathOf(child->id())});
+    }
+    exits.success = at;
+    return exits;
+  }
+
+  /// Parallel, IfThenElse, Switch ...: a child may begin where the node began, or where any child before it has ended.
+  Exits walkAnyOrder(const tree::Node& node, Whereabouts entry) {
+    Exits all;
+    Whereabouts anywhere = entry;
+    for (const auto& child : node.children()) {
+      const Exits exits = walk(*child, anywhere);
+      anywhere = either(anywhere, either(exits.success, exits.failure));
+    }
+    all.success = all.failure = anywhere;
+    return all;
+  }
+
+  Exits walkDecorator(const tree::Node& node, std::string_view id, Whereabouts entry) {
+    Exits exits = walk(*node.children().front(), entry);
+    const Whereabouts both = either(exits.success, exits.failure);
+    if (id == "Inverter") return {exits.failure, exits.success};
+    if (id == "ForceSuccess") return {both, {}};
+    if (id == "ForceFailure") return {{}, both};
+    if (id == "Timeout") return {exits.success, either(entry, both)};
+    return exits;
+  }
+
+  const tree::Tree& tree_;
+  std::vector<tree::Problem>& problems_;
+  std::vector<bool> skips_;
+  bool takes_off_ = false;
+};
+
+}  // namespace
+
+std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree) {
+  std::vector<tree::Problem> problems;
+  Walk walk(tree, problems);
+  walk.walk(tree.root(), {true, false});
+  if (!walk.takesOff() && problems.empty())
+    problems.push_back({tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}});
+  return problems;
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,190 @@
+#include "behaviors/limits_check.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "behaviors/follow_path.hpp"
+#include "behaviors/ports.hpp"
+#include "common/goal.hpp"
+
+namespace swiftlet::behaviors {
+namespace {
+
+bool isAboutTargets(std::string_view id) {
+  return id == "LocateTarget" || id == "IsTargetFound" || id == "ExploreUntilFound";
+}
+bool needsCamera(std::string_view id) {
+  return id == "Photograph" || id == "Inspect" || id == "LookAround" || isAboutTargets(id);
+}
+
+/// "`red`, `blue`".
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + "`";
+  return text;
+}
+
+/// What is wrong with the targets that a node names; empty if nothing is.
+std::string targetProblem(const tree::Tree& tree, const tree::NodeRecord& record, const MissionLimits& limits) {
+  if (!limits.has_camera || !limits.target_names || !isAboutTargets(record.manifest->id)) return {};
+  if (limits.target_names->empty()) return "looks for targets, and the profile names none";
+  for (const tree::Value& value : tree.knownValues(record.node->id(), "target"))
+    if (const auto* name = std::get_if<std::string>(&value); name != nullptr && !name->empty())
+      if (std::find(limits.target_names->begin(), limits.target_names->end(), *name) == limits.target_names->end())
+        return "the profile looks for no `" + *name + "`, only for " + joined(*limits.target_names);
+  return {};
+}
+
+struct AreaProblem {
+  std::string problem;  ///< Empty without one.
+  const char* hint = "";
+};
+AreaProblem areaProblem(const common::Polygon& area, std::string_view id, bool in_take_off_frame) {
+  if (std::string problem = problemOf(area); !problem.empty())
+    return {std::move(problem), "give the corners in order along the edge"};
+  if (in_take_off_frame && id == "KeepOut" && area.contains(Eigen::Vector2d::Zero()))
+    return {"holds the take-off place 0;0", "the vehicle could not fly home: leave the place out"};
+  return {};
+}
+
+constexpr const char* kHeightHint =
+    "in a building that is high enough, TakeOff's max_height_m or the vehicle's max_height_m allows more";
+
+std::string metres(double value) { return tree::toString(tree::Value(value)) + " m"; }
+
+bool hasLeaf(const tree::Tree& tree, std::string_view id) {
+  return std::any_of(tree.nodes().begin(), tree.nodes().end(), [id](const tree::NodeRecord& record) {
+    return record.manifest != nullptr && record.manifest->id == id;
+  });
+}
+
+class LimitsCheck {
+ public:
+  LimitsCheck(const tree::Tree& tree, const MissionLimits& limits)
+      : tree_(tree),
+        limits_(limits),
+        max_height_m_(maxHeightOf_m(tree).value_or(limits.max_height_m)),
+        loads_map_(hasLeaf(tree, "LoadMap")),
+        in_take_off_frame_(!loads_map_ && !hasLeaf(tree, "Localize")) {}
+
+  std::vector<tree::Problem> find() {
+    for (const tree::NodeRecord& record : tree_.nodes()) {
+      if (record.manifest == nullptr) continue;
+      checkCamera(record);
+      checkFileName(record);
+      checkModes(record);
+      checkClearance(record);
+      checkPlaces(record);
+    }
+    for (const tree::NodeRecord& record : tree_.nodes())
+      if (record.manifest != nullptr) checkMap(record);
+    return std::move(problems_);
+  }
+
+ private:
+  void report(const tree::NodeRecord& node, std::string message, std::string hint) {
+    const int id = node.node->id();
+    problems_.push_back(
+        {tree_.locationOf(id), node.manifest->id, std::move(message), std::move(hint), tree_.pathOf(id)});
+  }
+  void report(const tree::NodeRecord& node, const char* port, std::string message, std::string hint) {
+    const int id = node.node->id();
+    problems_.push_back({tree_.locationOf(id, port), node.manifest->id + "." + port, std::move(message),
+                         std::move(hint), tree_.pathOf(id)});
+  }
+
+  /// Each value of that type that the port may have.
+  template <typename T, typename Check>
+  void forEachValue(const tree::NodeRecord& node, const char* port, Check check) const {
+    for (const tree::Value& value : tree_.knownValues(node.node->id(), port))
+      if (const T* known = std::get_if<T>(&value)) check(*known);
+  }
+
+  void checkCamera(const tree::NodeRecord& node) {
+    if (needsCamera(node.manifest->id) && !limits_.has_camera)
+      report(node, "needs an RGB-D camera, and the vehicle has none",
+             "fly with a profile that has one: --system swiftlet_3d, or system: in a trial");
+    if (const std::string problem = targetProblem(tree_, node, limits_); !problem.empty())
+      report(node, problem, "name it in autonomy.estimator.targets.classes of the profile");
+  }
+
+  void checkFileName(const tree::NodeRecord& node) {
+    if (node.manifest->id != "Photograph" && node.manifest->id != "SaveMap") return;
+    forEachValue<std::string>(node, "file", [&](const std::string& file) {
+      if (const std::string problem = fileNameProblem(file); !problem.empty()) report(node, "file", problem, {});
+    });
+  }
+
+  void checkModes(const tree::NodeRecord& node) {
+    forEachValue<std::string>(node, "modes", [&](const std::string& modes) {
+      if (const auto read = modesOf(modes); !read) report(node, "modes", read.error(), {});
+    });
+  }
+
+  void checkClearance(const tree::NodeRecord& node) {
+    if (!limits_.clearance_problems) return;
+    forEachValue<double>(node, "clearance_m", [&](double clearance_m) {
+      for (const std::string& problem : limits_.clearance_problems(clearance_m))
+        report(node, "clearance_m", metres(clearance_m) + " cannot be flown with this system: " + problem,
+               "raise it, or change that distance in the system profile");
+    });
+  }
+
+  /// All that can be judged without a map.
+  void checkPlaces(const tree::NodeRecord& node) {
+    const auto checkGoal = [&](const char* port, const common::Goal& goal) {
+      const auto verdict = common::judgeGoal(goal, {.greatest_height_m = max_height_m_}, nullptr);
+      const bool height = !verdict && verdict.error().reason == common::GoalRefusal::Reason::kHeight;
+      if (!verdict) report(node, port, verdict.error().text, height ? kHeightHint : "");
+    };
+    // A height is judged as that of a goal above the take-off place.
+    forEachValue<double>(node, "height_m", [&](double height_m) { checkGoal("height_m", {.height_m = height_m}); });
+    forEachValue<tree::Points>(node, "polygon", [&](const tree::Points& corners) {
+      const auto [problem, hint] = areaProblem(polygonOf(corners), node.manifest->id, in_take_off_frame_);
+      if (!problem.empty()) report(node, "polygon", problem, hint);
+    });
+    forEachValue<tree::Point>(node, "goal", [&](const tree::Point& goal) {
+      checkGoal("goal", {.place_map_m = {goal.x, goal.y}, .height_m = goal.z});
+    });
+  }
+
+  void checkMap(const tree::NodeRecord& node) {
+    const std::string& leaf = node.manifest->id;
+    if ((leaf == "Localize" || leaf == "Relocalize") && !limits_.has_map && !loads_map_)
+      report(node, "needs a map of the place, and the flight has none",
+             "give it one: LoadMap, swiftlet fly --map MAP.yaml, or map: in a trial");
+    if (leaf != "LoadMap" || !limits_.map_problem) return;
+    forEachValue<std::string>(node, "file", [&](const std::string& file) {
+      if (std::string problem = limits_.map_problem(file, tree_.locationOf(node.node->id()).file); !problem.empty())
+        report(node, "file", std::move(problem), "a map is the YAML file of map_server, as a run writes map.yaml");
+    });
+  }
+
+  const tree::Tree& tree_;
+  const MissionLimits& limits_;
+  double max_height_m_;
+  bool loads_map_;
+  bool in_take_off_frame_;  ///< Otherwise the places of the mission are those of a given map.
+  std::vector<tree::Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<tree::Problem> limitProblems(const tree::Tree& tree, const MissionLimits& limits) {
+  return LimitsCheck(tree, limits).find();
+}
+
+std::optional<double> maxHeightOf_m(const tree::Tree& tree) {
+  std::optional<double> greatest_m;
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    if (record.manifest == nullptr || record.manifest->id != "TakeOff") continue;
+    for (const tree::Value& value : tree.knownValues(record.node->id(), "max_height_m"))
+      if (const auto* height_m = std::get_if<double>(&value))
+        greatest_m = std::max(greatest_m.value_or(*height_m), *height_m);
+  }
+  return greatest_m;
+}
+
+}  // namespace swiftlet::behaviors
