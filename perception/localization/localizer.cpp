@@ -253,7 +253,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
   // The last scan alone must agree as well.
   support = supportOf(*map, found.task->scan_body_m, candidate->T_grid_odom * found.task->T_odom_scan, config.support);
   if (found.task->path_length_m - candidate->path_length_m >= config.confirm_distance_m &&
-      lost_test.logOdds(support) <= 0.0) {
+      lost_test.logOdds(support) <= 0.0 && !map_doubt.refuted()) {
     localize(best, T_odom_middle);
     return;
   }

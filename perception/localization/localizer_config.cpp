@@ -41,8 +41,11 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
          "called that of another place.");
   fields("fitting", fitting, {0, 1},
          "Mean value of the likelihood field at the local map from which on a place fits it, however many others do.");
+  fields("misfitting", misfitting, {0, 1},
+         "That mean value below which no place fits, however probable it is among those that were found; at most "
+         "fitting.");
   fields("convincing_probability", convincing_probability, {0, 1},
-         "A place that is this probable is convincing, however little it fits.");
+         "A place that is this probable, and fits by more than misfitting, is convincing.");
   fields("distrust_search_s", distrust_search_s, {0, 100},
          "Time between searches of the whole map while the pose explains too little.");
   fields("elsewhere_nats", elsewhere_nats, {0, 1000},
@@ -52,6 +55,7 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> LocalizerConfig::validate() const {
   return common::Validation()
       .atMost("local_map_least_points", local_map_least_points, "local_map_points", local_map_points)
+      .atMost("misfitting", misfitting, "fitting", fitting)
       .problems();
 }
 

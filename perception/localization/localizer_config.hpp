@@ -35,9 +35,10 @@ struct LocalizerConfig {
   double ambiguity = 0.01;
   double least_explained = 0.70;
   double confirm_distance_m = 1.0;
-  double refuted_after_m = 3.0;
+  double refuted_after_m = 2.5;
   double fitting = 0.75;
-  double convincing_probability = 0.90;
+  double misfitting = 0.65;
+  double convincing_probability = 0.95;
   double distrust_search_s = 0.5;
   double elsewhere_nats = 10.0;
 

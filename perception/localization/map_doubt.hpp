@@ -23,12 +23,16 @@ class MapDoubt {
            common::Time now) {
     const double step_m = stepTo(path_length_m, now);
     // If nothing comes near, that says more than a place that almost fits.
-    if (places.empty())
+    if (places.empty()) {
       against_m_ += 2.0 * step_m;
-    else if (places.front().probability >= config.convincing_probability)
-      against_m_ -= step_m;
-    else if (places.front().fit < config.fitting)
-      against_m_ += step_m;
+    } else {
+      // A single place among few that were found is probable, too, when it hardly fits.
+      const bool convincing = places.front().probability >= config.convincing_probability;
+      if (places.front().fit < (convincing ? config.misfitting : config.fitting))
+        against_m_ += step_m;
+      else if (convincing)
+        against_m_ -= step_m;
+    }
     against_m_ = std::clamp(against_m_, 0.0, config.refuted_after_m);
     refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
   }

@@ -200,13 +200,10 @@ TEST_F(BadInput, AnUnknownSystemIsRefused) {
   expectRefused(fly({"--headless", hop(), "--system", "swiftled"}), "did you mean `(config/systems/)?swiftlet");
 }
 
-TEST_F(BadInput, AProfileThatNamesNothingIsRefused) {
+TEST_F(BadInput, AProfileThatNamesNothingOrWhatIsUnknownIsRefused) {
   for (const std::string text : {"", "# Nothing but this.\n"})
     expectRefused(fly({"--headless", hop(), "--system", write("mine.yaml", text)}),
                   "mine\\.yaml: names no setting, so it is no profile, the least one is `based_on: swiftlet`");
-}
-
-TEST_F(BadInput, AnUnknownDataSheetIsRefusedWithTheKnownOnes) {
   const std::string system = write("mine.yaml", "vehicle: cobra\nlaser: utm\n");
   expectRefused(fly({"--headless", hop(), "--system", system}),
                 "mine\\.yaml:2:8: laser: utm: no such file.*config/sensors has sick_lms_291, urg_04lx, utm_30lx");
