@@ -19,13 +19,6 @@ bool needsCamera(std::string_view id) {
   return id == "Photograph" || id == "Inspect" || id == "LookAround" || isAboutTargets(id);
 }
 
-/// "`red`, `blue`".
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + "`";
-  return text;
-}
-
 /// What is wrong with the targets that a node names; empty if nothing is.
 std::string targetProblem(const tree::Tree& tree, const tree::NodeRecord& record, const MissionLimits& limits) {
   if (!limits.has_camera || !limits.target_names || !isAboutTargets(record.manifest->id)) return {};
@@ -33,7 +26,7 @@ std::string targetProblem(const tree::Tree& tree, const tree::NodeRecord& record
   for (const tree::Value& value : tree.knownValues(record.node->id(), "target"))
     if (const auto* name = std::get_if<std::string>(&value); name != nullptr && !name->empty())
       if (std::find(limits.target_names->begin(), limits.target_names->end(), *name) == limits.target_names->end())
-        return "the profile looks for no `" + *name + "`, only for " + joined(*limits.target_names);
+        return "the profile looks for no `" + *name + "`, only for " + tree::quotedList(*limits.target_names);
   return {};
 }
 

@@ -13,8 +13,12 @@ std::string coordinates(const Eigen::Vector2d& place_m) {
 
 }  // namespace
 
+Eigen::Vector2d PlaceNames::inFrame_m(const Eigen::Vector2d& place_map_m) const {
+  return T_given_map ? *T_given_map * place_map_m : place_map_m;
+}
+
 std::string PlaceNames::coordinatesOf(const Eigen::Vector2d& place_map_m) const {
-  return coordinates(T_given_map ? *T_given_map * place_map_m : place_map_m);
+  return coordinates(inFrame_m(place_map_m));
 }
 
 std::string PlaceNames::of(const Eigen::Vector2d& place_map_m) const {
@@ -22,8 +26,7 @@ std::string PlaceNames::of(const Eigen::Vector2d& place_map_m) const {
 }
 
 std::string PlaceNames::of(const Eigen::Vector3d& place_map_m) const {
-  const Eigen::Vector2d ground_map_m = place_map_m.head<2>();
-  const Eigen::Vector2d named_m = T_given_map ? *T_given_map * ground_map_m : ground_map_m;
+  const Eigen::Vector2d named_m = inFrame_m(place_map_m.head<2>());
   return fmt::format("({:.2f}, {:.2f}, {:.2f}){}", named_m.x(), named_m.y(), place_map_m.z(),
                      T_given_map ? kInGivenMap : "");
 }

@@ -25,6 +25,8 @@ struct PlaceNames {
   std::string of(const Eigen::Vector3d& place_map_m) const;
   /// Without the frame, for a second place in a text that has named it.
   std::string coordinatesOf(const Eigen::Vector2d& place_map_m) const;
+  /// The place in the frame of the texts.
+  Eigen::Vector2d inFrame_m(const Eigen::Vector2d& place_map_m) const;
 };
 
 /// A place that is known in the given map.

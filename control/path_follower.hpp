@@ -66,8 +66,8 @@ class PathFollower {
   void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { look_at_odom_m_ = point_odom_m; }
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
-  /// Greatest speed on the present path, and 0 halts on it; infinity lifts the limit, as does every other path,
-  /// velocity or stop.
+  /// Greatest speed on the present path: 0 halts on it, infinity lifts the limit. A new path, velocity or stop lifts
+  /// it.
   void setPace(double speed_m_s);
   /// Shares in (0, 1] of the mode's speed, from now on, and of the acceleration that paths are planned with, from the
   /// next path on. Braking for the reactive layer, and stopping, keep the mode's whole acceleration.

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "common/row_major.hpp"
-#include "common/segment.hpp"
 #include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
@@ -174,9 +175,7 @@ PursuitPath Pursuit::best() {
 
 /// The places on the path that are flown before the next question comes, without those that a straight line leaves out.
 PursuitPath Pursuit::pathTo(int x, int y) const {
-  PursuitPath result{{escape_map_m_}, from(placeOf(x, y), kSteps).in_sight};
-  planning::Path& path = result.path;
-  path.escape_points = escape_map_m_.size() - 1;
+  const double in_sight = from(placeOf(x, y), kSteps).in_sight;
   std::array<Point, kSteps + 1> by_step;
   for (int step = kSteps; step >= 0; --step) {
     by_step[static_cast<std::size_t>(step)] = placeOf(x, y);
@@ -189,16 +188,14 @@ PursuitPath Pursuit::pathTo(int x, int y) const {
   if (by_step[kWaits] != by_step[0])
     for (std::size_t step = 1; step <= kFlown; ++step)
       if (by_step[step] != places.back()) places.push_back(by_step[step]);
-  path.cost_m = common::polylineLength(escape_map_m_);
+  std::vector<Point> points_map_m = escape_map_m_;
   for (std::size_t i = 0; i + 1 < places.size();) {
     std::size_t next = i + 1;
     while (next + 1 < places.size() && !planning::segmentCost(ask_.costs, places[i], places[next + 1]).lethal) ++next;
-    path.cost_m += planning::segmentCost(ask_.costs, places[i], places[next]).cost_m;
-    path.points_map_m.push_back(places[next]);
+    points_map_m.push_back(places[next]);
     i = next;
   }
-  path.length_m = common::polylineLength(path.points_map_m);
-  return result;
+  return {planning::pathThrough(ask_.costs, std::move(points_map_m), escape_map_m_.size() - 1), in_sight};
 }
 
 }  // namespace

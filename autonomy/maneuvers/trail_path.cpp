@@ -79,18 +79,13 @@ Points cut(const Points& chain, const Point& person, double radius_m) {
 }  // namespace
 
 planning::Path trailPath(const TrailQuestion& question) {
-  planning::Path path{planning::escapePoints_map_m(question.costs, question.from_map_m)};
-  Points& points = path.points_map_m;
-  path.escape_points = points.size() - 1;
+  Points points = planning::escapePoints_map_m(question.costs, question.from_map_m);
+  const std::size_t escape_points = points.size() - 1;
   const Points places = placesOf(question, points.back());
   const Points chain = cut(planned(question.costs, places, cheapestChain(question.costs, places)),
                            question.person_map_m, question.ends_at_m);
   points.insert(points.end(), chain.begin() + 1, chain.end());
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    path.length_m += (points[i] - points[i - 1]).norm();
-    path.cost_m += planning::segmentCost(question.costs, points[i - 1], points[i]).cost_m;
-  }
-  return path;
+  return planning::pathThrough(question.costs, std::move(points), escape_points);
 }
 
 }  // namespace swiftlet::autonomy

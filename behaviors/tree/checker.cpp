@@ -17,12 +17,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kElsewher
      {"ManualSelector", "use OperatorCommand"},
      {"SequenceStar", "use SequenceWithMemory"}}};
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "`" : ", `") + word + "`";
-  return text;
-}
-
 std::vector<std::string> portNames(const NodeManifest& manifest) {
   std::vector<std::string> names;
   for (const PortManifest& port : manifest.ports) names.push_back(port.name);
@@ -188,7 +182,7 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
     const auto names = portNames(*manifest);
     std::string message = otherUnit(name, *manifest);
     if (message.empty())
-      message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : joined(names));
+      message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : quotedList(names));
     report({place(), owner(), std::move(message), didYouMean(name, names)});
   }
 }

@@ -76,4 +76,10 @@ std::string didYouMean(std::string_view word, std::span<const std::string> candi
   return best == nullptr ? std::string() : "did you mean `" + *best + "`?";
 }
 
+std::string quotedList(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "`" : ", `") + word + "`";
+  return text;
+}
+
 }  // namespace swiftlet::tree

@@ -8,9 +8,8 @@
 //                            kLost <---------------+
 //
 //   1  At least one place fits, but the pose is not confirmed.
-//   2  One place is left, has been the only one over `confirm_distance_m`, and agrees with the last scan; the map is
-//   not
-//      refuted.
+//   2  One place is left, has been the only one over `confirm_distance_m`, and agrees with the last scan, and the map
+//      is not refuted.
 //   3  No place fits, and the vehicle was never localized.
 //   4  No place fits, and the vehicle was localized before.
 //   5  The map explains too little of the scans, another place explains them much better, or the pose is too uncertain.

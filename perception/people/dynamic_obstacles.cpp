@@ -115,10 +115,10 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
 
 DynamicObstacles::DynamicObstacles(const Config& config) : config_(config) {}
 
-std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoints& seen,
+std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoints& scan,
                                                                  const common::OccupancyGrid& background) const {
-  const std::vector<Eigen::Vector2f>& points_map_m = seen.points_map_m;
-  const Point& sensor_map_m = seen.from_map_m;
+  const std::vector<Eigen::Vector2f>& points_map_m = scan.points_map_m;
+  const Point& sensor_map_m = scan.from_map_m;
   const int cells = static_cast<int>(std::lround(config_.explained_within_m / background.resolution_m()));
   std::vector<Cluster> clusters;
   std::vector<Point> members;
@@ -155,7 +155,7 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoint
     const bool is_free = unexplained(background, p, cells);
     if (!is_free && !revealed(background, p, sensor_map_m, cells)) continue;
     if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
-    top_m = members.empty() ? seen.above_body_m[i] : std::max(top_m, seen.above_body_m[i]);
+    top_m = members.empty() ? scan.above_body_m[i] : std::max(top_m, scan.above_body_m[i]);
     if (members.empty()) first = i;
     last = i;
     is_revealed = is_revealed || !is_free;

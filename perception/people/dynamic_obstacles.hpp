@@ -53,7 +53,7 @@ class DynamicObstacles {
   /// Takes in one scan. A point is unexplained when it lies in space that the background knows as free, with nothing
   /// occupied or unknown near. A point in unknown space is new, not dynamic, unless it is on a thing that stands by
   /// itself behind a place from which something has gone: a person who walks straight away from the laser.
-  void update(common::Time stamp, const SeenPoints& seen, const common::OccupancyGrid& background);
+  void update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background);
 
   /// The current obstacles, by id.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_; }
@@ -68,7 +68,7 @@ class DynamicObstacles {
     double radius_m;
     double top_above_body_m;
   };
-  std::vector<Cluster> cluster(const SeenPoints& seen, const common::OccupancyGrid& background) const;
+  std::vector<Cluster> cluster(const SeenPoints& scan, const common::OccupancyGrid& background) const;
   /// An obstacle and the evidence for its motion.
   struct Track {
     common::DynamicObstacle obstacle;

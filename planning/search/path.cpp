@@ -121,6 +121,17 @@ SegmentCost segmentCost(const CostMap& map, const Point& from_map_m, const Point
   return result;
 }
 
+Path pathThrough(const CostMap& map, std::vector<Point> points_map_m, std::size_t escape_points) {
+  Path path{std::move(points_map_m), 0.0, 0.0, escape_points};
+  for (std::size_t i = 1; i < path.points_map_m.size(); ++i) {
+    const Point& a = path.points_map_m[i - 1];
+    const Point& b = path.points_map_m[i];
+    path.length_m += (b - a).norm();
+    path.cost_m += i <= escape_points ? (b - a).norm() : segmentCost(map, a, b).cost_m;
+  }
+  return path;
+}
+
 Path shortened(const CostMap& map, const CellPath& cells, std::size_t escape_cells, const Point& start_map_m,
                const Point& goal_map_m) {
   std::vector<Point> points_m;
@@ -133,19 +144,12 @@ Path shortened(const CostMap& map, const CellPath& cells, std::size_t escape_cel
     points_m.back() = goal_map_m;
   }
 
-  Path path;
-  const std::size_t kept = path.escape_points = std::min(escape_cells, points_m.size() - 1);
-  path.points_map_m.assign(points_m.begin(), points_m.begin() + static_cast<std::ptrdiff_t>(kept));
+  const std::size_t kept = std::min(escape_cells, points_m.size() - 1);
+  std::vector<Point> path_m(points_m.begin(), points_m.begin() + static_cast<std::ptrdiff_t>(kept));
   points_m.erase(points_m.begin(), points_m.begin() + static_cast<std::ptrdiff_t>(kept));
   const std::vector<Point> rest = pulled(map, points_m);
-  path.points_map_m.insert(path.points_map_m.end(), rest.begin(), rest.end());
-  for (std::size_t i = 1; i < path.points_map_m.size(); ++i) {
-    const Point& a = path.points_map_m[i - 1];
-    const Point& b = path.points_map_m[i];
-    path.length_m += (b - a).norm();
-    path.cost_m += i <= kept ? (b - a).norm() : segmentCost(map, a, b).cost_m;
-  }
-  return path;
+  path_m.insert(path_m.end(), rest.begin(), rest.end());
+  return pathThrough(map, std::move(path_m), kept);
 }
 
 }  // namespace swiftlet::planning

@@ -81,6 +81,9 @@ struct SegmentCost {
 };
 SegmentCost segmentCost(const CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
 
+/// The path over these points, with its length and cost: the escape costs its length, the rest what the map says.
+Path pathThrough(const CostMap& map, std::vector<Eigen::Vector2d> points_map_m, std::size_t escape_points);
+
 /// The cells as a polyline with line-of-sight shortcuts. A shortcut may neither cost more than what it replaces nor
 /// meet a more expensive cell, so that the risk never rises. The first `escape_cells` cells are kept as they are.
 Path shortened(const CostMap& map, const CellPath& cells, std::size_t escape_cells, const Eigen::Vector2d& start_map_m,
