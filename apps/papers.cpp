@@ -91,7 +91,7 @@ std::string measured(const Json& trial, const std::string& figure) {
 }
 
 std::string ours(const std::vector<Json>& trials, const Experiment& experiment, const std::string& profile) {
-  std::string text = "";
+  std::string text;
   for (const Json& trial : trials) {
     const std::string name = trial.value("name", "");
     const bool same = name == experiment.trial || name.starts_with(experiment.trial + "-");

@@ -1,5 +1,6 @@
 #include "autonomy/scan_queue.hpp"
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -20,7 +21,7 @@ std::shared_ptr<const common::LaserScan> scan(int number, double arrived_s) {
 }
 
 int numberOf(const common::LaserScan& scan) {
-  return static_cast<int>(scan.stamps.measured.seconds() / kPeriod_s + 0.5);
+  return static_cast<int>(std::lround(scan.stamps.measured.seconds() / kPeriod_s));
 }
 
 struct Queue {

@@ -1,6 +1,8 @@
 // Places that something has left are free soon after level beams pass them, at every height.
 #include "autonomy/estimation/vacated_places.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::autonomy {
@@ -23,7 +25,7 @@ class VacatedPlacesStory : public testing::Test {
   /// how often the cleared cells changed.
   int watch(double seconds, bool somebody_stands, float height_m = 0.0F) {
     int changes = 0;
-    for (int i = 0; i < static_cast<int>(seconds * 20.0 + 0.5); ++i) {
+    for (long i = 0; i < std::lround(seconds * 20.0); ++i) {
       perception::ProjectedScan scan;
       now_s_ += 0.05;
       vehicle_.x_m += 0.05 * speed_m_s_;
