@@ -309,6 +309,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   condition.flight = controller_.state();
   condition.lands = std::holds_alternative<common::LandIntent>(intent_.kind);
   condition.energy = energy_;
+  condition.charge_counted_on = energy_monitor_.countedOn(now);
   const common::VehicleState state = estimator_.state();
   condition.vertical_age_s = state.verticalAge_s(now);
   const double age_s = std::max(state.horizontalAge_s(now), condition.vertical_age_s);

@@ -80,7 +80,7 @@ void Autonomy::answer(const common::OperatorCommand& command, common::CommandRes
 
 /// The pilot flies, and the program with him: it has the controller, but not the last word.
 void Autonomy::assistPilot(control::FlightTick& flight) {
-  const bool before = std::exchange(assisted_, assist_.assists(controller_.state(), flight.state));
+  const bool before = std::exchange(assisted_, assist_.assists(flight.pilot_flies, controller_.state(), flight.state));
   if (before && !assisted_) controller_.hold();
   if (!assisted_) return;
   flight.thrust_applies = assist_.thrustApplies(last_thrust_);

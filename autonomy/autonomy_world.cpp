@@ -47,8 +47,9 @@ void Autonomy::takeSnapshot(Time now) {
   }
   parts.map3d = estimator_.map3d();
   parts.targets.targets = estimator_.targets();
-  parts.energy = energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
-                                                 kLandingMargin + config_.supervisor.least_thrust_margin);
+  parts.energy = energy_ =
+      energy_monitor_.layer(now, home, controller_.thrustMargin(), config_.supervisor.battery_land_share,
+                            kLandingMargin + config_.supervisor.least_thrust_margin);
   world_ = world_builder_.build(now, std::move(parts));
 }
 

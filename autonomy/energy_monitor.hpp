@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "autonomy/battery_curve.hpp"
 #include "autonomy/current_model.hpp"
@@ -37,15 +38,22 @@ class EnergyMonitor {
   /// thrust goes with the voltage to the power of `voltage_exponent`.
   EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent);
 
-  /// A plausible sample, with the thrust margin and the estimated horizontal speed at its time.
+  /// A plausible sample, with the thrust margin and the estimated horizontal speed at its time. A current that is not
+  /// finite or not positive is not measured: that of the sinking charge takes its place.
   void add(const common::BatterySample& sample, bool airborne, double thrust_margin, double speed_m_s);
   /// Once a tick: the estimated horizontal speed while the vehicle follows a path whose end is not near.
   void followed(double speed_m_s, double dt_s);
 
-  /// The vehicle lands when the charge falls to `land_share` or the thrust margin to `least_margin`.
-  common::EnergyLayer layer(const WayHome& home, double land_share, double least_margin) const;
+  /// The vehicle lands when the charge falls to `land_share` or `thrust_margin`, the present one, to `least_margin`.
+  common::EnergyLayer layer(common::Time now, const WayHome& home, double thrust_margin, double land_share,
+                            double least_margin) const;
+  /// Why the charge is not that of the gauge but counted on by the current; empty if it is the gauge's.
+  std::string countedOn(common::Time now) const;
 
  private:
+  double currentOf_a(const common::BatterySample& sample) const;
+  double unheard_s(common::Time now) const;
+  double remaining(common::Time now) const;
   double capacity_as() const;
   void tellHome(const WayHome& home, common::EnergyLayer& layer) const;
 
@@ -56,14 +64,17 @@ class EnergyMonitor {
   BatteryCurve curve_;
   CurrentModel current_model_;
   double voltage_exponent_;
-  double thrust_margin_ = 0.0;
   /// Smoothed.
   double voltage_v_ = 0.0, margin_ = 0.0;
   double current_a_ = 0.0;
   double power_w_ = 0.0;
   bool flown_ = false;  ///< The smoothed values are those of a flight.
   double remaining_at_take_off_ = 0.0;
+  common::Time taken_off_;
   double drawn_as_ = 0.0;  ///< By the measured current, since the take-off.
+  /// What the gauge said when it last moved, what had been drawn until then, and what has been drawn since.
+  double moved_to_ = 0.0;
+  double drawn_at_move_as_ = 0.0, drawn_since_move_as_ = 0.0;
 };
 
 }  // namespace swiftlet::autonomy

@@ -62,9 +62,9 @@ void PilotAssist::pilotArrived(const common::PilotSample& sample) {
   if (begins) hover_stick_ = sticks_.thrust;
 }
 
-bool PilotAssist::assists(common::FlightState flight, const common::VehicleState& state) {
-  assists_ = config_.enabled && sticks_.takes_over && flight == common::FlightState::kFlying &&
-             state.horizontal_valid && state.vertical_valid && control::isFinite(state);
+bool PilotAssist::assists(bool pilot_flies, common::FlightState flight, const common::VehicleState& state) {
+  assists_ = config_.enabled && pilot_flies && flight == common::FlightState::kFlying && state.horizontal_valid &&
+             state.vertical_valid && control::isFinite(state);
   if (!assists_) yaw_map_rad_.reset();
   return assists_;
 }

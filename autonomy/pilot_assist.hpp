@@ -41,7 +41,7 @@ class PilotAssist {
   void pilotArrived(const common::PilotSample& sample);
 
   /// Whether it assists in this tick: the pilot flies in the air, and the position is known.
-  bool assists(common::FlightState flight, const common::VehicleState& state);
+  bool assists(bool pilot_flies, common::FlightState flight, const common::VehicleState& state);
   /// What the pilot wishes, in `map`; zero while it does not assist.
   Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState& state) const;
   /// Commands the controller as the pilot wishes and the reactive layer allows. Returns false when the pilot's sticks

@@ -16,7 +16,7 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
   const common::CommandResult accepted{command.id, true, {}};
   if (std::holds_alternative<common::HoldCommand>(command.kind)) {
     operator_holds_ = true;
-    home_.active = home_.forced();
+    home_.active = home_.forced();  // One that the charge asks for goes on after Resume.
     return accepted;
   }
   if (std::holds_alternative<common::ResumeCommand>(command.kind)) return resume(command.id);
@@ -29,7 +29,11 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
 }
 
 common::CommandResult Supervisor::resume(std::uint64_t id) {
-  if (home_.forced()) return {id, false, "it flies home: " + home_.reason};
+  if (home_.forced() && !operator_holds_) return {id, false, "it flies home: " + home_.reason};
+  if (home_.forced()) {
+    operator_holds_ = false;
+    return {id, true, "it flies home: " + home_.reason};
+  }
   if (!operator_holds_ && !home_.active) {
     const std::string reason = holdReason();
     return {id, false, reason.empty() ? "nothing is on hold" : reason + ": that hold ends by itself"};
@@ -67,24 +71,36 @@ std::string Supervisor::refusal() const {
 }
 
 void Supervisor::pilotArrived(Time now, bool takes_over) {
+  pilot_heard_ = now;
   if (takes_over == pilot_flies_) return;
   pilot_flies_ = takes_over;
   say(now, Severity::kWarning, takes_over ? "hold" : "resume",
       takes_over ? "the pilot took over" : "the pilot gave control back");
 }
 
+/// Who flies is then unknown. A hold is right for both: a pilot's sticks overrule it, and without him the vehicle stays
+/// where it is, instead of going on with the mission that he took it from.
+void Supervisor::watchPilot(Time now) {
+  if (!pilot_flies_ || (now - pilot_heard_).seconds() <= pilot_silent_s_) return;
+  pilot_flies_ = false;
+  operator_holds_ = true;
+  say(now, Severity::kWarning, "hold",
+      fmt::format("the pilot has not been heard of for {:.1f} s; it holds until Resume or Land", pilot_silent_s_));
+}
+
 bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
-  const bool plausible = std::isfinite(sample.voltage_v) && std::isfinite(sample.remaining);
+  std::string problem = battery_check_.problemWith(sample);
+  const bool plausible = problem.empty();
   if (plausible != battery_plausible_)
     say(now, plausible ? Severity::kInfo : Severity::kWarning,
-        plausible ? "the battery is measured again" : "the battery's last good values are kept",
-        plausible ? "" : "its voltage or its charge is not a finite number");
+        plausible ? "the battery is measured again" : "the battery's last good values are kept", std::move(problem));
   battery_plausible_ = plausible;
   return plausible;
 }
 
 const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition) {
   flight_ = condition.flight;
+  watchPilot(now);
   blind_ = obey(now, sight_.watch(now, condition)).hold;
   if (control::isAirborne(flight_) && !condition.sensor_lies.empty()) land(now, condition.sensor_lies);
   obey(now, energy_.watch(now, condition));
@@ -94,7 +110,7 @@ const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition)
   supervision_.hold = !supervision_.hold_reason.empty();
   const bool may_fly = blind_.empty() && !pilot_flies_;
   supervision_.back = may_fly && !operator_holds_ ? back_ : 0;
-  supervision_.home = home_.active && may_fly && back_ == 0 ? home_.count : 0;
+  supervision_.home = home_.active && may_fly && !operator_holds_ && back_ == 0 ? home_.count : 0;
   return supervision_;
 }
 
@@ -112,8 +128,9 @@ std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
   if (!blind_.empty()) return blind_;
   if (back_ > 0) return "it flies back along its trail";
+  if (operator_holds_) return "the operator holds";
   if (home_.active) return home_.reason.empty() ? "the operator wants it home" : home_.reason;
-  return operator_holds_ ? "the operator holds" : "";
+  return "";
 }
 
 std::vector<common::Event> Supervisor::takeEvents() { return std::exchange(events_, {}); }

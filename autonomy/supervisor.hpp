@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/battery_check.hpp"
 #include "autonomy/supervisor_config.hpp"
 #include "autonomy/watches/energy_watch.hpp"
 #include "autonomy/watches/position_watch.hpp"
@@ -43,7 +44,8 @@ struct Supervision {
 ///   any -- land command, any watch, not known again after flying back -------------------------> landing (stays)
 class Supervisor {
  public:
-  explicit Supervisor(const SupervisorConfig& config) : sight_(config), energy_(config), position_(config) {}
+  explicit Supervisor(const SupervisorConfig& config)
+      : pilot_silent_s_(config.pilot_silent_s), sight_(config), energy_(config), position_(config) {}
 
   /// Handles and answers hold, resume and land; every other command is for the mission.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
@@ -85,19 +87,23 @@ class Supervisor {
   common::CommandResult resume(std::uint64_t id);
   /// Empty if nothing holds the mission.
   std::string holdReason() const;
+  void watchPilot(common::Time now);
   void land(common::Time now, std::string reason);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason);
 
+  double pilot_silent_s_;
   SightWatch sight_;
   EnergyWatch energy_;
   PositionWatch position_;
   common::FlightState flight_ = common::FlightState::kPreparation;
   bool operator_holds_ = false;
   bool pilot_flies_ = false;
+  common::Time pilot_heard_;  ///< When the last of his samples arrived.
   FlightHome home_;
   unsigned back_ = 0;  ///< The flight back that the PositionWatch asks for.
   std::string blind_;  ///< Why the SightWatch holds; empty if it does not.
   bool landed_by_operator_ = false;
+  BatteryCheck battery_check_;
   bool battery_plausible_ = true;
   Supervision supervision_;
   std::vector<common::Event> events_;

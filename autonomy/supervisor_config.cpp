@@ -31,6 +31,8 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
          "The same, at which it lands; where there are no walls around it flies back up to twice as much.");
   fields("back_known_s", back_known_s, {0, 60},
          "Flying back ends when height and position have been known again for this long.");
+  fields("pilot_silent_s", pilot_silent_s, {0.1, 60},
+         "When a pilot who flies has not been heard of for this long the program has the vehicle again, and holds.");
 }
 
 std::vector<std::string> SupervisorConfig::validate() const {

@@ -21,6 +21,7 @@ struct SupervisorConfig {
   double drift_back_m = 1.0;
   double drift_land_m = 2.0;
   double back_known_s = 1.0;
+  double pilot_silent_s = 1.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -144,6 +144,7 @@ common::Setpoint FlightController::tick(const FlightTick& given) {
     last_state_ = tick.state;
   }
   watch(tick);
+  if (tick.pilot_flies && isAirborne(state())) beginAtVehicle();
   limitByMargin(tick);
   common::Setpoint setpoint = setpointFor(tick);
   setpoint.stamp = now_;
@@ -183,10 +184,6 @@ std::optional<Eigen::Vector2d> FlightController::pointToFace() const {
 
 common::Setpoint FlightController::fly(const FlightTick& tick) {
   follower_.lookAt(pointToFace());
-  if (tick.pilot_flies) {
-    follower_.reset(last_state_.T_odom_body.position_m, common::yawOf(last_state_.T_odom_body.rotation));
-    position_.reset();
-  }
   return track(tick, clearOfSurfaces(follower_.advance(dt_s_)));
 }
 
@@ -320,11 +317,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
       return;
     case FlightState::kEmergencyLanding:
       follower_.stop();
-      // The trim of a vehicle that flies fast balances drag, which ends with the braking.
-      emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(),
-                       last_state_.velocity_odom_m_s.head<2>().norm() < kTrimmedSpeed_m_s
-                           ? Eigen::Vector2d(Eigen::Rotation2Dd(-yaw_rad) * position_.trim_odom_m_s2())
-                           : Eigen::Vector2d(Eigen::Vector2d::Zero()));
+      startEmergencyDescent();
       return;
     case FlightState::kPreparation:
     case FlightState::kPoweredOff:
@@ -333,6 +326,29 @@ void FlightController::enter(FlightState from, FlightState entered) {
       lift_m_ = 0.0;
       return;
   }
+}
+
+/// The trim of a vehicle that flies fast balances drag, which ends with the braking.
+void FlightController::startEmergencyDescent() {
+  const double yaw_rad = common::yawOf(last_state_.T_odom_body.rotation);
+  Eigen::Vector2d trim_level_m_s2 = Eigen::Vector2d::Zero();
+  if (last_state_.velocity_odom_m_s.head<2>().norm() < kTrimmedSpeed_m_s)
+    trim_level_m_s2 = Eigen::Rotation2Dd(-yaw_rad) * position_.trim_odom_m_s2();
+  emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(), trim_level_m_s2);
+}
+
+/// While the pilot flies, nothing that the program asks for is flown. What it does, also a take-off or a landing, goes
+/// on from where the pilot gives the vehicle back; neither a time limit nor a touch-down is counted before that.
+void FlightController::beginAtVehicle() {
+  const Eigen::Vector3d& position_m = last_state_.T_odom_body.position_m;
+  follower_.reset(position_m, common::yawOf(last_state_.T_odom_body.rotation));
+  position_.reset();
+  height_reference_m_ = position_m.z();
+  climb_reference_m_s_ = 0.0;
+  condition_since_.reset();
+  if (state() == FlightState::kEmergencyLanding) startEmergencyDescent();
+  const auto spool_up = common::Duration::fromSeconds(config_.spool_up_s);
+  if (state() == FlightState::kTakingOff && now_ - state_since_ > spool_up) state_since_ = now_ - spool_up;
 }
 
 /// The last horizontal velocity that can still be believed, in the body frame without roll and pitch.

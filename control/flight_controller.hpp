@@ -185,6 +185,8 @@ class FlightController {
   bool nearGround() const;
   void moveVertically(double goal_m, double speed_m_s, double height_m);
   Eigen::Vector2d velocityForBraking_m_s() const;
+  void startEmergencyDescent();
+  void beginAtVehicle();
   bool heldFor(bool condition, double seconds);
 
   Config config_;

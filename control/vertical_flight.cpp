@@ -113,7 +113,7 @@ void FlightController::moveVertically(double goal_m, double speed_m_s, double he
 
 /// The ground may carry a part of the weight while the vehicle takes off and lands.
 bool FlightController::learnsThrust(const FlightTick& tick) const {
-  if (!tick.thrust_applies) return false;
+  if (!tick.thrust_applies || tick.pilot_flies) return false;
   if (state() == FlightState::kTakingOff) return lifted_;
   return state() == FlightState::kFlying || !nearGround();
 }

@@ -15,6 +15,7 @@ using common::Time;
 WatchRequest EnergyWatch::watch(Time now, const VehicleCondition& condition) {
   WatchRequest request;
   if (!control::isAirborne(condition.flight)) return request;
+  tellGauge(now, condition.charge_counted_on, request);
   tellCharge(now, condition.energy, request);
   if (condition.flight == FlightState::kFlying && !condition.lands) watchHome(now, condition.energy, request);
   watchThrust(now, condition, request);
@@ -24,6 +25,7 @@ WatchRequest EnergyWatch::watch(Time now, const VehicleCondition& condition) {
 }
 
 std::string EnergyWatch::takeOffRefusal(const common::EnergyLayer& energy) const {
+  if (!(energy.battery_voltage_v > 0.0)) return "the battery has not been measured";
   if (energy.thrust_margin > 0.0 && energy.thrust_margin < config_.least_thrust_margin)
     return fmt::format("the thrust is at most {:.2f} times the weight; {:.2f} is needed", energy.thrust_margin,
                        config_.least_thrust_margin);
@@ -32,6 +34,15 @@ std::string EnergyWatch::takeOffRefusal(const common::EnergyLayer& energy) const
     return fmt::format("{:.0f} % of the battery are left; {:.0f} % are needed, and it lands at {:.0f} %",
                        100.0 * energy.battery_remaining, 100.0 * least, 100.0 * config_.battery_land_share);
   return {};
+}
+
+void EnergyWatch::tellGauge(Time now, const std::string& counted_on, WatchRequest& request) {
+  if (counted_on.empty() != counted_on_said_) return;
+  counted_on_said_ = !counted_on.empty();
+  if (counted_on_said_)
+    request.say(now, Severity::kWarning, "the charge is counted on by the current", counted_on);
+  else
+    request.say(now, Severity::kInfo, "the battery's gauge is believed again");
 }
 
 void EnergyWatch::tellCharge(Time now, const common::EnergyLayer& energy, WatchRequest& request) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "autonomy/supervisor_config.hpp"
 #include "autonomy/watches/watch_request.hpp"
@@ -21,6 +22,7 @@ class EnergyWatch {
   std::string takeOffRefusal(const common::EnergyLayer& energy) const;
 
  private:
+  void tellGauge(common::Time now, const std::string& counted_on, WatchRequest& request);
   void tellCharge(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
   void watchHome(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
   void watchReach(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
@@ -29,6 +31,7 @@ class EnergyWatch {
   SupervisorConfig config_;
   double charge_said_ = 1.0;                ///< The last charge of which an event told.
   std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
+  bool counted_on_said_ = false;
   bool turned_back_ = false;
   bool out_of_reach_said_ = false;
 };

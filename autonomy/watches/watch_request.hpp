@@ -15,8 +15,9 @@ namespace swiftlet::autonomy {
 struct VehicleCondition {
   common::FlightState flight = common::FlightState::kPreparation;
   common::EnergyLayer energy;
-  double vertical_age_s = 0.0;  ///< VehicleState::verticalAge_s.
-  double drift_m = 0.0;         ///< See DriftMonitor.
+  std::string charge_counted_on;  ///< EnergyMonitor::countedOn.
+  double vertical_age_s = 0.0;    ///< VehicleState::verticalAge_s.
+  double drift_m = 0.0;           ///< See DriftMonitor.
   /// Whether the map has walls around the vehicle, by which the position may be found again: not so in the open.
   bool walls_around = true;
   /// Whether the state is valid and some sensor has just measured the position and the height.

@@ -20,16 +20,20 @@ class EnergyStory : public testing::Test {
       now_s_ += 0.1;
       remaining_ -= 0.1 * current_a / (3600.0 * true_capacity_ah);
       const common::Time now = common::Time::fromSeconds(now_s_);
-      monitor_.add({{now, now}, voltage_v, remaining_, current_a}, airborne, margin_, speed_m_s_);
+      monitor_.add({{now, now}, voltage_v, stands_still_.value_or(remaining_), ammeter_ ? current_a : 0.0}, airborne,
+                   margin_, speed_m_s_);
     }
   }
   common::EnergyLayer layer(std::optional<double> home_m = std::nullopt) const {
-    return monitor_.layer({home_m, straight_m_, flown_m_, landing_s_}, kLandShare, kLeastMargin);
+    return monitor_.layer(common::Time::fromSeconds(now_s_), {home_m, straight_m_, flown_m_, landing_s_}, margin_,
+                          kLandShare, kLeastMargin);
   }
 
   EnergyMonitor monitor_{EnergyConfig{}, common::VehicleConfig{}, 2.0};
   double now_s_ = 0.0;
   double remaining_ = 0.8;
+  std::optional<double> stands_still_;  ///< What the gauge says, whatever is drawn.
+  bool ammeter_ = true;
   double margin_ = 1.5;
   double speed_m_s_ = 0.5;
   double straight_m_ = 0.0, flown_m_ = 0.0;
@@ -94,6 +98,51 @@ TEST_F(EnergyStory, StopsBetweenViewpointsDoNotSlowThePathHome) {
 TEST_F(EnergyStory, AWornBatteryIsNoticedByItsFuelGauge) {
   draw(100.0, 18.0, true, 4.0);
   EXPECT_NEAR(layer().seconds_left.value(), (remaining_ - kLandShare) * 3600.0 * 4.0 / 18.0, 10.0);
+}
+
+TEST_F(EnergyStory, ABatteryThatIsSilentIsCountedOnByItsCurrent) {
+  draw(100.0, 18.0);
+  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_ + 1.0)), "");
+  now_s_ += 200.0;
+  remaining_ -= 200.0 * 18.0 / (3600.0 * kCapacity_ah);
+  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)), "no sample of the battery for 2.5 s");
+  EXPECT_NEAR(layer(20.0).battery_remaining, remaining_, 0.01);
+  now_s_ += 1e4;
+  EXPECT_EQ(layer().battery_remaining, 0.0);
+}
+
+TEST_F(EnergyStory, AGaugeThatStandsStillIsCountedOnByTheCurrent) {
+  draw(50.0, 18.0);
+  stands_still_ = remaining_;
+  draw(40.0, 18.0);
+  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)), "") << "coarse gauges rest too";
+  draw(200.0, 18.0);
+  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)),
+            "its gauge has stood still while 5 % of the capacity were drawn");
+  EXPECT_NEAR(layer().battery_remaining, remaining_, 0.01);
+  stands_still_.reset();
+  draw(1.0, 18.0);
+  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)), "");
+  EXPECT_DOUBLE_EQ(layer().battery_remaining, remaining_);
+}
+
+TEST_F(EnergyStory, WithoutAnAmmeterTheGaugeTellsTheCurrent) {
+  ammeter_ = false;
+  draw(40.0, 18.0);
+  EXPECT_FALSE(layer(20.0).home_share) << "too little has been drawn to tell";
+  draw(200.0, 18.0);
+  const double without = layer(20.0).home_share.value();
+  EXPECT_NEAR(without, (20.0 / EnergyConfig{}.home_speed_m_s + 2.0) * 18.0 / (3600.0 * kCapacity_ah), 0.2 * without);
+}
+
+TEST_F(EnergyStory, OneCurrentThatIsNoNumberSpoilsNothing) {
+  draw(20.0, 18.0);
+  const double before = layer(20.0).home_share.value();
+  now_s_ += 0.1;
+  const common::Time now = common::Time::fromSeconds(now_s_);
+  monitor_.add({{now, now}, 11.0, remaining_, std::nan("")}, true, margin_, speed_m_s_);
+  draw(1.0, 18.0);
+  EXPECT_NEAR(layer(20.0).home_share.value(), before, 0.02 * before);
 }
 
 TEST_F(EnergyStory, TheChargeOfTheLandingIsWhereTheThrustWillNotCarryTheWeight) {

@@ -32,7 +32,7 @@ PilotAssist assistant(bool enabled = true) {
 TEST(PilotAssist, SticksAreAVelocityInTheBodyFrame) {
   PilotAssist assist = assistant();
   assist.pilotArrived(sticks(0.5, 0.25));
-  ASSERT_TRUE(assist.assists(FlightState::kFlying, knownAt(0.0)));
+  ASSERT_TRUE(assist.assists(true, FlightState::kFlying, knownAt(0.0)));
   EXPECT_TRUE(assist.wantedVelocity_map_m_s(knownAt(0.0)).isApprox(Eigen::Vector2d(1.0, -0.5)));
   const double left_rad = 0.5 * std::numbers::pi;
   EXPECT_TRUE(assist.wantedVelocity_map_m_s(knownAt(left_rad)).isApprox(Eigen::Vector2d(0.5, 1.0), 1e-9));
@@ -41,23 +41,23 @@ TEST(PilotAssist, SticksAreAVelocityInTheBodyFrame) {
 TEST(PilotAssist, AssistsOnlyAPilotWhoFliesWhileThePositionIsKnown) {
   PilotAssist assist = assistant();
   assist.pilotArrived(sticks(0.5, 0.0, false));
-  EXPECT_FALSE(assist.assists(FlightState::kFlying, knownAt(0.0)));
+  EXPECT_FALSE(assist.assists(false, FlightState::kFlying, knownAt(0.0)));
   assist.pilotArrived(sticks(0.5, 0.0));
-  EXPECT_FALSE(assist.assists(FlightState::kLanded, knownAt(0.0)));
-  EXPECT_TRUE(assist.assists(FlightState::kFlying, knownAt(0.0)));
+  EXPECT_FALSE(assist.assists(true, FlightState::kLanded, knownAt(0.0)));
+  EXPECT_TRUE(assist.assists(true, FlightState::kFlying, knownAt(0.0)));
   common::VehicleState lost = knownAt(0.0);
   lost.horizontal_valid = false;
-  EXPECT_FALSE(assist.assists(FlightState::kFlying, lost));
+  EXPECT_FALSE(assist.assists(true, FlightState::kFlying, lost));
   EXPECT_TRUE(assist.wantedVelocity_map_m_s(lost).isZero()) << "the reactive layer brakes for the vehicle's own motion";
   PilotAssist disabled = assistant(false);
   disabled.pilotArrived(sticks(0.5, 0.0));
-  EXPECT_FALSE(disabled.assists(FlightState::kFlying, knownAt(0.0)));
+  EXPECT_FALSE(disabled.assists(true, FlightState::kFlying, knownAt(0.0)));
 }
 
 TEST(PilotAssist, AStickThatIsNoNumberIsCentred) {
   PilotAssist assist = assistant();
   assist.pilotArrived(sticks(std::numeric_limits<double>::quiet_NaN(), 5.0));
-  ASSERT_TRUE(assist.assists(FlightState::kFlying, knownAt(0.0)));
+  ASSERT_TRUE(assist.assists(true, FlightState::kFlying, knownAt(0.0)));
   EXPECT_TRUE(assist.wantedVelocity_map_m_s(knownAt(0.0)).isApprox(Eigen::Vector2d(0.0, -2.0)));
 }
 

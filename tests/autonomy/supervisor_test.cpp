@@ -18,13 +18,14 @@ class SupervisorStory : public testing::Test {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, vertical_age_s_, drift_m_, walls_around_,
-                                                     measured_, sensor_lies_, lands_});
+    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, charge_counted_on_, vertical_age_s_, drift_m_,
+                                                     walls_around_, measured_, sensor_lies_, lands_});
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
   Supervisor supervisor_{SupervisorConfig{}};
   common::EnergyLayer energy_;
+  std::string charge_counted_on_;
   double vertical_age_s_ = 0.0;
   double drift_m_ = 0.0;
   bool walls_around_ = true;
@@ -55,13 +56,54 @@ TEST_F(SupervisorStory, TheMissionHoldsWhileThePilotFlies) {
   EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
 }
 
+TEST_F(SupervisorStory, APilotWhoIsSilentNoLongerFliesAndTheVehicleHolds) {
+  at(0.0);
+  supervisor_.pilotArrived(Time::fromSeconds(1), true);
+  EXPECT_TRUE(at(1.9).hold);
+  EXPECT_TRUE(supervisor_.pilotFlies());
+  EXPECT_TRUE(at(2.1).hold);
+  EXPECT_FALSE(supervisor_.pilotFlies());
+  EXPECT_EQ(at(2.1).hold_reason, "the operator holds") << "the mission does not go on by itself";
+  EXPECT_THAT(supervisor_.takeEvents().back().reason, HasSubstr("the pilot has not been heard of for 1.0 s"));
+  ASSERT_TRUE(supervisor_.take({1, common::ResumeCommand{}}, Time::fromSeconds(5))->accepted);
+  EXPECT_FALSE(at(5.0).hold);
+}
+
 TEST_F(SupervisorStory, ReportsInvalidBatteryValuesOnce) {
   const auto sample = [](double remaining) { return common::BatterySample{{}, 11.1, remaining}; };
   EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(1), sample(0.5)));
   EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(2), sample(std::nan(""))));
   EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(3), sample(std::nan(""))));
-  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(4), sample(0.4)));
+  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(4), sample(0.45)));
   EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
+}
+
+TEST_F(SupervisorStory, AChargeThatJumpsIsUsedOnceItIsConfirmed) {
+  const auto sample = [](double remaining, double voltage_v = 11.1) {
+    return common::BatterySample{{}, voltage_v, remaining};
+  };
+  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(1), sample(0.6)));
+  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(2), sample(0.0)));
+  EXPECT_EQ(supervisor_.takeEvents().back().reason, "its charge jumps from 60 to 0 %");
+  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(3), sample(0.6)));
+  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(4), sample(0.11)));
+  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(5), sample(0.1)));
+  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(6), sample(-0.2)));
+  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(7), sample(0.1, 0.0)));
+}
+
+TEST_F(SupervisorStory, SaysThatTheChargeIsCountedOn) {
+  at(1.0);
+  charge_counted_on_ = "no sample of the battery for 2.5 s";
+  at(2.0);
+  at(3.0);
+  charge_counted_on_.clear();
+  at(4.0);
+  const auto events = supervisor_.takeEvents();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].text, "the charge is counted on by the current");
+  EXPECT_EQ(events[0].reason, "no sample of the battery for 2.5 s");
+  EXPECT_EQ(events[1].text, "the battery's gauge is believed again");
 }
 
 TEST_F(SupervisorStory, LeavesGoalsToTheMission) {
@@ -179,6 +221,21 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   EXPECT_THAT(at(30.0).land_reason, HasSubstr("home again, turned back"));
 }
 
+TEST_F(SupervisorStory, HoldStopsAFlightHomeForTheChargeUntilResume) {
+  energy_.battery_remaining = 0.19;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  EXPECT_EQ(at(2.0).home, 1u);
+  ASSERT_TRUE(supervisor_.take({1, common::HoldCommand{}}, Time::fromSeconds(3))->accepted);
+  EXPECT_EQ(at(3.0).home, 0u);
+  EXPECT_EQ(at(3.0).hold_reason, "the operator holds");
+  const auto resumed = supervisor_.take({2, common::ResumeCommand{}}, Time::fromSeconds(4));
+  EXPECT_TRUE(resumed->accepted);
+  EXPECT_THAT(resumed->reason, HasSubstr("it flies home: turned back with 19 %"));
+  EXPECT_EQ(at(4.0).home, 1u);
+  EXPECT_TRUE(at(4.0).hold) << "the mission stays on hold";
+}
+
 TEST_F(SupervisorStory, AVehicleThatLandsWhereItIsDoesNotTurnBack) {
   energy_.battery_remaining = 0.19;
   energy_.home_m = 20.0;
@@ -215,7 +272,8 @@ TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
 }
 
 TEST_F(SupervisorStory, TheTakeOffIsRefusedWithTheFigure) {
-  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "") << "nothing is measured yet";
+  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the battery has not been measured");
+  energy_.battery_voltage_v = 11.1;
   energy_.thrust_margin = 1.02;
   EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the thrust is at most 1.02 times the weight; 1.08 is needed");
   energy_.thrust_margin = 1.3;

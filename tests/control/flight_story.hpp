@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -28,6 +29,7 @@ struct Flight {
   double carried_bias_m_s2 = 0.0;
   double carried_s = 0.0;
   bool accelerometer = true;
+  std::optional<double> pilot_climbs_m_s;  ///< While it is set a pilot flies, level and with this climb.
   common::RandomStream accelerometer_noise{1, "accelerometer"};
 
   Flight() = default;
@@ -61,9 +63,21 @@ struct Flight {
       tick.acceleration_odom_m_s2 = model.acceleration_m_s2;
       for (int axis = 0; axis < 3; ++axis) (*tick.acceleration_odom_m_s2)[axis] += accelerometer_noise.gaussian(0.3);
     }
-    model.apply(controller.tick(tick));
+    tick.pilot_flies = pilot_climbs_m_s.has_value();
+    common::Setpoint setpoint = controller.tick(tick);
+    if (pilot_climbs_m_s) setpoint = byPilot();
+    model.apply(setpoint);
     model.advance(0.01);
     greatest_tilt_rad = std::max({greatest_tilt_rad, std::abs(model.roll_rad), std::abs(model.pitch_rad)});
+  }
+  common::Setpoint byPilot() const {
+    common::Setpoint setpoint;
+    setpoint.stamp = model.now;
+    setpoint.motors_on = true;
+    const double sag = std::pow(model.voltage_v / model.vehicle.battery_full_v, 2);
+    const double wanted_m_s2 = 9.81 + 3.0 * (*pilot_climbs_m_s - model.velocity_m_s.z());
+    setpoint.thrust = model.vehicle.mass_kg * wanted_m_s2 / (model.vehicle.max_thrust_n * sag);
+    return setpoint;
   }
   template <typename Condition>
   bool until(Condition&& condition, double at_most_s) {
