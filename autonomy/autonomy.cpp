@@ -88,6 +88,7 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
 /// A frame of the observing camera changes nothing here. It is an input so that recordings contain it.
 void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
+  if (!stamps_.accepts(event)) return;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
     if (const auto sample = inertial_.take(*imu)) estimator_.addImu(*sample);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
@@ -180,6 +181,7 @@ bool Autonomy::finished() const {
 }
 
 std::vector<common::Event> Autonomy::takeEvents() {
+  collect(stamps_.takeEvents());
   collect(inertial_.takeEvents());
   collect(scan_watch_.takeEvents());
   collect(estimator_.takeEvents(common::PlaceNames::in(given_map_.T_map_given())));
@@ -260,6 +262,7 @@ void Autonomy::tickBehaviors(Time now) {
 common::Intent Autonomy::nextIntent(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, condition(now));
+  if (supervision.unseen) executor_.endRetreat();
   fillContext(supervision, now);
   if (const auto wanted_to_see = executor_.wantsToSee_map_m())
     supervisor_intents_.remember(*wanted_to_see);

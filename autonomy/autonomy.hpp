@@ -21,6 +21,7 @@
 #include "autonomy/reactive.hpp"
 #include "autonomy/scan_queue.hpp"
 #include "autonomy/scan_watch.hpp"
+#include "autonomy/stamp_check.hpp"
 #include "autonomy/supervisor.hpp"
 #include "autonomy/supervisor_intents.hpp"
 #include "autonomy/vehicle_memory.hpp"
@@ -168,6 +169,7 @@ class Autonomy {
   MissionDesk missions_;
   std::unique_ptr<common::JobRunner> jobs_;
 
+  StampCheck stamps_;
   ScanQueue scans_;
   ScanWatch scan_watch_;
   InertialInput inertial_;

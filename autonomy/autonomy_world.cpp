@@ -1,5 +1,7 @@
 // The snapshots of the world that Autonomy gives to those who watch.
 #include "autonomy/autonomy.hpp"
+#include "autonomy/trail_back.hpp"
+#include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -39,12 +41,9 @@ void Autonomy::takeSnapshot(Time now) {
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   parts.people.followed_map_m = executor_.followedPerson_map_m();
-  WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};
-  if (world_) {
-    home.straight_m =
-        (parts.vehicle.state.T_map_body_planar().position_m() - world_->vehicle->home_map.position_m()).norm();
-    home.flown_m = world_->vehicle->distance_flown_m;
-  }
+  WayHome home{executor_.desk().home_m(), 0.0, controller_.landing_s()};
+  if (world_ && !home.planned_m)
+    home.trail_m = common::polylineLength(trailBackWithoutLoops(world_->vehicle->trail.points_map_m()));
   parts.map3d = estimator_.map3d();
   parts.targets.targets = estimator_.targets();
   parts.energy = energy_ =

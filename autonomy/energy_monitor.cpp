@@ -130,11 +130,11 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const WayHome& home, 
   return layer;
 }
 
-/// Without a path the length is the trail's, which can be flown, or that of a path with detours if that is shorter.
+/// Without a path the vehicle would fly along its trail.
 void EnergyMonitor::tellHome(const WayHome& home, common::EnergyLayer& layer) const {
-  constexpr double kDetours = 3.0, kLeast_m_s = 0.1;  // Rooms and corridors rarely need more detour.
+  constexpr double kLeast_m_s = 0.1;
   layer.home_planned = home.planned_m.has_value();
-  layer.home_m = home.planned_m.value_or(std::min(home.flown_m, kDetours * home.straight_m));
+  layer.home_m = home.planned_m.value_or(home.trail_m);
   const double fly_s = *layer.home_m / std::max(kLeast_m_s, home_speed_m_s_);
   const double drawn_as = current_model_.drawn_as(fly_s, *layer.home_m) +
                           current_model_.drawn_as(config_.home_stops_s + home.landing_s, 0.0);

@@ -25,8 +25,7 @@ struct EnergyConfig {
 /// How far it is home.
 struct WayHome {
   std::optional<double> planned_m;  ///< Length of the planned path; none while there is none.
-  double straight_m = 0.0;          ///< The straight line.
-  double flown_m = 0.0;             ///< Along the trail.
+  double trail_m = 0.0;             ///< Along the trail, without its loops.
   double landing_s = 0.0;           ///< From the height of the flight to the ground.
 };
 

@@ -36,6 +36,8 @@ class Executor {
   void tick(const common::Intent& intent, const ManeuverInput& input);
   /// Flies the retreat of the reactive layer, or returns the vehicle to the intent if there is none.
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
+  /// No sensor sees the surroundings any more: a retreat ends in a hold.
+  void endRetreat() { retreat_.end(); }
 
   const common::IntentStatus& status() const { return status_; }
   /// The velocity along the path being flown; zero if there is none.

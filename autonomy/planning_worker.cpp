@@ -41,14 +41,25 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   return answer;
 }
 
-/// The path to the origin of the map, where the vehicle took off. It is planned at every kEach-th answer: with
-/// the default planning_period_s that is at least every 2 s, in which the vehicle flies less than 1.5 m.
+/// The path to the origin of the map, where the vehicle took off, or to the free place nearest to it, as going home
+/// plans it. It is planned at every kEach-th answer: with the default planning_period_s that is at least every 2 s, in
+/// which the vehicle flies less than 1.5 m. Somebody who stands in a door blocks it for a while: for kBelieved plans
+/// the length stays the last one, and what has been flown since.
 std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
-  constexpr int kEach = 8;
-  if (answers_++ % kEach == 0) {
-    const auto path = home_planner_.plan(map_, position_map_m, Eigen::Vector2d::Zero());
-    home_m_ = path ? std::optional(path->length_m) : std::nullopt;
-  }
+  constexpr int kEach = 8, kBelieved = 10;
+  if (answers_++ % kEach != 0) return home_m_;
+  const auto place = goalPlace({Eigen::Vector2d::Zero(), common::kHomeWithin_m});
+  std::optional<double> length_m;
+  if (place)
+    if (const auto path = home_planner_.plan(map_, position_map_m, *place)) length_m = path->length_m;
+  home_failures_ = length_m ? 0 : home_failures_ + 1;
+  if (length_m)
+    home_m_ = length_m;
+  else if (home_m_ && home_failures_ <= kBelieved)
+    *home_m_ += (position_map_m - home_planned_at_m_).norm();
+  else
+    home_m_.reset();
+  home_planned_at_m_ = position_map_m;
   return home_m_;
 }
 
@@ -90,12 +101,18 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::plan(const E
   return path;
 }
 
-tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const GoalRequest& goal,
-                                                                         const Eigen::Vector2d& position_map_m) {
+tl::expected<Eigen::Vector2d, planning::PlanFailure> PlanningWorker::goalPlace(const GoalRequest& goal) const {
   const planning::CostGoalMap goals(map_);
   const auto place = common::judgeGoal(
       {goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m, 0.0, map_.names()}, {}, &goals);
   if (!place) return tl::make_unexpected(planning::failureOf(place.error()));
+  return *place;
+}
+
+tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const GoalRequest& goal,
+                                                                         const Eigen::Vector2d& position_map_m) {
+  const auto place = goalPlace(goal);
+  if (!place) return tl::make_unexpected(place.error());
   return plan(position_map_m, *place);
 }
 

@@ -94,6 +94,7 @@ class PlanningWorker {
  private:
   tl::expected<planning::Path, planning::PlanFailure> plan(const Eigen::Vector2d& from_map_m,
                                                            const Eigen::Vector2d& to_map_m);
+  tl::expected<Eigen::Vector2d, planning::PlanFailure> goalPlace(const GoalRequest& goal) const;
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
   std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<common::Disc>& people,
@@ -109,6 +110,8 @@ class PlanningWorker {
   planning::ExplorationConfig exploration_;
   planning::Wavefront home_planner_;
   std::optional<double> home_m_;
+  int home_failures_ = 0;  ///< Plans without a path, since the last path.
+  Eigen::Vector2d home_planned_at_m_ = Eigen::Vector2d::Zero();
   int answers_ = 0;
   int paths_ = 0;       ///< Number of paths that the planner found.
   int viewpoints_ = 0;  ///< Number of viewpoints that the explorer chose.

@@ -106,6 +106,7 @@ const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition)
   obey(now, energy_.watch(now, condition));
   back_ = supervision_.land ? 0 : obey(now, position_.watch(now, condition, !blind_.empty())).back;
 
+  supervision_.unseen = !blind_.empty();
   supervision_.hold_reason = holdReason();
   supervision_.hold = !supervision_.hold_reason.empty();
   const bool may_fly = blind_.empty() && !pilot_flies_;

@@ -23,6 +23,7 @@ namespace swiftlet::autonomy {
 struct Supervision {
   bool hold = false;
   std::string hold_reason;
+  bool unseen = false;  ///< No sensor sees the surroundings.
   /// The flight home, counted from 1; the mission holds meanwhile. 0: none.
   unsigned home = 0;
   /// The flight back along the trail until the vehicle knows its height and position again, counted from 1; the mission

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "autonomy/trail_back.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::autonomy {
@@ -11,7 +12,7 @@ namespace {
 constexpr std::uint64_t kHold = 1ULL << 62;
 /// Of the landing, which is for good: there is one.
 constexpr std::uint64_t kLand = kHold + 1;
-/// Of the first flight home; the next ones count on.
+/// Of the first flight home by a path; that along the trail is the next, and so for each further flight home.
 constexpr std::uint64_t kHome = kHold + 2;
 /// Of the first flight back along the trail.
 constexpr std::uint64_t kBack = kHome + (1ULL << 32);
@@ -31,22 +32,29 @@ std::optional<common::Intent> SupervisorIntents::flight(const Supervision& asked
   const bool stopped = flight.present.id >= kHome || flight.status.released;
   if (!stopped) return std::nullopt;
   if (asked.back > 0) return back(kBack + asked.back - 1, flight, supervisor);
-  if (asked.home > 0) return home(kHome + asked.home - 1, flight, supervisor);
+  if (asked.home > 0) return home(asked.home, flight, supervisor);
   return std::nullopt;
 }
 
-/// Where no path is known, the path home is the whole trail. At its end the vehicle holds.
-common::Intent SupervisorIntents::home(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const {
-  if (flight.status.id != id) {
-    if (!flight.home_planned) return {id, common::RetraceIntent{trailBack_map_m(flight.world), std::nullopt}};
+/// Where no path is known, or it could not be flown, the path home is the trail. At its end the vehicle holds.
+common::Intent SupervisorIntents::home(unsigned count, const SupervisedFlight& flight, Supervisor& supervisor) const {
+  const std::uint64_t by_path = kHome + 2ULL * (count - 1), along_trail = by_path + 1;
+  const common::IntentStatus& status = flight.status;
+  const bool begun = status.id == by_path || status.id == along_trail;
+  const bool failed = begun && status.state == common::IntentState::kFailed;
+  if (!begun && flight.home_planned) {
     common::GoToIntent to_home;
     to_home.goal_map_m = flight.world.vehicle->home_map.position_m();
     to_home.instead_within_m = common::kHomeWithin_m;
     to_home.clearance_m = clearance_m_;
-    return {id, to_home};
+    return {by_path, to_home};
   }
-  if (flight.status.state == common::IntentState::kRunning) return flight.present;
-  supervisor.homeEnded(flight.now, flight.status.state == common::IntentState::kSucceeded, flight.status.reason);
+  if (!begun || (failed && status.id == by_path)) {
+    const auto trail_map_m = flight.world.vehicle->trail.points_map_m();
+    return {along_trail, common::RetraceIntent{trailBackWithoutLoops(trail_map_m), std::nullopt}};
+  }
+  if (status.state == common::IntentState::kRunning) return flight.present;
+  supervisor.homeEnded(flight.now, status.state == common::IntentState::kSucceeded, status.reason);
   return hold();
 }
 

@@ -41,7 +41,7 @@ class SupervisorIntents {
                                        Supervisor& supervisor) const;
 
  private:
-  common::Intent home(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const;
+  common::Intent home(unsigned count, const SupervisedFlight& flight, Supervisor& supervisor) const;
   common::Intent back(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const;
 
   double clearance_m_;

@@ -13,10 +13,15 @@ void RetreatFlight::react(const planning::AvoidanceDecision& decision, const com
     if (!active() || decision.turn_rad != 0.0) yaw_map_rad_ = T_map_body.yaw_rad + decision.turn_rad;
     (void)controller_.followVelocity(Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s,
                                      decision.retreat_acceleration_m_s2, *yaw_map_rad_);
-  } else if (active()) {
-    controller_.hold();
-    yaw_map_rad_.reset();
+  } else {
+    end();
   }
+}
+
+void RetreatFlight::end() {
+  if (!active()) return;
+  controller_.hold();
+  yaw_map_rad_.reset();
 }
 
 }  // namespace swiftlet::autonomy

@@ -13,13 +13,15 @@ namespace swiftlet::autonomy {
 ///
 ///            the layer wants to retreat
 ///   calm ----------------------------------> active: flies at the velocity asked for, no path
-///     ^   no longer (then it holds), or the vehicle is not flying any more    |
+///     ^   no longer or unseen (it holds), or the vehicle does not fly any more |
 ///     +-----------------------------------------------------------------------+
 class RetreatFlight {
  public:
   explicit RetreatFlight(control::FlightController& controller) : controller_(controller) {}
 
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
+  /// When nothing is seen any more the vehicle holds: nobody knows what it would retreat into.
+  void end();
   bool active() const { return yaw_map_rad_.has_value(); }
 
  private:

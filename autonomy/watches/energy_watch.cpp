@@ -66,7 +66,7 @@ void EnergyWatch::watchHome(Time now, const common::EnergyLayer& energy, WatchRe
   request.home = fmt::format(
       "turned back with {:.0f} % of the battery left, {:.0f} % to fly {:.1f} m home{}, and {:.0f} % at which {}",
       100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0),
-      energy.home_planned ? "" : " at most, as no path is known", 100.0 * land_share,
+      energy.home_planned ? "" : " along its trail, as no path is known", 100.0 * land_share,
       land_share > config_.battery_land_share ? "the thrust carries the weight no longer" : "it lands");
   request.say(now, Severity::kWarning, "turn back", request.home);
 }

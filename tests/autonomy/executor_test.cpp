@@ -99,6 +99,14 @@ TEST_F(ExecutorRetreating, ARetreatContinuesUnderEveryIntent) {
   EXPECT_TRUE(executor_.status().released) << "it has stopped";
 }
 
+TEST_F(ExecutorRetreating, ARetreatEndsInAHoldWhenNothingIsSeenAnyMore) {
+  want(common::HoldIntent{});
+  expectRetreat();
+  executor_.endRetreat();
+  run(1.5);
+  EXPECT_TRUE(executor_.status().released) << "it has stopped";
+}
+
 TEST_F(ExecutorRetreating, ARetreatDropsThePlanAtOnce) {
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "not only at the next tick";
   EXPECT_EQ(executor_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());

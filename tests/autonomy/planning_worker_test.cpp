@@ -1,4 +1,6 @@
 // Answers of the planning job: paths to goals, to nearly free goals, and to places where others can pass.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "autonomy/planning_worker.hpp"
@@ -150,6 +152,39 @@ TEST_F(Worker, ApproachesABlockedGoalAndThenMakesRoom) {
   const auto next = ask(DetourRequest{goal});
   ASSERT_TRUE(next.detour);
   EXPECT_TRUE(next.detour->makes_room);
+}
+
+/// A room around the take-off place and another one; the door between them is at (2, 0).
+struct WorkerAwayFromHome : Worker {
+  WorkerAwayFromHome() {
+    grid = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+    for (int y = -40; y <= 40; ++y)
+      for (int x = -40; x <= 120; ++x) {
+        const bool wall = x == -40 || y == -40 || x == 120 || y == 40 || (x == 40 && std::abs(y) > 12);
+        grid->set({x, y}, wall ? common::occupancy::kMaxSteps : -common::occupancy::kMaxSteps);
+      }
+    pose = {4.0, 0.0, 0.0};
+  }
+};
+
+TEST_F(WorkerAwayFromHome, SomebodyInTheDoorBlocksTheWayHomeOnlyForAWhile) {
+  EXPECT_NEAR(ask({}).home_m.value(), 4.0, 0.1);
+  const common::Disc in_the_door{{2.0, 0.0}, 0.5};
+  std::optional<double> home_m;
+  for (int i = 0; i < 70; ++i) home_m = ask({}, {in_the_door}).home_m;
+  EXPECT_NEAR(home_m.value(), 4.0, 0.1);
+  pose.x_m = 5.0;
+  for (int i = 0; i < 8; ++i) home_m = ask({}, {in_the_door}).home_m;
+  EXPECT_NEAR(home_m.value(), 5.0, 0.1) << "and what has been flown since";
+  for (int i = 0; i < 80; ++i) home_m = ask({}, {in_the_door}).home_m;
+  EXPECT_FALSE(home_m);
+}
+
+TEST_F(WorkerAwayFromHome, ATakeOffPlaceThatIsNoLongerFreeIsReachedNearby) {
+  grid->set({0, 0}, common::occupancy::kMaxSteps);
+  const auto home_m = ask({}).home_m;
+  ASSERT_TRUE(home_m);
+  EXPECT_NEAR(*home_m, 4.0, 1.0);
 }
 
 }  // namespace

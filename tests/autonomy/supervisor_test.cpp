@@ -252,7 +252,7 @@ TEST_F(SupervisorStory, TurnsBackWithoutAKnownPathAndSaysSo) {
   energy_.home_m = 20.0;
   energy_.home_share = 0.05;
   EXPECT_EQ(at(2.0).home, 1u);
-  EXPECT_THAT(at(2.0).hold_reason, HasSubstr("5 % to fly 20.0 m home at most, as no path is known"));
+  EXPECT_THAT(at(2.0).hold_reason, HasSubstr("5 % to fly 20.0 m home along its trail, as no path is known"));
 }
 
 TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
