@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,15 +20,17 @@ namespace {
 constexpr std::uint64_t kMostNatureDraws = 200;  // As kMostDraws of variation.hpp.
 constexpr const char* kCharge = "battery_remaining";
 
+bool flies(const Scenario& scenario, double thrust_over_weight) {
+  return thrustOverWeight(scenario.vehicle, scenario.quadrotor, scenario.battery_remaining, Nature::kFullThrottle) >=
+         thrust_over_weight;
+}
+
 /// Raises the charge until the thrust suffices; false if it does not at a full battery either.
 bool chargeUntilItFlies(Scenario& scenario, double thrust_over_weight) {
   constexpr double kStep = 0.01;
   double& charge = scenario.battery_remaining;
-  const auto flies = [&] {
-    return thrustOverWeight(scenario.vehicle, scenario.quadrotor, charge, Nature::kFullThrottle) >= thrust_over_weight;
-  };
-  while (!flies() && charge < 1.0) charge = std::min(1.0, charge + kStep);
-  return flies();
+  while (!flies(scenario, thrust_over_weight) && charge < 1.0) charge = std::min(1.0, charge + kStep);
+  return flies(scenario, thrust_over_weight);
 }
 
 }  // namespace
@@ -69,14 +72,19 @@ Scenario Nature::drawn(const Scenario& scenario, std::uint64_t seed) const {
   const std::vector<std::string>& written = scenario.written;
   const bool fixed_charge = std::find(written.begin(), written.end(), kCharge) != written.end();
   const bool draws_charge = !fixed_charge && ranges_->has(kCharge);
+  const double least = ranges_->leastThrustOverWeight();
+  std::optional<Scenario> first;
   for (std::uint64_t draw = 0; draw < kMostNatureDraws; ++draw) {
     Scenario result = scenario;
     if (draws_charge) result.variation.battery_remaining = 0.0;
     ranges_->apply(result, written, [seed, draw](const std::string& key, double low, double high) {
       return common::RandomStream(seed, "nature " + key, draw).uniform(low, high);
     });
-    if (fixed_charge || chargeUntilItFlies(result, ranges_->leastThrustOverWeight())) return result;
+    if (fixed_charge ? flies(result, least) : chargeUntilItFlies(result, least)) return result;
+    if (!first) first = std::move(result);
   }
+  // The charge that is written out lifts no draw: what the vehicle does about it is then the subject of the trial.
+  if (fixed_charge) return *first;
   throw common::InputError(common::Problem{
       {ranges_->file()},
       "least_thrust_over_weight",

@@ -153,6 +153,19 @@ TEST(Nature, ChargeIsRaisedUntilTheVehicleCanFlyButNotAWrittenOne) {
   EXPECT_EQ(tired.drawn(written, 1).battery_remaining, 0.03);
 }
 
+TEST(Nature, AtAWrittenChargeTheRestIsDrawnAnewUntilTheVehicleCanFly) {
+  const Nature heavy =
+      Nature::fromText("least_thrust_over_weight: 1.3\nquadrotor: {mass_share: [0.8, 1.5]}\n", "heavy");
+  Scenario written;
+  written.battery_remaining = 0.9;
+  written.written = {"battery_remaining"};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Scenario drawn = heavy.drawn(written, seed);
+    EXPECT_EQ(drawn.battery_remaining, 0.9);
+    EXPECT_GE(thrustOverWeight(drawn.vehicle, drawn.quadrotor, 0.9, Nature::kFullThrottle), 1.3) << "seed " << seed;
+  }
+}
+
 TEST(Nature, ThatDrawsTheChargeReplacesTheScenariosVariationOfIt) {
   Scenario varied;
   varied.variation.battery_remaining = 0.1;

@@ -116,7 +116,7 @@ async function sendGoal(goal) {
   }
   view.showMarker({ ...goal, state: 'asked' });
   const answer = await commands.give('goal', { ...goal, frame: view.frameShown });
-  view.showMarker(answer.outcome === 'accepted' ? null : { ...goal, state: 'refused' });
+  view.showMarker(answer.outcome === 'refused' ? { ...goal, state: 'refused' } : null);
   if (answer.outcome === 'accepted') answer.reason = [where, answer.reason].filter(Boolean).join(', ');
   showAnswer('Goal', 'Goal accepted', answer);
 }
