@@ -22,7 +22,7 @@ constexpr double kUnmoved = 0.05;
 constexpr double kUnheard_s = 2.5;
 
 double smoothed(double value, double next, double dt_s, double filter_s) {
-  return value + std::min(1.0, dt_s / filter_s) * (next - value);
+  return filter_s > 0.0 ? value + std::min(1.0, dt_s / filter_s) * (next - value) : next;
 }
 
 }  // namespace
@@ -60,11 +60,13 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     remaining_at_take_off_ = moved_to_ = sample.remaining;
     drawn_as_ = drawn_at_move_as_ = drawn_since_move_as_ = 0.0;
   } else if (airborne) {
+    // A plain mean at first: the motors draw little in the samples before the vehicle has lifted.
+    const double filter_s = std::min(config_.power_filter_s, (sample.stamps.measured - taken_off_).seconds());
     const double current_a = currentOf_a(sample);
-    current_a_ = smoothed(current_a_, current_a, dt_s, config_.power_filter_s);
-    power_w_ = smoothed(power_w_, sample.voltage_v * current_a, dt_s, config_.power_filter_s);
-    margin_ = smoothed(margin_, thrust_margin, dt_s, config_.power_filter_s);
-    voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, config_.power_filter_s);
+    current_a_ = smoothed(current_a_, current_a, dt_s, filter_s);
+    power_w_ = smoothed(power_w_, sample.voltage_v * current_a, dt_s, filter_s);
+    margin_ = smoothed(margin_, thrust_margin, dt_s, filter_s);
+    voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, filter_s);
     if (measured) drawn_as_ += current_a * dt_s;
     drawn_since_move_as_ += current_a * dt_s;
   }

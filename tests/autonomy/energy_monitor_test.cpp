@@ -108,6 +108,15 @@ TEST_F(EnergyStory, ABatteryThatIsSilentIsCountedOnByItsCurrent) {
   EXPECT_EQ(layer().battery_remaining, 0.0);
 }
 
+TEST_F(EnergyStory, TheSpoolingMotorsAtTheStartAreForgottenInSeconds) {
+  draw(1.0, 2.0);
+  draw(5.0, 18.0);
+  remaining_ = 0.8;
+  draw(0.2, 18.0);
+  const double left_s = (remaining_ - kLandShare) * 3600.0 * kCapacity_ah / 18.0;
+  EXPECT_NEAR(layer().seconds_left.value(), left_s, 0.2 * left_s);
+}
+
 TEST_F(EnergyStory, AGaugeThatStandsStillIsCountedOnByTheCurrent) {
   draw(50.0, 18.0);
   stands_still_ = remaining_;
