@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/geometry.hpp"
-#include "tests/support/counted_allocations.hpp"
+#include "tests/support/allocations/counted_allocations.hpp"
 
 namespace swiftlet::autonomy {
 namespace {

@@ -85,13 +85,14 @@ TEST(Check, AMissionThatNeverTakesOffIsAProblem) {
 }
 
 TEST(Check, FollowsWhereTheVehicleMayBeInEveryBranch) {
+  constexpr const char* kExploresForAWhile =
+      "<Sequence><TakeOff/><Fallback><Timeout msec='5'><Explore/></Timeout><AlwaysSuccess/></Fallback>"
+      "<Land/></Sequence>";
   for (const char* sound :
        {"<Sequence><TakeOff/><Land/><TakeOff/><Land/></Sequence>",
         "<Fallback><Sequence><TakeOff/><Explore/><Land/></Sequence><Sequence><GoHome/><Land/></Sequence></Fallback>",
         "<Sequence><ForceSuccess><TakeOff/></ForceSuccess><Explore/></Sequence>",
-        "<Sequence><TakeOff/><Timeout msec='5'><Explore/></Timeout><Land/></Sequence>",
-        "<Sequence><TakeOff/><Fallback><Timeout "
-        "msec='5'><Explore/></Timeout><AlwaysSuccess/></Fallback><Land/></Sequence>",
+        "<Sequence><TakeOff/><Timeout msec='5'><Explore/></Timeout><Land/></Sequence>", kExploresForAWhile,
         "<Repeat num_cycles='2'><Sequence><TakeOff/><Land/></Sequence></Repeat>",
         "<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Land/></Sequence></Priority>",
         "<Parallel><TakeOff/><Hold/></Parallel>"})

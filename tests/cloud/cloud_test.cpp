@@ -89,7 +89,10 @@ TEST(CleanCloudTest, KeepsTheMeanOfEachCube) {
     const Sum& sum = it->second;
     EXPECT_LT((point.position_m - sum.position / static_cast<float>(sum.count)).norm(), 1e-5F);
     EXPECT_LT((point.normal - sum.normal.normalized()).norm(), 1e-4F);
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(point.rgb[i], sum.rgb[i] / sum.count, 1);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int mean = sum.rgb[i] / sum.count;
+      EXPECT_NEAR(point.rgb[i], mean, 1);
+    }
   }
 }
 

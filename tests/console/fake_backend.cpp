@@ -157,7 +157,8 @@ void FakeBackend::growTree() {
   ++worlds_;
   const double now_s = flight_.layers().stamp.seconds();
   for (int i = 0; i < 5; ++i) {
-    common::TreeNodeView& node = tree_[static_cast<std::size_t>(3 + (worlds_ * 5 + i) % (setup_.tree_nodes - 3))];
+    common::TreeNodeView& node =
+        tree_[3U + static_cast<unsigned>(worlds_ * 5 + i) % static_cast<unsigned>(setup_.tree_nodes - 3)];
     node.status = kStatuses[static_cast<std::size_t>(worlds_) % kStatuses.size()];
     node.began_s = now_s;
   }

@@ -5,7 +5,7 @@
 
 #include "tests/control/controller_fixtures.hpp"
 #include "tests/control/flight_story.hpp"
-#include "tests/support/counted_allocations.hpp"
+#include "tests/support/allocations/counted_allocations.hpp"
 
 namespace swiftlet::control {
 namespace {

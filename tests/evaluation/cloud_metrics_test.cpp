@@ -76,7 +76,8 @@ TEST_F(CloudMetrics, AlignmentTakesOutARigidMotion) {
 
 TEST_F(CloudMetrics, AnAlignmentThatTheSurfacesDoNotHoldIsRefused) {
   Cloud floor;
-  for (int i = 0; i < 400; ++i) floor.emplace_back(0.3 + 0.05 * (i % 20), 0.3 + 0.05 * (i / 20), 0.05);
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 20; ++column) floor.emplace_back(0.3 + 0.05 * column, 0.3 + 0.05 * row, 0.05);
   const Pose3 T = alignment(floor, rays_);
   EXPECT_EQ(T.position_m.norm(), 0.0) << "a floor slides";
 }

@@ -19,7 +19,7 @@ class Phase : public testing::Test {
   explicit Phase(PhaseConfig config = {.name = "hold", .phase = "hold", .settle_s = 1.0, .place_map_m = {1.0, 0.0}})
       : recorder_(std::move(config)) {}
 
-  void see(const std::string& phase, std::vector<double> level_heights_m = {}) {
+  void see(const std::string& phase, const std::vector<double>& level_heights_m = {}) {
     test::Layers layers;
     layers.mission.status.phase = phase;
     auto levels = std::make_shared<common::LevelMap>();

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 #include "behaviors/mission.hpp"
 #include "common/config.hpp"
@@ -22,7 +23,9 @@ common::LaserConfig laserSheet() {
 /// Compares doubles by their bits: 0 and -0 differ, and NaN equals itself.
 template <typename... Values>
 bool sameBits(const Values&... values) {
-  const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; };
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
   const std::array<double, sizeof...(Values)> all{values...};
   for (std::size_t i = 0; i + 1 < all.size(); i += 2)
     if (!same(all[i], all[i + 1])) return false;

@@ -52,7 +52,7 @@ std::string colorPng(std::uint64_t seed, int width_px = kWidth_px, int height_px
   return png(bytes, width_px, height_px, 8, PNG_COLOR_TYPE_RGB);
 }
 std::string plainPng(std::uint8_t value) {
-  return png(std::vector<std::uint8_t>(3 * kWidth_px * kHeight_px, value), kWidth_px, kHeight_px, 8,
+  return png(std::vector<std::uint8_t>(std::size_t{3} * kWidth_px * kHeight_px, value), kWidth_px, kHeight_px, 8,
              PNG_COLOR_TYPE_RGB);
 }
 std::string depthPng(int code, int width_px = kWidth_px, int height_px = kHeight_px) {

@@ -27,7 +27,8 @@ struct Building {
 };
 
 /// A wall with doors of 1 m, each at its middle.
-inline void addWall(PlanarWorld& world, Eigen::Vector2d from, Eigen::Vector2d to, std::vector<double> doors_m) {
+inline void addWall(PlanarWorld& world, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                    std::vector<double> doors_m) {
   const Eigen::Vector2d along = (to - from).normalized();
   const double length = (to - from).norm();
   std::sort(doors_m.begin(), doors_m.end());
@@ -293,7 +294,7 @@ class Walker {
   }
   Eigen::Vector2d somewhereElse(double least_m) {
     for (int i = 0;; ++i) {
-      const Eigen::Vector2d place = walks_->somewhere(random_);
+      Eigen::Vector2d place = walks_->somewhere(random_);
       if ((place - pose_.position_m()).norm() > least_m || i > 1000) return place;
     }
   }

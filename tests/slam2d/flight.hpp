@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "perception/laser_odometry/laser_odometry.hpp"
@@ -79,7 +80,7 @@ class Flight {
 
   Flight(PlanarWorld world, SmoothPath path, common::LaserConfig laser, std::uint64_t seed,
          perception::LaserOdometryConfig odometry = {})
-      : world_(std::move(world)), path_(std::move(path)), laser_(laser), seed_(seed), odometry_(odometry) {}
+      : world_(std::move(world)), path_(std::move(path)), laser_(std::move(laser)), seed_(seed), odometry_(odometry) {}
 
   double attitude_error_rad = 0.0175;
   double prediction_error_m = 0.003;

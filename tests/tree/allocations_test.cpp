@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/tree/parser.hpp"
-#include "tests/support/counted_allocations.hpp"
+#include "tests/support/allocations/counted_allocations.hpp"
 #include "tests/tree/scripts_and_ports.hpp"
 #include "tests/tree/story.hpp"
 

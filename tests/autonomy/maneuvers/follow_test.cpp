@@ -12,7 +12,8 @@ namespace {
 
 using testing::StartsWith;
 
-common::DynamicObstacle person(int id, double x_m, double y_m, common::Time seen, Eigen::Vector2d velocity = {0, 0}) {
+common::DynamicObstacle person(int id, double x_m, double y_m, common::Time seen,
+                               const Eigen::Vector2d& velocity = {0, 0}) {
   common::DynamicObstacle obstacle;
   obstacle.id = id;
   obstacle.center_map_m = {x_m, y_m};

@@ -1,22 +1,21 @@
-// Counts what operator new is asked for, in the whole program. It replaces the operators, so one source of a program
-// may include it, and no library.
-#pragma once
+#include "tests/support/allocations/counted_allocations.hpp"
 
-#include <atomic>
 #include <cstdlib>
 #include <new>
 
 namespace swiftlet::test_support {
 
-/// Since the start of the program.
-inline std::atomic<long> allocations{0};
+std::atomic<long> allocations{0};
 
-inline void* counted(std::size_t size) {
+namespace {
+
+void* counted(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
 
+}  // namespace
 }  // namespace swiftlet::test_support
 
 void* operator new(std::size_t size) { return swiftlet::test_support::counted(size); }
