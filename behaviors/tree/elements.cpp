@@ -45,7 +45,7 @@ bool isStructural(const XmlElement& element, std::string_view attribute) {
 
 bool isAutoremapped(const XmlElement& element) {
   const std::string* value = element.attribute("_autoremap");
-  return value != nullptr && (*value == "true" || *value == "1");
+  return value != nullptr && parseValue(*value, PortType::kBool, {}) == Value(true);
 }
 
 std::optional<std::string> entryOf(std::string_view text, std::string_view port) {

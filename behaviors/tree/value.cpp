@@ -63,9 +63,9 @@ std::optional<Number> parseNumber(std::string_view text) {
 
 std::optional<Value> parseBool(std::string_view text) {
   text = trimmed(text);
-  if (text == "true" || text == "1") return Value(true);
-  if (text == "false" || text == "0") return Value(false);
-  return std::nullopt;
+  if (text == "1" || text == "0") return Value(text == "1");
+  const auto truth = truthOfWord(text);
+  return truth ? std::optional<Value>(*truth) : std::nullopt;
 }
 
 /// Numbers between semicolons, at most `most`; nothing if one of them is not a number.
@@ -188,6 +188,12 @@ std::string_view withoutUnit(std::string_view port_name) {
   const std::string_view unit = unitOf(port_name);
   if (unit.empty() || unit.size() == port_name.size()) return port_name;
   return port_name.substr(0, port_name.size() - unit.size() - 1);
+}
+
+std::optional<bool> truthOfWord(std::string_view word) {
+  if (word == "true" || word == "True" || word == "TRUE") return true;
+  if (word == "false" || word == "False" || word == "FALSE") return false;
+  return std::nullopt;
 }
 
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit) {

@@ -66,8 +66,11 @@ std::string_view unitInWords(std::string_view unit);
 std::string_view withoutUnit(std::string_view port_name);
 
 /// Nothing if `text` is not of that type. Numbers are finite, in the C locale, and may have blanks around them; bool is
-/// true, false, 1 or 0. `unit` is that of the port and is used for kDuration only.
+/// a word of truthOfWord(), 1 or 0. `unit` is that of the port and is used for kDuration only.
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
+
+/// Of true, True, TRUE, false, False and FALSE; nothing for any other word.
+std::optional<bool> truthOfWord(std::string_view word);
 
 /// A text that parseValue reads back (durations: nanoseconds, for people).
 std::string toString(const Value& value);
