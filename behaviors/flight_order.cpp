@@ -61,7 +61,7 @@ class Walk {
         (conditions->has(tree::ConditionKind::kSkipIf) || conditions->has(tree::ConditionKind::kWhile)))
       return true;
     const std::string_view type = typeNameOf(record);
-    if (type == "Delay") return false;
+    if (type == "Delay" || type == "KeepRunningUntilFailure") return false;
     if (type == "RunOnce") return mayBe(id, "then_skip", true);
     if (type == "SkipUnlessUpdated") return true;
     if (type == "Precondition" && mayBe(id, "else", std::string("SKIPPED"))) return true;
@@ -164,7 +164,8 @@ std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree) {
   Walk walk(tree, problems);
   walk.walk(tree.root(), {true, false});
   if (!walk.takesOff() && problems.empty())
-    problems.push_back({tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}});
+    problems.push_back(
+        {tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}, tree.pathOf(0)});
   return problems;
 }
 

@@ -49,10 +49,14 @@ bool isAutoremapped(const XmlElement& element) {
 }
 
 std::optional<std::string> entryOf(std::string_view text, std::string_view port) {
+  const auto trim = [&text] {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+  };
+  trim();
   if (text.size() < 2 || text.front() != '{' || text.back() != '}') return std::nullopt;
   text = text.substr(1, text.size() - 2);
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
+  trim();
   return std::string(text == "=" ? port : text);
 }
 

@@ -11,7 +11,9 @@ bool fits(PortType written, PortType read) {
   const auto isText = [](PortType type) {
     return type == PortType::kAny || type == PortType::kString || type == PortType::kScript;
   };
-  return isText(written) || isText(read) || written == read || (written == PortType::kInt && read == PortType::kDouble);
+  const bool number = written == PortType::kInt || written == PortType::kDouble;
+  return isText(written) || isText(read) || written == read || (number && read == PortType::kDuration) ||
+         (written == PortType::kInt && read == PortType::kDouble);
 }
 
 bool isSet(const EntryFlow& flow) {

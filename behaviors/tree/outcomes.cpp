@@ -101,7 +101,7 @@ class OutcomeJudge {
     if (id == "Inverter") return {child.failure, child.success, child.skipped};
     if (id == "ForceSuccess") return {ends, false, child.skipped};
     if (id == "ForceFailure") return {false, ends, child.skipped};
-    if (id == "KeepRunningUntilFailure") return {false, child.failure, child.skipped};
+    if (id == "KeepRunningUntilFailure") return {false, child.failure, false};
     if (id == "Repeat") return {child.success && !isForever(record, "num_cycles"), child.failure, child.skipped};
     if (id == "RetryUntilSuccessful")
       return {child.success, child.failure && !isForever(record, "num_attempts"), child.skipped};

@@ -24,6 +24,10 @@ struct PortManifest {
   std::string description = {};  ///< One sentence.
   /// The texts that are allowed; empty: any of the type.
   std::vector<std::string> choices = {};
+  /// Of text that is a list with `;` between: the type of each element.
+  std::optional<PortType> elements = std::nullopt;
+  /// It reads news of an entry: text without braces is the name of one, too.
+  bool names_entry = false;
   /// Of a script: it is asked before a node starts and must not assign, because a Priority asks without starting it.
   bool asked = false;
 };
@@ -69,6 +73,8 @@ struct NodeSetup {
   std::string name;  ///< The attribute `name`, or the type.
   std::vector<PortBinding> ports;
   Conditions* conditions = nullptr;  ///< Null without any; they belong to the tree.
+  /// The names of the registry that stand for numbers; null if there is no registry.
+  const Constants* constants = nullptr;
 
   const PortBinding& port(std::string_view port_name) const;
 };

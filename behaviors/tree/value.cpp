@@ -107,16 +107,6 @@ std::optional<Value> parseRectangle(std::string_view text) {
   return rectangle;
 }
 
-std::optional<Value> parseDuration(std::string_view text, std::string_view unit) {
-  const Unit* known = findUnit(unit);
-  const auto number = parseNumber<double>(text);
-  if (!number || known == nullptr || known->seconds == 0.0) return std::nullopt;
-  const double nanoseconds = std::round(*number * known->seconds * 1e9);
-  constexpr double kLongest = 9e18;
-  if (std::abs(nanoseconds) > kLongest) return std::nullopt;
-  return Duration{static_cast<std::int64_t>(nanoseconds)};
-}
-
 std::string numberText(double number) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
@@ -190,6 +180,15 @@ std::string_view withoutUnit(std::string_view port_name) {
   return port_name.substr(0, port_name.size() - unit.size() - 1);
 }
 
+std::optional<Duration> durationOf(double number, std::string_view unit) {
+  const Unit* known = findUnit(unit);
+  if (known == nullptr || known->seconds == 0.0) return std::nullopt;
+  const double nanoseconds = std::round(number * known->seconds * 1e9);
+  constexpr double kLongest = 9e18;
+  if (!(std::abs(nanoseconds) <= kLongest)) return std::nullopt;
+  return Duration{static_cast<std::int64_t>(nanoseconds)};
+}
+
 std::optional<bool> truthOfWord(std::string_view word) {
   if (word == "true" || word == "True" || word == "TRUE") return true;
   if (word == "false" || word == "False" || word == "FALSE") return false;
@@ -214,8 +213,11 @@ std::optional<Value> parseValue(std::string_view text, PortType type, std::strin
       return parsePoints(text);
     case PortType::kRectangle:
       return parseRectangle(text);
-    case PortType::kDuration:
-      return parseDuration(text, unit);
+    case PortType::kDuration: {
+      const auto number = parseNumber<double>(text);
+      const auto duration = number ? durationOf(*number, unit) : std::nullopt;
+      return duration ? std::optional<Value>(*duration) : std::nullopt;
+    }
   }
   return std::nullopt;
 }

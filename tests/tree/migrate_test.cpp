@@ -132,6 +132,7 @@ TEST(Migrate, TheResultIsReadAndActsAsVersion3Did) {
   ASSERT_TRUE(result.tree.has_value()) << toString(result.problems);
   EXPECT_THAT(result.warnings, IsEmpty());
   TickContext context;
+  EXPECT_EQ(result.tree->tick(context), Status::kRunning) << "no two children of the sequence start in one tick";
   EXPECT_EQ(result.tree->tick(context), Status::kSuccess);
 }
 

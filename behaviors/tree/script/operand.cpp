@@ -62,6 +62,12 @@ std::optional<double> numberOf(const Operand& operand) {
   return all && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
+std::optional<double> numberNamed(std::string_view text, const Constants* constants) {
+  if (constants != nullptr && !constants->empty())
+    if (const auto known = constants->find(text); known != constants->end()) return static_cast<double>(known->second);
+  return comparedAs(text);
+}
+
 std::optional<std::int64_t> wholeOf(const Operand& operand) {
   if (const auto* whole = std::get_if<std::int64_t>(&operand)) return *whole;
   const auto number = numberOf(operand);

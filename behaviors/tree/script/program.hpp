@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,9 +13,6 @@
 #include "behaviors/tree/value.hpp"
 
 namespace swiftlet::tree {
-
-/// Names with a number: the enumerators that an application gives to scripts.
-using Constants = std::map<std::string, std::int64_t, std::less<>>;
 
 /// An entry that a script uses.
 struct ScriptEntry {
