@@ -209,6 +209,13 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
 void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                           const PortManifest& port) {
   const auto where = [&] { return typeNameOf(element) + "." + port.name; };
+  if (const auto entry = entryOf(attribute.value, port.name)) {
+    report({document.at(element, attribute.name),
+            where(),
+            "a script stands in the file, it is not read from the entry {" + *entry + "}",
+            {}});
+    return;
+  }
   auto [script, problem] = scripts_.add(attribute.value);
   attribute.script = script;
   if (script == nullptr)

@@ -89,6 +89,8 @@ class Input {
 
   /// Given in the XML or by a default.
   bool given() const { return binding_.literal.has_value() || binding_.slot != nullptr; }
+  /// Not read from an entry.
+  bool fixed() const { return binding_.slot == nullptr; }
   /// Nothing if it is not given, if the entry is not set yet, or if its value does not fit this port.
   std::optional<T> get() const;
   /// Why get() returns nothing: "port goal: the entry {target} is not set".

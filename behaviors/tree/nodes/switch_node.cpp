@@ -1,5 +1,7 @@
 #include "behaviors/tree/nodes/switch_node.hpp"
 
+#include <algorithm>
+
 #include "behaviors/tree/script/operand.hpp"
 
 namespace swiftlet::tree {
@@ -43,6 +45,12 @@ std::size_t SwitchNode::chosen() const {
     if (value && isCase(*variable, *value, constants_)) return i;
   }
   return cases_.size();
+}
+
+std::optional<std::size_t> SwitchNode::alwaysChosen() const {
+  const bool fixed =
+      variable_.fixed() && std::all_of(cases_.begin(), cases_.end(), [](const auto& c) { return c.fixed(); });
+  return fixed ? std::optional(chosen()) : std::nullopt;
 }
 
 bool SwitchNode::onAsked(const TickContext& context) const { return child(chosen()).wants(context); }

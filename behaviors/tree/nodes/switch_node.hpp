@@ -4,6 +4,7 @@
 // tick: when another case becomes true, the child that runs is halted first. The answer is that of the child.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "behaviors/tree/composite.hpp"
@@ -16,6 +17,9 @@ class SwitchNode final : public Composite {
   SwitchNode(const NodeSetup& setup, std::size_t cases);
   static NodeManifest manifest(std::size_t cases);
   std::string checkBuilt() const override;
+  /// The only child that it can choose, because the file fixes the variable and the cases; nothing if it may choose
+  /// more.
+  std::optional<std::size_t> alwaysChosen() const;
 
  private:
   Status run(TickContext& context) override;
