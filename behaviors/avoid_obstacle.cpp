@@ -14,7 +14,7 @@ tree::NodeManifest AvoidObstacle::manifest() {
       .may_skip = true};
 }
 
-std::string AvoidObstacle::reason(const tree::TickContext& context) const {
+std::string AvoidObstacle::whyItWants(const tree::TickContext& context) const {
   const std::string& reason = flightTick(context).flight.world->vehicle->avoidance.reason;
   return reason.empty() ? "the reactive layer retreats" : reason;
 }

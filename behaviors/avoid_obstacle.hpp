@@ -12,9 +12,9 @@ class AvoidObstacle final : public FlightLeaf {
  public:
   using FlightLeaf::FlightLeaf;
   static tree::NodeManifest manifest();
-  std::string reason(const tree::TickContext& context) const override;
 
  private:
+  std::string whyItWants(const tree::TickContext& context) const override;
   bool onAsked(const tree::TickContext& context) const override;
   tree::Status act(tree::TickContext& context) override;
 };

@@ -6,6 +6,7 @@
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/tree/conditions.hpp"
+#include "behaviors/tree/outcomes.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
@@ -35,20 +36,30 @@ class Walk {
   }
 
   Exits walk(const tree::Node& node, Whereabouts entry) {
-    const std::string_view id = typeNameOf(recordOf(node));
-    if (node.children().empty()) return walkLeaf(node, id, entry);
-    // AsyncSequence, ReactiveSequence and SequenceWithMemory differ only in when they tick their children again.
-    if (id.find("Sequence") != std::string_view::npos) return walkChain(node, entry, true);
-    if (id.find("Fallback") != std::string_view::npos) return walkChain(node, entry, false);
-    if (id == "Priority") return walkPriority(node, entry);
-    if (node.children().size() > 1) return walkAnyOrder(node, entry);
-    return walkDecorator(node, id, entry);
+    Exits exits = walkRule(node, entry);
+    const tree::Conditions* conditions = tree_.conditionsOf(node.id());
+    if (conditions == nullptr) return exits;
+    if (conditions->has(tree::ConditionKind::kSuccessIf)) exits.success = either(exits.success, entry);
+    if (conditions->has(tree::ConditionKind::kFailureIf)) exits.failure = either(exits.failure, entry);
+    return exits;
   }
 
   bool takesOff() const { return takes_off_; }
   bool maySkip(const tree::Node& node) const { return skips_[static_cast<std::size_t>(node.id())]; }
 
  private:
+  Exits walkRule(const tree::Node& node, Whereabouts entry) {
+    const std::string_view id = typeNameOf(recordOf(node));
+    if (node.children().empty()) return walkLeaf(node, id, entry);
+    // AsyncSequence, ReactiveSequence and SequenceWithMemory differ only in when they tick their children again.
+    if (id.find("Sequence") != std::string_view::npos) return walkChain(node, entry, true);
+    if (id.find("Fallback") != std::string_view::npos) return walkChain(node, entry, false);
+    if (id == "Priority") return walkPriority(node, entry);
+    if (id == "IfThenElse") return walkIfThenElse(node, entry);
+    if (node.children().size() > 1) return walkAnyOrder(node, entry, !id.starts_with("Parallel"));
+    return walkDecorator(node, id, entry);
+  }
+
   const tree::NodeRecord& recordOf(const tree::Node& node) const {
     return tree_.nodes()[static_cast<std::size_t>(node.id())];
   }
@@ -61,7 +72,7 @@ class Walk {
         (conditions->has(tree::ConditionKind::kSkipIf) || conditions->has(tree::ConditionKind::kWhile)))
       return true;
     const std::string_view type = typeNameOf(record);
-    if (type == "Delay") return false;
+    if (type == "Delay" || type == "KeepRunningUntilFailure") return false;
     if (type == "RunOnce") return mayBe(id, "then_skip", true);
     if (type == "SkipUnlessUpdated") return true;
     if (type == "Precondition" && mayBe(id, "else", std::string("SKIPPED"))) return true;
@@ -92,7 +103,8 @@ class Walk {
                            {},
                            tree_.pathOf(node.id())});
     if (id == "Land" || id == "EmergencyLand") return {{true, false}, entry};
-    if (id == "OperatorCommand") return {{}, entry};
+    if (id == "OperatorCommand" || id == "FollowMe") return {{}, entry};
+    if (id == "Patrol" && tree::isAlways(tree_, recordOf(node), "rounds", 0)) return {{}, entry};
     return {entry, entry};
   }
 
@@ -129,16 +141,32 @@ class Walk {
     return exits;
   }
 
-  /// Parallel, IfThenElse, Switch ...: a child may begin where the node began, or where any child before it has ended.
-  Exits walkAnyOrder(const tree::Node& node, Whereabouts entry) {
-    Exits all;
-    Whereabouts anywhere = entry;
+  Exits walkIfThenElse(const tree::Node& node, Whereabouts entry) {
+    const auto& children = node.children();
+    const Exits condition = walk(*children[0], entry);
+    Exits exits = walkSkippable(*children[1], condition.success);
+    if (children.size() == 2) return {exits.success, either(exits.failure, condition.failure)};
+    const Exits other = walkSkippable(*children[2], condition.failure);
+    return {either(exits.success, other.success), either(exits.failure, other.failure)};
+  }
+
+  /// A child that succeeds where it is when it is skipped.
+  Exits walkSkippable(const tree::Node& node, Whereabouts entry) {
+    const Exits exits = walk(node, entry);
+    return {maySkip(node) ? either(exits.success, entry) : exits.success, exits.failure};
+  }
+
+  /// Parallel, Switch, WhileDoElse ...: a child may begin where the node began, or where any child before it has ended.
+  /// With `one_ends` it succeeds where one of its children does.
+  Exits walkAnyOrder(const tree::Node& node, Whereabouts entry, bool one_ends) {
+    Whereabouts success, anywhere = entry;
     for (const auto& child : node.children()) {
-      const Exits exits = walk(*child, anywhere);
+      const Exits exits = walkSkippable(*child, anywhere);
       anywhere = either(anywhere, either(exits.success, exits.failure));
+      const bool condition = child == node.children().front() && typeNameOf(recordOf(node)) == "WhileDoElse";
+      if (!condition) success = either(success, exits.success);
     }
-    all.success = all.failure = anywhere;
-    return all;
+    return {one_ends ? success : anywhere, anywhere};
   }
 
   Exits walkDecorator(const tree::Node& node, std::string_view id, Whereabouts entry) {
@@ -147,8 +175,15 @@ class Walk {
     if (id == "Inverter") return {exits.failure, exits.success};
     if (id == "ForceSuccess") return {both, {}};
     if (id == "ForceFailure") return {{}, both};
+    if (id == "KeepRunningUntilFailure" || isForever(node, id, "Repeat", "num_cycles")) return {{}, exits.failure};
+    if (isForever(node, id, "RetryUntilSuccessful", "num_attempts")) return {exits.success, {}};
+    if (id == "Precondition" || id == "RunOnce") return {either(entry, exits.success), either(entry, exits.failure)};
     if (id == "Timeout") return {exits.success, either(entry, both)};
     return exits;
+  }
+
+  bool isForever(const tree::Node& node, std::string_view id, std::string_view type, std::string_view port) const {
+    return id == type && tree::isAlways(tree_, recordOf(node), port, -1);
   }
 
   const tree::Tree& tree_;
@@ -164,8 +199,15 @@ std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree) {
   Walk walk(tree, problems);
   walk.walk(tree.root(), {true, false});
   if (!walk.takesOff() && problems.empty())
-    problems.push_back({tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}});
+    problems.push_back(
+        {tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}, tree.pathOf(0)});
   return problems;
+}
+
+bool mayEndInTheAir(const tree::Tree& tree) {
+  std::vector<tree::Problem> ignored;
+  Walk walk(tree, ignored);
+  return walk.walk(tree.root(), {true, false}).success.air;
 }
 
 }  // namespace swiftlet::behaviors

@@ -14,4 +14,8 @@ namespace swiftlet::behaviors {
 ///   vehicle.
 std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree);
 
+/// Whether some way through the tree ends with SUCCESS while the vehicle flies. A mission that fails is another matter:
+/// the autonomy brings the vehicle down.
+bool mayEndInTheAir(const tree::Tree& tree);
+
 }  // namespace swiftlet::behaviors

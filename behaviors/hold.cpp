@@ -10,7 +10,7 @@ tree::NodeManifest Hold::manifest() {
           .may_skip = true};
 }
 
-std::string Hold::reason(const tree::TickContext& context) const {
+std::string Hold::whyItWants(const tree::TickContext& context) const {
   const std::string& reason = flightTick(context).flight.hold_reason;
   return reason.empty() ? "the operator holds" : reason;
 }

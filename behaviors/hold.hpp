@@ -10,9 +10,9 @@ class Hold final : public FlightLeaf {
  public:
   using FlightLeaf::FlightLeaf;
   static tree::NodeManifest manifest();
-  std::string reason(const tree::TickContext& context) const override;
 
  private:
+  std::string whyItWants(const tree::TickContext& context) const override;
   bool onAsked(const tree::TickContext& context) const override { return flightTick(context).flight.hold; }
   tree::Status act(tree::TickContext& context) override;
 };

@@ -55,6 +55,14 @@ std::vector<std::string> ownersOf(const tree::Tree& tree, const std::vector<tree
   return lines;
 }
 
+/// A node that is not of the engine.
+bool hasBehaviour(const tree::Tree& tree) {
+  const tree::Registry engine = tree::Registry::standard();
+  return std::any_of(tree.nodes().begin(), tree.nodes().end(), [&](const tree::NodeRecord& record) {
+    return record.manifest != nullptr && engine.find(record.manifest->id) == nullptr;
+  });
+}
+
 }  // namespace
 
 MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits) {
@@ -66,7 +74,8 @@ MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimit
   tree::ParseResult parsed = tree::parseFile(path, mocked.registry);
   std::vector<std::string> whose;
   if (parsed.tree) whose = ownersOf(*parsed.tree, mocked.mocks);
-  if (parsed.tree && !mocked.mocks.empty()) return {{}, std::move(parsed.warnings), std::move(whose)};
+  const bool foreign = !mocked.mocks.empty() || (parsed.tree && !hasBehaviour(*parsed.tree));
+  if (parsed.tree && foreign) return {{}, std::move(parsed.warnings), std::move(whose)};
   MissionVerdict verdict = verdictOf(std::move(parsed), limits);
   if (verdict.problems.empty()) verdict.whose = std::move(whose);
   return verdict;
@@ -78,11 +87,14 @@ MissionVerdict judgeMissionText(const std::string& text, const std::string& name
 
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems) {
   std::vector<common::Problem> result;
-  for (const tree::Problem& problem : problems)
-    result.push_back({{problem.location.file, problem.location.line, problem.location.column},
-                      problem.element,
-                      problem.message,
-                      problem.hint});
+  for (const tree::Problem& problem : problems) {
+    common::Problem shown{{problem.location.file, problem.location.line, problem.location.column},
+                          problem.element,
+                          problem.message,
+                          problem.hint};
+    if (!problem.path.empty()) (shown.hint.empty() ? shown.message : shown.hint) += " [" + problem.path + "]";
+    result.push_back(std::move(shown));
+  }
   return result;
 }
 

@@ -11,7 +11,7 @@
 
 namespace swiftlet::behaviors {
 
-/// The problems in the type of common.
+/// The problems in the type of common; the path of the node ends the text.
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems);
 
 /// Those of flight_order.hpp and limits_check.hpp.
@@ -36,7 +36,8 @@ struct MissionVerdict {
 };
 MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {});
 /// Types that Swiftlet does not have are mocks (behaviors/tree/mocks.hpp). With one in the tree only the XML is judged,
-/// because nobody knows how a mock moves the vehicle. Such a mission cannot be flown.
+/// because nobody knows how a mock moves the vehicle, and so is a tree without any behaviour of Swiftlet. Such a
+/// mission cannot be flown.
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
 
 MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits = {});

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/flight_order.hpp"
 #include "behaviors/tree/outcomes.hpp"
 
 namespace swiftlet::behaviors {
@@ -12,7 +13,7 @@ namespace {
 
 std::optional<tree::Outcomes> outcomesOfLeaf(const tree::Tree& tree, const tree::NodeRecord& leaf) {
   if (typeNameOf(leaf) == "LogEvent") return tree::Outcomes{.success = true};
-  if (typeNameOf(leaf) == "OperatorCommand") return tree::Outcomes{.failure = true};
+  if (typeNameOf(leaf) == "OperatorCommand" || typeNameOf(leaf) == "FollowMe") return tree::Outcomes{.failure = true};
   if (typeNameOf(leaf) == "Patrol" && tree::isAlways(tree, leaf, "rounds", 0)) return tree::Outcomes{.failure = true};
   return std::nullopt;
 }
@@ -68,7 +69,10 @@ class Warnings {
     for (const tree::NodeRecord& record : tree_.nodes()) {
       const std::string_view type = typeNameOf(record);
       const bool lands = type.find("Land") != std::string_view::npos || type == "OperatorCommand";
-      if (lands && !isUnreached(record.node->id())) return;
+      if (!lands || isUnreached(record.node->id())) continue;
+      if (mayEndInTheAir(tree_))
+        warn(0, "the mission may succeed while the vehicle is in the air", "end it with a <Land/>");
+      return;
     }
     warn(0, "the mission never lands", "end it with a <Land/>");
   }

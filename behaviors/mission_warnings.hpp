@@ -8,10 +8,11 @@
 
 namespace swiftlet::behaviors {
 
-/// - A node that is never ticked, because one before it always succeeds, always fails, or never ends.
+/// - A node that is never ticked, because one before it always succeeds, always fails, or never ends, or because a
+///   condition, a case or a count that the file fixes excludes it.
 /// - A Parallel of several children that fly: only the last intent of a tick is flown.
-/// - Nothing lands the vehicle, and no OperatorCommand leaves that to the operator.
-/// Each has the path of its node.
+/// - Nothing lands the vehicle, and no OperatorCommand leaves that to the operator; or the mission may succeed in the
+/// air. Each has the path of its node.
 std::vector<tree::Problem> missionWarnings(const tree::Tree& tree);
 
 }  // namespace swiftlet::behaviors

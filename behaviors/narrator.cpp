@@ -73,7 +73,7 @@ void Narrator::onFailure(const Node& node, std::string_view reason) {
   failed_node_ = node.id();
   failure_reason_ = reason;
   std::erase_if(failures_, [&](const Failure& failure) { return failure.node == node.id(); });
-  failures_.push_back({node.id(), node.name() + ": " + failure_reason_});
+  failures_.push_back({node.id(), node.name() + ": " + failure_reason_ + " [" + tree_.pathOf(node.id()) + "]"});
 }
 
 std::string Narrator::failure() const {

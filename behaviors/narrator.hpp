@@ -15,8 +15,9 @@ class Narrator final : public tree::Observer {
 
   /// The tick whose events are reported, into its flight's list; null between ticks.
   void listen(FlightTick* tick) { tick_ = tick; }
-  /// Why the tree fails, the first cause first: "MoveToGoal: no path", or "MoveToGoal: no path, and then GoHome: the
-  /// goal is unreachable". Empty if nothing has failed, or if a node above the failure recovered from it.
+  /// Why the tree fails, the first cause first, with the paths of the nodes: "MoveToGoal: no path [M/MoveToGoal]", or
+  /// "MoveToGoal: no path [M/MoveToGoal], and then GoHome: the goal is unreachable [M/GoHome]". Empty if nothing has
+  /// failed, or if a node above the failure recovered from it.
   std::string failure() const;
   /// Call when the mission is reset.
   void forget() { failures_.clear(); }

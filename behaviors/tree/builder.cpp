@@ -50,6 +50,7 @@ Tree Builder::build() {
   tree_->origins.reserve(nodes);
   tree_->root = makeNode({main.document, &main.element->children.front(), -1, 0}, scope);
   tree_->documents = std::move(documents_.documents);
+  addFound();
   if (!gave_up_) checkEntries(*tree_, problems_);
   return Tree(std::move(tree_));
 }
@@ -69,16 +70,16 @@ std::unique_ptr<Node> Builder::makeSubTree(const Place& place, Scope& scope) {
   finishRecord(record, *node);
 
   Scope inner;
-  bindSubTree(place, scope, inner);
+  bindSubTree(place, scope, inner, record);
   const TreeDefinition& definition = documents_.trees.find(id)->second;
   if (auto child =
           makeNode({definition.document, &definition.element->children.front(), record, place.depth + 1}, inner))
     node->addChild(std::move(child));
-  if (!gave_up_) checkUnused(place, inner);
+  if (!gave_up_) checkUnused(place, inner, record);
   return node;
 }
 
-void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner) {
+void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int record) {
   inner.outer = &outer;
   inner.autoremap = isAutoremapped(*place.element);
   const auto bind = [&](const std::string& port, const std::string& text) {
@@ -95,12 +96,22 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner) {
     if (!isStructural(*place.element, attribute.name) && !conditionOf(attribute.name))
       bind(attribute.name, attribute.value);
   const auto model = documents_.subtree_models.find(*place.element->attribute("ID"));
-  if (model == documents_.subtree_models.end()) return;
-  for (const auto& [port, text] : model->second)
-    if (text && !inner.names.contains(port)) bind(port, *text);
+  // What the outer tree shares takes the place of defaults.
+  if (model == documents_.subtree_models.end() || inner.autoremap) return;
+  for (const auto& [port, text] : model->second) {
+    if (inner.names.contains(port)) continue;
+    if (text)
+      bind(port, *text);
+    else
+      report({place.document->at(*place.element),
+              "SubTree",
+              "port `" + port + "` is missing, and <TreeNodesModel> gives it no default",
+              {}},
+             record);
+  }
 }
 
-void Builder::checkUnused(const Place& place, const Scope& inner) {
+void Builder::checkUnused(const Place& place, const Scope& inner, int record) {
   const std::string& id = *place.element->attribute("ID");
   const auto model = documents_.subtree_models.find(id);
   for (const auto& [port, entry] : inner.names) {
@@ -109,8 +120,9 @@ void Builder::checkUnused(const Place& place, const Scope& inner) {
     std::vector<std::string> candidates;
     for (const auto& [name, other] : inner.names)
       if (!other.passed) candidates.push_back(name);
-    problems_.add({place.document->at(*place.element, port), "SubTree",
-                   "the tree `" + id + "` has no entry {" + port + "}", didYouMean(port, candidates)});
+    report({place.document->at(*place.element, port), "SubTree", "the tree `" + id + "` has no entry {" + port + "}",
+            didYouMean(port, candidates)},
+           record);
   }
 }
 
@@ -121,6 +133,7 @@ std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
   NodeSetup setup;
   setup.name = name == nullptr || name->empty() ? type.manifest.id : *name;
   setup.conditions = makeConditions(place, scope, type.manifest.id);
+  setup.constants = &registry_.constants();
   bindPorts(place, scope, type.manifest, setup);
   recordFlow(originOf(place), type.manifest, setup);
   auto node = type.build(setup);
@@ -136,7 +149,7 @@ std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
     }
   }
   if (std::string problem = node->checkBuilt(); !problem.empty())
-    problems_.add({place.document->at(*place.element), type.manifest.id, std::move(problem), {}});
+    report({place.document->at(*place.element), type.manifest.id, std::move(problem), {}}, record);
   return node;
 }
 
@@ -153,7 +166,7 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
       if (binding.script != nullptr) bindScript(*binding.script, place, scope, manifest.id, port);
     } else if (const auto entry = entryOf(*text, port.name)) {
       binding.slot = find(scope, *entry);
-    } else if (port.direction == Direction::kOutput) {
+    } else if (port.direction == Direction::kOutput || port.names_entry) {
       binding.slot = find(scope, *text);
     } else {
       binding.literal = readValue(port, *text).value;
@@ -280,8 +293,26 @@ bool Builder::tooLarge(const Place& place) {
   else
     return false;
   gave_up_ = true;
-  problems_.add({place.document->at(*place.element), place.element->name, std::move(message), {}});
+  report({place.document->at(*place.element),
+          place.element->name,
+          std::move(message),
+          {},
+          "/" + displayNameOf(*place.element)},
+         place.parent);
   return true;
+}
+
+void Builder::report(Problem problem, int node) { found_.push_back({std::move(problem), node}); }
+
+/// Paths count siblings, so that they are known when the tree is complete.
+void Builder::addFound() {
+  for (auto& [problem, node] : found_) {
+    std::string path = node < 0 ? tree_->name : tree_->pathOf(node);
+    constexpr std::size_t kMost = 400;
+    if (path.size() > kMost) path = path.substr(0, kMost / 2) + " ... " + path.substr(path.size() - kMost / 2);
+    problem.path = path + problem.path;
+    problems_.add(std::move(problem));
+  }
 }
 
 }  // namespace swiftlet::tree

@@ -41,8 +41,11 @@ class Builder {
   std::unique_ptr<Node> makeNode(const Place& place, Scope& scope);
   std::unique_ptr<Node> makeSubTree(const Place& place, Scope& scope);
   std::unique_ptr<Node> makeTyped(const Place& place, Scope& scope);
-  void bindSubTree(const Place& place, Scope& outer, Scope& inner);
-  void checkUnused(const Place& place, const Scope& inner);
+  void bindSubTree(const Place& place, Scope& outer, Scope& inner, int record);
+  void checkUnused(const Place& place, const Scope& inner, int record);
+  /// Of a node that may not be complete yet.
+  void report(Problem problem, int node);
+  void addFound();
   void bindPorts(const Place& place, Scope& scope, const NodeManifest& manifest, NodeSetup& setup);
   void recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup);
   void recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner, const PortManifest& port);
@@ -63,6 +66,7 @@ class Builder {
   Problems& problems_;
   std::unique_ptr<TreeParts> tree_;
   Scope* main_scope_ = nullptr;
+  std::vector<std::pair<Problem, int>> found_;  ///< With the nodes that they are about.
   bool gave_up_ = false;
 };
 

@@ -58,16 +58,16 @@ void Checker::check() {
 void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
   const XmlElement& element = *tree.element;
   const Document& document = *tree.document;
-  if (registry_.find(id) != nullptr)
-    problems_.add({document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type", {}});
-  if (element.children.size() != 1)
-    problems_.add({document.at(element),
-                   element.name,
-                   "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
-                   {}});
-  if (element.text_offset)
-    problems_.add({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
   tree_id_ = id;
+  if (registry_.find(id) != nullptr)
+    report({document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type", {}});
+  if (element.children.size() != 1)
+    report({document.at(element),
+            element.name,
+            "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
+            {}});
+  if (element.text_offset)
+    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
   for (const XmlElement& child : element.children) checkElement(document, child);
 }
 
@@ -195,8 +195,8 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
     return;
   }
   if (entryOf(attribute.value, port.name)) return;
-  if (port.direction == Direction::kOutput) {
-    // The key of SetBlackboard may be written without braces.
+  if (port.direction == Direction::kOutput || port.names_entry) {
+    // The key of SetBlackboard, and an entry that is watched, may be written without braces.
     if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
     report(
         {document.at(element, port.name), where(), "`" + attribute.value + "` is not an entry, expected `{name}`", {}});
@@ -209,6 +209,13 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
 void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                           const PortManifest& port) {
   const auto where = [&] { return typeNameOf(element) + "." + port.name; };
+  if (const auto entry = entryOf(attribute.value, port.name)) {
+    report({document.at(element, attribute.name),
+            where(),
+            "a script stands in the file, it is not read from the entry {" + *entry + "}",
+            {}});
+    return;
+  }
   auto [script, problem] = scripts_.add(attribute.value);
   attribute.script = script;
   if (script == nullptr)
@@ -228,6 +235,16 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
           manifest.id,
           "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " + expected,
           {}});
+}
+
+/// Opens the elements from `from` down to `wanted`; false, with none opened, if it is not below.
+bool Checker::openUpTo(const XmlElement& from, const XmlElement* wanted) {
+  open_.push_back(&from);
+  if (&from == wanted) return true;
+  for (const XmlElement& child : from.children)
+    if (openUpTo(child, wanted)) return true;
+  open_.pop_back();
+  return false;
 }
 
 /// Depth-first over the uses. A tree that is reached again while it is open contains itself.
@@ -257,7 +274,12 @@ void Checker::checkRecursion() {
       std::string chain;
       const auto first = std::find_if(path.begin(), path.end(), [&](const auto& step) { return step.first == used; });
       for (auto step = first; step != path.end(); ++step) chain += step->first + " -> ";
-      problems_.add({use.document->at(*use.element), "SubTree", "the tree contains itself: " + chain + used, {}});
+      tree_id_ = path.back().first;
+      open_.clear();
+      for (const XmlElement& child : documents_.trees.find(tree_id_)->second.element->children)
+        if (openUpTo(child, use.element)) break;
+      report({use.document->at(*use.element), "SubTree", "the tree contains itself: " + chain + used, {}});
+      open_.clear();
     }
   }
 }

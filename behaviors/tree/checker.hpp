@@ -35,6 +35,7 @@ class Checker {
   std::string path() const;
   void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkRecursion();
+  bool openUpTo(const XmlElement& from, const XmlElement* wanted);
 
   struct Use {
     const Document* document = nullptr;

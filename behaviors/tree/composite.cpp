@@ -43,7 +43,7 @@ bool Composite::onAsked(const TickContext& context) const {
   return false;
 }
 
-std::string Composite::reason(const TickContext& context) const {
+std::string Composite::whyItWants(const TickContext& context) const {
   for (const auto& child : children_)
     if (child->wants(context)) return child->reason(context);
   return {};

@@ -15,7 +15,6 @@ class Composite : public Node {
 
   void addChild(std::unique_ptr<Node> child) { children_.push_back(std::move(child)); }
   const std::vector<std::unique_ptr<Node>>& children() const final { return children_; }
-  std::string reason(const TickContext& context) const override;
 
  protected:
   /// The node's own rule; called unless the node is ending (see endWith).
@@ -35,6 +34,7 @@ class Composite : public Node {
   Release onHalt(TickContext& context) override;
   /// At least one child wants the vehicle.
   bool onAsked(const TickContext& context) const override;
+  std::string whyItWants(const TickContext& context) const override;
 
  private:
   void onStart(TickContext& context) final;

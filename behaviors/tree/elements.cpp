@@ -45,14 +45,18 @@ bool isStructural(const XmlElement& element, std::string_view attribute) {
 
 bool isAutoremapped(const XmlElement& element) {
   const std::string* value = element.attribute("_autoremap");
-  return value != nullptr && (*value == "true" || *value == "1");
+  return value != nullptr && parseValue(*value, PortType::kBool, {}) == Value(true);
 }
 
 std::optional<std::string> entryOf(std::string_view text, std::string_view port) {
+  const auto trim = [&text] {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+  };
+  trim();
   if (text.size() < 2 || text.front() != '{' || text.back() != '}') return std::nullopt;
   text = text.substr(1, text.size() - 2);
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
+  trim();
   return std::string(text == "=" ? port : text);
 }
 

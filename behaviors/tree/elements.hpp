@@ -27,7 +27,7 @@ bool isStructural(const XmlElement& element, std::string_view attribute);
 /// `_autoremap="true"` of a SubTree.
 bool isAutoremapped(const XmlElement& element);
 
-/// "{x}" -> "x"; "{=}" -> the port's own name; nothing for a literal.
+/// "{x}", " { x } " -> "x"; "{=}" -> the port's own name; nothing for a literal.
 std::optional<std::string> entryOf(std::string_view text, std::string_view port);
 /// A valid name of an entry: not empty, without blanks and braces.
 bool isEntryName(std::string_view name);

@@ -11,7 +11,9 @@ bool fits(PortType written, PortType read) {
   const auto isText = [](PortType type) {
     return type == PortType::kAny || type == PortType::kString || type == PortType::kScript;
   };
-  return isText(written) || isText(read) || written == read || (written == PortType::kInt && read == PortType::kDouble);
+  const bool number = written == PortType::kInt || written == PortType::kDouble;
+  return isText(written) || isText(read) || written == read || (number && read == PortType::kDuration) ||
+         (written == PortType::kInt && read == PortType::kDouble);
 }
 
 bool isSet(const EntryFlow& flow) {
@@ -71,17 +73,27 @@ void checkEntries(const TreeParts& tree, Problems& problems) {
     if (!tree.flows[i].reads.empty()) checkEntry(tree, i, problems);
 }
 
-std::vector<const LiteralWrite*> TreeParts::literalsOf(std::size_t slot) const {
+std::vector<std::size_t> TreeParts::sourcesOf(std::size_t slot) const {
   std::vector<std::size_t> reached = {slot};
-  std::vector<const LiteralWrite*> literals;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const EntryFlow& flow = flows[reached[i]];
-    for (const LiteralWrite& literal : flow.literals) literals.push_back(&literal);
-    for (const std::size_t from : flow.copied_from)
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const std::size_t from : flows[reached[i]].copied_from)
       if (reached.size() < kMaxCopies && std::find(reached.begin(), reached.end(), from) == reached.end())
         reached.push_back(from);
-  }
+  return reached;
+}
+
+std::vector<const LiteralWrite*> TreeParts::literalsOf(std::size_t slot) const {
+  std::vector<const LiteralWrite*> literals;
+  for (const std::size_t source : sourcesOf(slot))
+    for (const LiteralWrite& literal : flows[source].literals) literals.push_back(&literal);
   return literals;
+}
+
+bool TreeParts::isOnlyWrittenAsText(std::size_t slot) const {
+  const std::vector<std::size_t> sources = sourcesOf(slot);
+  return sources.size() < kMaxCopies && std::all_of(sources.begin(), sources.end(), [&](std::size_t source) {
+           return flows[source].typed_writes.empty() && !flows[source].by_host;
+         });
 }
 
 }  // namespace swiftlet::tree

@@ -54,9 +54,15 @@ Migration migrateToVersion4(std::string text, const std::string& name) {
   std::vector<Edit> edits = {formatEdit(document)};
   migration.changes.push_back({document.at(document.root), "root", "BTCPP_format=\"4\" says the version", {}});
   for (Version3Use& use : version3Uses(document)) {
-    migration.changes.push_back({document.at(*use.element, use.attribute), use.element->name, use.message, {}});
+    Problem change{document.at(*use.element, use.attribute), use.element->name, use.message, {}};
+    if (!use.rewritable) {
+      change.hint = "but a script cannot hold one of its values: name the entry with letters, digits and `_`";
+      migration.problems.push_back(change);
+    }
+    migration.changes.push_back(std::move(change));
     edits.insert(edits.end(), use.edits.begin(), use.edits.end());
   }
+  if (!migration.problems.empty()) return {{}, {}, std::move(migration.problems)};
   migration.text = edited(document.source.text(), std::move(edits));
   if (auto problem = whatIsBroken(document, migration.text)) return {{}, {}, {std::move(*problem)}};
   return migration;

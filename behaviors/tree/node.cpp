@@ -1,25 +1,75 @@
 #include "behaviors/tree/node.hpp"
 
 #include <cassert>
+#include <exception>
+#include <string>
 #include <utility>
 
 #include "behaviors/tree/conditions.hpp"
 
 namespace swiftlet::tree {
+namespace {
+
+/// What is being thrown. Only for a handler.
+std::string thrown() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return std::string("threw an exception: ") + error.what();
+  } catch (...) {
+    return "threw what is no exception";
+  }
+}
+
+}  // namespace
 
 Status Node::tick(TickContext& context) {
   if (letting_go_ == LettingGo::kHalting && halt(context) == Release::kLettingGo) return Status::kRunning;
   if (conditions_ != nullptr)
     if (const auto decided = decidedBefore(context)) return end(context, *decided);
-  if (!isActive(status_)) {
-    onStart(context);
-  } else if (status_ == Status::kSuspended || letting_go_ == LettingGo::kSuspending) {
-    letting_go_ = LettingGo::kNo;
-    onResume(context);
+  return end(context, followRule(context));
+}
+
+Status Node::followRule(TickContext& context) {
+  try {
+    if (!isActive(status_)) {
+      onStart(context);
+    } else if (status_ == Status::kSuspended || letting_go_ == LettingGo::kSuspending) {
+      letting_go_ = LettingGo::kNo;
+      onResume(context);
+    }
+    const Status status = onTick(context);
+    assert(status != Status::kIdle && status != Status::kSuspended);
+    return status;
+  } catch (...) {
+    return fail(context, thrown());
   }
-  const Status status = onTick(context);
-  assert(status != Status::kIdle && status != Status::kSuspended);
-  return end(context, status);
+}
+
+/// A node that throws when it is asked to let go has let go.
+Release Node::releasedBy(Release (Node::*ask)(TickContext&), TickContext& context) {
+  try {
+    return (this->*ask)(context);
+  } catch (...) {
+    (void)fail(context, thrown());
+    return Release::kReleased;
+  }
+}
+
+bool Node::asksForVehicle(const TickContext& context) const {
+  try {
+    return onAsked(context);
+  } catch (...) {
+    return true;  // Its tick says why it fails.
+  }
+}
+
+std::string Node::reason(const TickContext& context) const {
+  try {
+    return whyItWants(context);
+  } catch (...) {
+    return thrown();
+  }
 }
 
 /// The status that the conditions decide without the node's own rule, if they do.
@@ -47,14 +97,14 @@ Status Node::end(TickContext& context, Status status) {
 bool Node::wants(const TickContext& context) const {
   if (isActive(status_)) return true;
   const auto decided = conditions_ == nullptr ? StartDecision{} : conditions_->atStart();
-  return decided.status ? *decided.status != Status::kSkipped : onAsked(context);
+  return decided.status ? *decided.status != Status::kSkipped : asksForVehicle(context);
 }
 
 Release Node::suspend(TickContext& context) {
   if (status_ != Status::kRunning) return Release::kReleased;
   if (letting_go_ == LettingGo::kHalting) return halt(context);
   letting_go_ = LettingGo::kSuspending;
-  if (onSuspend(context) == Release::kLettingGo) return Release::kLettingGo;
+  if (releasedBy(&Node::onSuspend, context) == Release::kLettingGo) return Release::kLettingGo;
   letting_go_ = LettingGo::kNo;
   setStatus(context, Status::kSuspended);
   return Release::kReleased;
@@ -63,7 +113,7 @@ Release Node::suspend(TickContext& context) {
 Release Node::halt(TickContext& context) {
   if (status_ == Status::kRunning) {
     letting_go_ = LettingGo::kHalting;
-    if (onHalt(context) == Release::kLettingGo) return Release::kLettingGo;
+    if (releasedBy(&Node::onHalt, context) == Release::kLettingGo) return Release::kLettingGo;
     letting_go_ = LettingGo::kNo;
   }
   if (conditions_ != nullptr && isActive(status_)) {
@@ -84,8 +134,6 @@ Status Node::fail(TickContext& context, std::string_view reason) const {
   if (context.observer != nullptr) context.observer->onFailure(*this, reason);
   return Status::kFailure;
 }
-
-std::string Node::reason(const TickContext&) const { return {}; }
 
 const std::vector<std::unique_ptr<Node>>& Node::children() const {
   static const std::vector<std::unique_ptr<Node>> kNone;

@@ -12,6 +12,9 @@
 // and hands the vehicle to no other node before. suspend() keeps the progress, halt() drops it. A node that is ticked
 // while it lets go for a suspension continues (onResume); one that is being halted finishes that first.
 //
+// A node that throws an exception is FAILURE with that reason, and has let go; what follows is up to the tree, as after
+// any failure.
+//
 // Scripted conditions of the file (see conditions.hpp) come before and after the node's own rule.
 //
 // Each tick brings the time; no node reads a clock. Single-threaded.
@@ -87,7 +90,7 @@ class Node {
   /// vehicle.
   bool wants(const TickContext& context) const;
   /// Why it wants the vehicle, for people; may be empty.
-  virtual std::string reason(const TickContext& context) const;
+  std::string reason(const TickContext& context) const;
 
   /// Shows SKIPPED for a node that was asked and does not want the vehicle. Not for a running node.
   void markSkipped(TickContext& context) { setStatus(context, Status::kSkipped); }
@@ -114,6 +117,7 @@ class Node {
   virtual Release onHalt(TickContext&) { return Release::kReleased; }
   /// wants() for a node that is not running.
   virtual bool onAsked(const TickContext&) const { return true; }
+  virtual std::string whyItWants(const TickContext&) const { return {}; }
 
   /// Reports the reason and returns FAILURE.
   Status fail(TickContext& context, std::string_view reason) const;
@@ -121,6 +125,9 @@ class Node {
  private:
   enum class LettingGo : unsigned char { kNo, kSuspending, kHalting };
   std::optional<Status> decidedBefore(TickContext& context);
+  Status followRule(TickContext& context);
+  Release releasedBy(Release (Node::*ask)(TickContext&), TickContext& context);
+  bool asksForVehicle(const TickContext& context) const;
   Status end(TickContext& context, Status status);
   void setStatus(TickContext& context, Status status);
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "behaviors/tree/conditions.hpp"
+#include "behaviors/tree/nodes/switch_node.hpp"
 
 namespace swiftlet::tree {
 namespace {
@@ -27,6 +28,15 @@ bool goesOn(ChainRule chain, Outcomes child) {
   return child.skipped || (chain == ChainRule::kSequence ? child.success : child.failure);
 }
 
+/// "its `_skipIf` is always true", if the node can never start; else empty.
+std::string neverStarts(const Tree& tree, int id) {
+  for (const ConditionKind kind : {ConditionKind::kFailureIf, ConditionKind::kSuccessIf, ConditionKind::kSkipIf})
+    if (tree.constantTruth(id, attributeOf(kind)) == true)
+      return "its `" + std::string(attributeOf(kind)) + "` is always true";
+  if (tree.constantTruth(id, attributeOf(ConditionKind::kWhile)) == false) return "its `_while` is never true";
+  return {};
+}
+
 class OutcomeJudge {
  public:
   OutcomeJudge(const Tree& tree, const LeafOutcomes& leaf_outcomes)
@@ -47,6 +57,9 @@ class OutcomeJudge {
     if (record.manifest == nullptr) return children.empty() ? kAny : of(*children.front());
     const std::string_view id = record.manifest->id;
     if (children.empty()) return leafOutcomes(record, id);
+    if (id == "IfThenElse" || id == "WhileDoElse") return choiceOutcomes(record);
+    if (const auto* choice = dynamic_cast<const SwitchNode*>(record.node))
+      if (const auto chosen = choice->alwaysChosen()) return of(*children[*chosen]);
     if (chainOf(id) != ChainRule::kNone) return chainOutcomes(record, chainOf(id));
     if (children.size() == 1) return decorated(record, id, of(*children.front()));
     return anyOrder(record, id);
@@ -56,6 +69,8 @@ class OutcomeJudge {
     if (id == "AlwaysFailure") return {false, true, false};
     for (const char* name : {"AlwaysSuccess", "SetBlackboard", "UnsetBlackboard", "Sleep"})
       if (id == name) return {true, false, false};
+    if (id == "ScriptCondition")
+      if (const auto holds = tree_.constantTruth(record.node->id(), "code")) return {*holds, !*holds, false};
     if (leaf_outcomes_)
       if (const auto known = leaf_outcomes_(record)) return *known;
     return {true, true, record.manifest->may_skip};
@@ -77,7 +92,17 @@ class OutcomeJudge {
     return all;
   }
 
-  /// Priority, Parallel, IfThenElse, Switch ...: what their children may.
+  /// IfThenElse, WhileDoElse: SUCCESS where the child that was chosen is SKIPPED.
+  Outcomes choiceOutcomes(const NodeRecord& record) const {
+    const auto& children = record.node->children();
+    const Outcomes& condition = of(*children.front());
+    Outcomes all{false, condition.failure && children.size() == 2, false};
+    if (condition.success) all = either(all, of(*children[1]));
+    if (condition.failure && children.size() > 2) all = either(all, of(*children[2]));
+    return {all.success || all.skipped, all.failure, condition.skipped};
+  }
+
+  /// Priority, Parallel, Switch ...: what their children may.
   Outcomes anyOrder(const NodeRecord& record, std::string_view id) const {
     Outcomes all;
     bool all_skip = true;
@@ -90,8 +115,7 @@ class OutcomeJudge {
       const Outcomes& last = of(*record.node->children().back());
       all.success = last.success || (last.skipped && all.success);
     }
-    if (id.starts_with("Parallel") || id == "IfThenElse" || id == "WhileDoElse")
-      all.success = all.success || all.skipped;
+    if (id.starts_with("Parallel")) all.success = all.success || all.skipped;
     all.skipped = all_skip;
     return all;
   }
@@ -101,7 +125,10 @@ class OutcomeJudge {
     if (id == "Inverter") return {child.failure, child.success, child.skipped};
     if (id == "ForceSuccess") return {ends, false, child.skipped};
     if (id == "ForceFailure") return {false, ends, child.skipped};
-    if (id == "KeepRunningUntilFailure") return {false, child.failure, child.skipped};
+    if (id == "KeepRunningUntilFailure") return {false, child.failure, false};
+    if (id == "Repeat" && isAlways(tree_, record, "num_cycles", 0)) return {true, false, false};
+    if (id == "RetryUntilSuccessful" && isAlways(tree_, record, "num_attempts", 0)) return {false, true, false};
+    if (id == "Precondition" && tree_.constantTruth(record.node->id(), "if") == true) return child;
     if (id == "Repeat") return {child.success && !isForever(record, "num_cycles"), child.failure, child.skipped};
     if (id == "RetryUntilSuccessful")
       return {child.success, child.failure && !isForever(record, "num_attempts"), child.skipped};
@@ -117,8 +144,14 @@ class OutcomeJudge {
   Outcomes withConditions(int id, Outcomes outcomes) const {
     const Conditions* conditions = tree_.conditionsOf(id);
     if (conditions == nullptr) return outcomes;
-    return either(outcomes, {conditions->has(ConditionKind::kSuccessIf), conditions->has(ConditionKind::kFailureIf),
-                             conditions->has(ConditionKind::kSkipIf) || conditions->has(ConditionKind::kWhile)});
+    const auto may = [&](ConditionKind kind) {
+      return conditions->has(kind) && tree_.constantTruth(id, attributeOf(kind)).value_or(true);
+    };
+    const bool may_stop = conditions->has(ConditionKind::kWhile) &&
+                          !tree_.constantTruth(id, attributeOf(ConditionKind::kWhile)).value_or(false);
+    const Outcomes at_start{may(ConditionKind::kSuccessIf), may(ConditionKind::kFailureIf),
+                            may(ConditionKind::kSkipIf) || may_stop};
+    return neverStarts(tree_, id).empty() ? either(outcomes, at_start) : at_start;
   }
 
   const Tree& tree_;
@@ -138,36 +171,86 @@ std::string neverText(const Node& blocker, Outcomes end, ChainRule chain) {
 
 bool isAlways(const Tree& tree, const NodeRecord& record, std::string_view port, std::int64_t number) {
   const std::vector<Value> values = tree.knownValues(record.node->id(), port);
-  return !values.empty() && std::all_of(values.begin(), values.end(), [&](const Value& value) {
-    const auto* whole = std::get_if<std::int64_t>(&value);
-    return whole != nullptr && *whole == number;
-  });
+  return !values.empty() && tree.knowsEveryValue(record.node->id(), port) &&
+         std::all_of(values.begin(), values.end(), [&](const Value& value) {
+           const auto* whole = std::get_if<std::int64_t>(&value);
+           return whole != nullptr && *whole == number;
+         });
 }
 
 std::vector<Outcomes> outcomesOf(const Tree& tree, const LeafOutcomes& leaf_outcomes) {
   return OutcomeJudge(tree, leaf_outcomes).judge();
 }
 
-std::vector<Unreached> unreachedNodes(const Tree& tree, const std::vector<Outcomes>& outcomes) {
-  std::vector<Unreached> found;
-  std::vector<bool> listed(tree.nodes().size());  // Itself, or a node above it.
-  for (const NodeRecord& record : tree.nodes()) {
-    const auto id = static_cast<std::size_t>(record.node->id());
-    if (record.parent >= 0 && listed[static_cast<std::size_t>(record.parent)]) listed[id] = true;
-    const ChainRule chain = record.manifest == nullptr ? ChainRule::kNone : chainOf(record.manifest->id);
-    if (listed[id] || chain == ChainRule::kNone) continue;
+namespace {
+
+class UnreachedFinder {
+ public:
+  UnreachedFinder(const Tree& tree, const std::vector<Outcomes>& outcomes)
+      : tree_(tree), outcomes_(outcomes), listed_(tree.nodes().size()) {}
+
+  std::vector<Unreached> find() {
+    for (const NodeRecord& record : tree_.nodes()) {
+      const int id = record.node->id();
+      if (record.parent >= 0 && isListed(record.parent)) listed_[static_cast<std::size_t>(id)] = true;
+      if (!isListed(id)) list(*record.node, neverStarts(tree_, id));
+      if (!isListed(id) && record.manifest != nullptr) judgeChildren(record, record.manifest->id);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  bool isListed(int id) const { return listed_[static_cast<std::size_t>(id)]; }
+  const Outcomes& of(const Node& node) const { return outcomes_[static_cast<std::size_t>(node.id())]; }
+
+  void list(const Node& node, const std::string& why) {
+    if (why.empty()) return;
+    listed_[static_cast<std::size_t>(node.id())] = true;
+    found_.push_back({node.id(), why});
+  }
+
+  void judgeChildren(const NodeRecord& record, std::string_view id) {
+    const auto& children = record.node->children();
+    const std::string name = "`" + record.node->name() + "`";
+    if (const ChainRule chain = chainOf(id); chain != ChainRule::kNone) return judgeChain(*record.node, chain);
+    if (id == "IfThenElse" || id == "WhileDoElse") {
+      const Outcomes& condition = of(*children.front());
+      const std::string asked = "`" + children.front()->name() + "`, which is asked before it, never ";
+      if (!condition.success) list(*children[1], asked + "succeeds");
+      if (!condition.failure && children.size() > 2) list(*children[2], asked + "fails");
+    }
+    if (const auto* choice = dynamic_cast<const SwitchNode*>(record.node))
+      if (const auto chosen = choice->alwaysChosen())
+        for (std::size_t i = 0; i < children.size(); ++i)
+          if (i != *chosen) list(*children[i], name + " always chooses `" + children[*chosen]->name() + "`");
+    if (id == "Precondition" && tree_.constantTruth(record.node->id(), "if") == false)
+      list(*children.front(), "the `if` of " + name + " is never true");
+    if (id == "Repeat" && isAlways(tree_, record, "num_cycles", 0))
+      list(*children.front(), "the num_cycles of " + name + " is 0");
+    if (id == "RetryUntilSuccessful" && isAlways(tree_, record, "num_attempts", 0))
+      list(*children.front(), "the num_attempts of " + name + " is 0");
+  }
+
+  void judgeChain(const Node& node, ChainRule chain) {
     const Node* blocker = nullptr;
-    for (const auto& child : record.node->children()) {
-      const auto child_id = static_cast<std::size_t>(child->id());
-      if (blocker != nullptr) {
-        listed[child_id] = true;
-        found.push_back({child->id(), neverText(*blocker, outcomes[static_cast<std::size_t>(blocker->id())], chain)});
-      } else if (!goesOn(chain, outcomes[child_id])) {
+    for (const auto& child : node.children()) {
+      if (blocker != nullptr)
+        list(*child, neverText(*blocker, of(*blocker), chain));
+      else if (!goesOn(chain, of(*child)))
         blocker = child.get();
-      }
     }
   }
-  return found;
+
+  const Tree& tree_;
+  const std::vector<Outcomes>& outcomes_;
+  std::vector<bool> listed_;  ///< By node id: itself, or a node above it.
+  std::vector<Unreached> found_;
+};
+
+}  // namespace
+
+std::vector<Unreached> unreachedNodes(const Tree& tree, const std::vector<Outcomes>& outcomes) {
+  return UnreachedFinder(tree, outcomes).find();
 }
 
 }  // namespace swiftlet::tree

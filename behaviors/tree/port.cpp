@@ -26,21 +26,26 @@ bool inRange(const PortManifest& port, const Value& value) {
   return !number || ((!port.minimum || *number >= *port.minimum) && (!port.maximum || *number <= *port.maximum));
 }
 
-/// The value of an entry in the type of this port: a whole number is also a number, text is parsed, and numbers are
-/// also text.
+/// The value of an entry in the type of this port: a whole number is also a number, a number is a time in the port's
+/// unit, text is parsed, and numbers are also text.
 template <typename T>
 std::optional<T> converted(const PortManifest& port, const Value& value) {
   if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;
   if constexpr (std::is_same_v<T, double>)
-    if (const auto* whole = std::get_if<std::int64_t>(&value); whole != nullptr && inRange(port, value))
-      return static_cast<double>(*whole);
+    if (const auto* number = std::get_if<std::int64_t>(&value); number != nullptr && inRange(port, value))
+      return static_cast<double>(*number);
   // Scripts compute with numbers: 3.0 is a whole number, and 0 and 1 are truth values.
   const auto* number = std::get_if<double>(&value);
   if constexpr (std::is_same_v<T, std::int64_t>)
     if (number != nullptr && std::trunc(*number) == *number && std::abs(*number) < 9e15 && inRange(port, value))
       return static_cast<std::int64_t>(*number);
+  const auto* whole = std::get_if<std::int64_t>(&value);
+  if constexpr (std::is_same_v<T, Duration>)
+    if (number != nullptr || whole != nullptr) {
+      const auto duration = durationOf(number != nullptr ? *number : static_cast<double>(*whole), unitOf(port.name));
+      return duration && inRange(port, *duration) ? duration : std::nullopt;
+    }
   if constexpr (std::is_same_v<T, bool>) {
-    const auto* whole = std::get_if<std::int64_t>(&value);
     const double bit = number != nullptr ? *number : whole != nullptr ? static_cast<double>(*whole) : -1.0;
     if (bit == 0.0 || bit == 1.0) return bit == 1.0;
   }
@@ -61,6 +66,10 @@ std::string expectedOf(const PortManifest& port) {
   std::string text;
   for (const std::string& choice : port.choices) text += (text.empty() ? "" : " or ") + choice;
   if (!text.empty()) return text;
+  if (port.names_entry) return "an entry";
+  if (port.elements && *port.elements != PortType::kString)
+    return "a list with `;` between, each element a " + std::string(toString(*port.elements));
+  if (port.elements) return "a list of texts with `;` between";
   switch (port.type) {
     case PortType::kAny:
     case PortType::kString:
@@ -95,6 +104,21 @@ std::string expectedOf(const PortManifest& port) {
   return text;
 }
 
+namespace {
+
+/// The first element that is not of the type; nothing if all are.
+std::optional<std::string_view> wrongElement(std::string_view list, PortType type) {
+  while (!list.empty()) {
+    const std::size_t end = list.find(';');
+    const std::string_view element = list.substr(0, end);
+    if (!parseValue(element, type, {})) return element;
+    list.remove_prefix(end == std::string_view::npos ? list.size() : end + 1);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 ReadValue readValue(const PortManifest& port, std::string_view text) {
   ReadValue read;
   const auto& choices = port.choices;
@@ -105,6 +129,10 @@ ReadValue readValue(const PortManifest& port, std::string_view text) {
   } else if (!inRange(port, *read.value)) {
     read.value.reset();
     read.problem = "`" + std::string(text) + "` is out of range, expected " + expectedOf(port);
+  } else if (const auto wrong = port.elements ? wrongElement(text, *port.elements) : std::nullopt) {
+    read.value.reset();
+    read.problem =
+        "the element `" + std::string(*wrong) + "` of `" + std::string(text) + "` is not a " + toString(*port.elements);
   }
   return read;
 }

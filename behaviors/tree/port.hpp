@@ -24,6 +24,10 @@ struct PortManifest {
   std::string description = {};  ///< One sentence.
   /// The texts that are allowed; empty: any of the type.
   std::vector<std::string> choices = {};
+  /// Of text that is a list with `;` between: the type of each element.
+  std::optional<PortType> elements = std::nullopt;
+  /// It reads news of an entry: text without braces is the name of one, too.
+  bool names_entry = false;
   /// Of a script: it is asked before a node starts and must not assign, because a Priority asks without starting it.
   bool asked = false;
 };
@@ -69,6 +73,8 @@ struct NodeSetup {
   std::string name;  ///< The attribute `name`, or the type.
   std::vector<PortBinding> ports;
   Conditions* conditions = nullptr;  ///< Null without any; they belong to the tree.
+  /// The names of the registry that stand for numbers; null if there is no registry.
+  const Constants* constants = nullptr;
 
   const PortBinding& port(std::string_view port_name) const;
 };
@@ -83,6 +89,8 @@ class Input {
 
   /// Given in the XML or by a default.
   bool given() const { return binding_.literal.has_value() || binding_.slot != nullptr; }
+  /// Not read from an entry.
+  bool fixed() const { return binding_.slot == nullptr; }
   /// Nothing if it is not given, if the entry is not set yet, or if its value does not fit this port.
   std::optional<T> get() const;
   /// Why get() returns nothing: "port goal: the entry {target} is not set".

@@ -82,6 +82,22 @@ std::vector<Value> Tree::knownValues(int id, std::string_view port) const {
   return values;
 }
 
+bool Tree::knowsEveryValue(int id, std::string_view port) const {
+  const PortBinding& binding = parts_->setups[static_cast<std::size_t>(id)].port(port);
+  return binding.slot == nullptr || parts_->isOnlyWrittenAsText(binding.slot->id);
+}
+
+std::optional<bool> Tree::constantTruth(int id, std::string_view attribute) const {
+  const NodeSetup& setup = parts_->setups[static_cast<std::size_t>(id)];
+  Script* script = nullptr;
+  for (const PortBinding& binding : setup.ports)
+    if (binding.manifest->name == attribute) script = binding.script;
+  const auto kind = conditionOf(attribute);
+  if (kind && setup.conditions != nullptr) script = setup.conditions->scripts[static_cast<std::size_t>(*kind)];
+  if (script == nullptr || !script->entries().empty()) return std::nullopt;
+  return script->holds();
+}
+
 std::string TreeParts::pathOf(int id) const {
   const NodeRecord& record = records[static_cast<std::size_t>(id)];
   const std::string& own = record.node->name();

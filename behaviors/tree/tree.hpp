@@ -66,9 +66,14 @@ class Tree {
 
   /// The position of a node's element, or of one of its attributes (of the element if the attribute is missing).
   Location locationOf(int id, std::string_view attribute = {}) const;
+  /// What a script that reads no entry always is, by its attribute (`_skipIf`, `if`, `code`); nothing for any other.
+  std::optional<bool> constantTruth(int id, std::string_view attribute) const;
+
   /// Every value that a port may take before the first tick: its literal or default, or the texts that subtree ports
   /// and SetBlackboard give its entry. Values that cannot be parsed are left out, because they are problems already.
   std::vector<Value> knownValues(int id, std::string_view port) const;
+  /// Whether the port can take no other value: no node and no script computes one.
+  bool knowsEveryValue(int id, std::string_view port) const;
 
  private:
   std::unique_ptr<TreeParts> parts_;

@@ -65,6 +65,12 @@ struct TreeParts {
   /// Every text that may reach a slot, directly or from slots it is copied from (at most kMaxCopies of them).
   std::vector<const LiteralWrite*> literalsOf(std::size_t slot) const;
   static constexpr std::size_t kMaxCopies = 64;
+  /// Whether literalsOf() is all that may reach it.
+  bool isOnlyWrittenAsText(std::size_t slot) const;
+
+ private:
+  /// The slot and those it is copied from, directly or not.
+  std::vector<std::size_t> sourcesOf(std::size_t slot) const;
 };
 
 }  // namespace swiftlet::tree

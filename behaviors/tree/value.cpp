@@ -63,9 +63,9 @@ std::optional<Number> parseNumber(std::string_view text) {
 
 std::optional<Value> parseBool(std::string_view text) {
   text = trimmed(text);
-  if (text == "true" || text == "1") return Value(true);
-  if (text == "false" || text == "0") return Value(false);
-  return std::nullopt;
+  if (text == "1" || text == "0") return Value(text == "1");
+  const auto truth = truthOfWord(text);
+  return truth ? std::optional<Value>(*truth) : std::nullopt;
 }
 
 /// Numbers between semicolons, at most `most`; nothing if one of them is not a number.
@@ -105,16 +105,6 @@ std::optional<Value> parseRectangle(std::string_view text) {
   const Rectangle rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
   if (rectangle.x_min >= rectangle.x_max || rectangle.y_min >= rectangle.y_max) return std::nullopt;
   return rectangle;
-}
-
-std::optional<Value> parseDuration(std::string_view text, std::string_view unit) {
-  const Unit* known = findUnit(unit);
-  const auto number = parseNumber<double>(text);
-  if (!number || known == nullptr || known->seconds == 0.0) return std::nullopt;
-  const double nanoseconds = std::round(*number * known->seconds * 1e9);
-  constexpr double kLongest = 9e18;
-  if (std::abs(nanoseconds) > kLongest) return std::nullopt;
-  return Duration{static_cast<std::int64_t>(nanoseconds)};
 }
 
 std::string numberText(double number) {
@@ -190,6 +180,21 @@ std::string_view withoutUnit(std::string_view port_name) {
   return port_name.substr(0, port_name.size() - unit.size() - 1);
 }
 
+std::optional<Duration> durationOf(double number, std::string_view unit) {
+  const Unit* known = findUnit(unit);
+  if (known == nullptr || known->seconds == 0.0) return std::nullopt;
+  const double nanoseconds = std::round(number * known->seconds * 1e9);
+  constexpr double kLongest = 9e18;
+  if (!(std::abs(nanoseconds) <= kLongest)) return std::nullopt;
+  return Duration{static_cast<std::int64_t>(nanoseconds)};
+}
+
+std::optional<bool> truthOfWord(std::string_view word) {
+  if (word == "true" || word == "True" || word == "TRUE") return true;
+  if (word == "false" || word == "False" || word == "FALSE") return false;
+  return std::nullopt;
+}
+
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit) {
   switch (type) {
     case PortType::kAny:
@@ -208,8 +213,11 @@ std::optional<Value> parseValue(std::string_view text, PortType type, std::strin
       return parsePoints(text);
     case PortType::kRectangle:
       return parseRectangle(text);
-    case PortType::kDuration:
-      return parseDuration(text, unit);
+    case PortType::kDuration: {
+      const auto number = parseNumber<double>(text);
+      const auto duration = number ? durationOf(*number, unit) : std::nullopt;
+      return duration ? std::optional<Value>(*duration) : std::nullopt;
+    }
   }
   return std::nullopt;
 }

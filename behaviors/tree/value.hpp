@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,8 +68,17 @@ std::string_view unitInWords(std::string_view unit);
 std::string_view withoutUnit(std::string_view port_name);
 
 /// Nothing if `text` is not of that type. Numbers are finite, in the C locale, and may have blanks around them; bool is
-/// true, false, 1 or 0. `unit` is that of the port and is used for kDuration only.
+/// a word of truthOfWord(), 1 or 0. `unit` is that of the port and is used for kDuration only.
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
+
+/// `number` times the unit of time; nothing if it is no unit of time, or the time too long.
+std::optional<Duration> durationOf(double number, std::string_view unit);
+
+/// Names with a number: the enumerators that an application gives to scripts.
+using Constants = std::map<std::string, std::int64_t, std::less<>>;
+
+/// Of true, True, TRUE, false, False and FALSE; nothing for any other word.
+std::optional<bool> truthOfWord(std::string_view word);
 
 /// A text that parseValue reads back (durations: nanoseconds, for people).
 std::string toString(const Value& value);

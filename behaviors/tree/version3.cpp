@@ -7,6 +7,7 @@
 
 #include "behaviors/tree/conditions.hpp"
 #include "behaviors/tree/elements.hpp"
+#include "behaviors/tree/script/lexer.hpp"
 #include "behaviors/tree/xml_text.hpp"
 
 namespace swiftlet::tree {
@@ -80,8 +81,8 @@ class Version3Reader {
   }
 
   Version3Use& add(const XmlElement& element, std::string attribute, const std::string& what, const std::string& now) {
-    return uses_.emplace_back(
-        Version3Use{&element, std::move(attribute), what + " is of version 3, version 4 writes " + now, false, {}});
+    return uses_.emplace_back(Version3Use{
+        &element, std::move(attribute), what + " is of version 3, version 4 writes " + now, false, {}, true});
   }
 
   void renameType(const XmlElement& element, const std::string& type, std::string_view name) {
@@ -126,7 +127,8 @@ class Version3Reader {
                      "version 3 means the entry {" + attribute.value + "}, version 4 the text `" + attribute.value +
                          "`, and writes {" + attribute.value + "} for the entry",
                      true,
-                     {{span.opening_quote + 1, span.closing_quote, "{" + text + "}"}}});
+                     {{span.opening_quote + 1, span.closing_quote, "{" + text + "}"}},
+                     true});
   }
 
   /// <SubTree ID="X"><remap internal="a" external="b"/></SubTree>.
@@ -145,8 +147,10 @@ class Version3Reader {
     if (a == nullptr || b == nullptr) return;
     const bool text = type == "BlackboardCheckString";
     const std::string script = operand(*a, text) + " == " + operand(*b, text);
+    const bool writable = isOperand(*a, text) && isOperand(*b, text);
     Version3Use& use = add(element, {}, inBackticks(type),
                            "`Precondition if=\"" + script + "\"`, which asks only before its child starts");
+    use.rewritable = writable;
     use.edits = typeEdits(element, type, "Precondition");
     const AttributeSpan first = *source_.spanOf(element.offset, "value_A");
     use.edits.push_back({first.name, first.closing_quote + 1, "if=\"" + escaped(script) + "\""});
@@ -164,7 +168,15 @@ class Version3Reader {
   /// In a script an entry is its name, and a text is quoted.
   static std::string operand(const std::string& value, bool text) {
     if (const auto entry = entryOf(value, {})) return *entry;
-    return text ? "'" + value + "'" : value;
+    if (!text) return value;
+    std::string quoted = "'";
+    for (const char c : value) quoted += c == '\'' ? std::string("' .. \"'\" .. '") : std::string(1, c);
+    return quoted + "'";
+  }
+  /// False for an entry whose name is several words in a script, and for text where numbers are compared.
+  static bool isOperand(const std::string& value, bool text) {
+    if (const auto entry = entryOf(value, {})) return isScriptName(*entry);
+    return text || parseValue(value, PortType::kDouble, {}) || parseValue(value, PortType::kBool, {});
   }
 
   Edit removal(const XmlElement& element, std::string_view attribute) const {

@@ -24,6 +24,8 @@ struct Version3Use {
   /// Both versions can read it, with another meaning: the attribute of a <SubTree> without braces.
   bool readable = false;
   std::vector<Edit> edits;
+  /// Version 4 has no words for it: the name of an entry that no script can hold.
+  bool rewritable = true;
 };
 
 /// In the order of the file. BTCPP_format is not among them.

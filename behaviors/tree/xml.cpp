@@ -11,6 +11,25 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Whether the bytes from `offset` on begin with a character of UTF-8.
+bool isUtf8At(std::string_view text, std::size_t offset) {
+  if (offset >= text.size()) return true;
+  const auto first = static_cast<unsigned char>(text[offset]);
+  if (first < 0x80U) return true;
+  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
+  if (first < 0xC2U || first > 0xF4U || offset + length > text.size()) return false;
+  return std::all_of(text.begin() + static_cast<std::ptrdiff_t>(offset) + 1,
+                     text.begin() + static_cast<std::ptrdiff_t>(offset + length), continues);
+}
+
+/// UTF-16, with a byte order mark or without: XML holds no zero bytes.
+bool isWide(std::string_view text) {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+         text.substr(0, 2).find('\0') != std::string_view::npos;
+}
+
 class Reader {
  public:
   Reader(const SourceText& source, int max_depth) : source_(source), max_depth_(max_depth) {
@@ -18,6 +37,7 @@ class Reader {
     XML_SetElementHandler(parser_.get(), onOpen, onClose);
     XML_SetCharacterDataHandler(parser_.get(), onText);
     XML_SetStartDoctypeDeclHandler(parser_.get(), onDoctype);
+    XML_SetXmlDeclHandler(parser_.get(), onDeclaration);
   }
 
   XmlResult read() {
@@ -25,6 +45,11 @@ class Reader {
     const std::string& text = source_.text();
     if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
       result.problem = Problem{{source_.file(), 0, 0}, {}, "the file is too large", {}};
+      return result;
+    }
+    // Expat would read it, but offsets would not be those of the text.
+    if (isWide(text)) {
+      result.problem = wrongEncoding({source_.file(), 1, 1}, "UTF-16");
       return result;
     }
     const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), XML_TRUE);
@@ -48,6 +73,9 @@ class Reader {
   static void onClose(void* self, const XML_Char*) { static_cast<Reader*>(self)->close(); }
   static void onText(void* self, const XML_Char* text, int length) {
     static_cast<Reader*>(self)->text({text, static_cast<std::size_t>(length)});
+  }
+  static void onDeclaration(void* self, const XML_Char*, const XML_Char* encoding, int) {
+    if (encoding != nullptr) static_cast<Reader*>(self)->declared_encoding_ = encoding;
   }
   static void onDoctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
     static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported");
@@ -87,6 +115,8 @@ class Reader {
 
   Problem malformed() const {
     const XML_Error code = XML_GetErrorCode(parser_.get());
+    if (code == XML_ERROR_INVALID_TOKEN && !isUtf8At(source_.text(), offset()))
+      return wrongEncoding(source_.locate(offset()), declared_encoding_);
     Problem problem{source_.locate(offset()), {}, std::string("malformed XML: ") + XML_ErrorString(code), {}};
     if (!open_.empty()) {
       const XmlElement& innermost = *open_.back().element;
@@ -95,6 +125,15 @@ class Reader {
       problem.hint = "<" + innermost.name + "> was opened at line " + std::to_string(opened.line);
     }
     return problem;
+  }
+
+  Problem wrongEncoding(const Location& place, const std::string& encoding) const {
+    const bool known = !encoding.empty() && encoding != "UTF-8" && encoding != "utf-8";
+    return {place,
+            {},
+            known ? "the file is in " + encoding + ", expected UTF-8" : "a byte that is not UTF-8",
+            "`iconv -f " + (known ? encoding : "ENCODING") + " -t UTF-8 " + source_.file() +
+                " > NEW.xml` converts it; then write encoding=\"UTF-8\" in its first line"};
   }
 
   std::size_t offset() const {
@@ -114,9 +153,8 @@ class Reader {
   };
   std::vector<Open> open_;
   std::optional<Problem> problem_;
+  std::string declared_encoding_;
 };
-
-bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 }  // namespace
 

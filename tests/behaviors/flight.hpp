@@ -45,6 +45,8 @@ class Flight {
   /// "1 accepted", "2 refused: reason" since the last call.
   std::vector<std::string> results();
   std::string view() const;
+  /// Why the mission failed, without the path of the node: "Land: the motors are off".
+  std::string cause() const { return last.reason.substr(0, last.reason.find(" [")); }
 
   Mission mission;
   Context context;

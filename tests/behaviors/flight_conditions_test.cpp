@@ -13,7 +13,7 @@ std::string objectionOf(
     const std::string& condition, const std::function<void(Layers&)>& change = [](Layers&) {}) {
   Flight flight(condition);
   flight.change(change);
-  return flight.tick() == "DONE" ? "" : flight.last.reason.substr(flight.last.reason.find(": ") + 2);
+  return flight.tick() == "DONE" ? "" : flight.cause().substr(flight.cause().find(": ") + 2);
 }
 
 TEST(Conditions, IsBatteryLow) {

@@ -61,7 +61,7 @@ TEST(GivenMap, FollowPathPassesItsPointsThereAndFollowsTheMap) {
   EXPECT_EQ(flight.runs().tick(), "RUNNING 3 go to (3.00, 1.00) in the given map") << "the first point is passed";
   lost(flight);
   EXPECT_EQ(flight.runs().tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "FollowPath: point 2: its place in the given map is not known");
+  EXPECT_EQ(flight.cause(), "FollowPath: point 2: its place in the given map is not known");
 }
 
 TEST(GivenMap, AClickThatIsRefusedIsToldPlacesOfTheMapThatItWasMadeIn) {
@@ -168,7 +168,7 @@ TEST(LoadMap, FailsWithTheReason) {
   flight.tick();
   flight.context.answers.push_back({flight.context.requests[0].id, false, "the map `office.yaml` was not read"});
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "LoadMap: the map `office.yaml` was not read");
+  EXPECT_EQ(flight.cause(), "LoadMap: the map `office.yaml` was not read");
 }
 
 std::vector<std::string> problemsWithMaps(const std::string& inside, const MissionLimits& limits) {
@@ -232,7 +232,7 @@ TEST(Relocalize, FliesToWhatIsFreeAroundAndFailsAfterIt) {
   std::vector<std::string> flown;
   for (int i = 0; i < 20 && flight.last.state == common::MissionState::kRunning; ++i)
     if (flight.succeeds().tick(); flight.context.intent) flown.push_back(toString(*flight.context.intent));
-  EXPECT_EQ(flight.last.reason, "Relocalize: looked around, and the place is still lost");
+  EXPECT_EQ(flight.cause(), "Relocalize: looked around, and the place is still lost");
   // The wall at x = 4 m stands before the first place.
   EXPECT_THAT(flown,
               ElementsAre("go to (0.00, 0.00)", "go to (0.00, 0.00)", "go to (0.00, 4.10)", "go to (0.00, 0.00)",
@@ -242,12 +242,12 @@ TEST(Relocalize, FliesToWhatIsFreeAroundAndFailsAfterIt) {
 TEST(Relocalize, FailsWithoutAMapOrInThatOfAnotherPlace) {
   Flight without("<Relocalize/>");
   EXPECT_EQ(without.tick(), "FAILED");
-  EXPECT_EQ(without.last.reason, "Relocalize: the flight was given no map");
+  EXPECT_EQ(without.cause(), "Relocalize: the flight was given no map");
   Flight other("<Relocalize/>");
   forgets(other).tick();
   other.runs().change([](auto& layers) { layers.map.localization->refuted = true; });
   EXPECT_EQ(other.tick(), "FAILED");
-  EXPECT_EQ(other.last.reason, "Relocalize: the given map is not that of this place");
+  EXPECT_EQ(other.cause(), "Relocalize: the given map is not that of this place");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(KeepOut, FailsWithTheReasonOfTheRefusal) {
   flight.tick();
   flight.context.answers = {{flight.context.requests[0].id, false, "the take-off place would be in it"}};
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "KeepOut: the take-off place would be in it");
+  EXPECT_EQ(flight.cause(), "KeepOut: the take-off place would be in it");
 }
 
 TEST(KeepOut, TheCheckRefusesWhatIsNoAreaAndOneThatHoldsHome) {

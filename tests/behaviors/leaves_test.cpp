@@ -24,7 +24,7 @@ TEST(TakeOff, ItsFailureEndsTheMissionWithTheReason) {
   Flight flight("<Sequence><TakeOff/><Land/></Sequence>");
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.00 m");
   EXPECT_EQ(flight.fails("the battery is empty").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "TakeOff: the battery is empty");
+  EXPECT_EQ(flight.cause(), "TakeOff: the battery is empty");
   EXPECT_THAT(flight.events(), ElementsAre("TakeOff starts", "TakeOff failed (the battery is empty)"));
 }
 
@@ -66,11 +66,11 @@ TEST(Localize, ExploresUntilTheVehicleIsLocalized) {
 TEST(Localize, FailsWithoutAMapOrWithNothingLeftToExplore) {
   Flight without("<Localize/>");
   EXPECT_EQ(without.tick(), "FAILED");
-  EXPECT_EQ(without.last.reason, "Localize: the flight was given no map");
+  EXPECT_EQ(without.cause(), "Localize: the flight was given no map");
   Flight flight("<Localize/>");
   flight.localization(common::LocalizationState::kAmbiguous).tick();
   EXPECT_EQ(flight.succeeds().tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Localize: nothing is left to explore, and the place is still ambiguous");
+  EXPECT_EQ(flight.cause(), "Localize: nothing is left to explore, and the place is still ambiguous");
 }
 
 TEST(Localize, FailsInTheMapOfAnotherPlace) {
@@ -78,7 +78,7 @@ TEST(Localize, FailsInTheMapOfAnotherPlace) {
   flight.localization(common::LocalizationState::kGlobal).tick();
   flight.runs().change([](auto& layers) { layers.map.localization->refuted = true; });
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Localize: the given map is not that of this place");
+  EXPECT_EQ(flight.cause(), "Localize: the given map is not that of this place");
 }
 
 TEST(MoveToGoal, ItsGoalIsInTheMapThatWasGiven) {
@@ -100,7 +100,7 @@ TEST(MoveToGoal, ItsGoalIsInTheMapThatWasGiven) {
   EXPECT_NEAR(goal_map_m().x(), 2.05, 1e-9);
   flight.localization(common::LocalizationState::kLost).change([](auto& layers) { layers.map.T_map_given.reset(); });
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "MoveToGoal: its place in the given map is not known");
+  EXPECT_EQ(flight.cause(), "MoveToGoal: its place in the given map is not known");
 }
 
 TEST(MoveToGoal, PassesOnGoalHeightAndTolerance) {
@@ -126,7 +126,7 @@ TEST(MoveToGoal, FailsForAHeightOutsideTheLimits) {
                   R"(" output_key="target"/><MoveToGoal goal="{target}"/></Sequence>)");
     flight.context.goal_limits.greatest_height_m = 3.0;
     EXPECT_EQ(flight.tick(), "FAILED");
-    EXPECT_EQ(flight.last.reason, reason);
+    EXPECT_EQ(flight.cause(), reason);
   }
 }
 

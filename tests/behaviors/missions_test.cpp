@@ -70,16 +70,20 @@ TEST(FromFile, ThrowsEveryProblem) {
     FAIL();
   } catch (const common::InputError& error) {
     ASSERT_EQ(error.problems().size(), 2U);
-    EXPECT_EQ(toString(error.problems()[0]), "m.xml:1:55: Takeoff: unknown node `Takeoff`, did you mean `TakeOff`?");
-    EXPECT_EQ(toString(error.problems()[1]), "m.xml:1:71: Land: unknown port `now`, expected no ports");
+    EXPECT_EQ(toString(error.problems()[0]),
+              "m.xml:1:55: Takeoff: unknown node `Takeoff`, did you mean `TakeOff`? [M/Sequence/Takeoff]");
+    EXPECT_EQ(toString(error.problems()[1]),
+              "m.xml:1:71: Land: unknown port `now`, expected no ports [M/Sequence/Land]");
   }
   EXPECT_THROW(Mission::fromFile("/nonexistent.xml"), common::InputError);
 }
 
 TEST(Check, AMissionThatNeverTakesOffIsAProblem) {
-  EXPECT_THAT(problemsOf("<Hold/>"), ElementsAre("m.xml:3:1: M: the mission never takes off, expected a TakeOff"));
+  EXPECT_THAT(problemsOf("<Hold/>"),
+              ElementsAre("m.xml:3:1: M: the mission never takes off, expected a TakeOff [M/Hold]"));
   EXPECT_THAT(problemsOf("<Sequence>\n<Explore/>\n<TakeOff/></Sequence>"),
-              ElementsAre("m.xml:4:1: Explore: the vehicle stands on the floor here, expected a TakeOff before it"));
+              ElementsAre("m.xml:4:1: Explore: the vehicle stands on the floor here, expected a TakeOff before it "
+                          "[M/Sequence/Explore]"));
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Land/>\n<GoHome/></Sequence>"),
               ElementsAre(HasSubstr("m.xml:4:1: GoHome: the vehicle stands on the floor")));
 }
@@ -108,7 +112,7 @@ TEST(Check, AClearanceBelowTheReactiveMarginIsAProblem) {
   const MissionLimits limits{.clearance_problems = notBelow(0.2), .max_height_m = 3.0};
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore clearance_m=\"0.15\"/></Sequence>", limits),
               ElementsAre("m.xml:4:10: Explore.clearance_m: 0.15 m cannot be flown with this system: it retreats, "
-                          "raise it, or change that distance in the system profile"));
+                          "raise it, or change that distance in the system profile [M/Sequence/Explore]"));
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore/></Sequence>", limits),
               ElementsAre(HasSubstr("m.xml:4:1: Explore.clearance_m: 0.1 m cannot be flown")))
       << "defaults count";
@@ -123,7 +127,7 @@ TEST(Check, AClearanceBelowTheReactiveMarginIsAProblem) {
 TEST(Check, BoundsThatAreNotARectangleAreAProblem) {
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore bounds=\"4;0;-2;3\"/></Sequence>"),
               ElementsAre("m.xml:4:10: Explore.bounds: `4;0;-2;3` is not a rectangle `x_min;y_min;x_max;y_max` in "
-                          "metres, each minimum below its maximum"));
+                          "metres, each minimum below its maximum [M/Sequence/Explore]"));
   EXPECT_EQ(problemsOf("<Sequence><TakeOff/><Explore bounds=\"0;0;3\"/></Sequence>").size(), 1U);
   EXPECT_EQ(problemsOf("<Sequence><TakeOff/><Explore bound=\"0;0;3;3\"/></Sequence>").size(), 1U);
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Explore bounds=\"-2;0;4;3\"/></Sequence>"), ElementsAre());

@@ -36,7 +36,9 @@ TEST(Narrator, NamesTheCausesOfAFailureInOrder) {
   flight.succeeds().tick();
   flight.fails("the vehicle is shut in").tick();
   EXPECT_EQ(flight.fails("goal (0.00, 0.00) is unreachable").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Explore: the vehicle is shut in, and then GoHome: goal (0.00, 0.00) is unreachable");
+  EXPECT_EQ(flight.last.reason,
+            "Explore: the vehicle is shut in [M/Fallback/Sequence[1]/Explore], and then GoHome: goal (0.00, 0.00) is "
+            "unreachable [M/Fallback/Sequence[2]/GoHome]");
 }
 
 TEST(Narrator, LeavesOutFailuresThatAFallbackHandled) {
@@ -45,7 +47,7 @@ TEST(Narrator, LeavesOutFailuresThatAFallbackHandled) {
   flight.fails("cannot explore while powered off").tick();
   flight.succeeds().tick();
   EXPECT_EQ(flight.fails("the motors are off").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Land: the motors are off");
+  EXPECT_EQ(flight.last.reason, "Land: the motors are off [M/Sequence/Land]");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(Survey, IsInterruptedAndGoesOn) {
 TEST(Survey, RefusesWhatIsNoAreaOrTooHigh) {
   Flight crossed(R"(<Survey polygon="0;0 | 2;2 | 2;0 | 0;2"/>)");
   EXPECT_EQ(crossed.tick(), "FAILED");
-  EXPECT_EQ(crossed.last.reason, "Survey: edges of the polygon cross");
+  EXPECT_EQ(crossed.cause(), "Survey: edges of the polygon cross");
   Flight high(R"(<Survey polygon="0;0 | 2;0 | 2;1" height_m="5"/>)");
   high.context.goal_limits.greatest_height_m = 2.0;
   EXPECT_EQ(high.tick(), "FAILED");
@@ -53,7 +53,7 @@ TEST(Inspect, PassesItsPortsOnAndFailsWithTheReason) {
   EXPECT_EQ(intent.turns, 2.0);
   EXPECT_FALSE(intent.height_m);
   EXPECT_EQ(flight.fails("none of its places is free").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Inspect: none of its places is free");
+  EXPECT_EQ(flight.cause(), "Inspect: none of its places is free");
 }
 
 TEST(FollowMe, RunsUntilThePersonIsLost) {
@@ -64,7 +64,7 @@ TEST(FollowMe, RunsUntilThePersonIsLost) {
   EXPECT_FALSE(intentOf<common::FollowIntent>(flight).until_near);
   EXPECT_EQ(flight.runs().tick(), "RUNNING 1 follow a person");
   EXPECT_EQ(flight.fails("the person was not seen for 9 s").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "FollowMe: the person was not seen for 9 s");
+  EXPECT_EQ(flight.cause(), "FollowMe: the person was not seen for 9 s");
 }
 
 TEST(FollowMe, ATimeoutLetsGoOnceTheVehicleHasStopped) {

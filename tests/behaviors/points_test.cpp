@@ -42,7 +42,7 @@ TEST(FollowPath, SaysWhichPointFailed) {
   flight.tick();
   flight.succeeds().tick();
   EXPECT_EQ(flight.fails("no path").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "FollowPath: point 2: no path");
+  EXPECT_EQ(flight.cause(), "FollowPath: point 2: no path");
 }
 
 TEST(Patrol, VisitsPausesAndCountsItsRounds) {
@@ -78,7 +78,7 @@ TEST(Patrol, LeavesOutAPointThatCannotBeReached) {
   flight.fails("no path").tick();
   flight.stops().tick();
   EXPECT_EQ(flight.fails("no path").tick(), "FAILED") << "none of all points in turn";
-  EXPECT_EQ(flight.last.reason, "Patrol: point 2: no path");
+  EXPECT_EQ(flight.cause(), "Patrol: point 2: no path");
 }
 
 TEST(TurnTo, StaysWhereItIs) {

@@ -111,7 +111,7 @@ TEST(Photograph, StopsThenAsksAndWaits) {
   EXPECT_TRUE(flight.context.requests.empty()) << "once";
   flight.context.answers = {{id, false, "no frame of the camera for 2 s"}};
   EXPECT_EQ(flight.stops().tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Photograph: no frame of the camera for 2 s");
+  EXPECT_EQ(flight.cause(), "Photograph: no frame of the camera for 2 s");
 }
 
 TEST(Photograph, TheCheckRefusesItWithoutACamera) {

@@ -56,7 +56,7 @@ TEST(IsTargetFound, CountsThoseOfTheNameThatAreFound) {
   shows(flight, {target(1, "red", {1, 0, 0}, 0.05), target(2, "red", {2, 0, 0}, 0.05, false),
                  target(3, "blue", {3, 0, 0}, 0.05)});
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "IsTargetFound: 1 of 2 `red` found");
+  EXPECT_EQ(flight.cause(), "IsTargetFound: 1 of 2 `red` found");
   Flight any(R"(<IsTargetFound count="2"/>)");
   shows(any, {target(1, "red", {1, 0, 0}, 0.05), target(3, "blue", {3, 0, 0}, 0.05)});
   EXPECT_EQ(any.tick(), "DONE");
@@ -121,14 +121,14 @@ TEST(LocateTarget, EachSuccessIsAboutAnotherOne) {
     }
   }
   EXPECT_THAT(photos, ElementsAre("red_1", "dark_blue_2"));
-  EXPECT_EQ(flight.last.reason, "LocateTarget: no target is known that was not located");
+  EXPECT_EQ(flight.cause(), "LocateTarget: no target is known that was not located");
 }
 
 TEST(LocateTarget, NoPlaceToLookFromIsAReason) {
   Flight flight(R"(<LocateTarget distance_m="1.5"/>)");
   shows(flight, {target(1, "red", {40.0, 0.0, 0.0}, 0.04)});
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "LocateTarget: no place to see red 1 from is free");
+  EXPECT_EQ(flight.cause(), "LocateTarget: no place to see red 1 from is free");
 }
 
 TEST(ExploreUntilFound, StopsWhenEnoughAreFound) {
@@ -156,14 +156,14 @@ TEST(ExploreUntilFound, LooksAtWhatTheCameraHasNotSeenAndThenFails) {
     goes ? flight.succeeds() : flight.stops();
   }
   EXPECT_GT(looks, 4) << "no frame comes, so each place is flown to and given up";
-  EXPECT_EQ(flight.last.reason, "ExploreUntilFound: 0 of 1 found, and nothing is left to look at");
+  EXPECT_EQ(flight.cause(), "ExploreUntilFound: 0 of 1 found, and nothing is left to look at");
 }
 
 TEST(ExploreUntilFound, FailsAsExploringFails) {
   Flight flight("<ExploreUntilFound/>");
   flight.tick();
   EXPECT_EQ(flight.fails("no path").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "ExploreUntilFound: no path");
+  EXPECT_EQ(flight.cause(), "ExploreUntilFound: no path");
 }
 
 /// A frame of the shipped camera at 1 m, at the origin, looking along x.

@@ -57,8 +57,39 @@ TEST(Warnings, NameAParallelOfTwoThatFly) {
 TEST(Warnings, NameAMissionThatNeverLands) {
   EXPECT_THAT(warningsOf("<Sequence><TakeOff/><GoHome/></Sequence>"),
               ElementsAre("m.xml:3:1: Sequence: the mission never lands, end it with a <Land/> [M/Sequence]"));
-  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><Fallback><Explore/><Land/></Fallback></Sequence>"), IsEmpty());
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><ForceSuccess><Explore/></ForceSuccess><Land/></Sequence>"), IsEmpty());
   EXPECT_THAT(warningsOf("<Sequence><TakeOff/><OperatorCommand/></Sequence>"), IsEmpty()) << "the operator lands";
+}
+
+TEST(Warnings, NameAMissionThatMaySucceedInTheAir) {
+  for (const char* inside : {"<TakeOff/><Fallback><Explore/><Land/></Fallback>", "<TakeOff/><Land/><TakeOff/>",
+                             "<TakeOff/><GoHome/><Land _skipIf=\"@tired == 1\" _onSuccess=\"@tired := 1\"/>",
+                             "<TakeOff/><Land _successIf=\"@n == 1\" _onFailure=\"@n := 1\"/>",
+                             "<TakeOff/><IfThenElse><IsLost/><Land/><GoHome/></IfThenElse>",
+                             "<TakeOff/><Switch2 variable=\"{m}\" case_1=\"1\" case_2=\"2\" _onSuccess=\"m := 1\">"
+                             "<Land/><Land/><GoHome/></Switch2>"})
+    EXPECT_THAT(warningsOf("<Sequence>" + std::string(inside) + "</Sequence>"),
+                ElementsAre("m.xml:3:1: Sequence: the mission may succeed while the vehicle is in the air, end it with "
+                            "a <Land/> [M/Sequence]"))
+        << inside;
+  for (const char* inside :
+       {"<TakeOff/><IfThenElse><IsLost/><EmergencyLand/><Sequence><GoHome/><Land/></Sequence></IfThenElse>",
+        "<TakeOff/><Timeout msec=\"9\"><FollowMe/></Timeout>",
+        "<TakeOff/><Switch2 variable=\"{m}\" case_1=\"1\" case_2=\"2\" _onSuccess=\"m := 1\"><Land/><Land/><Land/>"
+        "</Switch2>",
+        "<TakeOff/><WhileDoElse><IsLost/><Land/><Land/></WhileDoElse>",
+        "<TakeOff/><Repeat num_cycles=\"-1\"><Patrol points=\"1;1|2;2\"/></Repeat>"})
+    EXPECT_THAT(warningsOf("<Fallback><Sequence>" + std::string(inside) + "</Sequence><Land/></Fallback>"), IsEmpty())
+        << inside;
+}
+
+TEST(Warnings, NameWhatTheFileExcludes) {
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><GoHome/>\n<Land _skipIf=\"true\"/></Sequence>"),
+              ElementsAre(HasSubstr("4:1: Land: is never reached: its `_skipIf` is always true"),
+                          HasSubstr("the mission never lands")));
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><FollowMe/>\n<GoHome/><Land/></Sequence>"),
+              ElementsAre(HasSubstr("GoHome: is never reached: `FollowMe` before it never succeeds"),
+                          HasSubstr("Land: is never reached"), HasSubstr("the mission never lands")));
 }
 
 TEST(Warnings, NameTheFormatThatIsMissing) {

@@ -71,6 +71,29 @@ TEST(Retry, CountsFailures) {
   EXPECT_EQ(story.tick(), "SUCCESS: start A");
 }
 
+TEST(Retry, ReadsTheNumberAgainAfterEachAttempt) {
+  Story story(
+      R"(<Sequence><Script code="n := 5"/><RetryUntilSuccessful num_attempts="{n}"><A _onFailure="n = 1"/></RetryUntilSuccessful></Sequence>)");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: start A");
+}
+
+TEST(Clocks, OfDelayAndTimeoutStartAnewAfterSkipped) {
+  Story delay(R"(<Delay delay_msec="1000"><A/></Delay>)");
+  delay.says("A", "nothing");
+  EXPECT_EQ(delay.tick(), "RUNNING");
+  EXPECT_EQ(delay.tick(1000), "SKIPPED");
+  delay.says("A", "RUNNING");
+  EXPECT_EQ(delay.tick(), "RUNNING") << "waits again";
+  Story timeout(R"(<Timeout msec="1000"><A/></Timeout>)");
+  timeout.says("A", "nothing");
+  EXPECT_EQ(timeout.tick(), "SKIPPED");
+  timeout.says("A", "RUNNING");
+  EXPECT_EQ(timeout.tick(900), "RUNNING: start A");
+  EXPECT_EQ(timeout.tick(900), "RUNNING: A");
+  EXPECT_EQ(timeout.tick(100), "FAILURE: A halted");
+}
+
 TEST(Retry, ZeroNeverTicksAndSkippedIsPassedOn) {
   Story zero(R"(<RetryUntilSuccessful num_attempts="0"><A/></RetryUntilSuccessful>)");
   EXPECT_EQ(zero.tick(), "FAILURE");
@@ -195,6 +218,39 @@ TEST(SubTree, UsesTheDefaultOfItsModel) {
       R"(<SubTree ID="Thrice"/>)",
       std::string(kThrice) +
           R"(<TreeNodesModel><SubTree ID="Thrice"><input_port name="times" default="1"/></SubTree></TreeNodesModel>)");
+  ASSERT_EQ(toString(story.problems()), "");
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
+}
+
+constexpr const char* kModel =
+    R"(<TreeNodesModel><SubTree ID="Thrice"><input_port name="times" default="7"/></SubTree></TreeNodesModel>)";
+
+TEST(SubTree, WhatAutoremapSharesTakesThePlaceOfADefault) {
+  Story story(
+      R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice" _autoremap="True"/></Sequence>)",
+      std::string(kThrice) + kModel);
+  ASSERT_EQ(toString(story.problems()), "");
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
+}
+
+TEST(SubTree, APortOfItsModelWithoutDefaultMustBeGiven) {
+  std::string model = kModel;
+  model.replace(model.find(R"( default="7")"), 12, "");
+  Story story(R"(<Sequence><A/><SubTree ID="Thrice"/></Sequence>)", std::string(kThrice) + model);
+  ASSERT_FALSE(story.problems().empty());
+  EXPECT_EQ(toString(story.problems()[0]) + " [" + story.problems()[0].path + "]",
+            "story.xml:3:15: SubTree: port `times` is missing, and <TreeNodesModel> gives it no default "
+            "[Main/Sequence/Thrice]");
+}
+
+TEST(SubTree, AFlagThatItIsGivenIsATruthValue) {
+  const char* photo = R"(<BehaviorTree ID="Visit"><A _skipIf="photo == false"/></BehaviorTree>)";
+  EXPECT_EQ(Story(R"(<SubTree ID="Visit" photo="false"/>)", photo).tick(), "SKIPPED");
+  EXPECT_EQ(Story(R"(<SubTree ID="Visit" photo="true"/>)", photo).tick(), "RUNNING: start A");
+}
+
+TEST(Entries, MayHaveBlanksAroundTheirBraces) {
+  Story story(R"(<Sequence><Script code="n := 1"/><Repeat num_cycles=" { n } "><A/></Repeat></Sequence>)");
   ASSERT_EQ(toString(story.problems()), "");
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
 }

@@ -132,6 +132,7 @@ TEST(Migrate, TheResultIsReadAndActsAsVersion3Did) {
   ASSERT_TRUE(result.tree.has_value()) << toString(result.problems);
   EXPECT_THAT(result.warnings, IsEmpty());
   TickContext context;
+  EXPECT_EQ(result.tree->tick(context), Status::kRunning) << "no two children of the sequence start in one tick";
   EXPECT_EQ(result.tree->tick(context), Status::kSuccess);
 }
 
@@ -148,6 +149,61 @@ TEST(Migrate, RefusesWhatIsNoTreeOrOfAnotherVersion) {
   EXPECT_THAT(problemsOf("<tree/>"), ElementsAre("f.xml:1:1: tree: the outermost element must be <root>"));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"5\"/>"),
               ElementsAre("f.xml:1:7: root: BTCPP_format=\"5\", expected \"3\""));
+}
+
+std::string checkOf(const std::string& kind, const std::string& a, const std::string& b) {
+  return "<root><BehaviorTree ID=\"M\"><BlackboardCheck" + kind + " value_A=\"" + a + "\" value_B=\"" + b +
+         "\" return_on_mismatch=\"FAILURE\"><AlwaysSuccess/></BlackboardCheck" + kind + "></BehaviorTree></root>";
+}
+
+TEST(Migrate, ATextWithAnApostropheStaysOne) {
+  const std::string check = checkOf("String", "{w}", "it's &quot;so&quot;");
+  std::string text = migrated(check);
+  text.replace(text.find("<AlwaysSuccess/>"), 16, "<Script code=\"seen := true\"/>");
+  text.insert(text.find("<Precondition"), "<Sequence><SetBlackboard output_key=\"w\" value=\"it's &quot;so&quot;\"/>");
+  text.insert(text.find("</BehaviorTree>"), "</Sequence>");
+  ParseResult result = treeOf(text);
+  ASSERT_TRUE(result.tree.has_value()) << text << toString(result.problems);
+  TickContext context;
+  EXPECT_EQ(result.tree->tick(context), Status::kSuccess);
+}
+
+TEST(Migrate, RefusesWhatNoScriptCanHold) {
+  const auto problemsOf = [](const std::string& text) { return linesOf(migrateToVersion4(text, "f.xml").problems); };
+  EXPECT_THAT(problemsOf(checkOf("Int", "{my-count}", "3")),
+              ElementsAre(HasSubstr("a script cannot hold one of its values: name the entry with letters")));
+  EXPECT_THAT(problemsOf(checkOf("Double", "{x}", "three")), ElementsAre(HasSubstr("a script cannot hold")));
+  EXPECT_THAT(problemsOf(checkOf("Bool", "{x}", "true")), IsEmpty());
+}
+
+std::string wide(std::string_view text, bool big_endian) {
+  std::string bytes = big_endian ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text) bytes += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+  return bytes;
+}
+
+TEST(Encodings, WhatIsNotUtf8IsNamedWithTheRemedy) {
+  const std::string old =
+      "<root><BehaviorTree ID=\"M\"><SequenceStar><AlwaysSuccess/></SequenceStar></BehaviorTree></root>";
+  for (const std::string& text :
+       {wide(old, true), wide(old, false), wide(old, true).substr(2), wide(old, false).substr(2)}) {
+    const std::string expected =
+        "f.xml:1:1: the file is in UTF-16, expected UTF-8, `iconv -f UTF-16 -t UTF-8 f.xml > NEW.xml` converts it; "
+        "then write encoding=\"UTF-8\" in its first line";
+    EXPECT_THAT(linesOf(migrateToVersion4(text, "f.xml").problems), ElementsAre(expected));
+    EXPECT_THAT(linesOf(treeOf(text).problems), ElementsAre(expected));
+  }
+  const std::string latin1 =
+      "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<root><!-- gr\xFC\xDF -->" + old.substr(6);
+  EXPECT_THAT(linesOf(migrateToVersion4(latin1, "f.xml").problems),
+              ElementsAre(HasSubstr("f.xml:2:14: the file is in ISO-8859-1, expected UTF-8, `iconv -f ISO-8859-1")));
+  EXPECT_THAT(linesOf(treeOf("<root>\xFF</root>").problems),
+              ElementsAre(HasSubstr("f.xml:1:7: a byte that is not UTF-8")));
+  // A declaration alone does no harm, and a character that XML does not allow here is another matter.
+  EXPECT_THAT(linesOf(migrateToVersion4("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" + old, "f.xml").problems),
+              IsEmpty());
+  EXPECT_THAT(linesOf(treeOf("<root>\xC3\xBC</root>").problems),
+              ::testing::Not(::testing::Contains(HasSubstr("UTF-8"))));
 }
 
 TEST(Migrate, RefusesNamesThatCannotBeAttributes) {

@@ -13,16 +13,27 @@ using ::testing::HasSubstr;
 TEST(SequenceWithMemory, StartsAgainWithTheChildThatFailed) {
   Story story("<SequenceWithMemory><A/><B/></SequenceWithMemory>");
   story.says("A", "SUCCESS").says("B", "FAILURE");
-  EXPECT_EQ(story.tick(), "FAILURE: start A, start B");
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "a child that starts and ends in a tick ends that tick";
+  EXPECT_EQ(story.tick(), "FAILURE: start B");
   story.says("B", "SUCCESS");
   EXPECT_EQ(story.tick(), "SUCCESS: start B");
-  EXPECT_EQ(story.tick(), "SUCCESS: start A, start B") << "forgotten after the last";
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "forgotten after the last";
+}
+
+TEST(SequenceWithMemory, CountsWhatWasSkippedSinceItStarted) {
+  Story story("<SequenceWithMemory><A/><B/></SequenceWithMemory>");
+  story.says("A", "nothing").says("B", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: start B");
+  story.says("B", "nothing");
+  EXPECT_EQ(story.tick(), "SUCCESS") << "of the two it skipped only one since";
+  EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
 TEST(SequenceWithMemory, StartsAgainWithTheChildThatWasHalted) {
   Story story("<SequenceWithMemory><A/><B/></SequenceWithMemory>");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
   story.says("A", "SUCCESS");
-  EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
+  EXPECT_EQ(story.tick(), "RUNNING: A, start B");
   EXPECT_EQ(story.halt(), "let go: B halted");
   EXPECT_EQ(story.tick(), "RUNNING: start B");
 }
@@ -100,6 +111,34 @@ TEST(Switch, RunsTheChildOfTheCase) {
               HasSubstr("has 2 children, expected 3: one for each case, and one for all else"));
 }
 
+TEST(Switch, WithoutAVariableRunsTheLastChildAndPassesOverCasesThatAreNotSet) {
+  const std::string unset = "<Fallback><AlwaysFailure _onSuccess=\"n := 1\"/>";
+  EXPECT_EQ(
+      Story(unset + "<Switch2 variable=\"{n}\" case_1=\"1\" case_2=\"2\"><A/><B/><C/></Switch2></Fallback>").tick(),
+      "RUNNING: start C");
+  EXPECT_EQ(
+      Story(unset + "<Switch2 variable=\"2\" case_1=\"{n}\" case_2=\"2\"><A/><B/><C/></Switch2></Fallback>").tick(),
+      "RUNNING: start B");
+  EXPECT_EQ(Story("<Switch2 case_2=\"2\"><A/><B/><C/></Switch2>").tick(), "RUNNING: start C");
+}
+
+TEST(Switch, ComparesNumbersTruthValuesAndConstants) {
+  const auto chosen = [](const std::string& script, const std::string& cases) {
+    return Story("<Sequence><Script code=\"" + script + "\"/><Switch2 variable=\"{x}\" " + cases +
+                 "><A/><B/><C/></Switch2></Sequence>")
+        .tick();
+  };
+  EXPECT_EQ(chosen("x := true", "case_1='false' case_2='true'"), "RUNNING: start B");
+  EXPECT_EQ(chosen("x := true", "case_1='1' case_2='true'"), "RUNNING: start A");
+  EXPECT_EQ(chosen("x := 0.1 + 0.2", "case_1='3' case_2='0.3'"), "RUNNING: start B");
+  Registry registry = Registry::standard();
+  registry.addConstant("RED", 7);
+  Story story(file("<Sequence><Script code=\"x := RED\"/><Switch2 variable=\"{x}\" case_1=\"6\" case_2=\"RED\"><A/><B/>"
+                   "<C/></Switch2></Sequence>"),
+              registry);
+  EXPECT_EQ(story.tick(), "RUNNING: start B");
+}
+
 TEST(Switch, HaltsTheChildOfTheFormerCase) {
   Story story(
       "<Sequence><Script code=\"n := 1\"/><Parallel><Switch2 variable=\"{n}\" case_1=\"1\" case_2=\"2\">"
@@ -118,6 +157,8 @@ TEST(KeepRunningUntilFailure, EndsOnlyThen) {
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
+  story.says("A", "nothing");
+  EXPECT_EQ(story.tick(), "RUNNING") << "asked again at the next tick";
   story.says("A", "FAILURE");
   EXPECT_EQ(story.tick(), "FAILURE: start A");
 }
@@ -158,19 +199,60 @@ TEST(Loop, RunsTheChildOnceForEachElement) {
   EXPECT_EQ(empty.tick(), "FAILURE");
 }
 
-TEST(Loop, TakesTheElementsOutOfAnEntry) {
+TEST(Loop, ReadsTheEntryAnewAtEachStart) {
   Story story(
-      "<Sequence><SetBlackboard value=\"1.5;2\" output_key=\"q\"/><LoopDouble queue=\"{q}\" value=\"{n}\"><A/>"
-      "</LoopDouble><ScriptCondition code=\"q == ''\"/></Sequence>");
+      "<Sequence><SetBlackboard value=\"1.5;2\" output_key=\"q\"/><Repeat num_cycles=\"2\"><LoopDouble queue=\"{q}\" "
+      "value=\"{n}\"><A/></LoopDouble></Repeat><ScriptCondition code=\"q == '1.5;2'\"/></Sequence>");
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the second cycle";
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
   EXPECT_EQ(story.tick(), "SUCCESS");
-  Story wrong("<LoopInt queue=\"1;x\" value=\"{n}\"><A/></LoopInt>");
-  wrong.says("A", "SUCCESS");
-  EXPECT_EQ(wrong.tick(), "RUNNING: start A");
-  EXPECT_EQ(wrong.tick(), "FAILURE");
-  EXPECT_THAT(wrong.failures(), ElementsAre("LoopInt: the element `x` is not a whole number"));
+}
+
+TEST(Loop, ANumberIsAQueueOfOneAndTheValueMayBeLeftOut) {
+  Story story("<Sequence><Script code=\"q := 5\"/><LoopInt queue=\"{q}\"><A/></LoopInt></Sequence>");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+}
+
+TEST(Loop, ElementsThatDoNotConvertAreFoundBeforeTheFirstTick) {
+  EXPECT_THAT(problemText("<LoopInt queue=\"1;x\" value=\"{n}\"><A/></LoopInt>"),
+              HasSubstr("LoopInt.queue: the element `x` of `1;x` is not a whole number"));
+  EXPECT_THAT(problemText("<Sequence><SetBlackboard value=\"1;true\" output_key=\"q\"/><LoopInt queue=\"{q}\"><A/>"
+                          "</LoopInt></Sequence>"),
+              HasSubstr("the element `true` of `1;true` is not a whole number (read by LoopInt.queue from {q})"));
+  EXPECT_EQ(problemText("<LoopBool queue=\"1;True;false\"><A/></LoopBool>"), "");
+  // What only the flight knows fails with the reason.
+  Story late("<Sequence><Script code=\"q := '1;' .. 'x'\"/><LoopInt queue=\"{q}\"><A/></LoopInt></Sequence>");
+  late.says("A", "SUCCESS");
+  EXPECT_EQ(late.tick(), "RUNNING: start A");
+  EXPECT_EQ(late.tick(), "FAILURE");
+  EXPECT_THAT(late.failures(), ElementsAre("LoopInt: the element `x` is not a whole number"));
+  Story unset("<Fallback><AlwaysFailure _onSuccess=\"q := '1'\"/><LoopInt queue=\"{q}\"><A/></LoopInt></Fallback>");
+  EXPECT_EQ(unset.tick(), "FAILURE");
+  EXPECT_THAT(unset.failures(), ElementsAre("LoopInt: port queue: the entry {q} is not set"));
+}
+
+TEST(Numbers, OfScriptsAreTimesInTheUnitOfThePort) {
+  Story story(
+      "<Sequence><Script code=\"t := 250; d := 0.1 * 1000\"/><Sleep msec=\"{t}\"/><Delay delay_msec=\"{d}\"><Timeout "
+      "msec=\"{t}\"><A/></Timeout></Delay></Sequence>");
+  ASSERT_EQ(toString(story.problems()), "");
+  EXPECT_EQ(story.tick(), "RUNNING");
+  EXPECT_EQ(story.tick(249), "RUNNING");
+  EXPECT_EQ(story.tick(1), "RUNNING");
+  EXPECT_EQ(story.tick(100), "RUNNING: start A");
+  EXPECT_EQ(story.tick(249), "RUNNING: A");
+  EXPECT_EQ(story.tick(1), "FAILURE: A halted");
+  Story loop("<LoopInt queue=\"100;300\" value=\"{t}\"><Sequence><Sleep msec=\"{t}\"/><A/></Sequence></LoopInt>");
+  ASSERT_EQ(toString(loop.problems()), "");
+  EXPECT_EQ(loop.tick(), "RUNNING");
+  EXPECT_EQ(loop.tick(100), "RUNNING: start A");
+  Story negative("<Sequence><Script code=\"t := -1\"/><Sleep msec=\"{t}\"/></Sequence>");
+  EXPECT_EQ(negative.tick(), "FAILURE");
 }
 
 TEST(EntryUpdated, NoticesEachWriteOnce) {
@@ -191,7 +273,10 @@ TEST(EntryUpdated, NoticesEachWriteOnce) {
   skip.says("A", "SUCCESS").says("B", "SUCCESS");
   EXPECT_EQ(skip.tick(), "RUNNING: start A, start B");
   EXPECT_EQ(skip.tick(), "SUCCESS: start B");
-  EXPECT_THAT(problemText("<WasEntryUpdated entry=\"n\"/>"), HasSubstr("entry is text, expected an entry {name}"));
+  Story bare("<Sequence><Script code=\"n := 1\"/><WasEntryUpdated entry=\"n\"/><A/></Sequence>");
+  EXPECT_EQ(bare.tick(), "RUNNING: start A") << "a name without braces";
+  EXPECT_THAT(problemText("<WasEntryUpdated entry=\"two words\"/>"),
+              HasSubstr("`two words` is not an entry, expected `{name}`"));
 }
 
 TEST(TryCatch, RunsTheLastChildWhenOneFails) {

@@ -66,7 +66,7 @@ Status Oracle::eval(const Shape& shape, const std::string& path) {
   if (shape.type == "Priority") status = evalPriority(shape, path);
   if (shape.type == "KeepRunningUntilFailure") {
     status = eval(shape.children[0], childPath(path, 0));
-    if (status == Status::kSuccess) status = Status::kRunning;
+    if (status != Status::kFailure) status = Status::kRunning;
   }
   if (shape.type == "Inverter" || shape.type.starts_with("Force")) {
     status = eval(shape.children[0], childPath(path, 0));
@@ -189,15 +189,18 @@ Status Oracle::evalChoice(const Shape& shape, const std::string& path, bool at_e
 
 Status Oracle::evalWithMemory(const Shape& shape, const std::string& path) {
   int& position = memory_.kept[path];
-  int& skipped = memory_.kept[path + "skipped"];
+  int& skipped = memory_.number[path + "skipped"];
   for (; position < static_cast<int>(shape.children.size()); ++position) {
     const auto i = static_cast<std::size_t>(position);
+    const bool fresh = !memory_.under_way.contains(childPath(path, i));
     const Status status = eval(shape.children[i], childPath(path, i));
     if (status == Status::kSkipped) {
       ++skipped;
     } else if (status != Status::kSuccess) {
       if (bug_ == Bug::kMemoryForgets && status == Status::kFailure) position = skipped = 0;
       return status;
+    } else if (fresh && i + 1 < shape.children.size()) {
+      return ++position, Status::kRunning;
     }
   }
   const bool all_skipped = skipped == static_cast<int>(shape.children.size());

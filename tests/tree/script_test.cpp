@@ -88,6 +88,86 @@ TEST(Script, ChainsComparisons) {
   EXPECT_EQ(valueOfText("0 <= 0 <= 1 != 2"), "true");
 }
 
+TEST(Script, EvaluatesEachOperandOfAChainOnce) {
+  // Twice at each of 45 levels would take for ever.
+  std::string nested = "1";
+  for (int i = 0; i < 45; ++i) nested = "(0 < " + nested + " <= 1)";
+  EXPECT_EQ(valueOfText(nested), "true");
+  Board board;
+  EXPECT_EQ(board.run("n := 0; 0 < (n += 1) < 2"), "true");
+  EXPECT_EQ(board.at("n"), "1");
+  EXPECT_EQ(board.run("n := 0; 2 < 1 < (n += 1)"), "false");
+  EXPECT_EQ(board.at("n"), "0") << "what comes after a comparison that is false is not evaluated";
+  EXPECT_EQ(valueOfText("(3 > 2) < 2"), "true") << "in parentheses it is a truth value";
+}
+
+TEST(Script, WordsForTruthAreTruthValues) {
+  Board board;
+  board.set("flag", std::string("true")).set("off", std::string("FALSE"));
+  EXPECT_EQ(board.run("flag == true"), "true");
+  EXPECT_EQ(board.run("true == flag && flag != false && flag == 1"), "true");
+  EXPECT_EQ(board.run("off == false && !off"), "true");
+  EXPECT_EQ(board.run("flag == 'true'"), "true");
+  EXPECT_EQ(board.run("off == 'false'"), "false") << "two texts are compared as text";
+}
+
+TEST(Script, NumbersAreEqualWithinTheSpacingOfFloats) {
+  EXPECT_EQ(valueOfText("0.1 + 0.2 == 0.3"), "true");
+  EXPECT_EQ(valueOfText("0.1 + 0.2 != 0.3"), "false");
+  EXPECT_EQ(valueOfText("1 == 1.000001"), "false");
+  EXPECT_EQ(valueOfText("0.1 + 0.2 > 0.3"), "true") << "an order is exact";
+}
+
+TEST(Script, JoinsTextsOnTheLevelOfSums) {
+  EXPECT_EQ(valueOfText("'a' + 'b'"), "ab");
+  EXPECT_EQ(valueOfText("'1' + '2'"), "12") << "two texts are joined as text";
+  EXPECT_EQ(valueOfText("'1' + 2"), "3");
+  EXPECT_EQ(valueOfText("1 + 2 .. 'x'"), "3x");
+  EXPECT_EQ(valueOfText("'x' .. 1 + '2'"), "x12") << "from the left";
+  EXPECT_EQ(valueOfText("1 | 2 ^ 3"), "0") << "`|` and `^` from the left";
+  Board board;
+  EXPECT_EQ(board.run("x := 'a'; x += 'b'; x"), "ab");
+}
+
+TEST(Script, AnAssignmentHasTheValueThatItAssigns) {
+  Board board;
+  EXPECT_EQ(board.run("x := y := 1"), "1");
+  EXPECT_EQ(board.at("x") + board.at("y"), "11");
+  EXPECT_EQ(board.run("false ? (x := 2) : (y := 3)"), "3");
+  EXPECT_EQ(board.run("true ? x := 4 : 0"), "4");
+  EXPECT_EQ(board.at("x") + board.at("y"), "43");
+  EXPECT_EQ(board.run("(x := 2) + x"), "4");
+  EXPECT_EQ(board.run("(1 := 2)"), "! expected `)` at `:=`");
+  EXPECT_THAT(valueOfText([] {
+                std::string text = "1";
+                for (int i = 0; i < 200; ++i) text = "x := " + text;
+                return text;
+              }()),
+              HasSubstr("fewer than 100 levels"));
+}
+
+TEST(Script, KeepsAnOperandThatTheNextOneOverwrites) {
+  Board board;
+  const std::string a(40, 'a'), b(60, 'b');
+  board.set("x", a).set("b", b);
+  EXPECT_EQ(board.run("x .. (x := b)"), a + b);
+  board.set("x", a);
+  EXPECT_EQ(board.run("x < (x := b) != (b := 'c')"), "true");
+  EXPECT_EQ(board.run("b"), "c");
+}
+
+TEST(Script, AChoiceTakesAnyTextAsTrue) {
+  EXPECT_EQ(valueOfText("'a' ? 1 : 2"), "1");
+  EXPECT_EQ(valueOfText("'false' ? 1 : 2"), "2");
+  EXPECT_EQ(valueOfText("'' ? 1 : 2"), "! text is neither true nor false");
+}
+
+TEST(Script, ATextBesideANumberMayBeAConstant) {
+  EXPECT_EQ(valueOfText("'RED' == RED"), "true");
+  EXPECT_EQ(valueOfText("GREEN == 'RED'"), "false");
+  EXPECT_EQ(valueOfText("'RED' < 2"), "true");
+}
+
 TEST(Script, AssignsToEntries) {
   Board board;
   EXPECT_EQ(board.run("x := 3; y := x * 2; x += y; x"), "9");

@@ -12,13 +12,23 @@ class StandIn final : public Leaf {
  public:
   StandIn(const NodeSetup& setup, std::string actor, Stage& stage)
       : Leaf(setup), actor_(std::move(actor)), stage_(stage) {}
-  std::string reason(const TickContext&) const override { return actor_ + " wants"; }
 
  private:
+  std::string whyItWants(const TickContext&) const override {
+    throwAt("explaining");
+    return actor_ + " wants";
+  }
+  void throwAt(const char* when) const {
+    if (actor().throws_at == when) throw std::runtime_error("boom");
+    if (actor().throws_at == std::string("a number ") + when) throw 42;
+  }
   Actor& actor() const { return stage_.actors[actor_]; }
   void log(const std::string& text) { stage_.log.push_back(text); }
 
-  bool onAsked(const TickContext&) const override { return actor().wants; }
+  bool onAsked(const TickContext&) const override {
+    throwAt("asked");
+    return actor().wants;
+  }
   void onStart(TickContext&) override {
     verb_ = "start ";
     to_stop_ = -1;
@@ -29,9 +39,11 @@ class StandIn final : public Leaf {
   }
   Status act(TickContext&) override {
     log(std::exchange(verb_, "") + actor_);
+    throwAt("ticked");
     return actor().answer;
   }
   Release letGo(const char* verb) {
+    throwAt("letting go");
     if (to_stop_ < 0) to_stop_ = actor().ticks_to_stop;
     const bool stopped = to_stop_-- <= 0;
     log(actor_ + " " + verb + (stopped ? "ed" : "ing"));
@@ -53,7 +65,11 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 void tell(Actor& actor, std::string_view what) {
-  constexpr std::string_view kStops = "stops in ";
+  constexpr std::string_view kStops = "stops in ", kThrows = "throws ";
+  if (what.starts_with(kThrows)) {
+    actor.throws_at = what.substr(kThrows.size());
+    return;
+  }
   actor.wants = actor.wants || !what.starts_with(kStops);
   if (what == "SUCCESS")
     actor.answer = Status::kSuccess;

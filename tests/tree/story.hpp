@@ -17,6 +17,7 @@ struct Actor {
   Status answer = Status::kRunning;
   bool wants = true;
   int ticks_to_stop = 0;  ///< How often it answers "not yet" when asked to let go.
+  std::string throws_at;  ///< When it throws: "ticked", "asked", "letting go", "explaining", "a number ticked".
 };
 
 struct Stage {
@@ -33,7 +34,8 @@ class Story {
   explicit Story(std::string_view inside, std::string_view more = {});
   Story(std::string_view whole_file, const Registry& base);
 
-  /// "SUCCESS", "FAILURE", "RUNNING", "nothing" (it is skipped), "stops in 2" (ticks), or several with ", " between.
+  /// "SUCCESS", "FAILURE", "RUNNING", "nothing" (it is skipped), "stops in 2" (ticks), "throws ticked", or several with
+  /// ", " between.
   Story& says(std::string_view actor, std::string_view what);
   /// Time passes (100 ms unless told), then one tick: "RUNNING: A, start B".
   std::string tick(int milliseconds = 100);

@@ -8,7 +8,7 @@ bool Again::onAsked(const TickContext& context) const {
 }
 
 Status Again::run(TickContext& context) {
-  const auto times = times_.get();
+  auto times = times_.get();
   if (!times) return endWith(context, fail(context, times_.problem()));
 
   const auto goesOn = [&] { return *times == -1 || done_ < *times; };
@@ -17,6 +17,8 @@ Status Again::run(TickContext& context) {
     const Status status = child().tick(context);
     if (status != counted_) return status;
     ++done_;
+    // The child may have written it.
+    if (const auto now = times_.get()) times = now;
     // A round that began and ended in this tick ends the tick, so that no tick is endless.
     if (starts_now && goesOn()) return Status::kRunning;
   }

@@ -3,8 +3,11 @@
 namespace swiftlet::tree {
 
 PortManifest EntryNews::port() {
-  return {
-      .name = "entry", .type = PortType::kAny, .required = true, .description = "The entry whose writes are noticed."};
+  return {.name = "entry",
+          .type = PortType::kAny,
+          .required = true,
+          .description = "The entry whose writes are noticed.",
+          .names_entry = true};
 }
 
 NodeManifest WasEntryUpdated::manifest() {

@@ -18,8 +18,6 @@ class EntryNews {
   explicit EntryNews(const NodeSetup& setup) : entry_(setup.port("entry").slot) {}
   static PortManifest port();
 
-  /// Empty if the port names an entry.
-  std::string problem() const { return entry_ == nullptr ? "entry is text, expected an entry {name}" : ""; }
   bool any() const { return entry_->writes != seen_ && entry_->value.has_value(); }
   void see() { seen_ = entry_->writes; }
 
@@ -32,7 +30,6 @@ class WasEntryUpdated final : public Leaf {
  public:
   explicit WasEntryUpdated(const NodeSetup& setup) : Leaf(setup), news_(setup) {}
   static NodeManifest manifest();
-  std::string checkBuilt() const override { return news_.problem(); }
 
  private:
   Status act(TickContext&) override;
@@ -41,9 +38,6 @@ class WasEntryUpdated final : public Leaf {
 };
 
 class UnlessUpdated : public Composite {
- public:
-  std::string checkBuilt() const final { return news_.problem(); }
-
  protected:
   UnlessUpdated(const NodeSetup& setup, Status without) : Composite(setup), news_(setup), without_(without) {}
 

@@ -1,12 +1,10 @@
 // KeepRunningUntilFailure: RUNNING until the child fails; it is started again after each SUCCESS, at the next tick.
-//   child SUCCESS, RUNNING -> RUNNING
-//   child FAILURE          -> FAILURE
-//   child SKIPPED          -> SKIPPED
+//   child SUCCESS, RUNNING, SKIPPED -> RUNNING
+//   child FAILURE                   -> FAILURE
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
 #include "behaviors/tree/node_manifest.hpp"
-#include "behaviors/tree/nodes/ended_as.hpp"
 
 namespace swiftlet::tree {
 
@@ -22,8 +20,9 @@ class KeepRunningUntilFailure final : public Composite {
 
  private:
   Status run(TickContext& context) override {
-    return endedAs(child().tick(context), Status::kRunning, Status::kFailure);
+    return child().tick(context) == Status::kFailure ? Status::kFailure : Status::kRunning;
   }
+  bool onAsked(const TickContext&) const override { return true; }
 };
 
 }  // namespace swiftlet::tree

@@ -3,8 +3,8 @@
 //   child SUCCESS or SKIPPED   -> RUNNING; the next element at the next tick
 //   child RUNNING              -> RUNNING
 //   child FAILURE              -> FAILURE
-// The queue of an entry is shared: each element is taken out of the entry. One that is written in the file starts anew
-// with the node.
+// The queue is read when the node starts: what is written to its entry afterwards counts from the next start on. An
+// entry that holds a number is a queue of that element.
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
@@ -22,14 +22,12 @@ class Loop final : public Composite {
   Status run(TickContext& context) override;
   void clear(TickContext&) override;
   bool onAsked(const TickContext& context) const override;
-  /// The text of the elements that are left; null if the entry is not set, or is no text.
-  const std::string* left() const;
   /// Takes the first element out. False, with a reason, if it is not of the type.
-  bool takeNext(TickContext& context, const std::string& queue);
+  bool takeNext(TickContext& context);
 
   PortType element_;
-  PortBinding queue_;
-  std::string own_;  ///< What is left of a queue that is written in the file.
+  Input<std::string> queue_;
+  std::optional<std::string> left_;  ///< The elements that are left; nothing before the queue was read.
   Input<std::string> if_empty_;
   Output value_;
 };

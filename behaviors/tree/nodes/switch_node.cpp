@@ -1,22 +1,33 @@
 #include "behaviors/tree/nodes/switch_node.hpp"
 
+#include <algorithm>
+
 #include "behaviors/tree/script/operand.hpp"
 
 namespace swiftlet::tree {
+namespace {
+
+bool isCase(const std::string& variable, const std::string& value, const Constants* constants) {
+  if (variable == value) return true;
+  const auto a = numberNamed(variable, constants), b = numberNamed(value, constants);
+  return a && b && areEqual(*a, *b);
+}
+
+}  // namespace
 
 NodeManifest SwitchNode::manifest(std::size_t cases) {
   NodeManifest manifest{.id = "Switch" + std::to_string(cases),
                         .kind = NodeKind::kControl,
-                        .ports = {{.name = "variable", .required = true, .description = "What is compared."}},
+                        .ports = {{.name = "variable", .description = "What is compared."}},
                         .description = "The child of the first case that equals the variable, else the last child."};
   for (std::size_t i = 1; i <= cases; ++i)
     manifest.ports.push_back({.name = "case_" + std::to_string(i),
-                              .required = true,
                               .description = "The value that chooses child " + std::to_string(i) + "."});
   return manifest;
 }
 
-SwitchNode::SwitchNode(const NodeSetup& setup, std::size_t cases) : Composite(setup), variable_(setup, "variable") {
+SwitchNode::SwitchNode(const NodeSetup& setup, std::size_t cases)
+    : Composite(setup), variable_(setup, "variable"), constants_(setup.constants) {
   for (std::size_t i = 1; i <= cases; ++i) cases_.emplace_back(setup, "case_" + std::to_string(i));
 }
 
@@ -26,34 +37,28 @@ std::string SwitchNode::checkBuilt() const {
          std::to_string(cases_.size() + 1) + ": one for each case, and one for all else";
 }
 
-std::optional<std::size_t> SwitchNode::chosen() const {
+std::size_t SwitchNode::chosen() const {
   const auto variable = variable_.get();
-  if (!variable) return std::nullopt;
+  if (!variable) return cases_.size();
   for (std::size_t i = 0; i < cases_.size(); ++i) {
     const auto value = cases_[i].get();
-    if (!value) return std::nullopt;
-    const Operand a = std::string_view(*variable), b = std::string_view(*value);
-    const auto number_a = numberOf(a), number_b = numberOf(b);
-    if (*variable == *value || (number_a && number_b && *number_a == *number_b)) return i;
+    if (value && isCase(*variable, *value, constants_)) return i;
   }
   return cases_.size();
 }
 
-bool SwitchNode::onAsked(const TickContext& context) const {
-  const auto index = chosen();
-  return !index || child(*index).wants(context);
+std::optional<std::size_t> SwitchNode::alwaysChosen() const {
+  const bool fixed =
+      variable_.fixed() && std::all_of(cases_.begin(), cases_.end(), [](const auto& c) { return c.fixed(); });
+  return fixed ? std::optional(chosen()) : std::nullopt;
 }
 
+bool SwitchNode::onAsked(const TickContext& context) const { return child(chosen()).wants(context); }
+
 Status SwitchNode::run(TickContext& context) {
-  const auto index = chosen();
-  if (!index) {
-    std::string problem = variable_.problem();
-    for (const auto& value : cases_)
-      if (variable_.get() && !value.get()) problem = value.problem();
-    return endWith(context, fail(context, problem));
-  }
-  if (!haltOthers(context, *index)) return Status::kRunning;
-  return child(*index).tick(context);
+  const std::size_t index = chosen();
+  if (!haltOthers(context, index)) return Status::kRunning;
+  return child(index).tick(context);
 }
 
 }  // namespace swiftlet::tree

@@ -29,13 +29,13 @@ constexpr std::array<BinarySign, 16> kBinarySigns = {{{"||", ScriptOp::kOr, 0},
                                                       {"<", ScriptOp::kLess, kComparison},
                                                       {">", ScriptOp::kGreater, kComparison},
                                                       {"|", ScriptOp::kOrBits, 3},
-                                                      {"^", ScriptOp::kXorBits, 4},
-                                                      {"&", ScriptOp::kAndBits, 5},
-                                                      {"..", ScriptOp::kJoin, 6},
-                                                      {"+", ScriptOp::kAdd, 7},
-                                                      {"-", ScriptOp::kSubtract, 7},
-                                                      {"*", ScriptOp::kMultiply, 8},
-                                                      {"/", ScriptOp::kDivide, 8}}};
+                                                      {"^", ScriptOp::kXorBits, 3},
+                                                      {"&", ScriptOp::kAndBits, 4},
+                                                      {"..", ScriptOp::kJoin, 5},
+                                                      {"+", ScriptOp::kAdd, 5},
+                                                      {"-", ScriptOp::kSubtract, 5},
+                                                      {"*", ScriptOp::kMultiply, 6},
+                                                      {"/", ScriptOp::kDivide, 6}}};
 
 /// The sign between two operands that the token is, if it is one and not looser than `loosest`.
 const BinarySign* binarySign(const Token& token, int loosest) {
@@ -66,7 +66,7 @@ ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode
   while (problem_.empty()) {
     while (take(";")) {}
     if (next().kind == TokenKind::kEnd) break;
-    code.statements.push_back(statement());
+    code.statements.push_back(expression());
     if (problem_.empty() && next().kind != TokenKind::kEnd && !at(";")) fail(next(), "an operator or `;`");
   }
   if (problem_.empty() && code.statements.size() == first_statement) problem_ = "it has no statement";
@@ -77,7 +77,8 @@ ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode
           problem_};
 }
 
-ScriptCompiler::Index ScriptCompiler::statement() {
+/// An assignment, or a choice: what a statement and parentheses hold.
+ScriptCompiler::Index ScriptCompiler::expression() {
   constexpr std::array<std::string_view, 6> kAssignments = {":=", "=", "+=", "-=", "*=", "/="};
   if (next().kind != TokenKind::kName) return choice();
   const Token& second = tokens_[position_ + 1];
@@ -88,7 +89,10 @@ ScriptCompiler::Index ScriptCompiler::statement() {
   if (name == "true" || name == "false" || constants_.contains(name))
     return fail(next(), "the name of an entry before `" + std::string(*sign) + "`, but it is a constant");
   position_ += 2;
-  return assignment(name, *sign);
+  if (++depth_ > kDeepest) return fail(next(), "fewer than 100 levels");
+  const Index assigned = assignment(name, *sign);
+  --depth_;
+  return assigned;
 }
 
 /// `x += a` is `x = x + a`.
@@ -97,10 +101,11 @@ ScriptCompiler::Index ScriptCompiler::assignment(std::string_view name, std::str
   const bool computes = sign.size() == 2 && !makes;
   std::optional<Index> old;
   if (computes) old = add({.op = Op::kEntry, .of = entry(name, true)});
-  Index value = choice();
+  const std::size_t writes_before = code_->writes.size();
+  Index value = expression();
   if (computes) {
     const Op op = sign == "+=" ? Op::kAdd : sign == "-=" ? Op::kSubtract : sign == "*=" ? Op::kMultiply : Op::kDivide;
-    value = add({.op = op, .a = *old, .b = value});
+    value = addBinary(op, *old, value, writes_before);
   }
   if (!problem_.empty()) return 0;
   const Index written = entry(name, !makes);
@@ -108,7 +113,8 @@ ScriptCompiler::Index ScriptCompiler::assignment(std::string_view name, std::str
   return add({.op = makes ? Op::kMake : Op::kAssign, .a = value, .of = written});
 }
 
-void ScriptCompiler::recordWrite(Index entry, bool makes, const ScriptExpression& value) {
+void ScriptCompiler::recordWrite(Index entry, bool makes, ScriptExpression value) {
+  while (value.op == Op::kMake || value.op == Op::kAssign) value = code_->expressions[value.a];
   code_->entries[entry].set = true;
   ScriptWrite& write = code_->writes.emplace_back();
   write.entry = entry - first_entry_;
@@ -127,7 +133,7 @@ ScriptCompiler::Index ScriptCompiler::choice() {
   if (++depth_ > kDeepest) return fail(next(), "fewer than 100 levels");
   Index condition = binary(0);
   if (take("?")) {
-    const Index yes = choice();
+    const Index yes = expression();
     if (!take(":")) return fail(next(), "`:`");
     const Index no = choice();
     condition = add({.op = Op::kChoice, .a = condition, .b = yes, .c = no});
@@ -145,25 +151,25 @@ ScriptCompiler::Index ScriptCompiler::binary(int loosest) {
       continue;
     }
     ++position_;
+    const std::size_t writes_before = code_->writes.size();
     const Index right = binary(sign->level + 1);
-    const auto buffer = static_cast<Index>(code_->joins);
-    if (sign->op == Op::kJoin) ++code_->joins;
-    left = add({.op = sign->op, .a = left, .b = right, .of = buffer});
+    left = addBinary(sign->op, left, right, writes_before);
   }
   return left;
 }
 
-/// A chain `a < b < c` is `a < b && b < c`.
+/// A chain `a < b < c` is `a < b && b < c`, but b is evaluated once: the second comparison is linked to the first.
 ScriptCompiler::Index ScriptCompiler::comparison(Index left) {
-  std::optional<Index> chain;
+  bool linked = false;
   while (const BinarySign* sign = binarySign(next(), kComparison)) {
     ++position_;
+    const std::size_t writes_before = code_->writes.size();
     const Index right = binary(kComparison + 1);
-    const Index link = add({.op = sign->op, .a = left, .b = right});
-    chain = chain ? add({.op = Op::kAnd, .a = *chain, .b = link}) : link;
-    left = right;
+    left = addBinary(sign->op, left, right, writes_before);
+    if (problem_.empty()) code_->expressions[left].linked = linked;
+    linked = true;
   }
-  return chain.value_or(left);
+  return left;
 }
 
 ScriptCompiler::Index ScriptCompiler::unary() {
@@ -181,7 +187,7 @@ ScriptCompiler::Index ScriptCompiler::unary() {
 ScriptCompiler::Index ScriptCompiler::operand() {
   const Token token = next();
   if (take("(")) {
-    const Index inner = choice();
+    const Index inner = expression();
     return take(")") ? inner : fail(next(), "`)`");
   }
   if (token.kind == TokenKind::kSign || token.kind == TokenKind::kEnd || token.kind == TokenKind::kBad)
@@ -209,6 +215,13 @@ ScriptCompiler::Index ScriptCompiler::name(const Token& token) {
   if (token.text == "true" || token.text == "false") return constant(token.text == "true");
   if (const auto known = constants_.find(token.text); known != constants_.end()) return constant(known->second);
   return add({.op = Op::kEntry, .of = entry(token.text, true)});
+}
+
+/// `right` was compiled when the code had `writes_before` assignments.
+ScriptCompiler::Index ScriptCompiler::addBinary(Op op, Index left, Index right, std::size_t writes_before) {
+  const auto buffer = static_cast<Index>(code_->joins);
+  if (op == Op::kJoin || op == Op::kAdd) ++code_->joins;
+  return add({.op = op, .keeps = code_->writes.size() > writes_before, .a = left, .b = right, .of = buffer});
 }
 
 ScriptCompiler::Index ScriptCompiler::add(ScriptExpression expression) {

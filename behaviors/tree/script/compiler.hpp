@@ -30,7 +30,7 @@ class ScriptCompiler {
   using Index = std::uint32_t;
   using Signs = std::initializer_list<std::pair<std::string_view, Op>>;
 
-  Index statement();
+  Index expression();
   Index choice();
   Index binary(int loosest);
   Index comparison(Index left);
@@ -40,11 +40,12 @@ class ScriptCompiler {
   Index name(const Token& token);
 
   Index add(ScriptExpression expression);
+  Index addBinary(Op op, Index left, Index right, std::size_t writes_before);
   template <typename T>
   Index constant(T value);
   Index entry(std::string_view name, bool read);
   Index assignment(std::string_view name, std::string_view sign);
-  void recordWrite(Index entry, bool makes, const ScriptExpression& value);
+  void recordWrite(Index entry, bool makes, ScriptExpression value);
 
   const Token& next() const { return tokens_[position_]; }
   bool at(std::string_view sign) const { return next().isSign(sign); }

@@ -67,4 +67,10 @@ void readTokens(std::string_view script, std::vector<Token>& tokens) {
   tokens.push_back({TokenKind::kEnd, script.substr(script.size())});
 }
 
+bool isScriptName(std::string_view text) {
+  const auto goesOn = [](char c) { return isLetter(c) || isDigit(c); };
+  return !text.empty() && isLetter(text.front()) && lengthOf(text, 1, goesOn) == text.size() && text != "true" &&
+         text != "false";
+}
+
 }  // namespace swiftlet::tree

@@ -23,4 +23,7 @@ struct Token {
 /// token gives kBad in front of it.
 void readTokens(std::string_view script, std::vector<Token>& tokens);
 
+/// Whether a script reads the text as the name of an entry.
+bool isScriptName(std::string_view text);
+
 }  // namespace swiftlet::tree

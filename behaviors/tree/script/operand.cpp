@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace swiftlet::tree {
@@ -27,6 +28,13 @@ struct ToValue {
     return number;
   }
 };
+
+/// The number that an operand is beside a number or a truth value: the word `true` is 1.
+std::optional<double> comparedAs(const Operand& operand) {
+  if (const auto* text = std::get_if<std::string_view>(&operand))
+    if (const auto truth = truthOfWord(*text)) return *truth ? 1.0 : 0.0;
+  return numberOf(operand);
+}
 
 }  // namespace
 
@@ -54,6 +62,12 @@ std::optional<double> numberOf(const Operand& operand) {
   return all && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
+std::optional<double> numberNamed(std::string_view text, const Constants* constants) {
+  if (constants != nullptr && !constants->empty())
+    if (const auto known = constants->find(text); known != constants->end()) return static_cast<double>(known->second);
+  return comparedAs(text);
+}
+
 std::optional<std::int64_t> wholeOf(const Operand& operand) {
   if (const auto* whole = std::get_if<std::int64_t>(&operand)) return *whole;
   const auto number = numberOf(operand);
@@ -64,10 +78,8 @@ std::optional<std::int64_t> wholeOf(const Operand& operand) {
 
 std::optional<bool> truthOf(const Operand& operand) {
   if (const auto* yes = std::get_if<bool>(&operand)) return *yes;
-  if (const auto* text = std::get_if<std::string_view>(&operand)) {
-    if (*text == "true") return true;
-    if (*text == "false") return false;
-  }
+  if (const auto* text = std::get_if<std::string_view>(&operand))
+    if (const auto truth = truthOfWord(*text)) return truth;
   const auto number = numberOf(operand);
   return number ? std::optional(*number != 0.0) : std::nullopt;
 }
@@ -85,8 +97,20 @@ std::optional<std::partial_ordering> compare(const Operand& a, const Operand& b)
     if ((*other_a)->index() != (*other_b)->index()) return std::nullopt;
     return **other_a == **other_b ? std::partial_ordering::equivalent : std::partial_ordering::unordered;
   }
-  const auto number_a = numberOf(a), number_b = numberOf(b);
+  const auto number_a = comparedAs(a), number_b = comparedAs(b);
   return number_a && number_b ? std::optional(*number_a <=> *number_b) : std::nullopt;
+}
+
+bool areEqual(double a, double b) {
+  return a == b || std::abs(a - b) <= static_cast<double>(std::numeric_limits<float>::epsilon());
+}
+
+bool areEqual(const Operand& a, const Operand& b) {
+  const bool texts = std::holds_alternative<std::string_view>(a) && std::holds_alternative<std::string_view>(b);
+  const auto number_a = texts ? std::nullopt : comparedAs(a), number_b = texts ? std::nullopt : comparedAs(b);
+  if (number_a && number_b) return areEqual(*number_a, *number_b);
+  const auto order = compare(a, b);
+  return order && *order == 0;
 }
 
 }  // namespace swiftlet::tree

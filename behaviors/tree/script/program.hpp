@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,9 +13,6 @@
 #include "behaviors/tree/value.hpp"
 
 namespace swiftlet::tree {
-
-/// Names with a number: the enumerators that an application gives to scripts.
-using Constants = std::map<std::string, std::int64_t, std::less<>>;
 
 /// An entry that a script uses.
 struct ScriptEntry {
@@ -64,8 +60,10 @@ enum class ScriptOp : unsigned char {
 /// A node of an expression; `a`, `b` and `c` are its operands, as indices of expressions.
 struct ScriptExpression {
   ScriptOp op = ScriptOp::kConstant;
+  bool linked = false;  ///< A comparison whose left operand is the right one of `a`, which must hold: a < b < c.
+  bool keeps = false;   ///< `b` assigns, so that the value of `a` is copied before.
   std::uint32_t a = 0, b = 0, c = 0;
-  std::uint32_t of = 0;  ///< Of kConstant, kEntry, kMake, kAssign and kJoin: which one.
+  std::uint32_t of = 0;  ///< Of kConstant, kEntry, kMake, kAssign, kAdd and kJoin: which one.
 };
 
 /// What scripts do, one behind the other: a few long lists are made and freed faster than lists for each of thousands
@@ -76,7 +74,7 @@ struct ScriptCode {
   std::vector<Value> constants;
   std::vector<ScriptEntry> entries;
   std::vector<ScriptWrite> writes;
-  std::size_t joins = 0;  ///< Texts that `..` makes.
+  std::size_t joins = 0;  ///< Texts that `..` and `+` may make.
 };
 
 /// Elements of a list of the code.

@@ -82,7 +82,7 @@ std::optional<Operand> Script::evaluate(std::uint32_t index) {
       return b ? std::optional<Operand>(*b) : std::nullopt;
     }
     case Op::kChoice: {
-      const auto a = truth(expression.a);
+      const auto a = chosen(expression.a);
       if (!a) return std::nullopt;
       return evaluate(*a ? expression.b : expression.c);
     }
@@ -98,13 +98,59 @@ std::optional<Operand> Script::evaluate(std::uint32_t index) {
       const auto a = evaluate(expression.a);
       return a ? evaluateUnary(expression, *a) : std::nullopt;
     }
+    case Op::kEqual:
+    case Op::kUnequal:
+    case Op::kLess:
+    case Op::kLessEqual:
+    case Op::kGreater:
+    case Op::kGreaterEqual: {
+      const auto link = evaluateLink(expression);
+      return link ? std::optional<Operand>(link->holds) : std::nullopt;
+    }
     default: {
-      const auto a = evaluate(expression.a);
+      auto a = evaluate(expression.a);
       if (!a) return std::nullopt;
-      const auto b = evaluate(expression.b);
+      Value kept;
+      const auto b = evaluateRight(expression, *a, kept);
       return b ? evaluateBinary(expression, *a, *b) : std::nullopt;
     }
   }
+}
+
+/// The right operand. The left one may refer to an entry; it is copied into `kept` if the right one assigns.
+std::optional<Operand> Script::evaluateRight(const Expression& expression, Operand& a, Value& kept) {
+  if (expression.keeps) {
+    kept = valueOf(a);
+    a = operandOf(kept);
+  }
+  return evaluate(expression.b);
+}
+
+std::optional<Script::Link> Script::evaluateLink(const Expression& expression) {
+  std::optional<Operand> a;
+  if (expression.linked) {
+    const auto before = evaluateLink(owner_->code_.expressions[expression.a]);
+    if (!before || !before->holds) return before;
+    a = before->right;
+  } else {
+    a = evaluate(expression.a);
+  }
+  if (!a) return std::nullopt;
+  Value kept;
+  const auto b = evaluateRight(expression, *a, kept);
+  if (!b) return std::nullopt;
+  const auto holds = comparison(expression.op, *a, *b);
+  return holds ? std::optional(Link{*holds, *b}) : std::nullopt;
+}
+
+/// Of the condition of a choice.
+std::optional<bool> Script::chosen(std::uint32_t index) {
+  const auto value = evaluate(index);
+  if (!value) return std::nullopt;
+  if (const auto truth = truthOf(*value)) return truth;
+  const auto* text = std::get_if<std::string_view>(&*value);
+  if (text != nullptr && !text->empty()) return true;
+  return fail(std::string(kindOf(*value)) + " is neither true nor false");
 }
 
 std::optional<bool> Script::truth(std::uint32_t index) {
@@ -126,6 +172,7 @@ std::optional<Operand> Script::evaluateUnary(const Expression& expression, const
 std::optional<Operand> Script::evaluateBinary(const Expression& expression, const Operand& a, const Operand& b) {
   switch (expression.op) {
     case Op::kAdd:
+      return sum(expression, a, b);
     case Op::kSubtract:
     case Op::kMultiply:
     case Op::kDivide:
@@ -134,11 +181,14 @@ std::optional<Operand> Script::evaluateBinary(const Expression& expression, cons
     case Op::kXorBits:
     case Op::kOrBits:
       return bits(expression.op, a, b);
-    case Op::kJoin:
-      return join(expression.of, a, b);
     default:
-      return comparison(expression.op, a, b);
+      return join(expression.of, a, b);
   }
+}
+
+std::optional<Operand> Script::sum(const Expression& expression, const Operand& a, const Operand& b) {
+  const bool texts = std::holds_alternative<std::string_view>(a) && std::holds_alternative<std::string_view>(b);
+  return texts ? join(expression.of, a, b) : arithmetic(Op::kAdd, a, b);
 }
 
 std::optional<Operand> Script::arithmetic(Op op, const Operand& a, const Operand& b) {
@@ -169,15 +219,24 @@ std::optional<Operand> Script::bits(Op op, const Operand& a, const Operand& b) {
   return op == Op::kXorBits ? *whole_a ^ *whole_b : *whole_a | *whole_b;
 }
 
-std::optional<Operand> Script::comparison(Op op, const Operand& a, const Operand& b) {
-  const auto order = compare(a, b);
-  if (op == Op::kEqual) return order && *order == 0;
-  if (op == Op::kUnequal) return !order || *order != 0;
+std::optional<bool> Script::comparison(Op op, const Operand& a, const Operand& b) {
+  const Operand left = namedNumber(a, b), right = namedNumber(b, a);
+  if (op == Op::kEqual) return areEqual(left, right);
+  if (op == Op::kUnequal) return !areEqual(left, right);
+  const auto order = compare(left, right);
   if (!order || *order == std::partial_ordering::unordered)
     return fail(std::string(kindOf(a)) + " and " + kindOf(b) + " have no order");
   if (op == Op::kLess) return *order < 0;
   if (op == Op::kLessEqual) return *order <= 0;
   return op == Op::kGreater ? *order > 0 : *order >= 0;
+}
+
+/// Beside a number, the text 'RED' is the constant RED.
+Operand Script::namedNumber(const Operand& operand, const Operand& other) const {
+  const auto* text = std::get_if<std::string_view>(&operand);
+  if (text == nullptr || owner_->constants_.empty() || std::holds_alternative<std::string_view>(other)) return operand;
+  const auto known = owner_->constants_.find(*text);
+  return known == owner_->constants_.end() ? operand : Operand(known->second);
 }
 
 std::optional<Operand> Script::join(std::uint32_t buffer, const Operand& a, const Operand& b) {

@@ -2,17 +2,19 @@
 // `count += 1; ready := count > 3 && color != RED`.
 //
 //   statements   a; b; c                       the value of a script is that of its last statement
-//   assignment   x := a   x = a   x += a  x -= a  x *= a  x /= a     := makes the entry, the others need it
-//   choice       a ? b : c
+//   assignment   x := a   x = a   x += a  x -= a  x *= a  x /= a     := makes the entry, the others need it; has the
+//                                              value that it assigns: x := y := 1
+//   choice       a ? b : c                     a text that is no truth value is true
 //   logic        a || b   a && b   !a          the right side is evaluated only if it decides
-//   comparison   a == b   a != b   a < b   a <= b   a > b   a >= b   also in chains: 0 < x <= 3
-//   bits         a | b   a ^ b   a & b   ~a    of whole numbers
-//   text         a .. b                        joins two texts
+//   comparison   a == b   a != b   a < b   a <= b   a > b   a >= b   also in chains: 0 < x <= 3; two numbers are equal
+//                                              within 1.2e-7
+//   bits         a | b   a ^ b   a & b   ~a    of whole numbers; `|` and `^` on one level
+//   text         a .. b   a + b                join two texts; `..`, `+` and `-` on one level
 //   arithmetic   a + b   a - b   a * b   a / b   -a
 //   operands     42  0x2A  3.14  'text'  true  false  NAME of a constant  name or @name of an entry  (a)
 //
-// From loose to tight, as in C. A script is compiled once, when the file is read; running it allocates nothing unless a
-// text grows. There are no loops and no calls, so a script always ends.
+// From loose to tight, as in BehaviorTree.CPP. A script is compiled once, when the file is read; running it allocates
+// nothing unless a text grows. There are no loops and no calls, so a script always ends.
 #pragma once
 
 #include <cstddef>
@@ -58,15 +60,26 @@ class Script {
   using Op = ScriptOp;
   using Expression = ScriptExpression;
 
+  /// A comparison, and its right operand, which the next comparison of a chain needs.
+  struct Link {
+    bool holds = false;
+    Operand right;
+  };
+
   std::optional<Operand> evaluate(std::uint32_t index);
+  std::optional<Operand> evaluateRight(const Expression& expression, Operand& a, Value& kept);
+  std::optional<Link> evaluateLink(const Expression& expression);
   std::optional<Operand> evaluateUnary(const Expression& expression, const Operand& a);
   std::optional<Operand> evaluateBinary(const Expression& expression, const Operand& a, const Operand& b);
+  std::optional<Operand> sum(const Expression& expression, const Operand& a, const Operand& b);
   std::optional<Operand> arithmetic(Op op, const Operand& a, const Operand& b);
   std::optional<Operand> bits(Op op, const Operand& a, const Operand& b);
-  std::optional<Operand> comparison(Op op, const Operand& a, const Operand& b);
+  std::optional<bool> comparison(Op op, const Operand& a, const Operand& b);
+  Operand namedNumber(const Operand& operand, const Operand& other) const;
   std::optional<Operand> join(std::uint32_t buffer, const Operand& a, const Operand& b);
   std::optional<Operand> assign(const Expression& expression);
   std::optional<bool> truth(std::uint32_t index);
+  std::optional<bool> chosen(std::uint32_t index);
   std::nullopt_t fail(std::string problem);
   std::nullopt_t failUnset(std::uint32_t entry, std::string_view remedy);
 
@@ -79,7 +92,7 @@ class Script {
 class Scripts {
  public:
   /// The constants must outlive this object.
-  explicit Scripts(const Constants& constants) : compiler_(constants) {}
+  explicit Scripts(const Constants& constants) : constants_(constants), compiler_(constants) {}
   Scripts(const Scripts&) = delete;
   Scripts& operator=(const Scripts&) = delete;
 
@@ -92,10 +105,11 @@ class Scripts {
 
  private:
   friend class Script;
+  const Constants& constants_;
   ScriptCompiler compiler_;
   ScriptCode code_;
   std::vector<Slot*> slots_;         ///< Of the entries of the code.
-  std::vector<std::string> joined_;  ///< Texts made by `..`, kept so that their memory is used again.
+  std::vector<std::string> joined_;  ///< Texts made by `..` and `+`, kept so that their memory is used again.
   std::deque<Script> scripts_;       ///< Stable addresses.
 };
 

@@ -1,0 +1,87 @@
+// What differs from BehaviorTree.CPP 4 in the reading of a file: the rows of docs/behaviors.md that no other test
+// shows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kVisit = R"(<BehaviorTree ID="Visit"><A/></BehaviorTree>)";
+
+TEST(Differences, UnknownAttributesAreRefused) {
+  EXPECT_THAT(problemText(R"(<A _meta="5"/>)"), HasSubstr("unknown attribute `_meta`"));
+  Story unread(R"(<SubTree ID="Visit" place="1;2"/>)", kVisit);
+  ASSERT_EQ(unread.problems().size(), 1U);
+  EXPECT_EQ(unread.problems()[0].message, "the tree `Visit` has no entry {place}");
+  EXPECT_EQ(unread.problems()[0].path, "Main/Visit");
+}
+
+TEST(Differences, TextBetweenElementsIsRefused) {
+  EXPECT_THAT(problemText("<Sequence>first<A/></Sequence>"), HasSubstr("text is not expected here"));
+  EXPECT_THAT(problemText("<Sequence><A/><![CDATA[ last ]]></Sequence>"), HasSubstr("text is not expected here"));
+}
+
+TEST(Differences, TwoTreesOfOneIdAreRefused) {
+  Story twice(R"(<SubTree ID="Visit"/>)", std::string(kVisit) + kVisit);
+  ASSERT_FALSE(twice.problems().empty());
+  EXPECT_THAT(twice.problems()[0].message, HasSubstr("`Visit` is defined twice, first at story.xml"));
+}
+
+TEST(Differences, AnEqualSignAloneIsText) {
+  Story story(R"(<Sequence><SetBlackboard value="=" output_key="x"/><ScriptCondition code="x == '='"/></Sequence>)");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+}
+
+TEST(Differences, AKeyInBracesIsTheEntryItself) {
+  Story story(
+      R"(<Sequence><Script code="k := 'other'"/><SetBlackboard value="1" output_key="{k}"/><ScriptCondition code="k == 1"/></Sequence>)");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+}
+
+TEST(Differences, AScriptStandsInTheFile) {
+  EXPECT_THAT(problemText(R"(<Sequence><Script code="c := 'x := 1'"/><Script code="{c}"/></Sequence>)"),
+              HasSubstr("Script.code: a script stands in the file, it is not read from the entry {c}"));
+}
+
+TEST(Differences, ADefaultMayBeEmpty) {
+  Story story(
+      R"(<SubTree ID="Ask"/>)",
+      R"(<BehaviorTree ID="Ask"><ScriptCondition code="word == ''"/></BehaviorTree><TreeNodesModel><SubTree ID="Ask"><input_port name="word" default=""/></SubTree></TreeNodesModel>)");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+}
+
+TEST(Differences, ASkippedChildDecidesNothingInAParallel) {
+  Story story(R"(<Parallel success_count="-2"><A/><B/></Parallel>)");
+  story.says("A", "nothing").says("B", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: start B") << "not before B was ticked";
+}
+
+TEST(Paths, AreGivenForWhatIsFoundWhenTheTreeIsBuilt) {
+  const auto pathOfFirst = [](const std::string& inside, const std::string& more = {}) {
+    const Story story(inside, more);
+    return story.problems().empty() ? "no problem" : story.problems()[0].path;
+  };
+  EXPECT_EQ(
+      pathOfFirst("<Sequence><Fallback><A/></Fallback><Fallback><IfThenElse><A/></IfThenElse></Fallback></Sequence>"),
+      "Main/Sequence/Fallback[2]/IfThenElse");
+  EXPECT_EQ(pathOfFirst(R"(<Sequence><A/><SubTree ID="Loop"/></Sequence>)",
+                        R"(<BehaviorTree ID="Loop"><Fallback><A/><SubTree ID="Loop"/></Fallback></BehaviorTree>)"),
+            "Loop/Fallback/Loop");
+  std::string deep = "<A/>", more;
+  for (int i = 0; i < 5; ++i) deep = "<Inverter>" + deep + "</Inverter>";
+  for (int i = 0; i < 60; ++i)
+    more += "<BehaviorTree ID=\"T" + std::to_string(i) + "\"><Inverter><Inverter><Inverter><SubTree ID=\"T" +
+            std::to_string(i + 1) + "\"/></Inverter></Inverter></Inverter></BehaviorTree>";
+  more += "<BehaviorTree ID=\"T60\"><A/></BehaviorTree>";
+  const std::string path = pathOfFirst("<SubTree ID=\"T0\"/>", more);
+  EXPECT_TRUE(path.starts_with("Main/T0/Inverter/Inverter/Inverter/T1/")) << path;
+  EXPECT_TRUE(path.ends_with("/T49/Inverter/Inverter/Inverter/T50")) << path;
+  EXPECT_LT(path.size(), 450U);
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing
