@@ -129,6 +129,17 @@ TEST(Lqr, ItsGainsAreThoseOfTheLeastCost) {
     }
 }
 
+TEST(Lqr, WithoutGainsThereIsNoController) {
+  const VehicleModel model = sheetModel();
+  EXPECT_THAT(Lqr::problemsOf({}, model), IsEmpty());
+  ControllerChoiceConfig choice;
+  choice.lqr.vertical_integral_m_s = 0.0;
+  choice.lqr.vertical_position_m = 1e5;  // A mode of minutes.
+  choice.lqr.vertical_speed_m_s = 0.0;
+  EXPECT_THAT(Lqr::problemsOf(choice.lqr, model), ElementsAre(HasSubstr("up: the Riccati equation does not converge")));
+  EXPECT_EQ(makeController(ControllerKind::kLqr, choice, {}, {}, &model), nullptr);
+}
+
 TEST(Lqr, SolvesTheModelForItsCommands) {
   Bench bench;
   VehicleModel model = sheetModel();
