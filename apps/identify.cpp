@@ -109,6 +109,7 @@ std::string jsonOf(const Identification& found, const std::string& out) {
                                  {"thrust_rounds", found.thrust.rounds},
                                  {"thrust_sigma", rounded6(found.thrust.sigma)},
                                  {"problems", found.problems},
+                                 {"doubts", found.doubts},
                                  {"model", out}};
   return json.dump(2) + "\n";
 }
@@ -150,6 +151,7 @@ int identify(const IdentifyOptions& options) {
                        model.thrust.front().hover_command, model.thrust.front().voltage_v,
                        model.thrust.back().hover_command, model.thrust.back().voltage_v, found.thrust.rounds,
                        found.thrust.sigma));
+    for (const std::string& doubt : found.doubts) show(fmt::format("not told well: {}\n", doubt));
     for (const std::string& problem : found.problems) show(fmt::format("not identified: {}\n", problem));
     if (anything && !options.out.empty()) show(fmt::format("model   {}\n", options.out));
   }

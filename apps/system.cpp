@@ -13,6 +13,7 @@
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "control/controllers/lqr.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
 namespace swiftlet::apps {
@@ -102,6 +103,11 @@ void refuseUnfitModel(const System& system, const common::config::YamlReader& pr
                             ? fmt::format("lqr needs every axis, but {} lacks some", system.config.vehicle_model)
                             : std::string("lqr needs a vehicle_model, and the profile names none"),
                         fmt::format("`swiftlet identify` makes one from flights of `{}`", system.vehicle.name)});
+  else if (needs_model)
+    for (const std::string& problem :
+         control::Lqr::problemsOf(system.config.autonomy.control.controller.lqr, *system.model))
+      problems.push_back({profile.locationOf("autonomy.control.controller.lqr"), "autonomy.control.controller.lqr",
+                          problem, "weights nearer to the default ones"});
   if (!problems.empty()) throw common::InputError(std::move(problems));
 }
 

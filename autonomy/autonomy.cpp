@@ -90,7 +90,7 @@ void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (!stamps_.accepts(event)) return;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
-    if (const auto sample = inertial_.take(*imu)) estimator_.addImu(*sample);
+    if (const auto sample = inertial_.take(estimator_.withAttitude(*imu))) estimator_.addImu(*sample);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
@@ -139,7 +139,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.raw_height = std::exchange(raw_height_, std::nullopt);
   flight.battery_v = battery_v_;
   flight.pilot_flies = supervisor_.pilotFlies();
-  flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
+  flight.fusion_diverged = estimator_.fusionStatus() == perception::FusionStatus::kDiverged;
   flight.inertial_fault = inertial_.fault(now);
   flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
   assistPilot(flight);

@@ -44,7 +44,8 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
                      const common::VehicleConfig& vehicle, const GivenMap* given, common::JobRunner& jobs,
                      const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser)
-    : standing_height_m_(0.5 * vehicle.hull_height_m),
+    : uses_ahrs_(config.fusion.use_ahrs),
+      standing_height_m_(0.5 * vehicle.hull_height_m),
       filter_(config.fusion),
       explained_within_m_(config.people.explained_within_m),
       people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
@@ -69,6 +70,7 @@ void Estimator::addImu(const common::ImuSample& sample, bool predicted) {
   predicted_ = predicted;
   hear(sample);
   filter_.predict(sample);
+  imu_seen_ = true;
   if (sample.rotation_ahrs_body.coeffs().allFinite()) last_imu_ = sample;
 }
 
@@ -119,7 +121,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   scanned_ = outcome.scan.stamp;
   if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
   outcome.drift_m = drift_m_ = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
-  people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
+  people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid(),
+                 localizer_ ? localizer_->background(map_.T_map_odom()) : std::nullopt);
   if (outcome.matched) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
   reportHealth(now);
   return outcome;
@@ -244,28 +247,6 @@ std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names
 
 // ------------------------------------------------------------------------------------------------------ the steps
 
-void Estimator::initialize(const common::LaserScan& scan) {
-  if (!last_imu_) return;
-  const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
-  const Eigen::Quaterniond R_level_body = common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0});
-  const auto standing = laser_.project(scan, [&](Time) { return Pose3{R_level_body, Eigen::Vector3d::Zero()}; });
-  const double height_m = medianBelow_m(standing).value_or(standing_height_m_);
-
-  hear(perception::TapedStart{height_m});
-  const auto initialized = filter_.initialize(height_m);
-  if (!initialized) {
-    if (!waiting_said_)
-      say(scan.stamps.arrived, Severity::kInfo, "fusion", "waiting until the vehicle stands still",
-          initialized.error());
-    waiting_said_ = true;
-    return;
-  }
-  started_ = filter_.newest();
-  altitude_.initialize(started_, height_m);
-  say(scan.stamps.arrived, Severity::kInfo, "fusion",
-      fmt::format("initialized, body {:.3f} m above the floor", height_m));
-}
-
 perception::ProjectedScan Estimator::project(const common::LaserScan& scan) const {
   const Time begin = scan.stamps.measured;
   const Time end = begin + scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size());
@@ -315,6 +296,7 @@ void Estimator::addClone(Time time) {
 void Estimator::fuse(const CameraStep& step, Time now) {
   using perception::Insertion;
   if (const auto& m = step.measurement; m && !isCameraDoubted(now)) {
+    hear(perception::TapedRelativePose3{m->from, m->to, m->T_from_to, m->covariance});
     const Insertion taken = filter_.addRelativePose3(m->from, m->to, m->T_from_to, m->covariance);
     if (taken == Insertion::kTaken) position_seen_ = height_seen_ = now;
     if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();
@@ -372,8 +354,8 @@ Pose3 Estimator::T_odom_bodyAt(const perception::ProjectedScan& scan) const {
 }
 
 void Estimator::reportHealth(Time now) {
+  if (filter_.status() == last_health_) return;
   const auto health = filter_.health();
-  if (health.status == last_health_) return;
   const Severity severity = health.status == perception::FusionStatus::kOk         ? Severity::kInfo
                             : health.status == perception::FusionStatus::kDiverged ? Severity::kError
                                                                                    : Severity::kWarning;

@@ -80,6 +80,9 @@ class Estimator {
             const GivenMap* given, common::JobRunner& jobs, const common::RgbdCameraConfig* camera = nullptr,
             const common::LaserConfig* vertical_laser = nullptr);
 
+  /// The sample as it came from a vehicle with an AHRS. In one without, where FusionConfig::use_ahrs is false, it gets
+  /// the filter's attitude; before the filter starts that by gravity, which is not finite while the vehicle moves.
+  common::ImuSample withAttitude(const common::ImuSample& sample) const;
   /// A `predicted` sample was not measured; see ErrorStateFilter::setPredicted.
   void addImu(const common::ImuSample& sample, bool predicted = false);
   /// Processes a scan at `now`. The first scans, taken while the vehicle stands still, only initialize the filter and
@@ -116,6 +119,7 @@ class Estimator {
   common::VehicleState state() const;
   /// Acceleration at the newest IMU sample, gravity and bias removed; none before the filter has started.
   std::optional<Eigen::Vector3d> accelerationOdom_m_s2() const;
+  perception::FusionStatus fusionStatus() const { return filter_.status(); }
   perception::FusionHealth health() const { return filter_.health(); }
   const perception::LaserOdometryCounts& odometryCounts() const { return laser_.counts(); }
   const perception::SlamCounts& slamCounts() const { return map_.counts(); }
@@ -137,6 +141,7 @@ class Estimator {
 
  private:
   void initialize(const common::LaserScan& scan);
+  void sayWaiting(common::Time now, std::string reason);
   perception::ProjectedScan project(const common::LaserScan& scan) const;
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
   bool isWithheld(const perception::ProjectedScan& scan);
@@ -166,6 +171,7 @@ class Estimator {
     if (listener_ != nullptr) listener_->heard(input);
   }
 
+  bool uses_ahrs_;
   double standing_height_m_;  ///< Height of the body when standing, if the mirror sees no floor.
   perception::ErrorStateFilter filter_;
   perception::FilterListener* listener_ = nullptr;
@@ -196,6 +202,7 @@ class Estimator {
   double drift_m_ = 0.0;      ///< Of the last scan.
   common::Time height_seen_;  ///< When the last scan that measured the surface below was.
   bool at_flight_height_ = false;
+  bool imu_seen_ = false;
   bool waiting_said_ = false;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;
   std::vector<common::Event> events_;

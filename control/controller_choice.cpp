@@ -41,7 +41,7 @@ std::unique_ptr<Controller> makeController(ControllerKind kind, const Controller
     case ControllerKind::kVoltagePid:
       return std::make_unique<VoltagePid>(choice.voltage_pid, choice.limits, vehicle, model);
     case ControllerKind::kLqr:
-      if (model == nullptr || !model->hasAxes()) return nullptr;
+      if (model == nullptr || !model->hasAxes() || !Lqr::problemsOf(choice.lqr, *model).empty()) return nullptr;
       return std::make_unique<Lqr>(choice.lqr, choice.limits, vehicle, *model);
     case ControllerKind::kSlidingMode:
       return std::make_unique<SlidingMode>(choice.sliding_mode, choice.limits, vehicle);

@@ -18,12 +18,19 @@ void FlightLocalizerConfig::describe(common::config::Fields& fields) {
 }
 
 FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs)
-    : config_(config), jobs_(jobs), localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed) {}
+    : config_(config), jobs_(jobs), map_(map), localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed) {}
 
 void FlightLocalizer::load(const GivenMap& map) {
   localizer_ = perception::Localizer(*map.grid, map.T_given_grid, config_.localizer, map.seed);
   localization_ = {};
+  map_ = map;
   ++maps_;
+}
+
+std::optional<perception::GivenBackground> FlightLocalizer::background(const common::Pose2& T_map_odom) const {
+  if (!localization_.localized()) return std::nullopt;
+  return perception::GivenBackground{map_.grid,
+                                     map_.T_given_grid.inverse() * localization_.T_given_odom * T_map_odom.inverse()};
 }
 
 void FlightLocalizer::forget() {

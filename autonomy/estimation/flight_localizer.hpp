@@ -7,6 +7,7 @@
 // The vehicle does not fly by this pose, but by the map that it makes itself.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/config_fwd.hpp"
@@ -16,6 +17,7 @@
 #include "common/localization.hpp"
 #include "perception/localization/localizer.hpp"
 #include "perception/localization/scan_turns.hpp"
+#include "perception/people/background_map.hpp"
 #include "perception/projection/scan_projection.hpp"
 
 namespace swiftlet::autonomy {
@@ -57,6 +59,8 @@ class FlightLocalizer {
   void passOver(const Eigen::Matrix3d& step_covariance, bool interrupted);
 
   const common::Localization& localization() const { return localization_; }
+  /// The given map in the frame `map`; none while the vehicle is not localized in it.
+  std::optional<perception::GivenBackground> background(const common::Pose2& T_map_odom) const;
   std::vector<common::Event> takeEvents();
 
  private:
@@ -65,6 +69,7 @@ class FlightLocalizer {
 
   FlightLocalizerConfig config_;
   common::JobRunner& jobs_;
+  GivenMap map_;
   perception::Localizer localizer_;
   perception::ScanTurns turns_;
   int maps_ = 1;  ///< How many were given: the result of a search in an earlier one is discarded.

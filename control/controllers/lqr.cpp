@@ -25,7 +25,7 @@ struct AxisWeights {
 
 /// The gains on x = (integral of e, e, de/dt, acceleration taken up) with e = position less reference, for the input
 /// w = k u + b, the acceleration that the command asks for: so neither k nor b is in the gains.
-Eigen::RowVector4d gainsOf(const AxisModel& axis, const AxisWeights& weights) {
+LqrGains gainsOf(const AxisModel& axis, const AxisWeights& weights) {
   const double dt_s = common::kControlPeriod.seconds();
   AxisMatrix A = AxisMatrix::Zero();
   AxisVector B = AxisVector::Zero();
@@ -43,18 +43,14 @@ Eigen::RowVector4d gainsOf(const AxisModel& axis, const AxisWeights& weights) {
   AxisMatrix Q = AxisMatrix::Zero();
   Q.diagonal() << weight(weights.integral_m_s), weight(weights.position_m), weight(weights.speed_m_s), 0.0;
   const double r = weight(weights.acceleration_m_s2);
-  return lqrGains(A, B, Q * dt_s, r * dt_s).K;
+  return lqrGains(A, B, Q * dt_s, r * dt_s);
 }
 
-}  // namespace
+struct AllGains {
+  LqrGains horizontal, up;
+};
 
-Lqr::Lqr(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
-         const VehicleModel& model)
-    : config_(config),
-      limits_(limits),
-      vehicle_(vehicle),
-      model_(model),
-      lag_s_(model.forward.lag_s, model.left.lag_s, model.up.lag_s) {
+AllGains gainsOf(const Lqr::Config& config, const VehicleModel& model) {
   const AxisWeights horizontal{config.horizontal_integral_m_s, config.horizontal_position_m,
                                config.horizontal_speed_m_s, config.acceleration_m_s2};
   const AxisWeights vertical{config.vertical_integral_m_s, config.vertical_position_m, config.vertical_speed_m_s,
@@ -63,8 +59,32 @@ Lqr::Lqr(const Config& config, const ControlLimits& limits, const common::Vehicl
   AxisModel mean = model.forward;
   mean.damping_1_s = 0.5 * (model.forward.damping_1_s + model.left.damping_1_s);
   mean.lag_s = 0.5 * (model.forward.lag_s + model.left.lag_s);
-  gains_[0] = gains_[1] = gainsOf(mean, horizontal);
-  gains_[2] = gainsOf(model.up, vertical);
+  return {gainsOf(mean, horizontal), gainsOf(model.up, vertical)};
+}
+
+}  // namespace
+
+std::vector<std::string> Lqr::problemsOf(const Config& config, const VehicleModel& model) {
+  const AllGains gains = gainsOf(config, model);
+  std::vector<std::string> problems;
+  const auto check = [&](const char* axes, const LqrGains& found) {
+    if (!found.converged || !found.K.allFinite())
+      problems.push_back(std::string(axes) + ": the Riccati equation does not converge for these weights");
+  };
+  check("forward and left", gains.horizontal);
+  check("up", gains.up);
+  return problems;
+}
+
+Lqr::Lqr(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
+         const VehicleModel& model)
+    : config_(config),
+      limits_(limits),
+      vehicle_(vehicle),
+      model_(model),
+      lag_s_(model.forward.lag_s, model.left.lag_s, model.up.lag_s) {
+  const AllGains gains = gainsOf(config, model);
+  gains_ = {gains.horizontal.K, gains.horizontal.K, gains.up.K};
   // For a single integrator the Riccati equation leaves K = sqrt(q / r).
   yaw_gain_1_s_ = std::sqrt(weight(config.yaw_rad) / weight(config.yaw_rate_rad_s));
 }

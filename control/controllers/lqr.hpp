@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
@@ -31,7 +33,10 @@ class Lqr final : public Controller {
     void describe(common::config::Fields& fields);
   };
 
-  /// `model` has all axes (VehicleModel::hasAxes); it is read only here.
+  /// Why there are no gains for these weights and that model: "up: the reason"; empty if there are.
+  static std::vector<std::string> problemsOf(const Config& config, const VehicleModel& model);
+
+  /// `model` has all axes (VehicleModel::hasAxes), and problemsOf() finds nothing; it is read only here.
   Lqr(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
       const VehicleModel& model);
 

@@ -94,6 +94,8 @@ Eigen::Vector3d SlidingMode::trim_odom_m_s2(const ThrustModel&) const {
 void SlidingMode::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel&) {
   reset();
   disturbance_m_s2_ = -trim_odom_m_s2;
+  // The vehicle follows that acceleration already: the estimate would take it for one that the commands do not explain.
+  taken_up_m_s2_ = trim_odom_m_s2;
 }
 
 void SlidingMode::Config::describe(common::config::Fields& fields) {

@@ -14,7 +14,13 @@
 namespace swiftlet::control {
 namespace {
 
-/// The equations of all windows: rows of (int u, T, int v) and the changes of velocity.
+/// Which terms are fitted besides k int(u).
+struct Terms {
+  bool offset = true;   ///< b T.
+  bool damped = false;  ///< k2 int(v).
+};
+
+/// The equations of all windows: rows of (int u, T, int v), as far as they are fitted, and the changes of velocity.
 struct Equations {
   Eigen::MatrixXd left;
   Eigen::VectorXd right;
@@ -35,7 +41,7 @@ std::vector<double> lagged(const AxisSeries& series, double lag_s) {
   return taken;
 }
 
-Equations equationsOf(const std::vector<AxisSeries>& flights, double lag_s, bool damped,
+Equations equationsOf(const std::vector<AxisSeries>& flights, double lag_s, Terms terms,
                       const AxisFitOptions& options) {
   std::vector<std::array<double, 4>> rows;
   for (const AxisSeries& series : flights) {
@@ -52,13 +58,14 @@ Equations equationsOf(const std::vector<AxisSeries>& flights, double lag_s, bool
     }
   }
   Equations equations;
-  equations.left.resize(static_cast<Eigen::Index>(rows.size()), damped ? 3 : 2);
+  const Eigen::Index damping_column = terms.offset ? 2 : 1;
+  equations.left.resize(static_cast<Eigen::Index>(rows.size()), damping_column + (terms.damped ? 1 : 0));
   equations.right.resize(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     equations.left(at, 0) = rows[i][0];
-    equations.left(at, 1) = rows[i][1];
-    if (damped) equations.left(at, 2) = rows[i][2];
+    if (terms.offset) equations.left(at, 1) = rows[i][1];
+    if (terms.damped) equations.left(at, damping_column) = rows[i][2];
     equations.right(at) = rows[i][3];
   }
   return equations;
@@ -109,7 +116,36 @@ double duration_s(const std::vector<AxisSeries>& flights) {
   return seconds;
 }
 
+/// The model of the lag with the least residual.
+AxisModel fitted(const std::vector<AxisSeries>& flights, Terms terms, const AxisFitOptions& options) {
+  Solution best;
+  AxisModel axis;
+  for (double lag_s = 0.0; lag_s <= options.longest_lag_s + 1e-9; lag_s += options.lag_step_s) {
+    const Solution solution = solved(equationsOf(flights, lag_s, terms, options));
+    if (!(solution.residual_square < best.residual_square)) continue;
+    best = solution;
+    axis.lag_s = lag_s;
+  }
+  if (best.parameters.size() == 0 || !best.parameters.allFinite()) return {};
+  axis.gain = best.parameters[0];
+  axis.gain_interval = best.intervals[0];
+  if (terms.offset) {
+    axis.offset = best.parameters[1];
+    axis.offset_interval = best.intervals[1];
+  }
+  if (terms.damped) {
+    axis.damping_1_s = best.parameters.tail<1>()(0);
+    axis.damping_interval_1_s = best.intervals.tail<1>()(0);
+  }
+  axis.residual = std::sqrt(best.residual_square) / options.window_s;
+  return axis;
+}
+
 }  // namespace
+
+bool lagIsAtBound(const AxisModel& axis, const AxisFitOptions& options) {
+  return axis.lag_s > options.longest_lag_s - 0.5 * options.lag_step_s;
+}
 
 tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flights, bool damped,
                                              const AxisFitOptions& options) {
@@ -117,26 +153,12 @@ tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flig
   if (flown_s < options.shortest_s)
     return tl::unexpected(
         fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, options.shortest_s));
-  Solution best;
-  double best_lag_s = 0.0;
-  for (double lag_s = 0.0; lag_s <= options.longest_lag_s + 1e-9; lag_s += options.lag_step_s) {
-    const Solution solution = solved(equationsOf(flights, lag_s, damped, options));
-    if (!(solution.residual_square < best.residual_square)) continue;
-    best = solution;
-    best_lag_s = lag_s;
-  }
-  AxisModel axis;
-  if (best.parameters.size() >= 2 && best.parameters.allFinite()) {
-    axis.gain = best.parameters[0];
-    axis.gain_interval = best.intervals[0];
-    axis.offset = best.parameters[1];
-    axis.offset_interval = best.intervals[1];
-    if (damped) {
-      axis.damping_1_s = best.parameters[2];
-      axis.damping_interval_1_s = best.intervals[2];
-    }
-    axis.lag_s = best_lag_s;
-    axis.residual = std::sqrt(best.residual_square) / options.window_s;
+  AxisModel axis = fitted(flights, {true, damped}, options);
+  if (std::abs(axis.offset) < axis.offset_interval) {
+    // A b that does not differ from 0 would only pull at the other values, and at the vehicle.
+    const double offset_interval = axis.offset_interval;
+    axis = fitted(flights, {false, damped}, options);
+    axis.offset_interval = offset_interval;
   }
   if (!(axis.gain_interval < options.widest_interval * std::abs(axis.gain)))
     return tl::unexpected(

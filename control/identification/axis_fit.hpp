@@ -30,11 +30,15 @@ struct AxisFitOptions {
 };
 
 /// Over each window T: v(t + T) - v(t) = k1 int(u) + k2 int(v) + b T, with u behind the lag of least residual. `damped`
-/// fits k2 (equation 2), otherwise it is 0 (equation 1). The intervals are of 95 %, and wider where the residuals of
+/// fits k2 (equation 2), otherwise it is 0 (equation 1). A b that does not differ from 0 is left out, and the rest is
+/// fitted without it; its interval stays. The intervals are of 95 %, and wider where the residuals of
 /// neighbouring windows are correlated. Fails, with the reason, for flights that are too short or that moved the
 /// command too little.
 tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flights, bool damped,
                                              const AxisFitOptions& options = {});
+
+/// Whether the residual was least at the longest lag that was tried: the lag may be longer, or cannot be told.
+bool lagIsAtBound(const AxisModel& axis, const AxisFitOptions& options = {});
 
 /// As fitAxis without damping for a rate that follows its command: angle(t + T) - angle(t) = k int(u) + b T.
 tl::expected<AxisModel, std::string> fitRate(const std::vector<AxisSeries>& flights,

@@ -5,6 +5,8 @@
 #include <functional>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "common/geometry.hpp"
 
 namespace swiftlet::control {
@@ -76,10 +78,11 @@ Identification identify(const std::vector<FlightSamples>& flights, const common:
   model.battery_capacity_ah = vehicle.battery_capacity_ah;
 
   const auto keep = [&](const char* name, const tl::expected<AxisModel, std::string>& fitted, AxisModel& axis) {
-    if (fitted)
-      axis = *fitted;
-    else
-      result.problems.push_back(std::string(name) + ": " + fitted.error());
+    if (!fitted) return result.problems.push_back(std::string(name) + ": " + fitted.error());
+    axis = *fitted;
+    if (lagIsAtBound(axis, options))
+      result.doubts.push_back(
+          fmt::format("{}: lag at its bound of {:g} s; fly with quicker changes of the command", name, axis.lag_s));
   };
   const auto both = [&](const char* name, const std::vector<AxisSeries>& series, AxisModel& axis, AxisModel& damped) {
     keep(name, fitAxis(series, false, options), axis);

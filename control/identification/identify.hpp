@@ -12,6 +12,7 @@ namespace swiftlet::control {
 struct Identification {
   VehicleModel model;                 ///< Its axes are those of equation 1; C(U) is in it if it was found.
   std::vector<std::string> problems;  ///< "forward: why it was not identified"; such an axis has the gain 0.
+  std::vector<std::string> doubts;    ///< "yaw: what of it was not told well", of axes that are used all the same.
   // The axes with damping, equation 2, for the report: whether k2 differs from 0.
   AxisModel damped_forward;
   AxisModel damped_left;

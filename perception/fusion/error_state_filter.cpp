@@ -118,8 +118,10 @@ ErrorStateFilter& ErrorStateFilter::operator=(ErrorStateFilter&&) noexcept = def
 void ErrorStateFilter::predict(const common::ImuSample& sample) {
   Impl& f = *impl_;
   const Time now = sample.stamps.measured;
+  const bool attitude_used = f.config.use_ahrs || f.predicted;
   const bool usable = sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&
-                      std::abs(sample.rotation_ahrs_body.norm() - 1.0) < 0.01 && (!f.any_seen || now > f.newest_seen);
+                      (!attitude_used || std::abs(sample.rotation_ahrs_body.norm() - 1.0) < 0.01) &&
+                      (!f.any_seen || now > f.newest_seen);
   if (!usable) {
     ++f.counters.imu_dropped;
     return;
@@ -141,6 +143,11 @@ tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m) {
   first.state = stateAtRest(f.config, *rest, f.newest_seen, height_m);
   f.history.start(first);
   return {};
+}
+
+std::optional<Eigen::Quaterniond> ErrorStateFilter::attitudeAtRest() const {
+  const auto rest = impl_->rest.estimate();
+  return rest ? std::optional(rest->rotation_level_body) : std::nullopt;
 }
 
 bool ErrorStateFilter::initialized() const { return !impl_->history.empty(); }
@@ -277,27 +284,35 @@ std::optional<VerticalState> ErrorStateFilter::verticalAt(Time time) const { ret
 
 PoseHistory ErrorStateFilter::poses(Time from, Time to) const { return impl_->history.poses(from, to); }
 
-FusionHealth ErrorStateFilter::health() const {
+FusionStatus ErrorStateFilter::status() const {
   Impl& f = *impl_;
-  if (f.history.empty()) return {FusionStatus::kNotInitialized, "not initialized"};
+  if (f.history.empty()) return FusionStatus::kNotInitialized;
+  if (f.history.diverged()) return FusionStatus::kDiverged;
   const Slot& newest = f.history.newest();
   const FilterState& s = newest.state;
-  if (f.history.diverged()) {
-    return {
-        FusionStatus::kDiverged,
-        fmt::format("diverged: speed {:.1f} m/s, velocity sigma {:.2f} m/s, {} forced recoveries",
-                    s.velocity_odom_m_s.norm(),
-                    std::sqrt(std::max(0.0, s.covariance.diagonal().segment<3>(kVelocity).maxCoeff())), s.recoveries)};
-  }
-  const double relative_age_s = (s.stamp - s.relative_gate.last_accepted).seconds();
-  const double height_age_s = (s.stamp - s.height_gate.last_accepted).seconds();
+  const bool recovered = s.recent_recoveries > 0 && (s.stamp - s.last_recovery).seconds() < f.config.recovery_window_s;
+  return f.horizontalFresh(newest) && f.verticalFresh(newest) && !recovered ? FusionStatus::kOk
+                                                                            : FusionStatus::kDegraded;
+}
+
+FusionHealth ErrorStateFilter::health() const {
+  Impl& f = *impl_;
+  const FusionStatus now = status();
+  if (now == FusionStatus::kNotInitialized) return {now, "not initialized"};
+  if (now == FusionStatus::kOk) return {now, ""};
+  const Slot& newest = f.history.newest();
+  const FilterState& s = newest.state;
+  if (now == FusionStatus::kDiverged)
+    return {now, fmt::format("diverged: speed {:.1f} m/s, velocity sigma {:.2f} m/s, {} forced recoveries",
+                             s.velocity_odom_m_s.norm(),
+                             std::sqrt(std::max(0.0, s.covariance.diagonal().segment<3>(kVelocity).maxCoeff())),
+                             s.recoveries)};
   if (!f.horizontalFresh(newest))
-    return {FusionStatus::kDegraded, fmt::format("no usable relative pose for {:.2f} s", relative_age_s)};
+    return {now,
+            fmt::format("no usable relative pose for {:.2f} s", (s.stamp - s.relative_gate.last_accepted).seconds())};
   if (!f.verticalFresh(newest))
-    return {FusionStatus::kDegraded, fmt::format("no usable height for {:.2f} s", height_age_s)};
-  if (s.recent_recoveries > 0 && (s.stamp - s.last_recovery).seconds() < f.config.recovery_window_s)
-    return {FusionStatus::kDegraded, fmt::format("gate forced open {} times", s.recent_recoveries)};
-  return {FusionStatus::kOk, ""};
+    return {now, fmt::format("no usable height for {:.2f} s", (s.stamp - s.height_gate.last_accepted).seconds())};
+  return {now, fmt::format("gate forced open {} times", s.recent_recoveries)};
 }
 
 FusionCounts ErrorStateFilter::counts() const {

@@ -27,6 +27,7 @@
 #include <string>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <tl/expected.hpp>
 
 #include "common/sensor_event.hpp"
@@ -46,7 +47,8 @@ class ErrorStateFilter {
   ErrorStateFilter(ErrorStateFilter&&) noexcept;
   ErrorStateFilter& operator=(ErrorStateFilter&&) noexcept;
 
-  /// The strapdown step to the sample's time. Before initialize() the samples are only collected.
+  /// The strapdown step to the sample's time. Before initialize() the samples are only collected. The attitude of the
+  /// AHRS may be missing (not finite) if FusionConfig::use_ahrs is false and the sample was measured.
   void predict(const common::ImuSample& sample);
 
   /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height. Roll, pitch and the gyroscope bias come
@@ -54,6 +56,8 @@ class ErrorStateFilter {
   /// Discards all earlier states and measurements.
   tl::expected<void, std::string> initialize(double height_m);
   bool initialized() const;
+  /// Roll and pitch by gravity over the last `rest_s` of samples, with the yaw zero; none while the vehicle moves.
+  std::optional<Eigen::Quaterniond> attitudeAtRest() const;
 
   /// While true, the vehicle is known to stand still: zero velocity and zero rotation are measured, from the next
   /// attitude update on.
@@ -110,6 +114,8 @@ class ErrorStateFilter {
   /// The poses that cover [from, to], as far as the history goes. For many queries, as when a scan is deskewed.
   PoseHistory poses(common::Time from, common::Time to) const;
 
+  /// The status alone allocates nothing.
+  FusionStatus status() const;
   FusionHealth health() const;
   FusionCounts counts() const;
 

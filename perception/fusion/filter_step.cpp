@@ -1,6 +1,7 @@
 #include "perception/fusion/filter_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/square.hpp"
 
@@ -14,6 +15,9 @@ namespace {
 
 /// Beyond this Mahalanobis distance the AHRS is trusted more than the filter.
 constexpr double kAhrsGate = 3.0;
+/// The vehicle's own acceleration, which is what the force differs from gravity by, lasts for about this long: that of
+/// the attitude loop and of the position loop of a small quadrotor.
+constexpr double kOwnAcceleration_s = 0.5;
 /// Across a longer gap between samples the specific force is unknown.
 constexpr double kLongestDragStep_s = 0.05;
 
@@ -61,7 +65,7 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
     apply(state, measurement);
   }
   advanceTo(now.imu.stamp);
-  if (config_.use_drag) accumulateDrag(state, before, now);
+  if (usesDrag()) accumulateDrag(state, before, now);
   applySlot(state, now);
   // Restores the symmetry that rounding errors destroy over many steps.
   state.covariance.triangularView<Eigen::StrictlyUpper>() = state.covariance.transpose();
@@ -130,11 +134,10 @@ void FilterStep::applySlot(FilterState& state, const Slot& s) const {
     update(state, upDirection(state, s.up_body, square(config_.predicted_tilt_sigma_deg * kRadPerDeg)));
   else if (config_.use_ahrs)
     updateByAhrs(state, s.up_body);
-  if (config_.use_drag) updateByDrag(state, s.accelerometer_noise_m_s2_rthz);
-  if (config_.use_gravity && !s.predicted) {
-    update(state,
-           gravity(state, s.imu.specific_force_body_m_s2, config_.gravity_m_s2, square(config_.gravity_sigma_m_s2)));
-  }
+  if (config_.use_gravity && !s.predicted)
+    updateByGravity(state, s);
+  else if (usesDrag())
+    updateByDrag(state, s.accelerometer_noise_m_s2_rthz);
   if (s.at_rest) {
     update(state, zeroVelocity(state, square(config_.zero_velocity_sigma_m_s)));
     update(state, zeroRotation(state, s.imu.angular_velocity_body_rad_s, square(config_.zero_rotation_sigma_rad_s)));
@@ -158,6 +161,17 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
     m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;
   }
   update(state, m);
+}
+
+/// A force of another size than gravity accelerates the vehicle. One of the same size may, too: its direction counts as
+/// that of gravity only in the mean over the vehicle's own motion, so that its noise is that of a slow process.
+void FilterStep::updateByGravity(FilterState& state, const Slot& s) const {
+  const Eigen::Vector3d force_m_s2 = s.imu.specific_force_body_m_s2;
+  const double excess_m_s2 = (force_m_s2 - state.accelerometer_bias_m_s2).norm() - config_.gravity_m_s2;
+  if (std::abs(excess_m_s2) > config_.gravity_gate_m_s2) return;
+  const double slow = s.at_rest ? 1.0 : 1.0 + 2.0 * kOwnAcceleration_s * config_.attitude_rate_hz;
+  const Linearized<3> m = gravity(state, force_m_s2, config_.gravity_m_s2, slow * square(config_.gravity_sigma_m_s2));
+  if (mahalanobis2(state, m) <= gateLimit2<3>(config_.gate_sigma)) update(state, m);
 }
 
 /// The ground also pushes a standing vehicle, so nothing is learned about drag at rest.

@@ -41,6 +41,9 @@ class FilterStep {
   void applySlot(FilterState& state, const Slot& slot) const;
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
   void accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const;
+  void updateByGravity(FilterState& state, const Slot& s) const;
+  /// The same force is not taken for gravity and for drag.
+  bool usesDrag() const { return config_.use_drag && !config_.use_gravity; }
   void updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const;
   template <int K>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;

@@ -19,6 +19,9 @@ struct Tell {
   void operator()(const TapedRelativePose& m) const {
     (void)filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unobservable_direction);
   }
+  void operator()(const TapedRelativePose3& m) const {
+    (void)filter.addRelativePose3(m.from, m.to, m.T_from_to, m.covariance);
+  }
   void operator()(const TapedHeight& m) const {
     (void)filter.addHeight(m.time, m.height_m, m.variance_m2, m.common_variance_m2);
   }
@@ -43,6 +46,15 @@ struct Print {
     return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {}\n", m.from.nanoseconds(), m.to.nanoseconds(),
                        m.T_from_to.x_m, m.T_from_to.y_m, m.T_from_to.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
                        c(1, 2), c(2, 2), m.unobservable_direction.has_value(), unobservable.x(), unobservable.y());
+  }
+  std::string operator()(const TapedRelativePose3& m) const {
+    const Eigen::Quaterniond& q = m.T_from_to.rotation;
+    const Eigen::Vector3d& p = m.T_from_to.position_m;
+    std::string line = fmt::format("pose3 {} {} {} {} {} {} {} {} {}", m.from.nanoseconds(), m.to.nanoseconds(), q.w(),
+                                   q.x(), q.y(), q.z(), p.x(), p.y(), p.z());
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column) line += fmt::format(" {}", m.covariance(row, column));
+    return line + "\n";
   }
   std::string operator()(const TapedHeight& m) const {
     return fmt::format("height {} {} {} {}\n", m.time.nanoseconds(), m.height_m, m.variance_m2, m.common_variance_m2);
@@ -101,6 +113,18 @@ TapedRelativePose poseOf(Numbers& n) {
   return m;
 }
 
+TapedRelativePose3 pose3Of(Numbers& n) {
+  TapedRelativePose3 m;
+  m.from = n.time();
+  m.to = n.time();
+  const double w = n.number(), x = n.number(), y = n.number(), z = n.number();
+  m.T_from_to.rotation = Eigen::Quaterniond(w, x, y, z);
+  for (int i = 0; i < 3; ++i) m.T_from_to.position_m[i] = n.number();
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) m.covariance(row, column) = m.covariance(column, row) = n.number();
+  return m;
+}
+
 /// One of the shorter inputs.
 FilterInput shortOf(std::string_view name, Numbers& n) {
   if (name == "start") return TapedStart{n.number()};
@@ -124,15 +148,16 @@ std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& wo
     std::string_view name;
     std::size_t numbers;
   };
-  constexpr Form kForms[] = {{"imu", 12},  {"start", 1}, {"rest", 1},   {"predicted", 1},
-                             {"clone", 1}, {"pose", 14}, {"height", 4}, {"climb", 3}};
+  constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1},   {"predicted", 1}, {"clone", 1},
+                             {"pose", 14}, {"pose3", 30}, {"height", 4}, {"climb", 3}};
   if (words.empty()) return std::nullopt;
   Numbers numbers(words);
   for (const Form& form : kForms) {
     if (words[0] != form.name || !numbers.are(form.numbers)) continue;
-    FilterInput input = form.name == "imu"    ? FilterInput(imuOf(numbers))
-                        : form.name == "pose" ? FilterInput(poseOf(numbers))
-                                              : shortOf(form.name, numbers);
+    FilterInput input = form.name == "imu"     ? FilterInput(imuOf(numbers))
+                        : form.name == "pose"  ? FilterInput(poseOf(numbers))
+                        : form.name == "pose3" ? FilterInput(pose3Of(numbers))
+                                               : shortOf(form.name, numbers);
     if (numbers.good()) return input;
   }
   return std::nullopt;

@@ -34,6 +34,12 @@ struct TapedRelativePose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::optional<Eigen::Vector2d> unobservable_direction;
 };
+/// Of a camera, in space.
+struct TapedRelativePose3 {
+  common::Time from, to;
+  common::Pose3 T_from_to;
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
 struct TapedHeight {
   common::Time time;
   double height_m = 0.0, variance_m2 = 0.0, common_variance_m2 = 0.0;
@@ -42,9 +48,8 @@ struct TapedClimb {
   common::Time time;
   double speed_m_s = 0.0, variance_m2_s2 = 0.0;
 };
-/// Relative poses in space, of a camera, are not taped: such flights are replayed without them.
 using FilterInput = std::variant<common::ImuSample, TapedStart, TapedRest, TapedPredicted, TapedClone,
-                                 TapedRelativePose, TapedHeight, TapedClimb>;
+                                 TapedRelativePose, TapedRelativePose3, TapedHeight, TapedClimb>;
 
 class FilterListener {
  public:

@@ -49,13 +49,19 @@ void FusionConfig::describe(common::config::Fields& fields) {
          "Random walk of the gyroscope's bias.");
   fields("accelerometer_bias_sigma_m_s2", accelerometer_bias_sigma_m_s2, kPositive,
          "Standard deviation of the accelerometer's bias at the start.");
-  fields("use_ahrs", use_ahrs, "Whether roll and pitch of the vehicle's own AHRS are measurements.");
+  fields("use_ahrs", use_ahrs,
+         "Whether roll and pitch of the vehicle's own AHRS are measurements. With false it may be missing: the filter "
+         "starts by gravity.");
   fields("ahrs_sigma_deg", ahrs_sigma_deg, {0.01, 30}, "Standard deviation of the AHRS's roll and pitch.");
   fields("ahrs_correlation_s", ahrs_correlation_s, {0, 600},
          "Correlation time of the AHRS's error; the noise is widened to match.");
-  fields("use_gravity", use_gravity, "Whether the specific force is taken for gravity, for vehicles without an AHRS.");
+  fields(
+      "use_gravity", use_gravity,
+      "Whether the specific force is taken for gravity, for vehicles without an AHRS; then it is not taken for drag.");
   fields("gravity_sigma_m_s2", gravity_sigma_m_s2, {0.01, 20},
          "Standard deviation of the specific force from gravity, by the vehicle's own acceleration.");
+  fields("gravity_gate_m_s2", gravity_gate_m_s2, kPositive,
+         "A specific force whose size differs from gravity by more is not taken for it.");
   fields("attitude_rate_hz", attitude_rate_hz, {0.1, 200},
          "Rate at which AHRS, gravity, drag and what is known at rest are used.");
   fields("use_drag", use_drag,

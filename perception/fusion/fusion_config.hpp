@@ -25,6 +25,7 @@ struct FusionConfig {
   double ahrs_correlation_s = 10.0;
   bool use_gravity = false;
   double gravity_sigma_m_s2 = 1.0;
+  double gravity_gate_m_s2 = 0.5;
   double attitude_rate_hz = 10.0;
   bool use_drag = true;
   double drag_1_s = 0.3;

@@ -138,6 +138,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
   const bool doubted = lost_test.doubtful();
   lost_test.add(support, elapsed_s);
   if (!lost_test.doubtful()) {
+    map_doubt.believe(tracker.path_length_m(), now);
     if (!local_map.empty()) forgetSearches();
     local_map.clear();
     return;
@@ -216,7 +217,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
-  if (!was_localized) map_doubt.add(config, found.places, found.task->path_length_m, now);
+  map_doubt.add(config, found.places, found.complete, found.task->path_length_m, now);
   if (found.places.empty() && !found.complete) {
     places = 0;
     fits_nowhere = false;
@@ -289,7 +290,6 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
   enter(LocalizationState::kLocalized, fmt::format("one place explains {:.0f} % of what was seen over {:.1f} m",
                                                    100.0 * place.explained, local_map.length_m()));
   was_localized = true;
-  map_doubt.reset();
   forgetAll();
 }
 
@@ -327,6 +327,7 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
   self.tracker.startAt({T_grid_body, common::turned(covariance, -self.T_map_grid.yaw_rad), 1.0});
   self.enter(LocalizationState::kLocalized, "given");
   self.was_localized = true;
+  self.map_doubt.reset();
   self.forgetAll();
 }
 

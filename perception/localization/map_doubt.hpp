@@ -15,26 +15,30 @@ namespace swiftlet::perception {
 
 /// Page's cumulative sum test (1954), as LostTest is, over metres of path: the path to each search counts against the
 /// map if no place fits, and for it if one is convincing. Rooms that look alike fit equally well, which counts neither
-/// way. A vehicle that hovers asks for no search, so nothing is counted. For a vehicle that has not been localized yet.
+/// way. A vehicle that hovers asks for no search, so nothing is counted. The path flown while the map explained what was
+/// seen counts for it as well: a vehicle that is lost afterwards must find no place for as long a path and more.
 class MapDoubt {
  public:
-  /// The places that a search found, the likeliest first, at that path length and time.
-  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, double path_length_m,
+  /// The places that a search found, the likeliest first, at that path length and time. `complete`: it was not given up
+  /// before all places were found.
+  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, bool complete, double path_length_m,
            common::Time now) {
     const double step_m = stepTo(path_length_m, now);
+    // A search that was given up before it found any place says nothing.
+    if (places.empty() && !complete) return;
     // If nothing comes near, that says more than a place that almost fits.
-    if (places.empty()) {
-      against_m_ += 2.0 * step_m;
-    } else {
-      // A single place among few that were found is probable, too, when it hardly fits.
-      const bool convincing = places.front().probability >= config.convincing_probability;
-      if (places.front().fit < (convincing ? config.misfitting : config.fitting))
-        against_m_ += step_m;
-      else if (convincing)
-        against_m_ -= step_m;
-    }
-    against_m_ = std::clamp(against_m_, 0.0, config.refuted_after_m);
-    refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
+    if (places.empty()) return count(config, 2.0 * step_m);
+    // A single place among few that were found is probable, too, when it hardly fits.
+    const bool probable = places.front().probability >= config.convincing_probability;
+    if (places.front().fit < (probable ? config.misfitting : config.fitting))
+      count(config, step_m);
+    else if (probable && complete)
+      count(config, -step_m);
+  }
+  /// The vehicle was localized on its path so far, and the map explained what was seen.
+  void believe(double path_length_m, common::Time now) {
+    if (last_) against_m_ -= std::max(0.0, path_length_m - last_->path_length_m);
+    last_ = Search{path_length_m, now};
   }
   void reset() { *this = {}; }
   /// From the moment when all is against the map, until nothing is.
@@ -45,6 +49,13 @@ class MapDoubt {
     double path_length_m = 0.0;
     common::Time at;
   };
+
+  void count(const LocalizerConfig& config, double against_m) {
+    // Searches alone never count for more than nothing, but they take nothing of the path on which it was believed.
+    const double least_m = std::min(against_m_, 0.0);
+    against_m_ = std::clamp(against_m_ + against_m, least_m, config.refuted_after_m);
+    refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
+  }
 
   /// The path since the last search. It counts for more if the vehicle was slow, in narrow rooms for example, because
   /// it looked around meanwhile: so the time is bounded, too. When searches have become rare, a single one must not
@@ -57,7 +68,9 @@ class MapDoubt {
     return std::clamp(std::max(path_length_m - before.path_length_m, slow_m), 0.0, kMost_m);
   }
 
-  double against_m_ = 0.0;  ///< Path over which no place fitted, in excess of that over which one did.
+  /// Path over which no place fitted, in excess of that over which one did; negative after a path on which the map was
+  /// believed.
+  double against_m_ = 0.0;
   std::optional<Search> last_;
   bool refuted_ = false;
 };

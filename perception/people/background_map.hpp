@@ -5,10 +5,18 @@
 #include <deque>
 #include <memory>
 
+#include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::perception {
+
+/// A map that was made before the flight, as long as the vehicle knows its place in it: what is occupied there is no
+/// person.
+struct GivenBackground {
+  std::shared_ptr<const common::OccupancyGrid> grid;
+  common::Pose2 T_grid_map;
+};
 
 /// A history of maps. Not thread-safe.
 class BackgroundMap {

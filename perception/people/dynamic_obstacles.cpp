@@ -37,6 +37,13 @@ bool revealed(const common::OccupancyGrid& background, const Point& point_m, con
   return false;
 }
 
+bool isGiven(const GivenBackground* given, const Point& point_map_m, double within_m) {
+  if (given == nullptr) return false;
+  const common::OccupancyGrid& grid = *given->grid;
+  const int cells = static_cast<int>(std::lround(within_m / grid.resolution_m()));
+  return common::occupiedNear(grid, grid.cellAt(given->T_grid_map * point_map_m), cells);
+}
+
 /// What the beams beside a cluster of end points show, in order of bearing.
 enum class Beside {
   kBehind,   ///< They end well behind it, or return nothing: it ends there.
@@ -116,7 +123,8 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
 DynamicObstacles::DynamicObstacles(const Config& config) : config_(config) {}
 
 std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoints& scan,
-                                                                 const common::OccupancyGrid& background) const {
+                                                                 const common::OccupancyGrid& background,
+                                                                 const GivenBackground* given) const {
   const std::vector<Eigen::Vector2f>& points_map_m = scan.points_map_m;
   const Point& sensor_map_m = scan.from_map_m;
   const int cells = static_cast<int>(std::lround(config_.explained_within_m / background.resolution_m()));
@@ -154,6 +162,7 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoint
     if ((p - sensor_map_m).norm() > config_.max_range_m) continue;
     const bool is_free = unexplained(background, p, cells);
     if (!is_free && !revealed(background, p, sensor_map_m, cells)) continue;
+    if (isGiven(given, p, config_.explained_within_m)) continue;
     if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
     top_m = members.empty() ? scan.above_body_m[i] : std::max(top_m, scan.above_body_m[i]);
     if (members.empty()) first = i;
@@ -182,7 +191,8 @@ DynamicObstacles::Track* DynamicObstacles::nearestFree(const Cluster& seen, comm
   return nearest;
 }
 
-void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background) {
+void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background,
+                              const GivenBackground* given) {
   const auto reached = [&](const Cluster& seen) {
     return seen.top_above_body_m >= config_.reaches_m ? std::optional(stamp) : std::nullopt;
   };
@@ -190,7 +200,7 @@ void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const 
   const std::size_t known = tracks_.size();
   std::vector<bool> taken(known, false);
   std::vector<Track> fresh;
-  for (const Cluster& seen : cluster(scan, background)) {
+  for (const Cluster& seen : cluster(scan, background, given)) {
     Track* const track = nearestFree(seen, stamp, tracks_, taken);
     if (track == nullptr) {
       fresh.push_back({{next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, stamp},

@@ -13,6 +13,7 @@
 #include "common/dynamic_obstacle.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
+#include "perception/people/background_map.hpp"
 
 namespace swiftlet::perception {
 
@@ -53,7 +54,8 @@ class DynamicObstacles {
   /// Takes in one scan. A point is unexplained when it lies in space that the background knows as free, with nothing
   /// occupied or unknown near. A point in unknown space is new, not dynamic, unless it is on a thing that stands by
   /// itself behind a place from which something has gone: a person who walks straight away from the laser.
-  void update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background);
+  void update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background,
+              const GivenBackground* given = nullptr);
 
   /// The current obstacles, by id.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_; }
@@ -68,7 +70,8 @@ class DynamicObstacles {
     double radius_m;
     double top_above_body_m;
   };
-  std::vector<Cluster> cluster(const SeenPoints& scan, const common::OccupancyGrid& background) const;
+  std::vector<Cluster> cluster(const SeenPoints& scan, const common::OccupancyGrid& background,
+                               const GivenBackground* given) const;
   /// An obstacle and the evidence for its motion.
   struct Track {
     common::DynamicObstacle obstacle;

@@ -30,7 +30,8 @@ PeopleTracker::PeopleTracker(const Config& config, const HeightBand& band)
     : band_(band), background_(common::Duration::fromSeconds(config.background_age_s)), obstacles_(config) {}
 
 void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, const Pose2& T_map_odom,
-                           std::shared_ptr<const common::OccupancyGrid> grid) {
+                           std::shared_ptr<const common::OccupancyGrid> grid,
+                           const std::optional<GivenBackground>& given) {
   // Scans placed in the corrected map cannot be compared with the maps before the correction.
   const Pose2 jump = T_map_odom_.inverse() * T_map_odom;
   if (jump.position_m().norm() > kCorrected_m || std::abs(jump.yaw_rad) > kCorrected_rad) background_.restart();
@@ -49,7 +50,8 @@ void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, c
         in_band ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())
                 : Eigen::Vector2f(kNowhere, kNowhere));
   }
-  if (const auto background = background_.at(scan.stamp)) obstacles_.update(scan.stamp, seen_, *background);
+  if (const auto background = background_.at(scan.stamp))
+    obstacles_.update(scan.stamp, seen_, *background, given ? &*given : nullptr);
 }
 
 std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {

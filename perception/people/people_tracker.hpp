@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,9 +35,10 @@ class PeopleTracker {
   PeopleTracker(const Config& config, const HeightBand& band);
 
   /// Takes in a scan at its pose in the map. `grid` is the map that includes this scan. When `T_map_odom` jumps, the
-  /// whole map was corrected, and the history of the background restarts.
+  /// whole map was corrected, and the history of the background restarts. `given` is part of the background, too.
   void update(const ProjectedScan& scan, const common::Pose2& T_map_body, const common::Pose2& T_map_odom,
-              std::shared_ptr<const common::OccupancyGrid> grid);
+              std::shared_ptr<const common::OccupancyGrid> grid,
+              const std::optional<GivenBackground>& given = std::nullopt);
 
   /// The current obstacles, each as at its last sighting.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_.obstacles(); }

@@ -2,12 +2,14 @@
 // measures the inner loop alone.
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <variant>
 
 #include <gtest/gtest.h>
 
 #include "autonomy/estimator.hpp"
+#include "autonomy/inertial_input.hpp"
 #include "common/config.hpp"
 #include "control/flight_controller.hpp"
 #include "tests/control/controller_fixtures.hpp"
@@ -22,8 +24,12 @@ using common::Time;
 struct Loop {
   explicit Loop(int seed, bool table = false) : Loop(scenario(seed), table) {}
   explicit Loop(const simulation::Scenario& scenario, bool table = false,
-                const control::FlightController::Config& config = {}, const control::VehicleModel* model = nullptr)
-      : vehicle(room(table), scenario), controller(config, scenario.vehicle, model) {}
+                const control::FlightController::Config& config = {}, const control::VehicleModel* model = nullptr,
+                const autonomy::EstimatorConfig& estimation = {})
+      : vehicle(room(table), scenario),
+        estimator(estimation, Loop::scenario(1).laser, Loop::scenario(1).vehicle, nullptr, *jobs),
+        controller(config, scenario.vehicle, model),
+        has_ahrs(estimation.fusion.use_ahrs) {}
 
   static simulation::WorldModel room(bool table) {
     simulation::WorldModel world = simulation::boxRoom();
@@ -46,8 +52,10 @@ struct Loop {
 
   simulation::SimulatedVehicle vehicle;
   std::unique_ptr<common::JobRunner> jobs = common::makeLockstepJobs(0);
-  autonomy::Estimator estimator{{}, scenario(1).laser, scenario(1).vehicle, nullptr, *jobs};
+  autonomy::Estimator estimator;
+  autonomy::InertialInput inertial{{}, control::PositionController::Config{}.attitude_lag_s};
   control::FlightController controller;
+  bool has_ahrs;
   double battery_v = 0;
   std::optional<control::RawHeight> raw_height;
   std::vector<common::SensorEvent> events;
@@ -60,7 +68,9 @@ struct Loop {
     if (!vehicle.advanceTo(vehicle.now() + common::Duration::fromMilliseconds(10), events)) return false;
     for (const auto& event : events) {
       if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
-        estimator.addImu(*imu);
+        common::ImuSample sample = *imu;
+        if (!has_ahrs) sample.rotation_ahrs_body.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
+        if (const auto used = inertial.take(estimator.withAttitude(sample))) estimator.addImu(*used);
       } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
         const auto outcome = estimator.addScan(**scan, vehicle.now());
         if (outcome && outcome->raw_height) raw_height = outcome->raw_height;
@@ -81,7 +91,10 @@ struct Loop {
     tick.battery_v = battery_v;
     tick.acceleration_odom_m_s2 = estimator.accelerationOdom_m_s2();
     tick.fusion_diverged = estimator.health().status == perception::FusionStatus::kDiverged;
-    vehicle.apply(controller.tick(tick));
+    const common::Setpoint setpoint = controller.tick(tick);
+    inertial.flown(setpoint, {airborne, !airborne || tick.state.height_above_ground_m < 0.5, true,
+                              setpoint.thrust / controller.thrust().hoverCommand()});
+    vehicle.apply(setpoint);
     if (controller.state() == FlightState::kFlying) {
       const auto truth = T_map_body();
       estimate2_m2 += (tick.state.T_odom_body.position_m - truth.position_m).squaredNorm();
@@ -157,6 +170,41 @@ TEST(ClosedLoop, TheControllersOfThePapersHoverAndFlyACornerOnSimulatedSensors) 
   for (const ControllerKind kind :
        {ControllerKind::kCascadedPid, ControllerKind::kVoltagePid, ControllerKind::kLqr, ControllerKind::kSlidingMode})
     EXPECT_LT(hoverAndCorner_m(kind), 0.06) << toString(kind);
+}
+
+/// The simulated autopilot holds roll and pitch by its own gyroscopes and accelerometers, as a real one does.
+TEST(ClosedLoop, WithoutAnAhrsItStartsByGravityAndFliesACorner) {
+  for (const bool gravity : {true, false}) {
+    autonomy::EstimatorConfig estimation;
+    estimation.fusion.use_ahrs = false;
+    estimation.fusion.use_gravity = gravity;
+    Loop loop(Loop::scenario(gravity ? 7 : 8), false, {}, nullptr, estimation);
+    ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
+    ASSERT_TRUE(loop.controller.follow({{{0, 0, 1}, {2, 0, 1}, {2, -2, 1}}, common::FlightMode::kFast, 0.8}));
+    ASSERT_TRUE(loop.until([&] { return loop.controller.pathFinished(); }, 30.0)) << loop.vehicle.stopReason();
+    loop.until([] { return false; }, 10.0);
+    EXPECT_LT((loop.T_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15);
+    const auto tilt = common::rollPitchYaw(loop.estimator.state().T_odom_body.rotation);
+    const auto truth = common::rollPitchYaw(loop.T_map_body().rotation);
+    std::printf("%s: estimate %.3f m, %.3f m/s RMS, roll off by %.2f deg, pitch by %.2f deg\n",
+                gravity ? "gravity" : "drag", std::sqrt(loop.estimate2_m2 / loop.ticks),
+                std::sqrt(loop.velocity2 / loop.ticks), (tilt.roll_rad - truth.roll_rad) / common::kRadPerDeg,
+                (tilt.pitch_rad - truth.pitch_rad) / common::kRadPerDeg);
+    EXPECT_LT(std::sqrt(loop.velocity2 / loop.ticks), 0.06);
+    EXPECT_LT(std::abs(tilt.roll_rad - truth.roll_rad), 2.0 * common::kRadPerDeg);
+    EXPECT_LT(std::abs(tilt.pitch_rad - truth.pitch_rad), 2.0 * common::kRadPerDeg);
+    EXPECT_EQ(loop.estimator.health().status, perception::FusionStatus::kOk) << loop.estimator.health().reason;
+    EXPECT_TRUE(loop.inertial.takeEvents().empty()) << "samples were replaced";
+  }
+}
+
+TEST(ClosedLoop, SaysWhyItDoesNotStartWithoutTheAhrsThatItExpects) {
+  Loop loop(9);
+  loop.has_ahrs = false;
+  loop.until([] { return false; }, 2.0);
+  std::string said;
+  for (const common::Event& event : loop.estimator.takeEvents()) said += event.text + ": " + event.reason + "\n";
+  EXPECT_NE(said.find("use_ahrs"), std::string::npos) << said;
 }
 
 double greatestTiltOfAHover_deg(const simulation::Scenario& scenario) {

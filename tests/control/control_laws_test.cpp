@@ -1,5 +1,7 @@
 // Each law against its equation, and what the controllers share.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -127,6 +129,17 @@ TEST(Lqr, ItsGainsAreThoseOfTheLeastCost) {
     }
 }
 
+TEST(Lqr, WithoutGainsThereIsNoController) {
+  const VehicleModel model = sheetModel();
+  EXPECT_THAT(Lqr::problemsOf({}, model), IsEmpty());
+  ControllerChoiceConfig choice;
+  choice.lqr.vertical_integral_m_s = 0.0;
+  choice.lqr.vertical_position_m = 1e5;  // A mode of minutes.
+  choice.lqr.vertical_speed_m_s = 0.0;
+  EXPECT_THAT(Lqr::problemsOf(choice.lqr, model), ElementsAre(HasSubstr("up: the Riccati equation does not converge")));
+  EXPECT_EQ(makeController(ControllerKind::kLqr, choice, {}, {}, &model), nullptr);
+}
+
 TEST(Lqr, SolvesTheModelForItsCommands) {
   Bench bench;
   VehicleModel model = sheetModel();
@@ -155,6 +168,109 @@ TEST(SlidingMode, ReachesTheSurfaceAndStaysThere) {
   }
   EXPECT_NEAR(position_m, 0.0, 1e-3);
   EXPECT_NEAR(controller.trim_odom_m_s2(bench.thrust).x(), 0.5, 0.01);
+}
+
+// u0 = Kp e + Kd de/dt, sigma = de/dt - de/dt(0) + int(u0), u = u0 + rho sat(sigma / boundary) - d (Utkin and Shi 1996;
+// Tomic 2012, "Action"), for a vehicle held by hand, whose errors stay.
+TEST(SlidingMode, IsItsLawStepByStep) {
+  Bench bench;
+  SlidingMode controller({.horizontal_p_1_s2 = 2.0,
+                          .horizontal_d_1_s = 1.5,
+                          .vertical_p_1_s2 = 0.0,
+                          .vertical_d_1_s = 0.0,
+                          .switching_m_s2 = 0.8,
+                          .boundary_m_s = 0.5},
+                         bench.limits, bench.vehicle);
+  bench.input.state.T_odom_body.position_m.x() = -0.1;
+  bench.input.state.velocity_odom_m_s.x() = 0.05;
+  const double nominal_m_s2 = 2.0 * 0.1 + 1.5 * -0.05;
+  double integral_m_s = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double wanted_m_s2 = nominal_m_s2 + 0.8 * std::clamp(integral_m_s / 0.5, -1.0, 1.0);
+    ASSERT_NEAR(std::tan(controller.tick(bench.input, bench.thrust).pitch_rad), wanted_m_s2 / common::kGravity_m_s2,
+                1e-9)
+        << "step " << i;
+    integral_m_s = std::min(integral_m_s + 0.01 * nominal_m_s2, 0.5);
+  }
+  EXPECT_NEAR(integral_m_s, 0.5, 1e-12) << "the boundary was reached, and the saturation with it";
+}
+
+// Time-delay estimation: d follows, behind its filter, what is measured less what the commands explain.
+TEST(SlidingMode, ItsDisturbanceIsWhatTheCommandsDoNotExplain) {
+  Bench bench;
+  bench.input.acceleration_odom_m_s2 = Eigen::Vector3d(-0.3, 0.0, 0.0);
+  SlidingMode controller(
+      {.horizontal_p_1_s2 = 0.0, .horizontal_d_1_s = 0.0, .disturbance_filter_s = 0.5, .attitude_lag_s = 0.2},
+      bench.limits, bench.vehicle);
+  double disturbance_m_s2 = 0.0, taken_up_m_s2 = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double given_m_s2 = -disturbance_m_s2;
+    ASSERT_NEAR(std::tan(controller.tick(bench.input, bench.thrust).pitch_rad), given_m_s2 / common::kGravity_m_s2,
+                1e-9)
+        << "step " << i;
+    taken_up_m_s2 += (1.0 - std::exp(-0.01 / 0.2)) * (given_m_s2 - taken_up_m_s2);
+    disturbance_m_s2 += (1.0 - std::exp(-0.01 / 0.5)) * (-0.3 - taken_up_m_s2 - disturbance_m_s2);
+  }
+  EXPECT_LT(disturbance_m_s2, -0.3);
+}
+
+// In a steady wind the accelerometer measures nothing, and the trim that was taken over is what holds the vehicle.
+TEST(SlidingMode, ATrimThatWasTakenOverStaysInASteadyWind) {
+  Bench bench;
+  bench.input.acceleration_odom_m_s2 = Eigen::Vector3d::Zero();
+  SlidingMode controller({}, bench.limits, bench.vehicle);
+  const Eigen::Vector3d trim_m_s2(0.8, -0.5, 0.0);
+  controller.setTrim(trim_m_s2, bench.thrust);
+  for (int i = 0; i < 100; ++i) {
+    (void)controller.tick(bench.input, bench.thrust);
+    ASSERT_LT((controller.trim_odom_m_s2(bench.thrust) - trim_m_s2).norm(), 0.01 * trim_m_s2.norm())
+        << "after " << 0.01 * (i + 1) << " s";
+  }
+}
+
+// a = Kp e + Ki int(e) + Kd de/dt, with an integral that stops at its limit.
+TEST(CascadedPid, ItsIntegralGrowsWithTheErrorUpToItsLimit) {
+  Bench bench;
+  bench.limits.max_integral_m_s2 = 0.3;
+  bench.input.reference.position_odom_m = {0.1, 0.0, 1.0};
+  CascadedPid pid({.horizontal_p_1_s2 = 0.0, .horizontal_i_1_s3 = 2.0, .horizontal_d_1_s = 0.0}, bench.limits,
+                  bench.vehicle);
+  for (int i = 0; i < 300; ++i) {
+    const double integral_m_s2 = std::min(2.0 * 0.1 * 0.01 * i, 0.3);
+    ASSERT_NEAR(std::tan(pid.tick(bench.input, bench.thrust).pitch_rad), integral_m_s2 / common::kGravity_m_s2, 1e-9)
+        << "step " << i;
+  }
+}
+
+TEST(CascadedPid, ItsHeadingTurnsRollAndPitch) {
+  Bench bench;
+  bench.input.state.T_odom_body.rotation = common::quaternionFrom({0.0, 0.0, 0.5 * std::numbers::pi});
+  bench.input.reference.yaw_odom_rad = 0.5 * std::numbers::pi + 0.1;
+  bench.input.reference.position_odom_m = {0.1, 0.0, 1.0};
+  CascadedPid pid({.horizontal_p_1_s2 = 3, .horizontal_i_1_s3 = 0, .horizontal_d_1_s = 0, .yaw_p_1_s = 1.5},
+                  bench.limits, bench.vehicle);
+  const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
+  // What lies along x of odom is to the right of a vehicle that looks along y.
+  EXPECT_NEAR(setpoint.pitch_rad, 0.0, 1e-9);
+  EXPECT_NEAR(std::tan(setpoint.roll_rad), 3 * 0.1 / common::kGravity_m_s2, 1e-3);
+  EXPECT_NEAR(setpoint.yaw_rate_rad_s, 1.5 * 0.1, 1e-9);
+}
+
+// For the single integrator of the yaw the Riccati equation leaves K = sqrt(q / r), the yaw rate over the yaw of
+// Bryson's rule; equation 1 is solved for the command.
+TEST(Lqr, TurnsByItsYawGainThroughTheModelOfTheYaw) {
+  Bench bench;
+  bench.input.reference.yaw_odom_rad = 0.1;
+  VehicleModel model = sheetModel();
+  model.yaw.gain = 0.8;
+  model.yaw.offset = 0.02;
+  Lqr::Config config;
+  config.yaw_rad = 0.25;
+  config.yaw_rate_rad_s = 0.5;
+  Lqr lqr(config, bench.limits, bench.vehicle, model);
+  EXPECT_NEAR(lqr.tick(bench.input, bench.thrust).yaw_rate_rad_s, (0.5 / 0.25 * 0.1 - 0.02) / 0.8, 1e-9);
+  bench.input.on_ground = true;
+  EXPECT_EQ(lqr.tick(bench.input, bench.thrust).yaw_rate_rad_s, 0.0);
 }
 
 TEST(Controllers, ATrimIsTakenOverWhole) {

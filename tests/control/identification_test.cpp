@@ -96,6 +96,47 @@ TEST(Identify, WhatItFoundFliesAnotherFlightWithAnLqr) {
   EXPECT_LT(rms.worst_vertical_m, 0.06);
 }
 
+/// An angle whose rate is `gain` times its command behind a lag, and `offset`.
+AxisSeries turnsWith(double gain, double lag_s, double offset) {
+  common::RandomStream random(5, "turns");
+  AxisSeries series;
+  double taken = 0.0, angle_rad = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    const double command = 0.4 * std::sin(0.013 * i) + (i / 400 % 2 == 0 ? 0.3 : -0.3);
+    taken += (1.0 - std::exp(-series.period_s / std::max(lag_s, 1e-6))) * (command - taken);
+    angle_rad += series.period_s * (gain * taken + offset);
+    series.command.push_back(command);
+    series.velocity.push_back(angle_rad + random.gaussian(0.002));
+  }
+  return series;
+}
+
+TEST(FitRate, LeavesOutAnOffsetThatDoesNotDifferFromZero) {
+  const auto without = fitRate({turnsWith(0.9, 0.1, 0.0)});
+  ASSERT_TRUE(without) << without.error();
+  EXPECT_EQ(without->offset, 0.0);
+  EXPECT_GT(without->offset_interval, 0.0);
+  EXPECT_NEAR(without->gain, 0.9, 0.01);
+  EXPECT_FALSE(lagIsAtBound(*without));
+  const auto with = fitRate({turnsWith(0.9, 0.1, 0.05)});
+  ASSERT_TRUE(with);
+  EXPECT_NEAR(with->offset, 0.05, 0.01);
+}
+
+TEST(FitRate, ALagBeyondTheSearchIsSeenAtItsBound) {
+  const auto slow = fitRate({turnsWith(0.9, 0.8, 0.0)});
+  ASSERT_TRUE(slow);
+  EXPECT_TRUE(lagIsAtBound(*slow));
+}
+
+TEST(Identify, SaysThatALagIsAtItsBound) {
+  AxisFitOptions options;
+  options.longest_lag_s = 0.05;
+  EXPECT_THAT(identify({flightOf(1, 60)}, {}, options).doubts,
+              Contains(HasSubstr("forward: lag at its bound of 0.05 s")));
+  EXPECT_THAT(identify({flightOf(1, 60)}, {}).doubts, testing::Not(Contains(HasSubstr("forward"))));
+}
+
 TEST(Identify, SaysWhatIsTooShortOrMovesTooLittle) {
   const Identification short_one = identify({flightOf(4, 8)}, {});
   EXPECT_THAT(short_one.problems, Contains(HasSubstr("forward: ")));

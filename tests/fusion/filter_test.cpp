@@ -88,6 +88,28 @@ TEST(ErrorStateFilter, StartsLevelWithItsGyroscopeBiasEstimated) {
   EXPECT_EQ(filter.state().T_odom_body.position_m, Eigen::Vector3d(0, 0, 0.15));
 }
 
+TEST(ErrorStateFilter, StartsWithoutAnAhrsAndTakesAForceForGravityOrForDragButNotForBoth) {
+  SyntheticFlight flight(5, 8.0);
+  auto imu = flight.imuSamples();
+  for (auto& sample : imu) sample.rotation_ahrs_body.coeffs().setConstant(std::nan(""));
+  const auto deliveries = flight.deliveries();
+  ErrorStateFilter::Config with_drag;
+  with_drag.use_ahrs = false;
+  with_drag.use_gravity = true;
+  ErrorStateFilter::Config without_drag = with_drag;
+  without_drag.use_drag = false;
+  ErrorStateFilter a(with_drag), b(without_drag), dropped({});
+  feed(a, imu, deliveries, flight.restUntil());
+  feed(b, imu, deliveries, flight.restUntil());
+  ASSERT_TRUE(a.initialized());
+  expectSameState(a, b, 0.0);
+  const common::Pose3 truth = flight.motion.pose(8.0);
+  EXPECT_LT((a.state().T_odom_body.position_m - truth.position_m).norm(), 0.1);
+  EXPECT_LT(common::logSO3(truth.rotation.conjugate() * a.state().T_odom_body.rotation).head<2>().norm(), 0.03);
+  for (const auto& sample : imu) dropped.predict(sample);
+  EXPECT_EQ(dropped.counts().imu_dropped, imu.size()) << "with an AHRS a sample without attitude is a bad one";
+}
+
 TEST(ErrorStateFilter, RefusesToStartWhileMoving) {
   SyntheticFlight flight(6, 6.0);
   ErrorStateFilter filter(withoutDrag());

@@ -93,6 +93,7 @@ struct CaseResult {
   int wrong = 0, noticed = 0;
   int alarms = 0, false_alarms = 0;  ///< Times it reported to be lost, and how often the pose was right then.
   double worst_delay_s = 0.0;
+  bool refuted = false;  ///< The map was called that of another place.
   int scans = 0, localized = 0, falsely_localized = 0;  ///< Numbers of scans. The last one counts those with a wrong
                                                         ///< pose that was accepted for longer than kNotice_s.
   std::vector<double> error_m;                          ///< Position errors while localized and not wrong.
@@ -176,6 +177,7 @@ class LostCase {
     const bool wrong_before = T_map_odom_ && isWrong(*T_map_odom_ * T_odom_body);
     wrong_ = believed && isWrong(estimate.T_map_body);
     ++result_.scans;
+    result_.refuted |= estimate.refuted;
     result_.localized += believed ? 1 : 0;
     if (estimate.event)
       result_.story.push_back(std::to_string(t).substr(0, 5) + " s " + toString(estimate.event->state) + ": " +

@@ -10,10 +10,20 @@ class MapDoubtStory : public testing::Test {
  protected:
   /// A search `step_m` farther along the path, and the best of the places it found.
   void search(double step_m, double fit, double probability) { search(step_m, {{{}, fit, 0.0, probability, 0.0}}); }
-  void search(double step_m, const std::vector<LikelyPlace>& places) {
+  void search(double step_m, const std::vector<LikelyPlace>& places) { add(step_m, places, true); }
+  void searchGivenUp(double step_m, const std::vector<LikelyPlace>& places) { add(step_m, places, false); }
+  void add(double step_m, const std::vector<LikelyPlace>& places, bool complete) {
+    move(step_m);
+    doubt_.add(config_, places, complete, path_length_m_, now_);
+  }
+  /// Flies on while the map explains what is seen.
+  void believe(double step_m) {
+    move(step_m);
+    doubt_.believe(path_length_m_, now_);
+  }
+  void move(double step_m) {
     path_length_m_ += step_m;
     now_ += common::Duration::fromSeconds(step_m / speed_m_s_);
-    doubt_.add(config_, places, path_length_m_, now_);
   }
 
   LocalizerConfig config_;
@@ -36,6 +46,39 @@ TEST_F(MapDoubtStory, NothingThatComesNearCountsTwice) {
   EXPECT_FALSE(doubt_.refuted());
   search(0.5, {});
   EXPECT_TRUE(doubt_.refuted());
+}
+
+TEST_F(MapDoubtStory, ASearchThatWasGivenUpSaysNothing) {
+  for (int i = 0; i < 100; ++i) searchGivenUp(0.5, {});
+  EXPECT_FALSE(doubt_.refuted()) << "more places fit than can be told apart";
+  search(0.5, {});
+  EXPECT_FALSE(doubt_.refuted()) << "the path to searches that were given up is not that of the next one";
+}
+
+TEST_F(MapDoubtStory, APlaceOfASearchThatWasGivenUpConvincesNobody) {
+  search(0.0, 0.6, 0.3);
+  for (int i = 0; i < 5; ++i) search(0.5, 0.6, 0.3);
+  for (int i = 0; i < 20; ++i) searchGivenUp(0.5, {{{}, 0.8, 0.0, 1.0, 0.0}});
+  EXPECT_TRUE(doubt_.refuted()) << "other places may be as good";
+}
+
+TEST_F(MapDoubtStory, AMapThatWasBelievedIsRefutedByAsLongAPathAndMore) {
+  believe(0.0);
+  for (int i = 0; i < 20; ++i) believe(0.2);
+  for (int i = 0; i < 12; ++i) search(0.5, 0.6, 0.3);
+  EXPECT_FALSE(doubt_.refuted()) << "6 m against it, 4 m for it";
+  for (int i = 0; i < 2; ++i) search(0.5, 0.6, 0.3);
+  EXPECT_TRUE(doubt_.refuted());
+  for (int i = 0; i < 5; ++i) search(0.5, 0.8, 0.99);
+  EXPECT_FALSE(doubt_.refuted()) << "it is believed again like any other";
+}
+
+TEST_F(MapDoubtStory, ConvincingSearchesTakeNothingOfThePathOnWhichItWasBelieved) {
+  believe(0.0);
+  believe(4.0);
+  for (int i = 0; i < 4; ++i) search(0.5, 0.8, 0.99);
+  for (int i = 0; i < 12; ++i) search(0.5, 0.6, 0.3);
+  EXPECT_FALSE(doubt_.refuted());
 }
 
 TEST_F(MapDoubtStory, ASlowVehicleNeedsTenSeconds) {

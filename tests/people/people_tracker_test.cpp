@@ -57,6 +57,27 @@ TEST_F(People, AWalkerIsTrackedInTheMapAndPredictedToTheNextScan) {
   EXPECT_TRUE(expected[0].covers(Point(5.1, 5.75))) << "the side that faces the laser";
 }
 
+TEST_F(People, WhatTheGivenMapHasIsNoPerson) {
+  // A pillar that the flight's own map does not have, in a given map whose frame is turned and shifted.
+  const Pose2 T_grid_map{3.0, -1.0, 0.7};
+  auto pillar = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  for (double x = -0.25; x <= 0.25; x += 0.02)
+    for (double y = -0.25; y <= 0.25; y += 0.02)
+      pillar->set(pillar->cellAt(T_grid_map * Point(5.0 + x, 6.0 + y)), common::occupancy::kMaxSteps);
+  const auto seen = [&](const std::optional<GivenBackground>& given) {
+    PeopleTracker with{PeopleTracker::Config(), HeightBand{}};
+    for (double t = 0.0; t < 1.0; t += 0.025) {
+      ProjectedScan scan = scanAt(t);
+      addPerson(scan, T_map_body.inverse() * Point(5.0, 6.0));
+      with.update(scan, T_map_body, {}, room, given);
+    }
+    return with.obstacles().size();
+  };
+  EXPECT_EQ(seen(std::nullopt), 1u);
+  EXPECT_EQ(seen(GivenBackground{pillar, T_grid_map}), 0u);
+  EXPECT_EQ(seen(GivenBackground{pillar, Pose2{9.0, 0.0, 0.0}}), 1u) << "elsewhere in the given map";
+}
+
 TEST_F(People, AnOldDetectionIsStillAvoidedButNotPredicted) {
   walk(0.0, 1.0);
   EXPECT_TRUE(tracker.expectedAt(Time::fromSeconds(1.5)).empty());
