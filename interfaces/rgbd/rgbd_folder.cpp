@@ -82,11 +82,6 @@ const char* toString(FrameFault fault) {
   return "";
 }
 
-RgbdFolder::RgbdFolder(const fs::path& folder, const std::optional<RgbdCalibration>& calibration)
-    : listing_(listRgbdFolder(folder)) {
-  if (calibration) listing_.calibration = *calibration;
-}
-
 std::uint64_t RgbdFolder::skipped() const {
   return std::accumulate(skipped_.begin(), skipped_.end(), std::uint64_t{0});
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "common/config.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/line_fields.hpp"
 #include "interfaces/files/line_reader.hpp"
@@ -136,7 +137,7 @@ void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
 
 }  // namespace
 
-RgbdListing listRgbdFolder(const fs::path& folder) {
+RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibration_file) {
   if (!fs::is_directory(folder))
     throw InputError(Problem{{folder.string()}, "", "is not a folder", "unpack an archive first"});
   RgbdListing listing;
@@ -161,6 +162,7 @@ RgbdListing listRgbdFolder(const fs::path& folder) {
                 "",
                 fmt::format("holds no pair of a colour and a depth image, {} images are unpaired", listing.unpaired),
                 ""});
+  if (!calibration_file.empty()) common::config::YamlReader::fromFile(calibration_file).read(listing.calibration);
   return listing;
 }
 
