@@ -56,6 +56,15 @@ std::vector<StampedFile> readList(const fs::path& folder, const char* name) {
   return files;
 }
 
+/// How often a path says that it is one of depth: "depth/1.png", "./depth/1.png", "1.depth.png".
+int depthWords(std::string_view path) {
+  constexpr std::string_view kWord = "depth";
+  int count = 0;
+  for (std::size_t at = path.find(kWord); at != std::string_view::npos; at = path.find(kWord, at + kWord.size()))
+    ++count;
+  return count;
+}
+
 /// The stamp of a pair is that of its colour image.
 void readAssociations(const fs::path& folder, RgbdListing& listing) {
   LineReader reader(folder / "associations.txt");
@@ -63,8 +72,8 @@ void readAssociations(const fs::path& folder, RgbdListing& listing) {
     requireWords(reader, words, 4, "stamp rgb_file stamp depth_file");
     const StampedFile first = stampedFile(reader, folder, words[0], words[1]);
     const StampedFile second = stampedFile(reader, folder, words[2], words[3]);
-    // Some tools write depth first.
-    const bool depth_first = words[1].text.starts_with("depth");
+    // Some tools write depth first. The folder that both are in may have that word too.
+    const bool depth_first = depthWords(words[1].text) > depthWords(words[3].text);
     if (std::abs((first.stamp - second.stamp).seconds()) > kPairedWithin_s) {
       listing.unpaired += 2;
       continue;

@@ -138,6 +138,24 @@ TEST_F(RgbdFolders, StampsThatDoNotPairAreCounted) {
   EXPECT_EQ(folder.listing().unpaired, 2u);
 }
 
+TEST_F(RgbdFolders, AssociationsMayHaveTheDepthFirst) {
+  const std::string whole = (folder_ / "depth_camera").string();
+  for (const auto& [color, depth] : std::map<std::string, std::string>{{"rgb/1.png", "depth/1.png"},
+                                                                       {"./rgb/1.png", "./depth/1.png"},
+                                                                       {whole + "/rgb/1.png", whole + "/depth/1.png"},
+                                                                       {"1.color.png", "1.depth.png"}}) {
+    for (const bool depth_first : {false, true}) {
+      write("associations.txt", depth_first ? fmt::format("1.01 {} 1.0 {}\n", depth, color)
+                                            : fmt::format("1.0 {} 1.01 {}\n", color, depth));
+      const RgbdListing listing = listRgbdFolder(folder_);
+      ASSERT_EQ(listing.pairs.size(), 1u);
+      EXPECT_EQ(listing.pairs[0].color, folder_ / color) << depth_first;
+      EXPECT_EQ(listing.pairs[0].depth, folder_ / depth) << depth_first;
+      EXPECT_EQ(listing.pairs[0].stamp, common::Time::fromSeconds(1.0)) << "that of the colour image";
+    }
+  }
+}
+
 TEST_F(RgbdFolders, EachDepthImageBelongsToTheNearestColour) {
   addFrame(1.0, colorPng(1), depthPng(5'000), 0.015);
   addFrame(1.018, colorPng(2), depthPng(6'000), 0.5);
