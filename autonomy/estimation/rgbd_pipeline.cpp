@@ -79,7 +79,6 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
   // The first frame places the 3D map in the 2D map. Without a measured pose it would lie at the origin, and all later
   // frames would be aligned to it.
   if (!has_begun_ && !(situation.at_key && situation.supported)) return;
-  has_begun_ = true;
   mapping3d::FrameContext context;
   context.scans = situation.keys;
   if (situation.at_key)
@@ -105,6 +104,7 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   reportTrack(tracked, delivered);
   if (!publisher_.hasLayer()) publisher_.change().camera.T_body_camera = calibration_.T_body_camera();
   if (tracked) {
+    has_begun_ = true;
     calibrate(outcome, delivered);
     if (config_.measure) step_ = stepOf(outcome);
   }
