@@ -13,7 +13,7 @@
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
 #include "apps/wall_clock.hpp"
-#include "common/config.hpp"
+#include "common/error.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/cloud/cloud.hpp"
@@ -187,10 +187,7 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
 }
 
 int map3d(const Map3dOptions& options) {
-  std::optional<interfaces::RgbdCalibration> calibration;
-  if (!options.intrinsics.empty())
-    calibration = common::config::readFile<interfaces::RgbdCalibration>(options.intrinsics);
-  interfaces::RgbdFolder folder(options.folder, calibration);
+  interfaces::RgbdFolder folder(interfaces::listRgbdFolder(options.folder, options.intrinsics));
   fs::path name = fs::path(options.folder).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
   ResultsFolder results(options.out.empty() ? fs::path(name.filename().string() + "-map3d") : fs::path(options.out),
@@ -242,7 +239,7 @@ void addMap3d(Command& program) {
                  "Poses of the camera from other sensors, to begin each alignment with: TUM (t x y z qx qy qz qw), or "
                  "none.");
   command.option("--intrinsics", options->intrinsics,
-                 "Calibration of the camera (YAML). Without it, the usual one of the format.");
+                 "Calibration of the camera (YAML), as far as it differs from the usual one of the format.");
   command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
   command.flag("--json", options->json, "Print the figures as JSON.");
   command.footer(

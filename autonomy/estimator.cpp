@@ -141,9 +141,9 @@ bool Estimator::forgetPlace() {
 }
 
 void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
-  if (targets_) targets_->add(frame);
-  if (rgbd_) lookAtGround(*frame);
-  if (rgbd_) rgbd_->add(std::move(frame));
+  if (!rgbd_ || !rgbd_->add(frame)) return;
+  lookAtGround(*frame);
+  if (targets_) targets_->add(std::move(frame));
 }
 
 void Estimator::addSweep(std::shared_ptr<const common::VerticalScan> sweep) {

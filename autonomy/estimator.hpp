@@ -102,6 +102,8 @@ class Estimator {
   /// To be called after the scans of every tick.
   void updateMap3d(common::Time now);
 
+  /// None without a camera.
+  std::optional<RgbdCounts> cameraCounts() const { return rgbd_ ? std::optional(rgbd_->counts()) : std::nullopt; }
   /// None without a camera whose frames come over a radio.
   std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/estimation/stamp_check.hpp"
+#include "common/blank_picture.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::autonomy {
@@ -25,6 +27,11 @@ bool isWhole(const common::RgbdFrame& frame) {
          frame.depth.width_px == width_px && frame.depth.height_px == height_px && frame.depth.depth_m.size() == pixels;
 }
 
+const char* pictureFault(const common::Image& picture) {
+  if (common::isBlack(picture)) return "its picture is black";
+  return common::isWhite(picture) ? "its picture is white" : nullptr;
+}
+
 }  // namespace
 
 RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdCameraConfig& camera,
@@ -38,20 +45,20 @@ RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdC
   if (config.radio.isUsed()) radio_.emplace(config.radio);
 }
 
-void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
+bool RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
   const common::Stamps& stamps = frame->stamps;
   last_arrived_ = stamps.arrived;
   if (silent_) say(stamps.arrived, Severity::kInfo, "camera sends again");
   silent_ = false;
-  const bool is_newer = !last_measured_ || stamps.measured > *last_measured_;
-  if (!is_newer || !isWhole(*frame)) {
-    ++counts_.skipped;
-    if (!std::exchange(fault_said_, true))
-      say(stamps.arrived, Severity::kWarning, "a frame cannot be used",
-          std::string(is_newer ? "its images do not have the size of the camera"
-                               : "it was not measured after the last") +
-              "; further ones are only counted");
-    return;
+  const char* fault = stampFault(stamps, last_measured_);
+  if (fault == nullptr && !isWhole(*frame)) fault = "its images do not have the size of the camera";
+  if (fault == nullptr) {
+    fault = pictureFault(frame->color);
+    counts_.blank += fault != nullptr ? 1 : 0;
+  }
+  if (fault != nullptr) {
+    skip(fault, stamps.arrived);
+    return false;
   }
   ++counts_.frames;
   last_measured_ = stamps.measured;
@@ -59,6 +66,13 @@ void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
     radio_->offer(std::move(frame));
   else
     waiting_ = std::move(frame);
+  return true;
+}
+
+void RgbdPipeline::skip(const char* fault, Time now) {
+  ++counts_.skipped;
+  if (!faults_said_.insert(fault).second) return;
+  say(now, Severity::kWarning, "a frame cannot be used", std::string(fault) + "; further ones are only counted");
 }
 
 /// By the flight's clock. The middle row of a rolling shutter stands for all.
@@ -79,7 +93,6 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
   // The first frame places the 3D map in the 2D map. Without a measured pose it would lie at the origin, and all later
   // frames would be aligned to it.
   if (!has_begun_ && !(situation.at_key && situation.supported)) return;
-  has_begun_ = true;
   mapping3d::FrameContext context;
   context.scans = situation.keys;
   if (situation.at_key)
@@ -105,6 +118,7 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   reportTrack(tracked, delivered);
   if (!publisher_.hasLayer()) publisher_.change().camera.T_body_camera = calibration_.T_body_camera();
   if (tracked) {
+    has_begun_ = true;
     calibrate(outcome, delivered);
     if (config_.measure) step_ = stepOf(outcome);
   }

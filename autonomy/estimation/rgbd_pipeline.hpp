@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,7 +48,8 @@ struct FrameSituation {
 
 struct RgbdCounts {
   std::uint64_t frames = 0;   ///< That arrived and could be used.
-  std::uint64_t skipped = 0;  ///< Repeated, late, or without images of the camera's size.
+  std::uint64_t skipped = 0;  ///< Repeated, late, of the future, without images of the camera's size, or blank.
+  std::uint64_t blank = 0;    ///< Of those skipped, the ones with a black or a white picture.
   std::uint64_t mapped = 0;   ///< That were aligned to the map and drawn.
   std::uint64_t lost = 0;     ///< That did not fit and were left out.
 };
@@ -59,8 +61,8 @@ class RgbdPipeline {
   RgbdPipeline(const RgbdPipeline&) = delete;
   RgbdPipeline& operator=(const RgbdPipeline&) = delete;
 
-  /// A frame that was not measured after the last one is counted and left out.
-  void add(std::shared_ptr<const common::RgbdFrame> frame);
+  /// False for a frame that cannot be used: it is counted and left out.
+  bool add(std::shared_ptr<const common::RgbdFrame> frame);
 
   /// The time at which the frame that is next to be mapped was measured; none while there is no such frame, or while
   /// another one is being mapped.
@@ -100,6 +102,7 @@ class RgbdPipeline {
     std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.
   };
   void take(Outcome outcome, common::Time delivered);
+  void skip(const char* fault, common::Time now);
   common::Time timeOf(const common::RgbdFrame& frame) const;
   CameraStep stepOf(const Outcome& outcome);
   void calibrate(const Outcome& outcome, common::Time now);

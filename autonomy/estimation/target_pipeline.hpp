@@ -44,7 +44,7 @@ class TargetPipeline {
   TargetPipeline(const TargetPipeline&) = delete;
   TargetPipeline& operator=(const TargetPipeline&) = delete;
 
-  /// A frame that was not measured after the last one is left out.
+  /// Of frames that RgbdPipeline::add accepts. A newer one replaces the one that waits.
   void add(std::shared_ptr<const common::RgbdFrame> frame);
   /// The time at which the frame that is next was measured, by the flight's clock; none while there is none, or while
   /// another one is being looked at. `clock_offset_s` is how late the camera's clock is.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/estimation/stamp_check.hpp"
 #include "common/config_fields.hpp"
 #include "perception/projection/placed_returns.hpp"
 
@@ -22,8 +23,6 @@ constexpr const char* kDrawing = "mapping3d";
 constexpr std::size_t kMostWaiting = 20;
 /// A laser whose data sheet says that it has no noise still counts in millimetres.
 constexpr double kLeastNoise_m = 0.001;
-/// No clock is so far ahead: such a stamp is an error, after which no other sweep would be newer.
-constexpr Duration kFarAhead = Duration::fromMilliseconds(1000);
 
 Time endOf(const common::LaserScan& sweep) {
   return sweep.stamps.measured + sweep.time_increment * static_cast<std::int64_t>(sweep.ranges_m.size());
@@ -54,13 +53,11 @@ void VerticalLaserPipeline::add(std::shared_ptr<const common::VerticalScan> swee
   const common::Stamps& stamps = sweep->stamps;
   last_arrived_ = stamps.arrived;
   if (std::exchange(silent_, false)) say(stamps.arrived, Severity::kInfo, "upright laser sends again");
-  const bool is_ahead = stamps.measured > stamps.arrived + kFarAhead;
-  if (is_ahead || (last_measured_ && stamps.measured <= *last_measured_)) {
+  if (const char* fault = stampFault(stamps, last_measured_)) {
     ++counts_.skipped;
     if (!std::exchange(fault_said_, true))
       say(stamps.arrived, Severity::kWarning, "a sweep of the upright laser cannot be used",
-          std::string(is_ahead ? "its stamp is of the future" : "it was not measured after the last") +
-              "; further ones are only counted");
+          std::string(fault) + "; further ones are only counted");
     return;
   }
   ++counts_.sweeps;

@@ -85,11 +85,9 @@ struct Result {
 };
 
 Result run(Peer& peer, const Options& options) {
-  std::optional<interfaces::RgbdCalibration> calibration;
-  if (options.freiburg1) calibration = test_support::freiburg1Calibration();
-  if (!options.intrinsics.empty())
-    calibration = common::config::readFile<interfaces::RgbdCalibration>(options.intrinsics);
-  interfaces::RgbdFolder folder(options.folder, calibration);
+  interfaces::RgbdListing listing = interfaces::listRgbdFolder(options.folder, options.intrinsics);
+  if (options.freiburg1) listing.calibration = test_support::freiburg1Calibration();
+  interfaces::RgbdFolder folder(std::move(listing));
   const Pose3 T_camera_recorded = interfaces::T_camera_optical() * folder.calibration().T_recorded_color().inverse();
   Result result;
   std::vector<common::Time> stamps;

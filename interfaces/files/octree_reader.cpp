@@ -126,16 +126,22 @@ class OctreeReader {
   }
 
   void fill(VoxelIndex first, int side, std::int8_t evidence) {
-    if (side < VoxelBlock::kSide) return fillWithin(map_.mutableBlock(VoxelMap::blockOf(first)), first, side, evidence);
+    if (side < VoxelBlock::kSide) {
+      fillWithin(map_.mutableBlock(VoxelMap::blockOf(first)), first, side, evidence);
+      return requireRoom(0.0);
+    }
     const VoxelIndex from = VoxelMap::blockOf(first);
     const int blocks = side / VoxelBlock::kSide;
-    const double more = std::pow(blocks, 3);
-    if (static_cast<double>(map_.blockCount()) + more > static_cast<double>(most_blocks_))
-      fail(fmt::format("the tree fills more than {} blocks of 8 x 8 x 8 voxels", most_blocks_));
+    requireRoom(std::pow(blocks, 3));
     for (int z = 0; z < blocks; ++z)
       for (int y = 0; y < blocks; ++y)
         for (int x = 0; x < blocks; ++x)
           map_.mutableBlock({from.x + x, from.y + y, from.z + z}).evidence.fill(evidence);
+  }
+
+  void requireRoom(double more_blocks) const {
+    if (static_cast<double>(map_.blockCount()) + more_blocks > static_cast<double>(most_blocks_))
+      fail(fmt::format("the tree fills more than {} blocks of 8 x 8 x 8 voxels", most_blocks_));
   }
 
   void fillWithin(VoxelBlock& block, VoxelIndex first, int side, std::int8_t evidence) const {

@@ -80,6 +80,8 @@ class HeaderReader {
                                  common::printable(std::string(line[0].substr(0, 40)))));
     }
     header.fields = fields();
+    if (header.data != "ascii")
+      for (Field& field : header.fields) field.column = field.column.inBinary();
     header.points = points();
     return header;
   }

@@ -93,6 +93,9 @@ PlyHeader readHeader(Cursor& cursor) {
     }
   }
   if (!has_format) cursor.fail("the header has no line `format`");
+  if (header.encoding != Encoding::kText)
+    for (Element& element : header.elements)
+      for (Property& property : element.properties) property.column = property.column.inBinary();
   return header;
 }
 

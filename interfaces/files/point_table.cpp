@@ -179,10 +179,11 @@ void Builder::set(const Column& column, double value) {
       next_.rgb[static_cast<std::size_t>(role - static_cast<int>(Role::kRed))] = channel(value, column.type);
       return;
     case Role::kPackedRgb: {
-      // PCL keeps 0xAARRGGBB in the bits of a float, or as a whole number.
+      // PCL keeps 0xAARRGGBB in the bits of a float, or as a whole number with or without a sign.
       const std::uint32_t bits = column.type == Scalar::kFloat ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                                 : value >= 0.0 && value < 4294967296.0 ? static_cast<std::uint32_t>(value)
-                                                                        : 0U;
+                                 : value > -2147483649.0 && value < 4294967296.0
+                                     ? static_cast<std::uint32_t>(static_cast<std::int64_t>(value))
+                                     : 0U;
       next_.rgb = {static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
                    static_cast<std::uint8_t>(bits)};
       return;

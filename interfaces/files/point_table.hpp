@@ -23,6 +23,12 @@ Role roleOf(std::string_view name);
 struct Column {
   Role role = Role::kOther;
   Scalar type = Scalar::kFloat;
+
+  /// The column in a binary file. Packed colours are bits there, whatever their type says: some are no numbers as a
+  /// float, and a conversion would change them.
+  Column inBinary() const {
+    return {role, role == Role::kPackedRgb && type == Scalar::kFloat ? Scalar::kUint32 : type};
+  }
 };
 
 /// Throws InputError with the file, the place in it and the reason.

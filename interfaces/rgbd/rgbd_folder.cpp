@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "common/blank_picture.hpp"
 #include "common/error.hpp"
 #include "common/hash.hpp"
 #include "common/read_bytes.hpp"
@@ -16,20 +17,12 @@ namespace fs = std::filesystem;
 
 /// Greater files are no images of a camera.
 constexpr std::size_t kMostImageBytes = std::size_t{256} << 20;
-/// Mean values of a black and of a white picture, of 255. A lens cap leaves noise of some levels.
-constexpr double kBlackMean = 6.0;
-constexpr double kWhiteMean = 249.0;
 /// A frame with a smaller part of measured pixels shows nothing that could be mapped.
 constexpr double kLeastMeasured = 0.01;
 /// Depth cameras measure between these. If nearly every depth is outside, the stored numbers mean something else.
 constexpr double kPlausible_m = 0.1;
 constexpr double kImplausible_m = 20.0;
 constexpr double kMostImplausible = 0.95;
-
-double meanOf(const common::Image& image) {
-  const auto sum = std::accumulate(image.rgb.begin(), image.rgb.end(), std::uint64_t{0});
-  return static_cast<double>(sum) / static_cast<double>(image.rgb.size());
-}
 
 std::optional<FrameFault> faultOf(const common::DepthCodes& depth, double units_per_m) {
   std::size_t measured = 0, implausible = 0;
@@ -82,11 +75,6 @@ const char* toString(FrameFault fault) {
   return "";
 }
 
-RgbdFolder::RgbdFolder(const fs::path& folder, const std::optional<RgbdCalibration>& calibration)
-    : listing_(listRgbdFolder(folder)) {
-  if (calibration) listing_.calibration = *calibration;
-}
-
 std::uint64_t RgbdFolder::skipped() const {
   return std::accumulate(skipped_.begin(), skipped_.end(), std::uint64_t{0});
 }
@@ -127,8 +115,8 @@ std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair,
     return std::nullopt;
   }
   std::optional<FrameFault> fault = faultOf(*depth, known.depth_units_per_m);
-  if (const double mean = meanOf(*color); mean < kBlackMean || mean > kWhiteMean)
-    fault = mean < kBlackMean ? FrameFault::kBlack : FrameFault::kWhite;
+  if (common::isBlack(*color)) fault = FrameFault::kBlack;
+  if (common::isWhite(*color)) fault = FrameFault::kWhite;
   if (fault) {
     skipped = {*fault, pair.color.string()};
     return std::nullopt;

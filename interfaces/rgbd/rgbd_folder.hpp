@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/rgbd_frame.hpp"
 #include "interfaces/rgbd/rgbd_listing.hpp"
@@ -37,9 +38,8 @@ struct SkippedFrame {
 
 class RgbdFolder {
  public:
-  /// Without a calibration, that of the format is used. Throws InputError, see listRgbdFolder.
-  explicit RgbdFolder(const std::filesystem::path& folder,
-                      const std::optional<RgbdCalibration>& calibration = std::nullopt);
+  /// Frames are made with the calibration of the listing.
+  explicit RgbdFolder(RgbdListing listing) : listing_(std::move(listing)) {}
 
   /// The next usable frame, in the order of the stamps; none at the end.
   std::optional<common::RgbdFrame> next();

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "common/config.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/line_fields.hpp"
 #include "interfaces/files/line_reader.hpp"
@@ -55,6 +56,15 @@ std::vector<StampedFile> readList(const fs::path& folder, const char* name) {
   return files;
 }
 
+/// How often a path says that it is one of depth: "depth/1.png", "./depth/1.png", "1.depth.png".
+int depthWords(std::string_view path) {
+  constexpr std::string_view kWord = "depth";
+  int count = 0;
+  for (std::size_t at = path.find(kWord); at != std::string_view::npos; at = path.find(kWord, at + kWord.size()))
+    ++count;
+  return count;
+}
+
 /// The stamp of a pair is that of its colour image.
 void readAssociations(const fs::path& folder, RgbdListing& listing) {
   LineReader reader(folder / "associations.txt");
@@ -62,8 +72,8 @@ void readAssociations(const fs::path& folder, RgbdListing& listing) {
     requireWords(reader, words, 4, "stamp rgb_file stamp depth_file");
     const StampedFile first = stampedFile(reader, folder, words[0], words[1]);
     const StampedFile second = stampedFile(reader, folder, words[2], words[3]);
-    // Some tools write depth first.
-    const bool depth_first = words[1].text.starts_with("depth");
+    // Some tools write depth first. The folder that both are in may have that word too.
+    const bool depth_first = depthWords(words[1].text) > depthWords(words[3].text);
     if (std::abs((first.stamp - second.stamp).seconds()) > kPairedWithin_s) {
       listing.unpaired += 2;
       continue;
@@ -136,7 +146,7 @@ void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
 
 }  // namespace
 
-RgbdListing listRgbdFolder(const fs::path& folder) {
+RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibration_file) {
   if (!fs::is_directory(folder))
     throw InputError(Problem{{folder.string()}, "", "is not a folder", "unpack an archive first"});
   RgbdListing listing;
@@ -161,6 +171,7 @@ RgbdListing listRgbdFolder(const fs::path& folder) {
                 "",
                 fmt::format("holds no pair of a colour and a depth image, {} images are unpaired", listing.unpaired),
                 ""});
+  if (!calibration_file.empty()) common::config::YamlReader::fromFile(calibration_file).read(listing.calibration);
   return listing;
 }
 

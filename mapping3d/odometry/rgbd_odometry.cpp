@@ -87,7 +87,10 @@ RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::option
   pose.stamp = frame.stamps.measured;
   pose.scan = seed ? seed->scan : last_ ? last_->scan : 0;
   if (keys_.isEmpty()) {
-    begin(pose, pyramid, seed);
+    if (canBegin(pyramid))
+      begin(pose, pyramid, seed);
+    else if (seed)
+      pose.T_map_camera = seed->T_map_camera;
     return pose;
   }
   const PosePrior prior = predicted(pyramid, pose.stamp, seed);
@@ -192,6 +195,12 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& py
 
 // ----------------------------------------------------------------------------------------------- the model grows
 
+/// No later frame would fit a key frame with fewer points.
+bool RgbdOdometry::canBegin(const FramePyramid& pyramid) const {
+  const auto points = referencePoints(pyramid.front(), config_.features.depth_noise, config_.reference);
+  return static_cast<int>(points.size()) >= config_.least_points;
+}
+
 void RgbdOdometry::begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed) {
   pose.state = keys_.isEmpty() ? TrackState::kTracked : TrackState::kFoundAgain;
   if (seed) pose.T_map_camera = seed->T_map_camera;
@@ -259,9 +268,7 @@ void RgbdOdometry::lose(RgbdPose& pose, const FramePyramid& pyramid, const std::
   ++unfit_frames_;
   if (!isInMap(seed)) return;
   pose.T_map_camera = seed->T_map_camera;
-  if (unfit_frames_ <= config_.seed.unfit_frames) return;
-  const auto points = referencePoints(pyramid.front(), config_.features.depth_noise, config_.reference);
-  if (static_cast<int>(points.size()) >= config_.least_points) begin(pose, pyramid, seed);
+  if (unfit_frames_ > config_.seed.unfit_frames && canBegin(pyramid)) begin(pose, pyramid, seed);
 }
 
 void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid) {

@@ -8,8 +8,8 @@
 //                 v   |
 //                lost +
 //
-// While lost, the model does not change, unless seeds in the map tell where the camera is: then key frames begin anew
-// there. Deterministic; one thread.
+// The first frame with enough surfaces makes the model. While lost, it does not change, unless seeds in the map tell
+// where the camera is: then key frames begin anew there. Deterministic; one thread.
 #pragma once
 
 #include <memory>
@@ -94,8 +94,8 @@ class RgbdOdometry {
   /// Moves the model with the key scans of the 2D map. Where there are any, it must be called before the first frame.
   void moveTo(std::shared_ptr<const common::KeyPoses> scans);
 
-  /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time. The first one
-  /// places the map.
+  /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time. The first frame
+  /// with enough surfaces places the map; those before it are lost.
   RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt);
 
   /// For a frame that just became a key frame: it, and the frames after it, hang on this key scan.
@@ -129,6 +129,7 @@ class RgbdOdometry {
                              const std::optional<CameraSeed>& seed) const;
   std::optional<Fit> recognized(const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   bool isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const;
+  bool canBegin(const FramePyramid& pyramid) const;
   void begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   std::optional<KeyFrameMotion> motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid) const;

@@ -147,7 +147,36 @@ TEST_F(RgbdStory, FramesThatCannotBeUsedAreCountedAndSaidOnce) {
   pipeline_.add(std::make_shared<const common::RgbdFrame>(torn));
   EXPECT_FALSE(pipeline_.next());
   EXPECT_EQ(pipeline_.counts().skipped, 2u);
-  EXPECT_THAT(texts(), testing::ElementsAre("a frame cannot be used"));
+  EXPECT_THAT(texts(), testing::ElementsAre("a frame cannot be used", "a frame cannot be used")) << "one a reason";
+  pipeline_.add(frameAt(1.0));
+  EXPECT_TRUE(texts().empty());
+}
+
+TEST_F(RgbdStory, AStampOfTheFutureDoesNotEndTheMap) {
+  see(1.0);
+  common::RgbdFrame future = *frameAt(90.0);
+  future.stamps.arrived = Time::fromSeconds(1.1);
+  EXPECT_FALSE(pipeline_.add(std::make_shared<const common::RgbdFrame>(future)));
+  EXPECT_EQ(pipeline_.counts().skipped, 1u);
+  see(1.2);
+  EXPECT_EQ(pipeline_.counts().mapped, 2u);
+}
+
+TEST_F(RgbdStory, BlackAndWhitePicturesAreLeftOutAndCounted) {
+  see(1.0);
+  double time_s = 1.1;
+  for (const int value : {2, 255}) {
+    common::RgbdFrame blank = *frameAt(time_s);
+    blank.color.rgb.assign(blank.color.rgb.size(), static_cast<std::uint8_t>(value));
+    EXPECT_FALSE(pipeline_.add(std::make_shared<const common::RgbdFrame>(blank)));
+    EXPECT_FALSE(pipeline_.next());
+    time_s += 0.1;
+  }
+  EXPECT_EQ(pipeline_.counts().blank, 2u);
+  EXPECT_EQ(pipeline_.counts().skipped, 2u);
+  EXPECT_EQ(texts().size(), 2u);
+  see(time_s);
+  EXPECT_EQ(pipeline_.counts().mapped, 2u);
 }
 
 TEST_F(RgbdStory, NothingIsMappedBeforeThe2DMap) {

@@ -9,6 +9,7 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -156,6 +157,30 @@ TEST(PointCloudTest, ReadsWhatOtherToolsWrite) {
       "by hand", CloudFormat::kPcd);
   ASSERT_EQ(pcd.size(), 2U);
   EXPECT_EQ(pcd[0].rgb, (std::array<std::uint8_t, 3>{255, 0, 0})) << "0xff0000 as the bits of a float";
+}
+
+/// With an alpha of 255, some colours are the bits of a signalling NaN, which a conversion to double would change.
+TEST(PointCloudTest, PackedColoursKeepTheirBits) {
+  for (const char type : {'F', 'U', 'I'})
+    for (const int red : {0x00, 0x7f, 0x80, 0xa5, 0xbf, 0xc0, 0xff}) {
+      std::string point(12, '\0');
+      point += {'\x03', '\x02', static_cast<char>(red), '\xff'};
+      const auto pcd = parseCloud(
+          fmt::format("FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F {}\nPOINTS 1\nDATA binary\n", type) + point, "packed",
+          CloudFormat::kPcd);
+      const auto ply = parseCloud(
+          fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                      "property float z\nproperty {} rgb\nend_header\n",
+                      type == 'F'   ? "float"
+                      : type == 'U' ? "uint"
+                                    : "int") +
+              point,
+          "packed", CloudFormat::kPly);
+      for (const auto& cloud : {pcd, ply}) {
+        ASSERT_EQ(cloud.size(), 1U);
+        EXPECT_EQ(cloud[0].rgb, (std::array<std::uint8_t, 3>{static_cast<std::uint8_t>(red), 2, 3})) << type;
+      }
+    }
 }
 
 TEST(PointCloudTest, SaysWhatIsWrong) {

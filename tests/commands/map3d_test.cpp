@@ -49,9 +49,10 @@ TEST_F(Map3d, SaysWhatAFrameNeedsWhereNoneCanBeUsed) {
 }
 
 TEST_F(Map3d, NamesTheSettingOfACalibrationThatIsWrong) {
-  fs::create_directories(folder_ / "empty");
+  fs::create_directories(folder_ / "frames");
+  write("frames/associations.txt", "0.1 a.png 0.1 b.png\n");
   const std::string file = write("lens.yaml", "color: {fx_pix: 500}\n");
-  const ProgramEnd end = runSwiftlet({"map3d", path("empty"), "--intrinsics", file, "--out", path("out")});
+  const ProgramEnd end = runSwiftlet({"map3d", path("frames"), "--intrinsics", file, "--out", path("out")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("did you mean `fx_px`?"));
 }

@@ -145,6 +145,11 @@ TEST(BadOctree, NamesWhatIsWrong) {
   expectRefused(header + std::string(100'000, '\xff'), "deeper than 16 levels");
   expectRefused(header + std::string("\x02\x00", 2), "fills more than 1000 blocks");
   expectRefused(header + std::string("\x00\x00\x00", 3), "1 bytes follow the tree");
+  // Of leaves that are smaller than a block, each may be in a block of its own.
+  common::VoxelMap scattered(0.05);
+  for (int i = 0; i < 1001; ++i) scattered.set({common::VoxelBlock::kSide * i, 0, 0}, 10);
+  for (const OctreeFormat format : {OctreeFormat::kBinary, OctreeFormat::kLogOdds})
+    expectRefused(toOctree(scattered, format), "fills more than 1000 blocks");
 }
 
 TEST(OctreeFiles, OfOthersKeepTheirLeaves) {

@@ -81,7 +81,7 @@ class RgbdFolders : public test_support::Scratch {
     write("rgb.txt", colors_);
     write("depth.txt", depths_);
   }
-  RgbdFolder open() const { return RgbdFolder(folder_); }
+  RgbdFolder open() const { return RgbdFolder(listRgbdFolder(folder_)); }
   static int countFrames(RgbdFolder& folder) {
     int count = 0;
     while (folder.next()) ++count;
@@ -138,6 +138,24 @@ TEST_F(RgbdFolders, StampsThatDoNotPairAreCounted) {
   EXPECT_EQ(folder.listing().unpaired, 2u);
 }
 
+TEST_F(RgbdFolders, AssociationsMayHaveTheDepthFirst) {
+  const std::string whole = (folder_ / "depth_camera").string();
+  for (const auto& [color, depth] : std::map<std::string, std::string>{{"rgb/1.png", "depth/1.png"},
+                                                                       {"./rgb/1.png", "./depth/1.png"},
+                                                                       {whole + "/rgb/1.png", whole + "/depth/1.png"},
+                                                                       {"1.color.png", "1.depth.png"}}) {
+    for (const bool depth_first : {false, true}) {
+      write("associations.txt", depth_first ? fmt::format("1.01 {} 1.0 {}\n", depth, color)
+                                            : fmt::format("1.0 {} 1.01 {}\n", color, depth));
+      const RgbdListing listing = listRgbdFolder(folder_);
+      ASSERT_EQ(listing.pairs.size(), 1u);
+      EXPECT_EQ(listing.pairs[0].color, folder_ / color) << depth_first;
+      EXPECT_EQ(listing.pairs[0].depth, folder_ / depth) << depth_first;
+      EXPECT_EQ(listing.pairs[0].stamp, common::Time::fromSeconds(1.0)) << "that of the colour image";
+    }
+  }
+}
+
 TEST_F(RgbdFolders, EachDepthImageBelongsToTheNearestColour) {
   addFrame(1.0, colorPng(1), depthPng(5'000), 0.015);
   addFrame(1.018, colorPng(2), depthPng(6'000), 0.5);
@@ -163,6 +181,26 @@ TEST_F(RgbdFolders, ReadsSevenScenesWithItsDepthRegistered) {
   EXPECT_NEAR(static_cast<double>(frame->depth.at(32, 24)), 2.0, 0.02);
   EXPECT_FALSE(folder.next());
   EXPECT_EQ(folder.skipped(FrameFault::kNoDepth), 1u);
+}
+
+/// What a calibration leaves out stays that of the format: TUM stores 5000 a metre, 7-Scenes an unregistered depth.
+TEST_F(RgbdFolders, ACalibrationIsReadOverThatOfTheFormat) {
+  const std::string lens = write("lens.yaml", "color: {fx_px: 500}\n");
+  addFrame(1.0, colorPng(1), depthPng(5'000));
+  RgbdFolder tum(listRgbdFolder(folder_, lens));
+  const auto frame = tum.next();
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(frame->camera.fx_px, 50.0, 1e-9);
+  EXPECT_FLOAT_EQ(frame->depth.at(10, 10), 1.0F);
+
+  fs::create_directories(folder_ / "scene");
+  write("scene/frame-000000.color.png", colorPng(1));
+  write("scene/frame-000000.depth.png", depthPng(2'000));
+  const RgbdCalibration scene = listRgbdFolder(folder_ / "scene", lens).calibration;
+  EXPECT_FALSE(scene.is_registered);
+  EXPECT_EQ(scene.depth.fx_px, 585.0);
+  EXPECT_EQ(scene.color.fx_px, 500.0);
+  EXPECT_EQ(scene.color.cx_px, sevenScenesCalibration().color.cx_px);
 }
 
 TEST_F(RgbdFolders, NamesTheLineOfAListThatCannotBeRead) {

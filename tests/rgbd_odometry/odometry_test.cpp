@@ -92,6 +92,30 @@ TEST(RgbdOdometry, ElsewhereItIsLostAndIsFoundAgainWhereItWasBefore) {
   EXPECT_LT(distance_m(pose.T_map_camera, walk(0.0).inverse() * there), 0.01);
 }
 
+/// A first frame with surfaces beyond the range only, as a dropout gives it, must not cost the recording.
+TEST(RgbdOdometry, BeginsWithTheFirstFrameThatShowsEnough) {
+  const TexturedRoom room;
+  for (const bool seeded : {false, true}) {
+    RgbdOdometry odometry({});
+    const auto seed = [&](double time_s) {
+      return seeded ? std::optional(CameraSeed{walk(time_s), 0, false}) : std::nullopt;
+    };
+    common::RgbdFrame poor = room.seen(walk(0.0), 0.0);
+    for (float& depth_m : poor.depth.depth_m) depth_m = 6.5F;
+    const RgbdPose first = odometry.process(poor, seed(0.0));
+    EXPECT_EQ(first.state, TrackState::kLost);
+    EXPECT_FALSE(first.became_key_frame);
+    EXPECT_TRUE(odometry.keyFrames().isEmpty());
+    for (int i = 1; i < 10; ++i) {
+      const double time_s = i / kWalkFrames_Hz;
+      const RgbdPose pose = odometry.process(room.seen(walk(time_s), time_s), seed(time_s));
+      ASSERT_EQ(pose.state, TrackState::kTracked) << i;
+      const Pose3 truth = (seeded ? Pose3{} : walk(1 / kWalkFrames_Hz).inverse()) * walk(time_s);
+      ASSERT_LT(distance_m(pose.T_map_camera, truth), 0.01) << i;
+    }
+  }
+}
+
 TEST(RgbdOdometry, EqualFramesGiveEqualBits) {
   const TexturedRoom room;
   RgbdOdometry one({}), other({});

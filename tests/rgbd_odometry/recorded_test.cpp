@@ -23,7 +23,9 @@ struct Tracked {
 };
 
 Tracked track(const fs::path& folder, const std::optional<interfaces::RgbdCalibration>& calibration) {
-  interfaces::RgbdFolder frames(folder, calibration);
+  interfaces::RgbdListing listing = interfaces::listRgbdFolder(folder);
+  if (calibration) listing.calibration = *calibration;
+  interfaces::RgbdFolder frames(std::move(listing));
   const Pose3 T_camera_recorded = interfaces::T_camera_optical() * frames.calibration().T_recorded_color().inverse();
   RgbdOdometry odometry({});
   Tracked tracked;
