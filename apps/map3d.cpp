@@ -36,6 +36,7 @@ struct Map3dOptions {
   std::string poses = "none";
   std::string intrinsics;
   std::string out;
+  bool mesh = false;
   bool json = false;
 };
 
@@ -214,7 +215,7 @@ int map3d(const Map3dOptions& options) {
                  {"path length", fmt::format("{:.2f} m", path_length_m)},
                  {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
                  {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
-  writeMap3dOutputs(results.unfinished(), trajectory, recordedMap(run), shown);
+  writeMap3dOutputs(results.unfinished(), trajectory, recordedMap(run), shown, options.mesh);
   results.publish();
   if (options.json) {
     const auto figures = figuresOf(options, folder, run, path_length_m, shown.warnings, results.path());
@@ -241,6 +242,7 @@ void addMap3d(Command& program) {
   command.option("--intrinsics", options->intrinsics,
                  "Calibration of the camera (YAML), as far as it differs from the usual one of the format.");
   command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
+  command.flag("--mesh", options->mesh, "Also write mesh.ply, the surfaces of the map as coloured triangles.");
   command.flag("--json", options->json, "Print the figures as JSON.");
   command.footer(
       "trajectory.tum has the poses of the camera with x right, y down and z along the view, as the ground truth of\n"

@@ -15,8 +15,10 @@
 namespace swiftlet::apps {
 
 inline const std::string kMap3dTitle = "3D map of ";
-inline const ResultsKind kMap3dResults{
-    "3D map", "report.html", "<title>" + kMap3dTitle, {"report.html", "trajectory.tum", "cloud.ply", "map.bt"}};
+inline const ResultsKind kMap3dResults{"3D map",
+                                       "report.html",
+                                       "<title>" + kMap3dTitle,
+                                       {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply"}};
 
 /// With the axes of the recorder's camera.
 struct Map3dMap {
@@ -32,9 +34,9 @@ struct Map3dFigures {
   rendering::ThinnedCurve disagreement;  ///< Part of the points that do not agree with the map, the same.
 };
 
-/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the map. Throws InputError if a
-/// file cannot be written.
+/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the map. With `mesh` there is a
+/// mesh.ply, too. Throws InputError if a file cannot be written.
 void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
-                       const Map3dFigures& figures);
+                       const Map3dFigures& figures, bool mesh);
 
 }  // namespace swiftlet::apps

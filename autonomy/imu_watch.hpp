@@ -24,7 +24,7 @@ bool isFinite(const common::ImuSample& sample);
 /// One thread. A sample that is not finite counts as none. A sensor that measures never gives the same numbers many
 /// times in a row, so samples that are equal bit by bit come from a driver that repeats its last one. The same holds
 /// for the attitude alone, whose noise is about a degree: while the gyroscopes measure, an attitude that repeats is
-/// that of an AHRS that has stopped, in a hover too.
+/// that of an AHRS that has stopped, in a hover too; and, within thrice the time, for the rates or the forces alone.
 class ImuWatch {
  public:
   explicit ImuWatch(const ImuWatchConfig& config) : config_(config) {}
@@ -40,8 +40,8 @@ class ImuWatch {
   ImuWatchConfig config_;
   std::optional<common::ImuSample> last_;  ///< The last finite sample.
   bool finite_ = true;                     ///< The last sample was.
-  common::Time changed_;                   ///< Stamp of the last sample that differed from the one before.
-  common::Time attitude_changed_;          ///< Stamp of the last sample whose attitude did.
+  /// Stamps of the last samples whose part of it differed from the one before.
+  common::Time rates_changed_, force_changed_, attitude_changed_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -24,11 +24,12 @@ void append(std::string& bytes, const Eigen::Vector3f& vector) {
   for (const float value : {vector.x(), vector.y(), vector.z()}) append(bytes, std::bit_cast<std::uint32_t>(value));
 }
 
-std::string plyHeader(std::size_t points, bool normals) {
+std::string plyHeader(std::size_t points, bool normals, std::optional<std::size_t> triangles = std::nullopt) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\nproperty float x\nproperty float y\n"
-      "property float z\n{}property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      points, normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "");
+      "property float z\n{}property uchar red\nproperty uchar green\nproperty uchar blue\n{}end_header\n",
+      points, normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+      triangles ? fmt::format("element face {}\nproperty list uchar uint vertex_indices\n", *triangles) : "");
 }
 
 std::string pcdHeader(std::size_t points, bool normals) {
@@ -69,6 +70,19 @@ Written writeCloud(const std::filesystem::path& file, std::span<const SurfacePoi
   const auto format = cloudFormatOf(file);
   SWIFTLET_CHECK(format.has_value(), file.string());
   return writeAtomically(file, toCloud(points, *format));
+}
+
+Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh) {
+  std::string bytes = plyHeader(mesh.vertices.size(), false, mesh.triangles.size());
+  for (const auto& [position_m, rgb] : mesh.vertices) {
+    append(bytes, position_m);
+    for (const std::uint8_t color : rgb) bytes.push_back(static_cast<char>(color));
+  }
+  for (const auto& triangle : mesh.triangles) {
+    bytes.push_back(3);
+    for (const std::uint32_t vertex : triangle) append(bytes, vertex);
+  }
+  return writeAtomically(file, bytes);
 }
 
 std::vector<SurfacePoint> parseCloud(std::string_view bytes, const std::string& name, CloudFormat format) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/submap3d.hpp"
+#include "common/surface_mesh.hpp"
 #include "interfaces/files/atomic_file.hpp"
 
 namespace swiftlet::interfaces {
@@ -29,6 +30,9 @@ std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat fo
 
 /// Writes the file in one step, in the format of the name's ending, which must be one of the two.
 [[nodiscard]] Written writeCloud(const std::filesystem::path& file, std::span<const common::SurfacePoint> points);
+
+/// The same for triangles, as .ply whatever the name's ending is.
+[[nodiscard]] Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh);
 
 /// Reads text and binary files of either format, those of PCL compressed too. Points whose position is not finite are
 /// left out, which PCL writes where nothing was measured. Colours and normals that a file does not have are grey and

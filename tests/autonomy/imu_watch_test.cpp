@@ -19,8 +19,9 @@ class ImuWatchStory : public testing::Test {
     for (const double end_s = now_s_ + seconds; now_s_ < end_s - 1e-9;) {
       now_s_ += 0.005;
       if (!stopped && std::isfinite(turn_rad_s_)) {
-        sample_.angular_velocity_body_rad_s = {turn_rad_s_ + 1e-4 * std::sin(900.0 * now_s_), 0, 0};
-        sample_.specific_force_body_m_s2 = {0, 1e-3 * std::sin(700.0 * now_s_), 9.81};
+        if (!rates_stopped_)
+          sample_.angular_velocity_body_rad_s = {turn_rad_s_ + 1e-4 * std::sin(900.0 * now_s_), 0, 0};
+        if (!force_stopped_) sample_.specific_force_body_m_s2 = {0, 1e-3 * std::sin(700.0 * now_s_), 9.81};
         if (!ahrs_stopped) sample_.rotation_ahrs_body = common::quaternionFrom({1e-3 * std::sin(now_s_), 0, 0});
       }
       if (!std::isfinite(turn_rad_s_)) sample_.angular_velocity_body_rad_s.x() = turn_rad_s_;
@@ -34,6 +35,7 @@ class ImuWatchStory : public testing::Test {
   common::ImuSample sample_;
   double now_s_ = 0.0;
   double turn_rad_s_ = 0.0;
+  bool rates_stopped_ = false, force_stopped_ = false;
 };
 
 TEST_F(ImuWatchStory, NothingIsWrongBeforeTheFirstSampleAndWithGoodOnes) {
@@ -56,6 +58,22 @@ TEST_F(ImuWatchStory, RepeatedSamplesAreNoticedWithinATenthOfASecond) {
   EXPECT_EQ(fault(), "") << "a sample given a few times";
   feed(0.05, true);
   EXPECT_EQ(fault(), "the inertial samples repeat");
+  feed(0.01);
+  EXPECT_EQ(fault(), "");
+}
+
+TEST_F(ImuWatchStory, GyroscopesOrAccelerometersThatRepeatAloneAreNoticedInAHover) {
+  feed(1.0);
+  rates_stopped_ = true;
+  feed(0.15);
+  EXPECT_EQ(fault(), "") << "coarse gyroscopes";
+  feed(0.05);
+  EXPECT_EQ(fault(), "the gyroscopes give the same rates");
+  rates_stopped_ = false;
+  force_stopped_ = true;
+  feed(0.2);
+  EXPECT_EQ(fault(), "the accelerometers give the same force");
+  force_stopped_ = false;
   feed(0.01);
   EXPECT_EQ(fault(), "");
 }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interfaces/files/archive.hpp"
+#include "interfaces/files/point_cloud.hpp"
 #include "interfaces/files/tum.hpp"
 #include "tests/support/datasets.hpp"
 #include "tests/support/program.hpp"
@@ -96,7 +97,7 @@ TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
   if (!frames) return;
   const fs::path& some = *frames;
   fs::resize_file(some / "frame-000010.depth.png", 5'000);
-  const ProgramEnd end = runSwiftlet({"map3d", some.string(), "--out", path("out"), "--json"});
+  const ProgramEnd end = runSwiftlet({"map3d", some.string(), "--out", path("out"), "--mesh", "--json"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const nlohmann::json figures = nlohmann::json::parse(end.out);
   EXPECT_EQ(figures.at("format"), "7-Scenes");
@@ -106,6 +107,7 @@ TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
   EXPECT_THAT(figures.at("notes").dump(), HasSubstr("frame-000010.depth.png: is cut off"));
   EXPECT_EQ(interfaces::readTum(path("out/trajectory.tum")).size(), 19u);
   EXPECT_GT(fs::file_size(path("out/cloud.ply")), 100'000u);
+  EXPECT_GT(interfaces::readCloud(path("out/mesh.ply")).size(), 1'000u) << "the vertices; faces are left out";
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("<title>3D map of some"));
   // Its own poses as a seed give the same map.
   const ProgramEnd seeded =
