@@ -18,7 +18,7 @@ inline const std::string kMap3dTitle = "3D map of ";
 inline const ResultsKind kMap3dResults{
     "3D map", "report.html", "<title>" + kMap3dTitle, {"report.html", "trajectory.tum", "cloud.ply", "map.bt"}};
 
-/// With the axes of the recorder's camera.
+/// In the frame of the trajectory.
 struct Map3dMap {
   std::vector<common::SurfacePoint> cloud;
   common::VoxelMap voxels;
@@ -32,8 +32,8 @@ struct Map3dFigures {
   rendering::ThinnedCurve disagreement;  ///< Part of the points that do not agree with the map, the same.
 };
 
-/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the map. Throws InputError if a
-/// file cannot be written.
+/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the frame of the map. Throws
+/// InputError if a file cannot be written.
 void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
                        const Map3dFigures& figures);
 
