@@ -28,6 +28,8 @@ namespace fs = std::filesystem;
 using common::Pose3;
 using interfaces::FrameFault;
 
+/// With poses for a smaller part of the frames, their times are probably those of another clock.
+constexpr double kFewPoses = 0.5;
 /// A map of which more than this part was lost is probably not one map.
 constexpr double kMostLost = 0.1;
 
@@ -50,6 +52,9 @@ struct TrackedFrame {
 struct Map3dRun {
   mapping3d::Mapper3d mapper{mapping3d::Mapper3dConfig()};
   std::vector<TrackedFrame> tracked;
+  bool begins_at_pose = false;  ///< The map is in the world of the given poses: its first frame had one.
+  common::Trajectory given;     ///< Poses of the recorder's camera from other sensors.
+  std::uint64_t with_pose = 0;  ///< Frames with a given pose of their time.
   rendering::ThinnedCurve milliseconds, disagreement;
   std::vector<double> frame_ms;
   std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
@@ -61,33 +66,39 @@ struct Map3dRun {
   }
 };
 
-/// Converts between the map of the odometry, whose axes are those of `camera`, and the recorder's camera with the axes
-/// of image processing. The first pose is the origin of either.
+/// Converts between `camera` and the recorder's camera, whose axes are those of image processing.
 struct RecordedCamera {
   explicit RecordedCamera(const interfaces::RgbdCalibration& calibration)
       : T_camera_recorded(interfaces::T_camera_optical() * calibration.T_recorded_color().inverse()) {}
 
-  Pose3 recorded(const Pose3& T_map_camera) const {
-    return interfaces::T_camera_optical().inverse() * T_map_camera * T_camera_recorded;
-  }
+  Pose3 recorded(const Pose3& T_map_camera) const { return T_map_camera * T_camera_recorded; }
   Pose3 camera(const Pose3& T_world_recorded) const { return T_world_recorded * T_camera_recorded.inverse(); }
 
   Pose3 T_camera_recorded;
 };
 
+/// The results have the axes of the given poses' world. Without any, the map begins at the first pose, whose axes are
+/// those of `camera` in the map and those of the recorder's camera in the results.
+Pose3 T_results_map(const Map3dRun& run) {
+  return run.begins_at_pose ? Pose3{} : interfaces::T_camera_optical().inverse();
+}
+
 void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, Map3dRun& run) {
   const auto begin = Clock::now();
-  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {seeds.at(frame.stamps.measured), nullptr, {}});
+  const auto seed = seeds.at(frame.stamps.measured);
+  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {seed, nullptr, {}});
   const mapping3d::RgbdPose& pose = mapped.pose;
   seeds.compare(pose);
   run.frame_ms.push_back(1e3 * secondsSince(begin));
   const auto index = static_cast<double>(run.frames++);
   run.milliseconds.add(index, run.frame_ms.back());
   run.key_frames += pose.became_key_frame ? 1 : 0;
+  run.with_pose += seed ? 1 : 0;
   if (!pose.isTracked()) {
     ++run.lost;
     return;
   }
+  if (run.tracked.empty()) run.begins_at_pose = seed.has_value();
   if (run.frames > 1) run.disagreement.add(index, 1.0 - pose.fit.agreement);
   run.found_again += pose.state == mapping3d::TrackState::kFoundAgain ? 1 : 0;
   run.loops += static_cast<std::uint64_t>(mapped.loops);
@@ -99,7 +110,8 @@ common::Trajectory trajectoryOf(const Map3dRun& run, const RecordedCamera& camer
   const auto keys = run.mapper.scans();
   common::Trajectory trajectory;
   for (const TrackedFrame& frame : run.tracked)
-    trajectory.push_back({frame.stamp, camera.recorded(keys->T_map_level(frame.scan) * frame.T_scan_camera)});
+    trajectory.push_back(
+        {frame.stamp, T_results_map(run) * camera.recorded(keys->T_map_level(frame.scan) * frame.T_scan_camera)});
   return trajectory;
 }
 
@@ -111,16 +123,18 @@ double pathLength_m(const common::Trajectory& trajectory) {
 }
 
 /// Empty where none are given.
-mapping3d::RecordedSeeds seedsOf(const Map3dOptions& options, const RecordedCamera& camera) {
-  common::Trajectory poses;
-  if (options.poses != "none")
-    poses = common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
+common::Trajectory givenPoses(const Map3dOptions& options) {
+  if (options.poses == "none") return {};
+  return common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
+}
+
+mapping3d::RecordedSeeds seedsOf(common::Trajectory poses, const RecordedCamera& camera) {
   for (common::StampedPose& at : poses) at.pose = camera.camera(at.pose);
   return {std::move(poses), {}};
 }
 
 void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {
-  mapping3d::RecordedSeeds seeds = seedsOf(options, RecordedCamera(folder.calibration()));
+  mapping3d::RecordedSeeds seeds = seedsOf(run.given, RecordedCamera(folder.calibration()));
   const auto begin = Clock::now();
   ProgressLine line(options.json);
   while (const auto frame = folder.next()) {
@@ -135,14 +149,25 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
   line.close();
 }
 
-/// In the axes of the recorder's camera, which the trajectory has too.
-Map3dMap recordedMap(Map3dRun& run) {
+/// In the axes of the results, which the trajectory has too.
+Map3dMap resultsOf(Map3dRun& run) {
   common::KeyPoses keys = *run.mapper.scans();
-  for (common::KeyPose& key : keys.keys)
-    key.T_map_camera = interfaces::T_camera_optical().inverse() * *key.T_map_camera;
+  for (common::KeyPose& key : keys.keys) key.T_map_camera = T_results_map(run) * *key.T_map_camera;
   const std::vector<common::Submap3d> submaps = run.mapper.submaps();
   const double resolution_m = mapping3d::VoxelConfig().resolution_m;
   return {mapping3d::cloudOf(submaps, keys), mapping3d::fuse(submaps, keys, resolution_m)};
+}
+
+/// What is to be said of the given poses; empty if most frames have one.
+std::string noteOnPoses(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
+  if (run.given.empty() || static_cast<double>(run.with_pose) >= kFewPoses * static_cast<double>(run.frames)) return {};
+  const auto& pairs = folder.listing().pairs;
+  return fmt::format("{}: the poses are from {:.3f} s to {:.3f} s, the frames from {:.3f} s to {:.3f} s",
+                     run.with_pose == 0 ? std::string("no frame has a pose of its time")
+                                        : fmt::format("only {} of {} have a pose of their time", run.with_pose,
+                                                      plural(run.frames, "frame", "frames")),
+                     run.given.front().stamp.seconds(), run.given.back().stamp.seconds(), pairs.front().stamp.seconds(),
+                     pairs.back().stamp.seconds());
 }
 
 std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
@@ -157,6 +182,7 @@ std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const 
         "the map is probably wrong: the frames fit each other better with {:.2f} times the focal length; check the "
         "calibration (--intrinsics)",
         *factor));
+  if (std::string note = noteOnPoses(folder, run); !note.empty()) warnings.push_back(std::move(note));
   if (folder.listing().unpaired > 0)
     warnings.push_back(plural(folder.listing().unpaired, "image has", "images have") + " no partner of the same time");
   for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i) {
@@ -177,6 +203,7 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
           {"frames", run.frames},
           {"skipped_frames", folder.skipped()},
           {"unpaired_images", folder.listing().unpaired},
+          {"frames_with_pose", run.with_pose},
           {"lost_frames", run.lost},
           {"found_again", run.found_again},
           {"key_frames", run.key_frames},
@@ -194,6 +221,7 @@ int map3d(const Map3dOptions& options) {
   ResultsFolder results(options.out.empty() ? fs::path(name.filename().string() + "-map3d") : fs::path(options.out),
                         kMap3dResults);
   Map3dRun run;
+  run.given = givenPoses(options);
   mapFolder(folder, options, run);
   Map3dFigures shown{options.folder, {}, warningsOf(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
@@ -215,7 +243,9 @@ int map3d(const Map3dOptions& options) {
                  {"path length", fmt::format("{:.2f} m", path_length_m)},
                  {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
                  {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
-  writeMap3dOutputs(results.unfinished(), trajectory, recordedMap(run), shown, options.mesh);
+  if (!run.given.empty())
+    shown.facts.insert(shown.facts.begin() + 3, {"with a pose", fmt::format("{}", run.with_pose)});
+  writeMap3dOutputs(results.unfinished(), trajectory, resultsOf(run), shown, options.mesh);
   results.publish();
   if (options.json) {
     const auto figures = figuresOf(options, folder, run, path_length_m, shown.warnings, results.path());
@@ -246,7 +276,7 @@ void addMap3d(Command& program) {
   command.flag("--json", options->json, "Print the figures as JSON.");
   command.footer(
       "trajectory.tum has the poses of the camera with x right, y down and z along the view, as the ground truth of\n"
-      "both formats has them; the map begins at the first pose of the colour camera.\n"
+      "both formats has them; the map begins at the first pose of the colour camera, or is in the world of --poses.\n"
       "Example: swiftlet map3d rgbd_dataset_freiburg1_desk --out desk");
   command.runs([options] { return map3d(*options); });
 }

@@ -42,9 +42,17 @@ std::string positionPlot(const common::Trajectory& trajectory) {
   return rendering::plotSvg(plot);
 }
 
-/// The cloud and the path of the camera from above at a slant. Vertical in the picture is vertical in the first image.
+/// Turns the map upright. Its z axis is vertical, or its y axis points down as that of a first image does: whichever
+/// fits how the camera was held.
+common::Pose3 upright(const common::Trajectory& trajectory) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const common::StampedPose& at : trajectory) up -= at.pose.rotation * Eigen::Vector3d::UnitY();
+  return up.z() > -up.y() ? common::Pose3{} : interfaces::T_camera_optical();
+}
+
+/// The cloud and the path of the camera from above at a slant.
 std::string pictureOf(const Map3dMap& map, const common::Trajectory& trajectory) {
-  const common::Pose3 T_shown_recorded = interfaces::T_camera_optical();
+  const common::Pose3 T_shown_recorded = upright(trajectory);
   rendering::Picture3d picture;
   picture.surfaces.push_back({std::make_shared<const std::vector<common::SurfacePoint>>(map.cloud), T_shown_recorded});
   picture.lines.emplace_back();

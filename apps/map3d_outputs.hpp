@@ -20,7 +20,7 @@ inline const ResultsKind kMap3dResults{"3D map",
                                        "<title>" + kMap3dTitle,
                                        {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply"}};
 
-/// With the axes of the recorder's camera.
+/// In the frame of the trajectory.
 struct Map3dMap {
   std::vector<common::SurfacePoint> cloud;
   common::VoxelMap voxels;
@@ -34,8 +34,8 @@ struct Map3dFigures {
   rendering::ThinnedCurve disagreement;  ///< Part of the points that do not agree with the map, the same.
 };
 
-/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the map. With `mesh` there is a
-/// mesh.ply, too. Throws InputError if a file cannot be written.
+/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the frame of the map. With `mesh`
+/// there is a mesh.ply, too. Throws InputError if a file cannot be written.
 void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
                        const Map3dFigures& figures, bool mesh);
 

@@ -20,25 +20,43 @@ constexpr double kFloor_m = 0.10;
 constexpr int kLeastEvidence = static_cast<int>(1.5 / VoxelMap::kLogOddsStep);
 /// What the laser sees is in the grid already. The two maps differ by up to so many cells, which must not narrow doors.
 constexpr int kNearLaser_cells = 2;
+/// So many blocks are read in one update, two megabytes, and the submap that is begun is read to its end.
+constexpr int kBlocksPerUpdate = 4000;
 /// The height may change by this much before the voxels are read again.
 constexpr double kSameHeight_m = 0.03;
 
-std::vector<Eigen::Vector2d> columnsOf(const VoxelMap& voxels, int low, int high) {
-  std::vector<Eigen::Vector2d> centers_m;
-  for (const VoxelIndex block : voxels.blocks()) {
-    const VoxelIndex first = VoxelMap::firstOf(block);
-    if (first.z > high || first.z + VoxelBlock::kSide <= low) continue;
-    const VoxelBlock& content = *voxels.block(block);
-    const int bottom = std::max(low, first.z), top = std::min(high, first.z + VoxelBlock::kSide - 1);
-    for (int y = first.y; y < first.y + VoxelBlock::kSide; ++y)
-      for (int x = first.x; x < first.x + VoxelBlock::kSide; ++x)
-        for (int z = bottom; z <= top; ++z)
-          if (content.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({x, y, z}))] >= kLeastEvidence) {
-            centers_m.emplace_back(voxels.centerOf({x, y, z}).head<2>());
-            break;
-          }
+std::map<int, std::vector<VoxelIndex>> layersOf(const VoxelMap& voxels) {
+  std::map<int, std::vector<VoxelIndex>> layers;
+  for (const VoxelIndex block : voxels.blocks()) layers[block.z].push_back(block);
+  return layers;
+}
+
+/// The columns of a block in which something is from `low` to `high`.
+void addColumns(const VoxelMap& voxels, VoxelIndex block, int low, int high, std::vector<Eigen::Vector2d>& centers_m) {
+  const VoxelIndex first = VoxelMap::firstOf(block);
+  const VoxelBlock& content = *voxels.block(block);
+  const int bottom = std::max(low, first.z), top = std::min(high, first.z + VoxelBlock::kSide - 1);
+  for (int y = first.y; y < first.y + VoxelBlock::kSide; ++y)
+    for (int x = first.x; x < first.x + VoxelBlock::kSide; ++x)
+      for (int z = bottom; z <= top; ++z)
+        if (content.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({x, y, z}))] >= kLeastEvidence) {
+          centers_m.emplace_back(voxels.centerOf({x, y, z}).head<2>());
+          break;
+        }
+}
+
+/// The submaps, those next to the camera first.
+std::vector<std::size_t> nearestFirst(const common::Map3dLayer& layer) {
+  std::vector<std::pair<double, std::size_t>> ranked;
+  for (std::size_t i = 0; i < layer.submaps->size(); ++i) {
+    const Eigen::Vector3d origin_m = (*layer.submaps)[i].T_map_submap(*layer.keys).position_m;
+    ranked.emplace_back((origin_m - layer.T_map_camera.position_m).head<2>().squaredNorm(), i);
   }
-  return centers_m;
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::size_t> order;
+  order.reserve(ranked.size());
+  for (const auto& [distance_m2, i] : ranked) order.push_back(i);
+  return order;
 }
 
 /// Enlarges the rectangle by the cells that decide whether the laser sees something near this one.
@@ -75,38 +93,56 @@ void CameraObstacles::update(const std::shared_ptr<const common::Map3dLayer>& la
   const bool same_map =
       layer_ == layer || (layer_ && layer && layer_->submaps == layer->submaps && layer_->keys == layer->keys);
   const bool same_height = height_m_ && std::abs(*height_m_ - height_m) <= kSameHeight_m;
-  if (grid_ && laser_grid_ == grid && same_map && same_height) return;
+  if (grid_ && laser_grid_ == grid && same_map && same_height && !unread_) return;
   laser_grid_ = grid_ = grid;
   layer_ = layer;
   cells_map_m_.clear();
   if (!layer) return;
   followHeight(height_m);
-  readColumns(*layer->submaps);
+  readColumns(*layer);
   overlay(*layer);
 }
 
 void CameraObstacles::followHeight(double height_m) {
-  if (height_m_ && std::abs(*height_m_ - height_m) <= kSameHeight_m) return;
-  height_m_ = height_m;
-  columns_.clear();
+  if (!height_m_ || std::abs(*height_m_ - height_m) > kSameHeight_m) height_m_ = height_m;
 }
 
-/// Only those of submaps that are new or have grown.
-void CameraObstacles::readColumns(const std::vector<common::Submap3d>& submaps) {
-  columns_.resize(submaps.size());
-  for (std::size_t i = 0; i < submaps.size(); ++i) {
-    if (columns_[i].voxels == submaps[i].voxels) continue;
-    const double resolution_m = submaps[i].voxels->resolution_m();
-    const double low_m = std::max(*height_m_ - half_hull_m_ - kMargin_m, kFloor_m);
-    const double high_m = *height_m_ + half_hull_m_ + kMargin_m;
-    columns_[i] = {submaps[i].voxels,
-                   columnsOf(*submaps[i].voxels, static_cast<int>(std::floor(low_m / resolution_m)),
-                             static_cast<int>(std::floor(high_m / resolution_m))),
-                   {},
-                   nullptr,
-                   {},
-                   {}};
+/// Of submaps that are new, have grown, or were read for another height.
+void CameraObstacles::readColumns(const common::Map3dLayer& layer) {
+  columns_.resize(layer.submaps->size());
+  unread_ = false;
+  int left = kBlocksPerUpdate;
+  for (const std::size_t i : nearestFirst(layer)) {
+    const auto& voxels = (*layer.submaps)[i].voxels;
+    Columns& columns = columns_[i];
+    if (columns.voxels != voxels) columns = {voxels, layersOf(*voxels), {}, {}, {}, nullptr, {}, {}};
+    if (columns.height_m == height_m_) continue;
+    if (left > 0)
+      left -= read(columns);
+    else
+      unread_ = true;
   }
+}
+
+/// How many blocks it has read.
+int CameraObstacles::read(Columns& columns) const {
+  const double resolution_m = columns.voxels->resolution_m();
+  const double low_m = std::max(*height_m_ - half_hull_m_ - kMargin_m, kFloor_m);
+  const double high_m = *height_m_ + half_hull_m_ + kMargin_m;
+  const int low = static_cast<int>(std::floor(low_m / resolution_m)),
+            high = static_cast<int>(std::floor(high_m / resolution_m));
+  columns.height_m = height_m_;
+  columns.centers_submap_m.clear();
+  columns.laser_grid = nullptr;
+  int blocks = 0;
+  const int lowest = VoxelMap::blockOf({0, 0, low}).z, highest = VoxelMap::blockOf({0, 0, high}).z;
+  for (auto layer = columns.layers.lower_bound(lowest); layer != columns.layers.end() && layer->first <= highest;
+       ++layer) {
+    for (const VoxelIndex block : layer->second)
+      addColumns(*columns.voxels, block, low, high, columns.centers_submap_m);
+    blocks += static_cast<int>(layer->second.size());
+  }
+  return blocks;
 }
 
 /// Again only if its submap was moved or the laser has changed the grid there, so that a large map costs little.

@@ -2,6 +2,7 @@
 // They are added to the grid that paths are planned on, and to the points that the reactive layer brakes for.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,11 +12,13 @@
 
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/voxel_map.hpp"
 #include "common/world/map3d_layer.hpp"
 
 namespace swiftlet::autonomy {
 
-/// One thread. Without a 3D map the grid stays the same object.
+/// One thread. Without a 3D map the grid stays the same object. When the height changes, the voxels of the submaps next
+/// to the camera are read again at once, those of a large map in the following updates: an update is short.
 class CameraObstacles {
  public:
   explicit CameraObstacles(double hull_height_m) : half_hull_m_(0.5 * hull_height_m) {}
@@ -35,6 +38,8 @@ class CameraObstacles {
   /// Where a submap has something at the height of the hull.
   struct Columns {
     std::shared_ptr<const common::VoxelMap> voxels;
+    std::map<int, std::vector<common::VoxelIndex>> layers;  ///< Its blocks by their z.
+    std::optional<double> height_m;                         ///< Of the body, for which they were read; none before.
     std::vector<Eigen::Vector2d> centers_submap_m;
     /// Those that the laser does not see, and of what they were made; null before the first time.
     std::vector<common::CellIndex> cells;
@@ -43,12 +48,14 @@ class CameraObstacles {
     common::CellRect around;  ///< The cells of the laser grid that were looked at.
   };
   void followHeight(double height_m);
-  void readColumns(const std::vector<common::Submap3d>& submaps);
+  void readColumns(const common::Map3dLayer& layer);
+  int read(Columns& columns) const;
   void findCells(Columns& columns, const common::Pose2& T_map_submap) const;
   void overlay(const common::Map3dLayer& layer);
 
   double half_hull_m_;
-  std::optional<double> height_m_;  ///< That of the columns.
+  std::optional<double> height_m_;  ///< For which columns are read.
+  bool unread_ = false;             ///< Some columns are still those of another height.
   std::vector<Columns> columns_;    ///< Of each submap.
   std::shared_ptr<const common::Map3dLayer> layer_;
   std::shared_ptr<const common::OccupancyGrid> laser_grid_, grid_;

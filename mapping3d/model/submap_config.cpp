@@ -12,6 +12,8 @@ void SubmapConfig::describe(common::config::Fields& fields) {
   fields("points_max", points_max, {10'000, 100'000'000},
          "Points of all submaps together, at most: beyond, the oldest are thinned to cubes of twice the size.");
   fields("submaps_max", submaps_max, {2, 10'000}, "Submaps that are kept, at most: beyond, the oldest is forgotten.");
+  fields("blocks_max", blocks_max, {100, 10'000'000},
+         "Blocks of 8 x 8 x 8 voxels of all submaps together, half a kilobyte each: beyond, the oldest are forgotten.");
 }
 
 void ImageSubmapConfig::describe(common::config::Fields& fields) {

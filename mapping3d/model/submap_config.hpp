@@ -11,6 +11,7 @@ struct SubmapConfig {
   double reach_m = 2.5;
   int points_max = 6'000'000;
   int submaps_max = 200;
+  int blocks_max = 500'000;
 
   void describe(common::config::Fields& fields);
 };

@@ -140,7 +140,18 @@ void SubmapStore::leave() {
   kept.weights = std::move(points.weights);
   kept.submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   growing_.reset();
+  forgetOldest();
   thinOldest();
+}
+
+/// At least one stays: the voxels of a single submap are limited by VoxelConfig.
+void SubmapStore::forgetOldest() {
+  std::size_t blocks = 0;
+  for (const Kept& kept : kept_) blocks += kept.submap.voxels->blockCount();
+  while (blocks > static_cast<std::size_t>(config_.blocks_max) && kept_.size() > 1) {
+    blocks -= kept_.front().submap.voxels->blockCount();
+    kept_.erase(kept_.begin());
+  }
 }
 
 void SubmapStore::thinOldest() {

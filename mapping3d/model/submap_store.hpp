@@ -75,6 +75,7 @@ class SubmapStore {
   void grow(std::size_t index);
   void leave();
   void thinOldest();
+  void forgetOldest();
 
   ImageSubmapConfig config_;
   VoxelConfig voxels_;

@@ -1,6 +1,9 @@
 // What the camera sees at the height of the hull becomes an obstacle, if the laser does not see it.
 #include "autonomy/camera_obstacles.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::autonomy {
@@ -107,6 +110,45 @@ TEST_F(CameraObstaclesStory, NearOnesAreGivenToTheReactiveLayer) {
   const auto points = obstacles_.pointsNear_level_m({1.0, 1.0, 0.0}, 2.0);
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].x(), 1.0F, 0.06F);
+}
+
+/// A building of 60 submaps, each with its blocks in one piece and a lamp in the middle.
+TEST(CameraObstacles, InALargeMapTheNearestAreReadFirstAndTheOthersSoon) {
+  constexpr int kSubmaps = 60;
+  common::VoxelMap voxels(0.05);
+  for (int z = 0; z < 6; ++z)
+    for (int y = -15; y < 15; ++y)
+      for (int x = -15; x < 15; ++x) voxels.mutableBlock({x, y, z}).evidence.fill(-40);
+  voxels.set(voxels.voxelAt({0.0, 0.0, 1.2}), 40);
+  voxels.set(voxels.voxelAt({1.0, 0.0, 1.8}), 40);
+  auto layer = std::make_shared<common::Map3dLayer>();
+  auto keys = std::make_shared<common::KeyPoses>();
+  std::vector<common::Submap3d> submaps;
+  for (int i = 0; i < kSubmaps; ++i) {
+    keys->keys.push_back({{}, {5.0 * i, 0.0, 0.0}});
+    submaps.push_back({i,
+                       {},
+                       std::make_shared<const std::vector<common::SurfacePoint>>(),
+                       std::make_shared<const common::VoxelMap>(voxels.snapshot())});
+  }
+  layer->submaps = std::make_shared<const std::vector<common::Submap3d>>(submaps);
+  layer->keys = keys;
+  layer->T_map_camera.position_m = {150.0, 0.0, 1.0};
+  const auto grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  CameraObstacles obstacles(0.25);
+  for (const double height_m : {1.2, 1.8}) {
+    obstacles.update(layer, grid, height_m);
+    const double lamp_m = 150.0 + (height_m > 1.5 ? 1.0 : 0.0);
+    const auto isLampAt = [&](double x_m) {
+      const auto& cells = obstacles.cells_map_m();
+      return std::any_of(cells.begin(), cells.end(), [&](const auto& cell) { return std::abs(cell.x() - x_m) < 0.06; });
+    };
+    EXPECT_TRUE(isLampAt(lamp_m)) << "at once";
+    EXPECT_FALSE(isLampAt(lamp_m - 150.0)) << "an update is short";
+    for (int i = 0; i < 40; ++i) obstacles.update(layer, grid, height_m);
+    EXPECT_TRUE(isLampAt(lamp_m - 150.0));
+    EXPECT_EQ(obstacles.cells_map_m().size(), static_cast<std::size_t>(kSubmaps));
+  }
 }
 
 TEST(CameraObstacles, WithoutA3DMapTheGridIsTheSameObject) {

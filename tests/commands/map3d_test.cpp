@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interfaces/files/archive.hpp"
+#include "interfaces/files/octomap.hpp"
 #include "interfaces/files/point_cloud.hpp"
 #include "interfaces/files/tum.hpp"
 #include "tests/support/datasets.hpp"
@@ -109,11 +110,68 @@ TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
   EXPECT_GT(fs::file_size(path("out/cloud.ply")), 100'000u);
   EXPECT_GT(interfaces::readCloud(path("out/mesh.ply")).size(), 1'000u) << "the vertices; faces are left out";
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("<title>3D map of some"));
-  // Its own poses as a seed give the same map.
+}
+
+/// The mean of the points, and of the occupied voxels: they tell one frame from another.
+Eigen::Vector3d middleOfCloud(const fs::path& file) {
+  const auto points = interfaces::readCloud(file);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const common::SurfacePoint& point : points) sum += point.position_m.cast<double>();
+  return sum / static_cast<double>(points.size());
+}
+Eigen::Vector3d middleOfVoxels(const fs::path& file) {
+  const common::VoxelMap map = interfaces::readOctree(file);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const common::VoxelIndex block : map.blocks())
+    for (int i = 0; i < common::VoxelBlock::kVoxels; ++i)
+      if (const auto voxel = common::VoxelMap::voxelOf(block, i); map.isOccupied(voxel)) {
+        sum += map.centerOf(voxel);
+        ++count;
+      }
+  return sum / count;
+}
+
+/// The poses of a world with z upwards: all results are in that world.
+TEST_F(Map3d, WithGivenPosesTheResultsAreInTheirWorld) {
+  const auto some = kitchenFrames(folder_, 10);
+  if (!some) return;
+  ASSERT_EQ(runSwiftlet({"map3d", some->string(), "--out", path("out")}).exit_code, 0);
+  const common::Trajectory own = interfaces::readTum(path("out/trajectory.tum"));
+  const common::Pose3 T_world_own{common::expSO3({-1.6, 0.2, 0.4}), {3.0, -2.0, 1.0}};
+  std::string poses;
+  for (const common::StampedPose& at : own) poses += interfaces::toTumLine({at.stamp, T_world_own * at.pose});
   const ProgramEnd seeded =
-      runSwiftlet({"map3d", some.string(), "--poses", path("out/trajectory.tum"), "--out", path("seeded"), "--json"});
+      runSwiftlet({"map3d", some->string(), "--poses", write("poses.tum", poses), "--out", path("seeded"), "--json"});
   ASSERT_EQ(seeded.exit_code, 0) << describe(seeded);
-  EXPECT_EQ(nlohmann::json::parse(seeded.out).at("lost_frames"), 0);
+  const nlohmann::json figures = nlohmann::json::parse(seeded.out);
+  EXPECT_EQ(figures.at("lost_frames"), 0);
+  EXPECT_EQ(figures.at("frames_with_pose"), 10);
+  EXPECT_TRUE(figures.at("notes").empty());
+  const common::Trajectory in_world = interfaces::readTum(path("seeded/trajectory.tum"));
+  ASSERT_EQ(in_world.size(), own.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const common::Pose3 expected = T_world_own * own[i].pose;
+    EXPECT_LT((in_world[i].pose.position_m - expected.position_m).norm(), 0.02) << i;
+    EXPECT_LT(in_world[i].pose.rotation.angularDistance(expected.rotation), 0.02) << i;
+  }
+  EXPECT_LT((middleOfCloud(path("seeded/cloud.ply")) - T_world_own * middleOfCloud(path("out/cloud.ply"))).norm(), 0.1);
+  EXPECT_LT((middleOfVoxels(path("seeded/map.bt")) - T_world_own * middleOfVoxels(path("out/map.bt"))).norm(), 0.1);
+}
+
+TEST_F(Map3d, SaysWhereGivenPosesAreOfOtherTimes) {
+  const auto some = kitchenFrames(folder_, 4);
+  if (!some) return;
+  const auto notesWith = [&](const std::string& poses) {
+    const ProgramEnd end =
+        runSwiftlet({"map3d", some->string(), "--poses", write("poses.tum", poses), "--out", path("out"), "--json"});
+    EXPECT_EQ(end.exit_code, 0) << describe(end);
+    return nlohmann::json::parse(end.out).at("notes").dump();
+  };
+  const std::string there = " 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(notesWith("100.0" + there + "101.0" + there),
+              HasSubstr("no frame has a pose of its time: the poses are from 100.000 s to 101.000 s, the frames from"));
+  EXPECT_THAT(notesWith("0.0" + there + "0.05" + there), HasSubstr("only 1 of 4 frames have a pose of their time"));
 }
 
 }  // namespace

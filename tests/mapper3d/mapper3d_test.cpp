@@ -295,6 +295,25 @@ TEST(SubmapStore, StaysWithinItsPoints) {
   EXPECT_GT(points, 5'000u);
 }
 
+/// The voxels of all submaps together are limited; what is forgotten is the oldest, and the newest goes on.
+TEST(SubmapStore, StaysWithinItsVoxels) {
+  const TexturedRoom room;
+  Mapper3dConfig config;
+  config.submaps.reach_m = 0.5;
+  config.submaps.blocks_max = 600;
+  Mapper3d mapper(config);
+  const auto scans = scansAt(1, {{}});
+  for (int i = 0; i < 40; ++i) {
+    const double time_s = i / 8.0;
+    ASSERT_TRUE(
+        mapper.add(room.seen(flight(time_s), time_s), {CameraSeed{flight(time_s), 0}, scans, {}}).pose.isTracked());
+    std::size_t blocks = 0;
+    for (const Submap3d& submap : mapper.submaps()) blocks += submap.voxels->blockCount();
+    ASSERT_LE(blocks, 600u + 955u) << "and the one that grows, which the room bounds";
+  }
+  EXPECT_GT(mapper.submaps().size(), 1u);
+}
+
 /// Frames seen along a line there and back, placed by key scans.
 struct Commute {
   TexturedRoom room;
