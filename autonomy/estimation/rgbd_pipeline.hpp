@@ -121,7 +121,8 @@ class RgbdPipeline {
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_, last_arrived_;
   bool has_begun_ = false;  ///< The first frame was placed.
-  bool silent_ = false, fault_said_ = false, lost_said_ = false;
+  bool silent_ = false, lost_said_ = false;
+  std::set<std::string> faults_said_;
   std::optional<common::Time> lost_since_;
 
   Map3dPublisher publisher_;
