@@ -91,7 +91,8 @@ TEST_F(MissionDeskStory, AfterAStopItWaits) {
 TEST_F(MissionDeskStory, AMissionThatCannotBeFlownChangesNothing) {
   tick();
   EXPECT_EQ(start("<MoveToGaol goal=\"1;1\"/>"),
-            "refused: new.xml:1:65: MoveToGaol: unknown node `MoveToGaol`, did you mean `MoveToGoal`?");
+            "refused: new.xml:1:65: MoveToGaol: unknown node `MoveToGaol`, did you mean `MoveToGoal`? "
+            "[M/Sequence/MoveToGaol]");
   EXPECT_THAT(start("<MoveToGoal goal=\"1;1;9\"/><MoveToGoal goal=\"1;1;8\"/>"),
               HasSubstr("9 m is above the greatest height, 2 m"));
   intentIs(common::IntentState::kSucceeded, true);
