@@ -1,6 +1,8 @@
 // swiftlet consistency: whether the filter's errors agree with its covariance.
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -28,36 +30,59 @@ struct ConsistencyOptions {
   std::vector<std::string> runs;
   std::string system = "swiftlet";
   std::string drift;
+  bool judge = false;
   bool json = false;
 };
 
-nlohmann::json jsonOf(const Consistency& consistency) {
+nlohmann::json jsonOf(const ConsistencyFigure& figure, const char* mean) {
   using common::rounded;
-  auto errors = nlohmann::json::array();
-  for (const ConsistencyFigure& figure : consistency.errors)
-    errors.push_back({{"name", figure.name},
-                      {"degrees", figure.degrees},
-                      {"nees", rounded(figure.mean)},
-                      {"lower", rounded(figure.lower)},
-                      {"upper", rounded(figure.upper)},
-                      {"inside_share", rounded(figure.inside_share)}});
+  nlohmann::json json = {{"name", figure.name},
+                         {"degrees", figure.degrees},
+                         {mean, rounded(figure.mean)},
+                         {"lower", rounded(figure.lower)},
+                         {"upper", rounded(figure.upper)},
+                         {"inside_share", rounded(figure.inside_share)}};
+  if (figure.sigma_ratio > 0.0) json["sigma_ratio"] = rounded(figure.sigma_ratio);
+  return json;
+}
+
+nlohmann::json jsonOf(const Consistency& consistency) {
+  auto errors = nlohmann::json::array(), innovations = nlohmann::json::array();
+  for (const ConsistencyFigure& figure : consistency.errors) errors.push_back(jsonOf(figure, "nees"));
+  for (const ConsistencyFigure& figure : consistency.innovations) innovations.push_back(jsonOf(figure, "nis"));
   return {{"flights", consistency.flights},
           {"instants", consistency.instants},
           {"diverged", consistency.diverged},
           {"errors", errors},
-          {"relative_pose_nis", rounded(consistency.relative_pose_nis)},
-          {"height_nis", rounded(consistency.height_nis)}};
+          {"innovations", innovations}};
 }
 
 void print(const Consistency& consistency) {
   show(fmt::format("{} flights, {} instants each{}\n\n", consistency.flights, consistency.instants,
                    consistency.diverged > 0 ? fmt::format(", {} left out: diverged", consistency.diverged) : ""));
-  show("NEES, for each degree of freedom  mean    bounds of 95 %   instants within\n");
-  for (const ConsistencyFigure& figure : consistency.errors)
-    show(fmt::format("{:<32} {:6.2f}    {:.2f} to {:.2f}     {:5.0f} %\n", figure.name, figure.mean, figure.lower,
-                     figure.upper, 100.0 * figure.inside_share));
-  show(fmt::format("\nNIS, for each degree of freedom   mean\n{:<32} {:6.2f}\n{:<32} {:6.2f}\n", "relative poses",
-                   consistency.relative_pose_nis, "heights", consistency.height_nis));
+  show("for each degree of freedom        mean    bounds of 95 %   instants within   sigma over the best constant\n");
+  const auto row = [](const char* kind, const ConsistencyFigure& figure) {
+    show(fmt::format("{} {:<28} {:6.2f}    {:.2f} to {:.2f}     {:5.0f} %           {}\n", kind, figure.name,
+                     figure.mean, figure.lower, figure.upper, 100.0 * figure.inside_share,
+                     figure.sigma_ratio > 0.0 ? fmt::format("{:.2f}", figure.sigma_ratio) : "-"));
+  };
+  for (const ConsistencyFigure& figure : consistency.errors) row("NEES", figure);
+  for (const ConsistencyFigure& figure : consistency.innovations) row("NIS ", figure);
+}
+
+/// What is not as it must be; empty if all is.
+std::vector<std::string> missed(const Consistency& consistency) {
+  std::vector<std::string> missed;
+  for (const auto* figures : {&consistency.errors, &consistency.innovations})
+    for (const ConsistencyFigure& figure : *figures) {
+      if (!figure.consistent())
+        missed.push_back(fmt::format("{}: the mean {:.2f} is not within {:.2f} to {:.2f}", figure.name, figure.mean,
+                                     figure.lower, figure.upper));
+      if (!figure.well_sized())
+        missed.push_back(fmt::format("{}: the variance is {:.2f} times the best constant one, 0.5 to 2 was asked for",
+                                     figure.name, figure.sigma_ratio * figure.sigma_ratio));
+    }
+  return missed;
 }
 
 /// Fig. 3a of Bachrach 2009, of the first flight: what nothing but the accelerometer knows of the velocity.
@@ -98,7 +123,12 @@ int consistencyOfRuns(const ConsistencyOptions& options) {
   else
     print(consistency);
   if (!options.drift.empty()) plotDrift(flights.front(), system, options);
-  return consistency.flights > 0 ? kDone : kFailed;
+  if (consistency.flights == 0) return kFailed;
+  if (!options.judge) return kDone;
+  const std::vector<std::string> failures = missed(consistency);
+  if (!options.json)
+    for (const std::string& failure : failures) show(fmt::format("missed: {}\n", failure));
+  return failures.empty() ? kDone : kFailed;
 }
 
 }  // namespace
@@ -113,6 +143,8 @@ void addConsistency(Command& program) {
   command.option("--drift", options->drift,
                  "File (SVG) for a plot of the first flight's velocity by integrated acceleration alone, by the filter "
                  "and in truth.");
+  command.flag("--judge", options->judge,
+               "Fail unless each mean is within its bounds, and each variance within twice the best constant one.");
   command.flag("--json", options->json, "Print the figures as JSON.");
   command.footer("Example: swiftlet consistency runs/a runs/b runs/c");
   command.runs([options] { return consistencyOfRuns(*options); });

@@ -1,6 +1,6 @@
 // swiftlet papers: one row for each experiment, table and figure of the five papers.
 #include <algorithm>
-#include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -8,47 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/paper_experiments.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
-#include "common/config.hpp"
-#include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
-#include "common/validation.hpp"
 #include "interfaces/files/atomic_file.hpp"
 
 namespace swiftlet::apps {
 namespace {
-
-struct Experiment {
-  std::string paper, item, what, reported, trial, figure, profile, shown_by, missing;
-
-  void describe(common::config::Fields& fields) {
-    fields("paper", paper, "Author and year.");
-    fields("item", item, "Figure, table or section.");
-    fields("what", what, "What is shown.");
-    fields("reported", reported, "What the paper reports.");
-    fields("trial", trial, "The trial that repeats it; empty for none.");
-    fields("figure", figure, "Its figure in results.json; that of a phase as phases.NAME.FIGURE.");
-    fields("profile", profile, "The paper's profile among those that fly the trial.");
-    fields("shown_by", shown_by, "A file or folder that shows it otherwise.");
-    fields("missing", missing, "What is not built yet.");
-  }
-  std::vector<std::string> validate() const {
-    const int given = (trial.empty() ? 0 : 1) + (shown_by.empty() ? 0 : 1) + (missing.empty() ? 0 : 1);
-    return common::Validation()
-        .require(given == 1, "item", "has not one of `trial`, `shown_by` and `missing`")
-        .require(trial.empty() == figure.empty(), "figure", "goes with `trial`")
-        .problems();
-  }
-};
-
-struct Papers {
-  std::vector<Experiment> experiments;
-  void describe(common::config::Fields& fields) {
-    fields.list("experiments", experiments, "In the order of the page.");
-  }
-};
 
 using Json = nlohmann::json;
 
@@ -72,40 +40,70 @@ std::optional<double> medianOf(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-/// "0.031 (n = 5)": of the whole trial, or the median of a phase's figure over the flights.
-std::string measured(const Json& trial, const std::string& figure) {
-  const std::size_t flights = trial.value("runs", 0U);
-  if (!figure.starts_with("phases.")) {
-    const Json value = trial.value(figure, Json());
-    return value.is_number() ? fmt::format("{:.3f} (n = {})", value.get<double>(), flights) : "-";
-  }
-  const std::string name = figure.substr(7);
-  const std::string phase = name.substr(0, name.find('.')), key = name.substr(name.find('.') + 1);
+struct Measured {
+  double value = 0.0;
+  std::size_t flights = 0;
+};
+
+std::optional<Measured> medianOverFlights(const std::vector<Json>& figures) {
   std::vector<double> values;
-  for (const Json& flight : trial.value("flights", Json::array())) {
-    const Json value = flight.value("phases", Json::object()).value(phase, Json::object()).value(key, Json());
-    if (value.is_number()) values.push_back(value.get<double>());
-  }
+  for (const Json& figure : figures)
+    if (figure.is_number()) values.push_back(figure.get<double>());
   const auto median = medianOf(values);
-  return median ? fmt::format("{:.3f} (n = {})", *median, values.size()) : "-";
+  return median ? std::optional(Measured{*median, values.size()}) : std::nullopt;
 }
 
-std::string ours(const std::vector<Json>& trials, const Experiment& experiment, const std::string& profile) {
-  std::string text;
+/// Of the whole trial, or the median over its flights.
+std::optional<Measured> measured(const Json& trial, const std::string& figure) {
+  const Json flights = trial.value("flights", Json::array());
+  std::vector<Json> figures;
+  if (figure.starts_with("phases.")) {
+    const std::string name = figure.substr(7);
+    const std::string phase = name.substr(0, name.find('.')), key = name.substr(name.find('.') + 1);
+    for (const Json& flight : flights)
+      figures.push_back(flight.value("phases", Json::object()).value(phase, Json::object()).value(key, Json()));
+    return medianOverFlights(figures);
+  }
+  if (figure.starts_with("flights.")) {
+    for (const Json& flight : flights) figures.push_back(flight.value(figure.substr(8), Json()));
+    return medianOverFlights(figures);
+  }
+  const Json value = trial.value(figure, Json());
+  if (!value.is_number()) return std::nullopt;
+  return Measured{value.get<double>(), trial.value("runs", std::size_t{0})};
+}
+
+/// "0.031 (n = 5)" of each condition that was flown with the profile, with its name where there are several: a trial in
+/// two natures has two figures. Of results with the same name the last counts.
+std::string flownWith(const std::vector<Json>& trials, const PaperExperiment& experiment, const std::string& profile) {
+  std::map<std::string, const Json*> conditions;
   for (const Json& trial : trials) {
     const std::string name = trial.value("name", "");
     const bool same = name == experiment.trial || name.starts_with(experiment.trial + "-");
-    if (same && trial.value("system", "") == profile) text = measured(trial, experiment.figure);
+    if (same && trial.value("system", "") == profile) conditions[name] = &trial;
+  }
+  std::string text;
+  for (const auto& [name, trial] : conditions) {
+    if (!text.empty()) text += "; ";
+    const auto value = measured(*trial, experiment.figure);
+    text += value ? fmt::format("{:.3f} (n = {})", value->value, value->flights) : "-";
+    if (conditions.size() > 1) text += ", " + name.substr(std::min(name.size(), experiment.trial.size() + 1));
+    constexpr double kShort = 2.0;
+    const bool falls_short = value && experiment.reported_at_most > 0.0 && profile == experiment.profile &&
+                             value->value > kShort * experiment.reported_at_most;
+    if (falls_short)
+      text += ": " +
+              (experiment.shortfall.empty() ? "more than twice the paper's, why is not known" : experiment.shortfall);
   }
   return text;
 }
 
-std::string rowOf(const Experiment& experiment, const std::vector<Json>& trials) {
-  const std::string& profile = experiment.profile;
+std::string rowOf(const PaperExperiment& experiment, const std::vector<Json>& trials) {
   std::string its, own, where;
   if (!experiment.trial.empty()) {
-    its = profile == "swiftlet" ? "" : ours(trials, experiment, profile);
-    own = ours(trials, experiment, "swiftlet");
+    if (!experiment.profile.empty()) its = flownWith(trials, experiment, experiment.profile);
+    own = flownWith(trials, experiment, experiment.own);
+    if (!own.empty() && experiment.own != "swiftlet") own += fmt::format(", `{}`", experiment.own);
     where = fmt::format("`{}`, {}", experiment.trial, experiment.figure);
   } else if (!experiment.shown_by.empty()) {
     where = fmt::format("`{}`", experiment.shown_by);
@@ -124,7 +122,7 @@ std::string page(const Papers& papers, const std::vector<Json>& trials) {
       "simulator,\nin SI units, with the profile of the paper and with our own; an empty cell was not flown for this "
       "page.\n";
   std::string paper;
-  for (const Experiment& experiment : papers.experiments) {
+  for (const PaperExperiment& experiment : papers.experiments) {
     if (experiment.paper != paper) {
       paper = experiment.paper;
       text += fmt::format(
@@ -150,8 +148,7 @@ void addPapers(Command& program) {
   command.option("--write", options->write, "Page to write instead of printing it.");
   command.footer("Example: swiftlet papers --results runs/papers/results.json --write docs/papers.md");
   command.runs([options] {
-    const auto papers = common::config::readFile<Papers>(common::findData("config/papers.yaml").string());
-    const std::string text = page(papers, readResults(options->results));
+    const std::string text = page(readPapers(), readResults(options->results));
     if (options->write.empty())
       show(text);
     else

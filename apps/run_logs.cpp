@@ -64,7 +64,7 @@ perception::TapedFlight readTapedFlight(const std::string& run, const common::Ve
   perception::TapedFlight flight;
   for (const interfaces::ControlRow& row : readControlRows(run, vehicle, Truth::kNeeded))
     if (row.flying)
-      flight.truth.push_back({row.stamp, row.true_yaw_map_rad, row.true_velocity_map_m_s, row.true_position_map_m.z()});
+      flight.truth.push_back({row.stamp, row.true_yaw_map_rad, row.true_velocity_map_m_s, row.true_position_map_m});
   flight.inputs = readFilterTape(run);
   return flight;
 }

@@ -151,7 +151,7 @@ int trial(const TrialOptions& options) {
   TrialResults results;
   for (const TrialConfig& trial : trials) {
     if (stop) break;
-    results.trials.push_back({trial.name, trial.system, trial.paper, {}, trial.criteria});
+    results.trials.push_back({trial.name, trial.system, trial.paper, {}, trial.criteria, trial.figureBounds()});
     try {
       flyAll(trial, options, memory, out, stop, results.trials.back());
     } catch (...) {

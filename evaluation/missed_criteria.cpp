@@ -64,7 +64,8 @@ void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool la
   if (conduct.thrust_margin_min || lacking_counts)
     judge.atLeast("thrust margin", conduct.thrust_margin_min, criteria.thrust_margin_min);
   atMost("touch-down speed, m/s", conduct.touch_down_speed_m_s, criteria.touch_down_speed_max_m_s);
-  atMost("time from fault to safe action, s", conduct.safe_action_s, criteria.safe_action_max_s);
+  // However the flight ended: without the figure its fault never began, and nothing was tried.
+  judge.atMost("time from fault to safe action, s", conduct.safe_action_s, criteria.safe_action_max_s);
   atMost("error of the energy for the flight home", conduct.home_energy_error, criteria.home_energy_error_max);
 }
 

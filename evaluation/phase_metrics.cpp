@@ -59,19 +59,33 @@ std::optional<double> PhaseScore::figure(const std::string& figure) const {
   return std::nullopt;
 }
 
+std::string missed(const PhaseBound& bound, const std::optional<double>& value) {
+  if (value && *value >= bound.min && *value <= bound.max) return {};
+  const std::string asked = !std::isfinite(bound.min)   ? fmt::format("at most {:g}", bound.max)
+                            : !std::isfinite(bound.max) ? fmt::format("at least {:g}", bound.min)
+                                                        : fmt::format("{:g} to {:g}", bound.min, bound.max);
+  return fmt::format("{}: {}, {} was asked for", bound.figure, value ? fmt::format("{:.4f}", *value) : "not measured",
+                     asked);
+}
+
 std::vector<std::string> PhaseScore::missed() const {
   std::vector<std::string> failures;
-  for (const PhaseBound& bound : criteria) {
-    const std::optional<double> value = figure(bound.figure);
-    const std::string asked = !std::isfinite(bound.min)   ? fmt::format("at most {:g}", bound.max)
-                              : !std::isfinite(bound.max) ? fmt::format("at least {:g}", bound.min)
-                                                          : fmt::format("{:g} to {:g}", bound.min, bound.max);
-    if (!value)
-      failures.push_back(fmt::format("phase {}: {}: not measured, {} was asked for", name, bound.figure, asked));
-    else if (!(*value >= bound.min && *value <= bound.max))
-      failures.push_back(fmt::format("phase {}: {}: {:.4f}, {} was asked for", name, bound.figure, *value, asked));
-  }
+  for (const PhaseBound& bound : criteria)
+    if (const std::string failure = evaluation::missed(bound, figure(bound.figure)); !failure.empty())
+      failures.push_back(fmt::format("phase {}: {}", name, failure));
   return failures;
+}
+
+/// A recorder that has seen one tick tells them.
+std::vector<std::string> phaseFigureNames(const PhaseConfig& config) {
+  PhaseConfig any = config;
+  any.from_s = any.settle_s = 0.0;
+  PhaseRecorder recorder(std::move(any));
+  recorder.tickInPhase({}, {}, {}, {});
+  std::vector<std::string> names;
+  for (const auto& [name, value] : recorder.finish().figures)
+    if (!name.starts_with("level_")) names.push_back(name);
+  return names;
 }
 
 void PhaseRecorder::world(const common::World& world) {
@@ -94,12 +108,19 @@ void PhaseRecorder::tick(Time now, const common::Pose3& T_map_truth, const Eigen
     last_.reset();
   }
   if ((now - *since_).seconds() < config_.settle_s) return;
+  tickInPhase(now, T_map_truth, velocity_map_m_s, estimate);
+}
+
+void PhaseRecorder::tickInPhase(Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
+                                const common::VehicleState& estimate) {
   if (last_) time_s_ += (now - *last_).seconds();
   last_ = now;
   x_m_.push_back(T_map_truth.position_m.x());
   y_m_.push_back(T_map_truth.position_m.y());
   height_m_.push_back(T_map_truth.position_m.z());
   speed_m_s_.push_back(velocity_map_m_s.head<2>().norm());
+  speed_x_m_s_.push_back(std::abs(velocity_map_m_s.x()));
+  speed_y_m_s_.push_back(std::abs(velocity_map_m_s.y()));
   yaw_rad_.push_back(common::yawOf(T_map_truth.rotation));
   velocity_error_m_s_.push_back((estimate.velocity_map_m_s() - velocity_map_m_s).norm());
 }
@@ -108,6 +129,7 @@ void PhaseRecorder::tick(Time now, const common::Pose3& T_map_truth, const Eigen
 void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
   const Statistics x = statisticsOf(x_m_), y = statisticsOf(y_m_), speed = statisticsOf(speed_m_s_);
   const Statistics height = statisticsOf(height_m_), velocity_error = statisticsOf(velocity_error_m_s_);
+  const Statistics along_x = statisticsOf(speed_x_m_s_), along_y = statisticsOf(speed_y_m_s_);
   double sine = 0.0, cosine = 0.0;
   for (const double yaw : yaw_rad_) sine += std::sin(yaw), cosine += std::cos(yaw);
   const double yaw_mean = std::atan2(sine, cosine);
@@ -118,6 +140,8 @@ void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
                             {"position_std_m", std::hypot(x.standard_deviation, y.standard_deviation)},
                             {"speed_mean_m_s", speed.mean},
                             {"speed_std_m_s", speed.standard_deviation},
+                            {"speed_axis_mean_m_s", std::max(along_x.mean, along_y.mean)},
+                            {"speed_axis_std_m_s", std::max(along_x.standard_deviation, along_y.standard_deviation)},
                             {"yaw_mean_rad", yaw_mean},
                             {"yaw_std_rad", statisticsOf(yaw_off).standard_deviation},
                             {"height_mean_m", height.mean},

@@ -30,6 +30,9 @@ struct PhaseBound {
   std::vector<std::string> validate() const;
 };
 
+/// Why the bound is missed, in words: a figure that there is not is a miss; empty if it holds.
+std::string missed(const PhaseBound& bound, const std::optional<double>& value);
+
 struct PhaseConfig {
   std::string name = {};
   double from_s = 0.0;
@@ -57,6 +60,9 @@ struct PhaseScore {
   std::vector<std::string> missed() const;
 };
 
+/// The figures that such a phase has of a flight that came into it, without the heights of its levels.
+std::vector<std::string> phaseFigureNames(const PhaseConfig& config);
+
 /// Collects the ticks of one phase, and computes its figures from the truth.
 class PhaseRecorder {
  public:
@@ -67,6 +73,10 @@ class PhaseRecorder {
   /// Call at every control tick, with the true pose and velocity in the vehicle's frame `map`, and the estimate.
   void tick(common::Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
             const common::VehicleState& estimate);
+
+  /// As tick(), at an instant that counts whatever the vehicle does.
+  void tickInPhase(common::Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
+                   const common::VehicleState& estimate);
 
   PhaseScore finish() const;
 
@@ -79,7 +89,8 @@ class PhaseRecorder {
   std::optional<common::Time> since_, last_;
   double time_s_ = 0.0;
   std::vector<double> x_m_, y_m_, height_m_, speed_m_s_, yaw_rad_, velocity_error_m_s_;
-  std::vector<double> level_heights_m_;  ///< Of the last map in the phase, ascending.
+  std::vector<double> speed_x_m_s_, speed_y_m_s_;  ///< Sizes of the velocity along the axes of `map`.
+  std::vector<double> level_heights_m_;            ///< Of the last map in the phase, ascending.
 };
 
 }  // namespace swiftlet::evaluation

@@ -80,13 +80,23 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields.section("map", map, "Map that the flights are given to find themselves in; without one they make their own.");
   fields.list("operator", operator_steps, "An operator who follows a script; its commands come one after the other.");
   fields.list("phases", phases, "Parts of the flight that have figures of their own, and criteria on them.");
+  fields.list("asked_of", asked_of, "What is asked of one of the systems beyond what is asked of all.");
   fields.list("targets", targets, "Models of the world that the flight is to find.");
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
 
 std::vector<std::string> TrialConfig::validate() const {
-  return common::Validation()
-      .require(name.find('/') == std::string::npos, "name", "holds a `/`, but names folders")
+  common::Validation validation;
+  for (const SystemBounds& one : asked_of) {
+    const bool flown =
+        systems.empty() ? one.system == system : std::find(systems.begin(), systems.end(), one.system) != systems.end();
+    validation.require(flown, "asked_of", fmt::format("`{}` is not one of the systems", one.system));
+    for (const PhaseBounds& of_phase : one.phases)
+      validation.require(std::any_of(phases.begin(), phases.end(),
+                                     [&](const PhaseConfig& phase) { return phase.name == of_phase.phase; }),
+                         "asked_of", fmt::format("there is no phase `{}`", of_phase.phase));
+  }
+  return validation.require(name.find('/') == std::string::npos, "name", "holds a `/`, but names folders")
       .require(canBeSeen(name), "name", "is longer than 100 characters or holds some that cannot be seen")
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
@@ -106,12 +116,20 @@ std::vector<TrialConfig> TrialConfig::byCondition() const {
   return trials;
 }
 
+std::vector<PhaseBound> TrialConfig::figureBounds() const {
+  std::vector<PhaseBound> bounds;
+  for (const SystemBounds& one : asked_of)
+    if (one.system == system) bounds.insert(bounds.end(), one.figures.begin(), one.figures.end());
+  return bounds;
+}
+
 std::vector<TrialConfig> TrialConfig::bySystem() const {
-  if (systems.empty()) return {*this};
   std::vector<TrialConfig> trials;
-  for (const std::string& one : systems) {
+  for (const std::string& one : systems.empty() ? std::vector<std::string>{system} : systems) {
     trials.push_back(*this);
     trials.back().system = one;
+    for (const SystemBounds& bounds : asked_of)
+      if (bounds.system == one) trials.back().phases = bounded(trials.back().phases, bounds.phases);
     trials.back().systems.clear();
     if (systems.size() > 1) trials.back().name += "-" + fs::path(one).stem().string();
   }

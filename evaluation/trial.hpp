@@ -9,6 +9,7 @@
 #include "evaluation/flight_score.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
+#include "evaluation/system_bounds.hpp"
 #include "evaluation/target_score.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/survey.hpp"
@@ -59,6 +60,7 @@ struct TrialConfig {
   TrialMap map;
   std::vector<OperatorStep> operator_steps;
   std::vector<PhaseConfig> phases;
+  std::vector<SystemBounds> asked_of;
   std::vector<TrialTarget> targets;
   simulation::Scenario scenario;
 
@@ -69,6 +71,9 @@ struct TrialConfig {
   /// batteries and, with `each_fault`, for each of these for each fault: these are then the only ones, and part of its
   /// name where there are several. The charge is that of every vehicle, as if the scenario had written it out.
   std::vector<TrialConfig> byCondition() const;
+
+  /// The bounds of figures over all flights that it asks of its one system.
+  std::vector<PhaseBound> figureBounds() const;
 
   /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there
   /// is such a file, otherwise below `root`, the installed or source tree.

@@ -21,6 +21,7 @@ struct TrialResult {
   std::vector<PaperFigure> paper;
   std::vector<FlightScore> flights;
   Criteria criteria = {};
+  std::vector<PhaseBound> figure_bounds = {};  ///< Of figures over all flights: TrialConfig::figureBounds().
 
   /// Flights, and those of which every vehicle passed.
   int flown() const;

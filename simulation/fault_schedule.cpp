@@ -7,6 +7,22 @@ namespace swiftlet::simulation {
 
 using common::Time;
 
+namespace {
+
+/// Whether the vehicle lacks what the sensor is for while the fault lasts.
+bool takesAway(const FaultConfig& fault) {
+  switch (fault.kind) {
+    case FaultKind::kLate:  // The charge changes slowly.
+      return fault.sensor != Sensor::kBattery && fault.late_s >= FaultSchedule::kBridged_s;
+    case FaultKind::kBlocked:
+      return fault.to_deg - fault.from_deg >= FaultSchedule::kNarrow_deg;
+    default:
+      return true;
+  }
+}
+
+}  // namespace
+
 FaultSchedule::FaultSchedule(std::vector<FaultConfig> faults) {
   for (FaultConfig& fault : faults) {
     Scheduled scheduled{std::move(fault), {}, {}};
@@ -55,8 +71,11 @@ bool FaultSchedule::anyActive(Time time) const {
 }
 
 std::optional<Sensor> FaultSchedule::failedForFlight(Time time) const {
-  for (const Sensor sensor : {Sensor::kImu, Sensor::kLaser})
-    if (of(sensor, time) != nullptr) return sensor;
+  for (const Sensor sensor : {Sensor::kImu, Sensor::kLaser, Sensor::kBattery})
+    for (const Scheduled& fault : faults_)
+      if (fault.config.sensor == sensor && fault.activeAt(time) && (time - *fault.begin).seconds() >= kLasting_s &&
+          takesAway(fault.config))
+        return sensor;
   return std::nullopt;
 }
 

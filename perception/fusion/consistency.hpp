@@ -1,6 +1,6 @@
 // Whether the filter's errors agree with its covariance in recorded flights whose truth is known: the normalized error
-// squared (NEES) of velocity and height, and the normalized innovation squared (NIS) of the measurements (Bar-Shalom,
-// Li and Kirubarajan 2001, section 5.4). For each degree of freedom both have the mean 1.
+// squared (NEES) of velocity, place, heading and height, and the normalized innovation squared (NIS) of the
+// measurements (Bar-Shalom, Li and Kirubarajan 2001, section 5.4). For each degree of freedom both have the mean 1.
 #pragma once
 
 #include <string>
@@ -14,22 +14,34 @@ namespace swiftlet::perception {
 /// bounds are those of the mean over the flights at one instant.
 struct ConsistencyFigure {
   std::string name;
-  int degrees = 0;     ///< Degrees of freedom of one sample.
+  int degrees = 0;     ///< Degrees of freedom of one sample; of innovations, the mean number in an interval.
   double mean = 0.0;   ///< For each degree of freedom, over all instants and flights.
   double lower = 0.0;  ///< Bounds of 95 % for the mean over the flights at one instant.
   double upper = 0.0;
   double inside_share = 0.0;  ///< Share of the instants at which that mean is within the bounds.
+  /// Standard deviation that the filter believes, in the mean, over the best constant one: that of the errors that it
+  /// made. 0 for innovations.
+  double sigma_ratio = 0.0;
+
+  /// The mean is within the bounds.
+  bool consistent() const { return mean >= lower && mean <= upper; }
+  /// The variance is within twice the best constant one, either way, as far as it has one.
+  bool well_sized() const {
+    return sigma_ratio == 0.0 || (sigma_ratio * sigma_ratio >= 0.5 && sigma_ratio * sigma_ratio <= 2.0);
+  }
 };
 
 struct Consistency {
   std::size_t flights = 0;
   std::size_t instants = 0;
-  std::size_t diverged = 0;               ///< Flights that were left out.
-  std::vector<ConsistencyFigure> errors;  ///< NEES: horizontal velocity in the level body frame, climb, height.
-  double relative_pose_nis = 0.0, height_nis = 0.0;
+  std::size_t diverged = 0;  ///< Flights that were left out.
+  /// NEES: horizontal velocity in the level body frame, climb, place and heading in odom, height.
+  std::vector<ConsistencyFigure> errors;
+  std::vector<ConsistencyFigure> innovations;  ///< NIS of relative poses and heights, over a second each.
 };
 
-/// Replays what the filters were told, and compares once a second, from the first truth on.
+/// Replays what the filters were told, and compares once a second, from the first truth on. The truth's frame must be
+/// that of the filter's start, as that of a take-off is.
 Consistency consistencyOf(const std::vector<TapedFlight>& flights, const FusionConfig& config);
 
 /// Bounds of 95 %, two-sided, of a chi-squared variable over its degrees of freedom (Wilson and Hilferty 1931).

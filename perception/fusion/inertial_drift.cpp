@@ -46,7 +46,7 @@ std::vector<ForwardVelocity> inertialDrift(const TapedFlight& flight, const Fusi
   };
   std::vector<ForwardVelocity> velocities;
   std::optional<common::Time> first;
-  while (const TrueVelocity* truth = replay.next(integrate)) {
+  while (const TrueMotion* truth = replay.next(integrate)) {
     if (!replay.filter().initialized()) continue;
     const Vector3d true_m_s = inLevelBody(truth->yaw_map_rad, truth->velocity_map_m_s);
     if (!first) {

@@ -21,7 +21,7 @@ Errors errorsOf(const TapedFlight& flight, const FusionConfig& config) {
   TapedReplay replay(flight, config);
   const ErrorStateFilter& filter = replay.filter();
   Errors errors;
-  while (const TrueVelocity* truth = replay.next()) {
+  while (const TrueMotion* truth = replay.next()) {
     if (!filter.initialized() || filter.health().status == FusionStatus::kDiverged)
       return {std::numeric_limits<double>::infinity(), 1.0};
     const common::VehicleState state = filter.state();

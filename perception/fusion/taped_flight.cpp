@@ -15,9 +15,9 @@ bool isSampleAfter(const FilterInput& input, common::Time time) {
 
 }  // namespace
 
-const TrueVelocity* TapedReplay::next(const Told& told) {
+const TrueMotion* TapedReplay::next(const Told& told) {
   if (next_truth_ == flight_.truth.size()) return nullptr;
-  const TrueVelocity& truth = flight_.truth[next_truth_++];
+  const TrueMotion& truth = flight_.truth[next_truth_++];
   for (; next_input_ < flight_.inputs.size(); ++next_input_) {
     const FilterInput& input = flight_.inputs[next_input_];
     if (isSampleAfter(input, truth.stamp)) break;

@@ -13,17 +13,17 @@
 
 namespace swiftlet::perception {
 
-struct TrueVelocity {
+struct TrueMotion {
   common::Time stamp;
   double yaw_map_rad = 0.0;
   Eigen::Vector3d velocity_map_m_s = Eigen::Vector3d::Zero();
-  double height_m = 0.0;  ///< Of the body origin above the take-off floor.
+  Eigen::Vector3d position_map_m = Eigen::Vector3d::Zero();  ///< Of the body origin; z above the take-off floor.
 };
 
 /// What one flight's filter was told, and the truth while it flew, in the order of time.
 struct TapedFlight {
   std::vector<FilterInput> inputs;
-  std::vector<TrueVelocity> truth;
+  std::vector<TrueMotion> truth;
 };
 
 /// A filter that is told a flight from one instant of its truth to the next. One thread; the flight must outlive it.
@@ -35,7 +35,7 @@ class TapedReplay {
 
   /// Tells the filter what arrived until the next instant of the truth, and returns that instant; null when there is
   /// none. `told`, if there is one, gets each input after the filter.
-  const TrueVelocity* next(const Told& told = nullptr);
+  const TrueMotion* next(const Told& told = nullptr);
   const ErrorStateFilter& filter() const { return filter_; }
 
  private:

@@ -239,6 +239,26 @@ TEST(Relocalize, FliesToWhatIsFreeAroundAndFailsAfterIt) {
                           "go to (-4.10, 0.00)", "go to (0.00, 0.00)", "go to (-0.00, -4.10)", "go to (0.00, 0.00)"));
 }
 
+// The shape of trials/missions/office_given_map.xml.
+TEST(Relocalize, TakesTheFlightOnWhenThePlaceIsLostOnTheWay) {
+  Flight flight(R"(<RetryUntilSuccessful num_attempts="5"><Sequence>
+      <Fallback><Inverter><IsLost drift_m="100"/></Inverter><Relocalize/><AlwaysSuccess/></Fallback>
+      <Localize/><MoveToGoal goal="3;-1"/></Sequence></RetryUntilSuccessful>)");
+  placed(flight, 1.0).at(0.0, 0.0);
+  EXPECT_THAT(flight.tick(), HasSubstr("go to (3.00, -1.00) in the given map"));
+  EXPECT_THAT(flight.context.requests, IsEmpty()) << "a place that is known is not forgotten";
+  lost(flight);
+  for (int i = 0; i < 3 && flight.context.requests.empty(); ++i) flight.runs().tick();
+  ASSERT_FALSE(flight.context.requests.empty());
+  EXPECT_THAT(flight.last.phase, HasSubstr("hold")) << "it stops where it is";
+  flight.context.answers.push_back({flight.context.requests[0].id, true, ""});
+  flight.stops().tick();
+  EXPECT_TRUE(kindOf<common::GoToIntent>(flight).yaw_map_rad) << "it turns about";
+  placed(flight, 1.0);
+  for (int i = 0; i < 3; ++i) flight.runs().tick();
+  EXPECT_THAT(flight.tick(), HasSubstr("go to (3.00, -1.00) in the given map"));
+}
+
 TEST(Relocalize, FailsWithoutAMapOrInThatOfAnotherPlace) {
   Flight without("<Relocalize/>");
   EXPECT_EQ(without.tick(), "FAILED");

@@ -60,6 +60,8 @@ TEST_F(Phase, CountsOnlyWhileItLastsAndAfterItHasSettled) {
   EXPECT_GE(figure("position_max_m"), 0.1 - 1e-9);
   EXPECT_NEAR(figure("speed_mean_m_s"), 0.1, 1e-9);
   EXPECT_NEAR(figure("speed_std_m_s"), 0.1, 1e-9);
+  EXPECT_NEAR(figure("speed_axis_mean_m_s"), 0.1, 1e-9) << "along x; along y it rests";
+  EXPECT_NEAR(figure("speed_axis_std_m_s"), 0.1, 1e-9);
   EXPECT_NEAR(figure("height_mean_m"), 1.0, 1e-9);
   EXPECT_NEAR(figure("height_std_m"), 0.02, 1e-9);
   EXPECT_NEAR(figure("yaw_std_rad"), 0.1, 1e-9);

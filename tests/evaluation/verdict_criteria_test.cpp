@@ -58,6 +58,18 @@ TEST(VerdictCriteria, AFlightThatEndedWithAReasonPassesWithoutTheFiguresOfItsMis
   EXPECT_THAT(missed(inaccurate, byVerdict()), ElementsAre(HasSubstr("goal error"))) << "of a done one all is asked";
 }
 
+TEST(VerdictCriteria, AFaultThatNeverBeganHasTriedNothing) {
+  Criteria criteria = byVerdict();
+  criteria.safe_action_max_s = 3.0;
+  for (const Verdict ended : {Verdict::kHome, Verdict::kLanded, Verdict::kRefused})
+    EXPECT_THAT(missed(flight(ended), criteria),
+                ElementsAre("time from fault to safe action, s: not measured, at most 3 was asked for"))
+        << toString(ended);
+  FlightScore tried = flight(Verdict::kLanded);
+  tried.conduct.safe_action_s = 1.2;
+  EXPECT_THAT(missed(tried, criteria), IsEmpty());
+}
+
 TEST(VerdictCriteria, OneNeedlessLandingOfTwentyIsAllowed) {
   EXPECT_TRUE(trial(19, {Verdict::kNeedless}).met());
   EXPECT_THAT(trial(18, {Verdict::kNeedless, Verdict::kNeedless}).missed(),

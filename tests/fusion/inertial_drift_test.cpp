@@ -23,7 +23,7 @@ TapedFlight hover(double accelerometer_error_m_s2, double yaw_rad) {
       flight.inputs.emplace_back(TapedStart{0.15});
       flight.inputs.emplace_back(TapedRest{false});
     }
-    if (i > 200 && i % 20 == 0) flight.truth.push_back({now, 0.3, Eigen::Vector3d::Zero(), 1.0});
+    if (i > 200 && i % 20 == 0) flight.truth.push_back({now, 0.3, Eigen::Vector3d::Zero(), {0.0, 0.0, 1.0}});
   }
   return flight;
 }
@@ -35,7 +35,7 @@ TEST(TapedReplay, TellsEachInputOnceAndNoneBeforeItArrived) {
   std::size_t told = 0;
   Time newest;
   std::size_t instants = 0;
-  while (const TrueVelocity* truth = replay.next([&](const FilterInput& input) {
+  while (const TrueMotion* truth = replay.next([&](const FilterInput& input) {
     EXPECT_EQ(input.index(), flight.inputs[told++].index());
     if (const auto* imu = std::get_if<common::ImuSample>(&input)) newest = imu->stamps.arrived;
   })) {

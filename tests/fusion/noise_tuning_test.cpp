@@ -2,6 +2,7 @@
 // NEES and NIS of such flights are near 1 for a filter that is right about its noise, and far above for one that is too
 // sure.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -48,6 +49,7 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
         common::Pose2 relative = planar(flight.motion.pose(reference_s)).inverse() * planar(flight.motion.pose(scan_s));
         relative.x_m += random.gaussian(0.01);
         relative.y_m += random.gaussian(0.01);
+        relative.yaw_rad += random.gaussian(std::sqrt(1.2e-5));
         taped.inputs.push_back(TapedRelativePose{Time::fromSeconds(reference_s), to, relative, covariance, {}});
       }
       if (reference_s < 0.0 || scan_s - reference_s > 0.5) {
@@ -58,7 +60,7 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
     if (now_s < 6.0) continue;
     const Truth truth = flight.motion.truth(now_s);
     taped.truth.push_back({sample.stamps.arrived, common::yawOf(truth.T_odom_body.rotation), truth.velocity_m_s,
-                           truth.T_odom_body.position_m.z()});
+                           truth.T_odom_body.position_m});
   }
   return taped;
 }
@@ -70,6 +72,13 @@ TEST(FilterTape, EveryInputReadsBackAsItWas) {
   flight.inputs.push_back(TapedClimb{Time::fromSeconds(1.5), -0.25, 0.01});
   flight.inputs.push_back(TapedRelativePose{
       Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3}, Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)});
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
+  covariance(1, 4) = covariance(4, 1) = 0.1;
+  flight.inputs.push_back(
+      TapedRelativePose3{Time::fromSeconds(1),
+                         Time::fromSeconds(2),
+                         {common::quaternionFrom({0.1, -0.2, 0.3}), Eigen::Vector3d(0.1, 0.2, -0.3)},
+                         covariance});
   for (const FilterInput& input : flight.inputs) {
     const std::string line = toLine(input);
     const auto read = filterInputOf(wordsOf(line));
@@ -128,14 +137,20 @@ std::vector<TapedFlight> tapedFlights() {
 TEST(FlightConsistency, IsOneForAFilterThatIsRightAboutItsNoise) {
   const Consistency consistency = consistencyOf(tapedFlights(), withoutDrag());
   ASSERT_EQ(consistency.flights, 20u);
-  ASSERT_EQ(consistency.errors.size(), 3u);
+  ASSERT_EQ(consistency.errors.size(), 5u);
   for (const ConsistencyFigure& figure : consistency.errors) {
     std::printf("  %s: NEES %.2f, %.0f %% within\n", figure.name.c_str(), figure.mean, 100 * figure.inside_share);
     EXPECT_GT(figure.mean, 0.4) << figure.name;
     EXPECT_LT(figure.mean, 1.6) << figure.name;
+    EXPECT_TRUE(figure.well_sized()) << figure.name << " " << figure.sigma_ratio;
   }
-  EXPECT_GT(consistency.relative_pose_nis, 0.5);
-  EXPECT_LT(consistency.relative_pose_nis, 1.6);
+  ASSERT_EQ(consistency.innovations.size(), 2u);
+  for (const ConsistencyFigure& figure : consistency.innovations) {
+    EXPECT_GT(figure.mean, 0.5) << figure.name;
+    EXPECT_LT(figure.mean, 1.6) << figure.name;
+    EXPECT_GT(figure.upper, 1.0) << figure.name;
+  }
+  EXPECT_EQ(consistency.innovations[1].degrees, 40) << "heights in a second";
 }
 
 TEST(FlightConsistency, IsMuchMoreThanOneForAFilterThatIsNot) {
@@ -149,8 +164,11 @@ TEST(FlightConsistency, IsMuchMoreThanOneForAFilterThatIsNot) {
   const Consistency consistency = consistencyOf(flights, withoutDrag());
   ASSERT_GT(consistency.flights, 0u);
   EXPECT_GT(consistency.errors[0].mean, 3.0);
-  EXPECT_LT(consistency.errors[0].inside_share, 0.3);
-  EXPECT_GT(consistency.relative_pose_nis, 3.0);
+  EXPECT_LT(consistency.errors[0].inside_share, 0.5);
+  EXPECT_FALSE(consistency.errors[0].consistent());
+  EXPECT_FALSE(consistency.errors[0].well_sized());
+  EXPECT_GT(consistency.innovations[0].mean, 3.0);
+  EXPECT_FALSE(consistency.innovations[0].consistent());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "common/occupancy_grid.hpp"
@@ -48,15 +49,22 @@ inline void addFurniture(PlanarWorld& world, const Area& room, int boxes, common
   }
 }
 
-/// A corridor with offices on both sides, each with its own width, door and furniture.
-inline Building offices(std::uint64_t seed) {
+/// The outer walls and the corridor of offices.
+struct Outline {
+  double length_m = 0.0, half_corridor_m = 0.0;
+  std::array<double, 2> depths_m{};  ///< Of the offices to the right and to the left.
+};
+
+/// A corridor with offices on both sides, each with its own width, door and furniture; with that outline, or one drawn.
+inline Building offices(std::uint64_t seed, const std::optional<Outline>& outline = std::nullopt) {
   common::RandomStream random(seed, "offices");
   Building building;
-  const double length = random.uniform(18.0, 30.0), half = random.uniform(0.9, 1.4);
+  const double length = outline ? outline->length_m : random.uniform(18.0, 30.0);
+  const double half = outline ? outline->half_corridor_m : random.uniform(0.9, 1.4);
   building.inside_m = {1.0, 0.0};
   for (const double side : {-1.0, 1.0}) {
     std::vector<double> doors;
-    const double depth = random.uniform(3.5, 6.0);
+    const double depth = outline ? outline->depths_m[side > 0.0 ? 1 : 0] : random.uniform(3.5, 6.0);
     for (double x = 0.0; x < length - 1.0;) {
       double width = random.uniform(2.8, 5.5);
       if (length - x - width < 2.8) width = length - x;

@@ -93,7 +93,7 @@ struct CaseResult {
   int wrong = 0, noticed = 0;
   int alarms = 0, false_alarms = 0;  ///< Times it reported to be lost, and how often the pose was right then.
   double worst_delay_s = 0.0;
-  bool refuted = false;  ///< The map was called that of another place.
+  bool refuted = false;                                 ///< The map was called that of another place.
   int scans = 0, localized = 0, falsely_localized = 0;  ///< Numbers of scans. The last one counts those with a wrong
                                                         ///< pose that was accepted for longer than kNotice_s.
   std::vector<double> error_m;                          ///< Position errors while localized and not wrong.

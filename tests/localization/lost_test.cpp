@@ -37,15 +37,17 @@ struct Total {
     worst_delay_s = std::max(worst_delay_s, result.worst_delay_s);
   }
   void print(const char* name) const {
-    std::printf("| %-28s | %5d | %5d | %7d | %6d | %5d | %5.1f | %5.1f %% | %4.2f %% | %7d |\n", name, cases, wrong, noticed,
-                alarms, false_alarms, worst_delay_s, 100.0 * localized / scans, 100.0 * false_scans / scans, refuted);
+    std::printf("| %-28s | %5d | %5d | %7d | %6d | %5d | %5.1f | %5.1f %% | %4.2f %% | %7d |\n", name, cases, wrong,
+                noticed, alarms, false_alarms, worst_delay_s, 100.0 * localized / scans, 100.0 * false_scans / scans,
+                refuted);
   }
 };
 
 TEST(Lost, IsReportedWhenThePoseIsWrongAndOnlyThen) {
   Total all;
   std::printf(
-      "| case                         | cases | wrong | noticed | alarms | false | worst s | localized | falsely | refuted |\n");
+      "| case                         | cases | wrong | noticed | alarms | false | worst s | localized | falsely | "
+      "refuted |\n");
   for (const CaseKind kind : {CaseKind::kUndisturbed, CaseKind::kChangedFurniture, CaseKind::kKidnapped,
                               CaseKind::kKidnappedChanged, CaseKind::kWrongMap, CaseKind::kTwin}) {
     Total total;

@@ -7,6 +7,7 @@
 #include "common/config_check.hpp"
 #include "event_bytes.hpp"
 #include "fixtures.hpp"
+#include "simulation/fault_schedule.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -159,7 +160,7 @@ TEST(Faults, BeginAtAPlace) {
 TEST(Faults, BeginInAPhaseThatAnObserverTells) {
   FaultConfig fault;
   fault.phase = "go to";
-  fault.lasts_s = 1.0;
+  fault.lasts_s = 2.0;
   Scenario scenario;
   scenario.faults.push_back(fault);
   SimulatedVehicle vehicle(boxRoom(), scenario);
@@ -169,12 +170,42 @@ TEST(Faults, BeginInAPhaseThatAnObserverTells) {
   EXPECT_FALSE(vehicle.truth().failed_sensor);
   vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
   EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(2.5), events));
+  EXPECT_FALSE(vehicle.truth().failed_sensor) << "it may pass";
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(3.5), events));
   EXPECT_EQ(vehicle.truth().failed_sensor, Sensor::kLaser);
   vehicle.tellPhase({"flying", "hold"});
-  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(4.0), events));
-  vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
   EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(5.0), events));
-  EXPECT_EQ(silentSeconds(events), (std::vector<int>{2})) << "once, and its time";
+  vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(6.0), events));
+  EXPECT_EQ(silentSeconds(events), (std::vector<int>{2, 3})) << "once, and its time";
+}
+
+/// The sensor that has failed for the flight 3 s after the fault began; "" for none.
+std::string failedBy(Sensor sensor, FaultKind kind, double late_s = 0.5, double width_deg = 90.0) {
+  FaultConfig fault;
+  fault.sensor = sensor;
+  fault.kind = kind;
+  fault.late_s = late_s;
+  fault.from_deg = -0.5 * width_deg;
+  fault.to_deg = 0.5 * width_deg;
+  fault.from_s = 2.0;
+  fault.to_s = 100.0;
+  const FaultSchedule schedule({fault});
+  EXPECT_FALSE(schedule.failedForFlight(Time::fromSeconds(2.5))) << "it has only begun";
+  const auto failed = schedule.failedForFlight(Time::fromSeconds(5.0));
+  return failed ? toString(*failed) : "";
+}
+
+TEST(Faults, FailASensorForTheFlightIfTheyTakeAwayWhatItIsFor) {
+  EXPECT_EQ(failedBy(Sensor::kImu, FaultKind::kBias), "imu");
+  EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kNan), "laser");
+  EXPECT_EQ(failedBy(Sensor::kBattery, FaultKind::kSilent), "battery");
+  EXPECT_EQ(failedBy(Sensor::kBattery, FaultKind::kLate), "");
+  EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kLate, 0.5), "laser");
+  EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kLate, 0.05), "") << "the filter bridges it";
+  EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kBlocked, 0.0, 120.0), "laser");
+  EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kBlocked, 0.0, 1.0), "") << "one degree";
+  EXPECT_EQ(failedBy(Sensor::kPilot, FaultKind::kSilent), "");
 }
 
 /// Frames of an RGB-D camera before and in a fault of the second second.

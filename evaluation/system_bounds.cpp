@@ -1,0 +1,58 @@
+#include "evaluation/system_bounds.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/config_fields.hpp"
+#include "common/validation.hpp"
+#include "evaluation/trial_figures.hpp"
+
+namespace swiftlet::evaluation {
+
+void PhaseBounds::describe(common::config::Fields& fields) {
+  fields("phase", phase, "Name of a phase of the trial.");
+  fields.list("criteria", criteria, "Bounds of its figures; they take the place of those that it has for all systems.");
+}
+
+std::vector<std::string> PhaseBounds::validate() const {
+  return common::Validation()
+      .require(!phase.empty(), "phase", "is missing")
+      .require(!criteria.empty(), "criteria", "is empty")
+      .problems();
+}
+
+void SystemBounds::describe(common::config::Fields& fields) {
+  fields("system", system, "One of the trial's system profiles.");
+  fields.list("figures", figures, "Bounds of figures over all flights, as in the results: estimate_rms_median_m.");
+  fields.list("phases", phases, "Bounds of the figures of phases, of each flight.");
+}
+
+std::vector<std::string> SystemBounds::validate() const {
+  common::Validation validation;
+  validation.require(!system.empty(), "system", "is missing");
+  const auto& known = trialFigures();
+  for (const PhaseBound& bound : figures)
+    validation.require(
+        std::any_of(known.begin(), known.end(), [&](const TrialFigure& figure) { return bound.figure == figure.name; }),
+        "figures", fmt::format("`{}` is not a figure over all flights", bound.figure));
+  return validation.problems();
+}
+
+std::vector<PhaseConfig> bounded(std::vector<PhaseConfig> phases, const std::vector<PhaseBounds>& bounds) {
+  for (const PhaseBounds& of_phase : bounds)
+    for (PhaseConfig& phase : phases) {
+      if (phase.name != of_phase.phase) continue;
+      for (const PhaseBound& bound : of_phase.criteria) {
+        const auto same = std::find_if(phase.criteria.begin(), phase.criteria.end(),
+                                       [&](const PhaseBound& had) { return had.figure == bound.figure; });
+        if (same != phase.criteria.end())
+          *same = bound;
+        else
+          phase.criteria.push_back(bound);
+      }
+    }
+  return phases;
+}
+
+}  // namespace swiftlet::evaluation
