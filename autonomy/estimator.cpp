@@ -153,7 +153,7 @@ void Estimator::updateMap3d(Time now) {
 }
 
 void Estimator::mapFrames(Time now) {
-  rgbd_->watch(now);
+  rgbd_->watch(map_.keyPoses(), now);
   if (const auto step = rgbd_->takeStep()) fuse(*step, now);
   mapFrame(now);
   if (targets_) lookForTargets(now);
