@@ -44,6 +44,27 @@ void addCameraFigures(const common::CameraEstimate& camera, std::vector<interfac
   add("camera_clock_sigma_s", camera.clock_sigma_s);
 }
 
+/// What became of the camera's frames.
+void addFrameFigures(const autonomy::Autonomy& autonomy, common::Time now, std::vector<interfaces::Figure>& figures) {
+  const auto add = [&](const char* name, std::uint64_t count) {
+    figures.push_back({name, static_cast<double>(count)});
+  };
+  if (const auto camera = autonomy.cameraCounts()) {
+    add("camera_frames", camera->frames);
+    add("camera_frames_skipped", camera->skipped);
+    add("camera_frames_blank", camera->blank);
+    add("camera_frames_lost", camera->lost);
+  }
+  if (const auto radio = autonomy.radioCounts()) {
+    const double kB_s = 1e-3 / now.seconds();
+    figures.push_back({"radio_kB_s", kB_s * static_cast<double>(radio->bytes)});
+    figures.push_back({"radio_raw_kB_s", kB_s * static_cast<double>(radio->raw_bytes)});
+    add("radio_frames", radio->sent);
+    add("radio_frames_dropped", radio->replaced + radio->late + radio->broken);
+    add("radio_frames_halved", radio->halved);
+  }
+}
+
 std::unique_ptr<VisualOdometrySink> visualOdometryOf(const FlightSetup& setup) {
   if (!setup.visual_odometry_alone || !setup.system.rgbd_camera) return nullptr;
   return std::make_unique<VisualOdometrySink>(setup.system.config.autonomy.estimator.rgbd.mapper,
@@ -204,13 +225,7 @@ void VehicleFlight::finish(double wall_s) {
   if (visual_odometry_) record.visual_odometry = visual_odometry_->record();
   if (hooks_.score) hooks_.score(record, *vehicle_, end);
   end.figures.push_back({"late_scans", static_cast<double>(autonomy_.lateScans())});
-  if (const auto radio = autonomy_.radioCounts()) {
-    const double kB_s = 1e-3 / loop_.now().seconds();
-    end.figures.push_back({"radio_kB_s", kB_s * static_cast<double>(radio->bytes)});
-    end.figures.push_back({"radio_raw_kB_s", kB_s * static_cast<double>(radio->raw_bytes)});
-    end.figures.push_back({"radio_frames", static_cast<double>(radio->sent)});
-    end.figures.push_back({"radio_frames_dropped", static_cast<double>(radio->replaced + radio->late)});
-  }
+  addFrameFigures(autonomy_, loop_.now(), end.figures);
   if (const auto& map3d = autonomy_.world()->map3d; map3d && map3d->frame) addCameraFigures(map3d->camera, end.figures);
   keepMemory(end);
   folder_.finish(end);

@@ -111,6 +111,8 @@ class Autonomy {
   /// Counts of the matches of the laser odometry and of the work of the SLAM method.
   const perception::LaserOdometryCounts& odometryCounts() const { return estimator_.odometryCounts(); }
   const perception::SlamCounts& slamCounts() const { return estimator_.slamCounts(); }
+  /// Of the frames of the RGB-D camera; none without one.
+  std::optional<RgbdCounts> cameraCounts() const { return estimator_.cameraCounts(); }
   /// Of the radio between camera and computer; none without one.
   std::optional<mapping3d::RadioCounts> radioCounts() const { return estimator_.radioCounts(); }
   /// The planner and the explorer in use, with the number of their results.

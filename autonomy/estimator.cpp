@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/estimation/camera_support.hpp"
 #include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
@@ -156,7 +157,7 @@ void Estimator::updateMap3d(Time now) {
 }
 
 void Estimator::mapFrames(Time now) {
-  rgbd_->watch(now);
+  rgbd_->watch(map_.keyPoses(), now);
   if (const auto step = rgbd_->takeStep()) fuse(*step, now);
   mapFrame(now);
   if (targets_) lookForTargets(now);
@@ -298,7 +299,11 @@ void Estimator::fuse(const CameraStep& step, Time now) {
   if (const auto& m = step.measurement; m && !isCameraDoubted(now)) {
     hear(perception::TapedRelativePose3{m->from, m->to, m->T_from_to, m->covariance});
     const Insertion taken = filter_.addRelativePose3(m->from, m->to, m->T_from_to, m->covariance);
-    if (taken == Insertion::kTaken) position_seen_ = height_seen_ = now;
+    if (taken == Insertion::kTaken) {
+      const CameraSupport support = supportOf(filter_.state());
+      if (support.horizontal) position_seen_ = now;
+      if (support.vertical) height_seen_ = now;
+    }
     if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();
   }
   if (step.clone_after) addClone(*step.clone_after);

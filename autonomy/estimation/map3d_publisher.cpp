@@ -1,5 +1,6 @@
 #include "autonomy/estimation/map3d_publisher.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/config_fields.hpp"
@@ -12,13 +13,16 @@ using common::Duration;
 using common::Time;
 
 constexpr const char* kFusion3d = "mapping3d fusion";
+/// A submap reaches about so far: a turn moves what is there.
+constexpr double kSubmapReach_m = 5.0;
 
 }  // namespace
 
 void Map3dPublisherConfig::describe(common::config::Fields& fields) {
   fields("publish_period_s", publish_period_s, {0, 10},
          "So often the submap that grows is copied for those who show the map.");
-  fields("fusion_period_s", fusion_period_s, {0.5, 1000}, "So often all submaps are fused to one map, if any changed.");
+  fields("fusion_period_s", fusion_period_s, {0.5, 1000},
+         "So often all submaps are fused to one map; after a loop closure it is done at once.");
   fields("fusion_latency_s", fusion_latency_s, {0.01, 60}, "Declared time for fusing all submaps.");
 }
 
@@ -56,10 +60,22 @@ std::shared_ptr<const common::Map3dLayer> Map3dPublisher::layer(const std::share
   return published_;
 }
 
+/// Whether a submap has moved by a voxel since the last fusion.
+bool Map3dPublisher::hasMoved(const common::KeyPoses& keys) const {
+  for (const common::Submap3d& submap : *layer_->submaps) {
+    if (submap.key >= static_cast<int>(std::min(keys.keys.size(), fused_keys_->keys.size()))) continue;
+    const common::Pose3 moved = submap.T_map_submap(*fused_keys_).inverse() * submap.T_map_submap(keys);
+    if (moved.position_m.norm() + kSubmapReach_m * common::logSO3(moved.rotation).norm() > resolution_m_) return true;
+  }
+  return false;
+}
+
 void Map3dPublisher::fuse(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   if (!layer_ || layer_->submaps->empty() || !jobs_.idle(kFusion3d)) return;
-  if (fused_from_ && (now - *fused_from_).seconds() < config_.fusion_period_s) return;
+  const bool due = !fused_from_ || (now - *fused_from_).seconds() >= config_.fusion_period_s;
+  if (!due && (fused_keys_ == keys || !hasMoved(*keys))) return;
   fused_from_ = now;
+  fused_keys_ = keys;
   jobs_.submit(
       kFusion3d, now, Duration::fromSeconds(config_.fusion_latency_s),
       [this, submaps = layer_->submaps, keys, now, resolution_m = resolution_m_]() -> common::JobRunner::Deliver {

@@ -32,7 +32,8 @@ class Map3dPublisher {
   /// Whether the submaps are to be copied by the work that begins now; they are then as of `now`.
   bool begin(common::Time now);
   void setSubmaps(std::vector<common::Submap3d> submaps);
-  /// Fuses all submaps again where one has grown or a key scan has moved, if it is time.
+  /// Fuses all submaps again: every `fusion_period_s`, and at once when a loop closure has moved one by a voxel or
+  /// more. To be called at every tick.
   void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 
   bool hasLayer() const { return layer_ != nullptr; }
@@ -44,14 +45,17 @@ class Map3dPublisher {
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
 
  private:
+  bool hasMoved(const common::KeyPoses& keys) const;
+
   Map3dPublisherConfig config_;
   double resolution_m_;
   common::JobRunner& jobs_;
   std::shared_ptr<common::Map3dLayer> layer_;  ///< The next one to be published.
   std::shared_ptr<const common::Map3dLayer> published_;
   bool changed_ = false;
-  std::optional<common::Time> submaps_stamp_;  ///< When the submaps of the layer were taken.
-  std::optional<common::Time> fused_from_;     ///< When those that are fused were.
+  std::optional<common::Time> submaps_stamp_;           ///< When the submaps of the layer were taken.
+  std::optional<common::Time> fused_from_;              ///< When those that are fused were.
+  std::shared_ptr<const common::KeyPoses> fused_keys_;  ///< Where they were.
 };
 
 }  // namespace swiftlet::autonomy

@@ -109,7 +109,6 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
                  if (publish) outcome.submaps = mapper->submaps();
                  return [this, outcome = std::move(outcome)](Time delivered) { take(outcome, delivered); };
                });
-  publisher_.fuse(situation.keys, now);
 }
 
 void RgbdPipeline::take(Outcome outcome, Time delivered) {
@@ -196,12 +195,35 @@ std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_
   return publisher_.layer(keys);
 }
 
-void RgbdPipeline::watch(Time now) {
-  if (radio_)
-    while (auto frame = radio_->take(now)) waiting_ = std::move(frame);
+void RgbdPipeline::watch(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
+  publisher_.fuse(keys, now);
+  if (radio_) watchRadio(now);
   if (silent_ || !last_arrived_ || now - *last_arrived_ < silence_) return;
   silent_ = true;
   say(now, Severity::kWarning, "camera is silent", fmt::format("no frame for {:.1f} s", config_.silent_s));
+}
+
+void RgbdPipeline::watchRadio(Time now) {
+  if (!through_at_) through_at_ = last_arrived_;
+  while (auto frame = radio_->take(now)) {
+    waiting_ = std::move(frame);
+    through_at_ = now;
+    if (std::exchange(stuck_said_, false)) say(now, Severity::kInfo, "frames come through the radio again");
+  }
+  if (const int halvings = radio_->halvings(); halvings > most_halvings_) {
+    most_halvings_ = halvings;
+    say(now, Severity::kWarning, "frames are sent smaller",
+        fmt::format(
+            "whole ones take longer over the radio than {:.2f} s; the map has {} of their pixels. A camera with "
+            "fewer pixels or a faster radio loses none",
+            config_.radio.oldest_s, halvings == 1 ? "a quarter" : "a sixteenth"));
+  }
+  if (!through_at_ || stuck_said_ || now - *through_at_ < silence_ || now - *last_arrived_ >= silence_) return;
+  stuck_said_ = true;
+  say(now, Severity::kWarning, "no frame comes through the radio",
+      fmt::format("each takes longer than {:.2f} s, so there is no 3D map; use a faster radio or a camera with fewer "
+                  "pixels, or set rgbd.radio.oldest_s",
+                  config_.radio.oldest_s));
 }
 
 void RgbdPipeline::reportTrack(bool tracked, Time now) {

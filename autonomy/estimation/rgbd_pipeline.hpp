@@ -75,8 +75,9 @@ class RgbdPipeline {
   std::optional<CameraStep> takeStep() { return std::exchange(step_, std::nullopt); }
   /// The filter no longer has the clone from which the measurements start.
   void forgetClone() { reference_.reset(); }
-  /// Notices that the camera is silent, and takes what has come over the radio. To be called at every tick.
-  void watch(common::Time now);
+  /// Notices that the camera is silent, takes what has come over the radio, and fuses the submaps if it is time. To be
+  /// called at every tick.
+  void watch(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 
   /// Mount and clock as they are used now, and how well they are known.
   common::CameraEstimate camera() const;
@@ -107,6 +108,7 @@ class RgbdPipeline {
   CameraStep stepOf(const Outcome& outcome);
   void calibrate(const Outcome& outcome, common::Time now);
   void reportCamera(common::Time now);
+  void watchRadio(common::Time now);
   void reportTrack(bool tracked, common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
 
@@ -123,6 +125,9 @@ class RgbdPipeline {
   bool has_begun_ = false;  ///< The first frame was placed.
   bool silent_ = false, lost_said_ = false;
   std::set<std::string> faults_said_;
+  std::optional<common::Time> through_at_;  ///< When a frame last came through the radio.
+  bool stuck_said_ = false;                 ///< That none comes through.
+  int most_halvings_ = 0;                   ///< That was said.
   std::optional<common::Time> lost_since_;
 
   Map3dPublisher publisher_;

@@ -98,6 +98,7 @@ void VerticalLaserPipeline::place(const std::optional<SweepSituation>& situation
 
 void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   watch(now);
+  publisher_.fuse(keys, now);
   if (placed_.empty() || !jobs_.idle(kDrawing)) return;
   counts_.drawn += placed_.size();
   const bool publish = publisher_.begin(now);
@@ -108,7 +109,6 @@ void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& 
         if (!publish) return [](Time) {};
         return [this, snapshot = submaps->snapshot()](Time) { publisher_.setSubmaps(snapshot); };
       });
-  publisher_.fuse(keys, now);
 }
 
 void VerticalLaserPipeline::watch(Time now) {

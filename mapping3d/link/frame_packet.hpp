@@ -28,6 +28,10 @@ struct FramePacket {
 /// function.
 FramePacket packed(const common::RgbdFrame& frame, int jpeg_quality);
 
+/// The frame with half the pixels across and down: colours averaged, depths those of the nearest surface in whole
+/// millimetres. A pure function.
+common::RgbdFrame halved(const common::RgbdFrame& frame);
+
 /// The reason of an error is for people.
 tl::expected<common::RgbdFrame, std::string> unpacked(const FramePacket& packet);
 

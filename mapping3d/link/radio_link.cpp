@@ -12,6 +12,16 @@ using common::Duration;
 using common::RgbdFrame;
 using common::Time;
 
+namespace {
+
+/// Narrower pictures leave too few points to align.
+constexpr int kLeastWidth_px = 160;
+/// Twice the width takes four times the bytes and some more; sent at this multiple of the present ones, a frame must
+/// arrive in good time before frames are sent larger again.
+constexpr std::int64_t kLarger = 6;
+
+}  // namespace
+
 void RadioLinkConfig::describe(common::config::Fields& fields) {
   fields(
       "link_kB_s", link_kB_s, {0, 1e6},
@@ -47,13 +57,37 @@ void RadioLink::sendIfFree(Time now) {
   if (on_the_way_ || !waiting_) return;
   const Time start = std::max(free_from_, waiting_->stamps.arrived);
   if (start > now) return;
-  const FramePacket packet = packed(*std::exchange(waiting_, nullptr), config_.jpeg_quality);
+  const auto whole = std::exchange(waiting_, nullptr);
+  const FramePacket packet = fitting(*whole, start);
   counts_.bytes += packet.bytes();
-  free_from_ = start + Duration::fromSeconds(static_cast<double>(packet.bytes()) / (1000.0 * config_.link_kB_s));
+  counts_.halved += packet.camera.width_px < whole->camera.width_px ? 1 : 0;
+  free_from_ = start + timeFor(packet);
   auto frame = unpacked(packet);
-  if (!frame) return;
+  if (!frame) {
+    ++counts_.broken;
+    return;
+  }
   frame->stamps.arrived = free_from_;
   on_the_way_ = {std::make_shared<const RgbdFrame>(std::move(*frame)), free_from_};
+}
+
+Duration RadioLink::timeFor(const FramePacket& packet) const {
+  return Duration::fromSeconds(static_cast<double>(packet.bytes()) / (1000.0 * config_.link_kB_s));
+}
+
+/// As large as it may be to arrive in time; the smallest, if none does.
+FramePacket RadioLink::fitting(const RgbdFrame& frame, Time start) {
+  const Time latest = frame.stamps.measured + Duration::fromSeconds(config_.oldest_s);
+  RgbdFrame small = frame;
+  for (int i = 0; i < halvings_; ++i) small = halved(small);
+  FramePacket packet = packed(small, config_.jpeg_quality);
+  while (start + timeFor(packet) > latest && small.camera.width_px >= 2 * kLeastWidth_px) {
+    ++halvings_;
+    small = halved(small);
+    packet = packed(small, config_.jpeg_quality);
+  }
+  if (halvings_ > 0 && start + timeFor(packet) * kLarger < latest) --halvings_;
+  return packet;
 }
 
 }  // namespace swiftlet::mapping3d

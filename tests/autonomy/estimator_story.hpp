@@ -34,12 +34,13 @@ inline test::PlanarWorld den(const Eigen::Vector2d& center_m, double radius_m) {
 class EstimatorStory {
  public:
   explicit EstimatorStory(double seconds, const GivenMap* given = nullptr,
-                          const EstimatorConfig& config = EstimatorStory::config())
+                          const EstimatorConfig& config = EstimatorStory::config(),
+                          const common::RgbdCameraConfig* camera = nullptr)
       : flight_(1, seconds),
         imu_(flight_.imuSamples()),
         laser_(common::config::readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml")),
         jobs_(common::makeLockstepJobs(0)),
-        estimator(config, laser_, common::VehicleConfig{}, given, *jobs_) {}
+        estimator(config, laser_, common::VehicleConfig{}, given, *jobs_, camera) {}
 
   /// The artificial flight tilts independently of its motion, so its accelerometer shows no drag.
   static EstimatorConfig config() {

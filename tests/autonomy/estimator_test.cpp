@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/autonomy/estimator_story.hpp"
+#include "tests/rgbd_odometry/textured_room.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -134,6 +135,39 @@ TEST(Estimator, LocalizesInAGivenMapWithScansThatItDoesNotMatch) {
   EXPECT_EQ(story.eventsThatBegin("localized at"), 1);
   EXPECT_GT(withheld, 5);
   EXPECT_LT(story.positionError_m(), 0.1) << "the others suffice";
+}
+
+/// The camera looks into a textured room, or at a bare wall alone. The laser fails; the camera holds the
+/// position if there is something to hold it by, and claims nothing else.
+TEST(Estimator, BeforeABareWallTheCameraMeasuresNoPositionAlongIt) {
+  for (const bool bare : {false, true}) {
+    common::RgbdCameraConfig camera;
+    camera.mount = {};
+    EstimatorStory story(13.0, nullptr, EstimatorStory::config(), &camera);
+    mapping3d::TexturedRoom room;
+    if (bare) room.half_size_m = {2.6, 20.0, 20.0};  // One wall fills the view.
+    room.camera = {160, 120, 145.0, 145.0, 79.5, 59.5};
+    int scans = 0;
+    const auto look = [&](const std::optional<ScanOutcome>&) {
+      const common::Time now = story.estimator.state().stamp;
+      if (++scans % 8 == 0 && now.seconds() > 4.0) {
+        common::RgbdFrame frame = room.seen(story.truthAt(now), now.seconds());
+        if (bare) frame.color.rgb.assign(frame.color.rgb.size(), 120);
+        story.estimator.addFrame(std::make_shared<const common::RgbdFrame>(frame));
+      }
+      story.estimator.updateMap3d(now);
+    };
+    story.run(5.0, look);
+    story.blind = true;
+    story.run(12.9, look);
+    const common::VehicleState state = story.estimator.state();
+    if (bare) {
+      EXPECT_GT(state.horizontalAge_s(state.stamp), 0.5);
+    } else {
+      EXPECT_LT(state.horizontalAge_s(state.stamp), 0.5);
+      EXPECT_LT(state.verticalAge_s(state.stamp), 0.5);
+    }
+  }
 }
 
 }  // namespace

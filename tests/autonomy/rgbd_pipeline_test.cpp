@@ -1,6 +1,7 @@
 // Frames on their way into the 3D map: when they are mapped, what they leave, and what is said.
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -73,13 +74,29 @@ TEST_F(RgbdStory, OverARadioAFrameIsMappedWhenItHasComeThrough) {
   config.radio.link_kB_s = 2000.0;  // The room has exact depths, which take four bytes a pixel.
   RgbdPipeline pipeline(config, camera(), *jobs_);
   pipeline.add(frameAt(1.0));
-  pipeline.watch(Time::fromSeconds(1.001));
+  pipeline.watch(keys_, Time::fromSeconds(1.001));
   EXPECT_FALSE(pipeline.next()) << "it is on the way";
-  pipeline.watch(Time::fromSeconds(1.3));
+  pipeline.watch(keys_, Time::fromSeconds(1.3));
   ASSERT_TRUE(pipeline.next());
   EXPECT_EQ(*pipeline.next(), Time::fromSeconds(1.0)) << "its own time";
   EXPECT_EQ(pipeline.radioCounts()->sent, 1u);
   EXPECT_FALSE(pipeline_.radioCounts());
+}
+
+TEST_F(RgbdStory, ARadioThatCarriesNoFrameInTimeIsReportedWithTheRemedy) {
+  RgbdPipelineConfig config;
+  config.radio.link_kB_s = 5.0;
+  RgbdPipeline pipeline(config, camera(), *jobs_);
+  std::vector<common::Event> events;
+  for (int i = 0; i < 40; ++i) {
+    pipeline.add(frameAt(1.0 + 0.1 * i));
+    pipeline.watch(keys_, Time::fromSeconds(1.0 + 0.1 * i));
+    for (common::Event& event : pipeline.takeEvents()) events.push_back(std::move(event));
+  }
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].text, "frames are sent smaller");
+  EXPECT_EQ(events[1].text, "no frame comes through the radio");
+  EXPECT_THAT(events[1].reason, testing::HasSubstr("use a faster radio or a camera with fewer pixels"));
 }
 
 TEST_F(RgbdStory, TheLayerMovesWithTheKeyScans) {
@@ -94,6 +111,31 @@ TEST_F(RgbdStory, TheLayerMovesWithTheKeyScans) {
   EXPECT_NE(moved, first);
   EXPECT_EQ(moved->submaps, first->submaps) << "nothing is drawn again";
   EXPECT_NEAR(moved->T_map_camera.position_m.x() - first->T_map_camera.position_m.x(), 0.5, 1e-9);
+}
+
+/// The whole map follows a loop closure within five seconds, and knows its age.
+TEST_F(RgbdStory, AClosureFusesTheSubmapsAgain) {
+  see(1.0);
+  const auto tickUntil = [&](double from_s, double to_s) {
+    for (double time_s = from_s; time_s < to_s; time_s += 0.01) {
+      pipeline_.watch(keys_, Time::fromSeconds(time_s));
+      jobs_->deliverDue(Time::fromSeconds(time_s));
+    }
+  };
+  const auto lowest = [&] {
+    const auto blocks = pipeline_.layer(keys_)->fused->blocks();
+    return std::min_element(blocks.begin(), blocks.end(), [](auto a, auto b) { return a.x < b.x; })->x;
+  };
+  tickUntil(1.1, 4.0);
+  ASSERT_TRUE(pipeline_.layer(keys_)->fused);
+  EXPECT_NEAR(pipeline_.layer(keys_)->fused_stamp.seconds(), 1.1, 0.02);
+  const int before = lowest();
+  tickUntil(4.0, 6.0);
+  EXPECT_NEAR(pipeline_.layer(keys_)->fused_stamp.seconds(), 1.1, 0.02) << "nothing has moved";
+  keys_ = keysAt(2, {4.0, 0.0, 0.0});
+  tickUntil(6.0, 9.0);
+  EXPECT_NEAR(pipeline_.layer(keys_)->fused_stamp.seconds(), 6.0, 0.02);
+  EXPECT_EQ(lowest(), before + 10) << "4 m are ten blocks of 0.4 m";
 }
 
 TEST_F(RgbdStory, TheFilterGetsAMeasurementFromFrameToFrame) {
@@ -119,9 +161,9 @@ TEST_F(RgbdStory, TheFilterGetsAMeasurementFromFrameToFrame) {
 
 TEST_F(RgbdStory, ASilentCameraIsReportedOnceAndSoIsItsReturn) {
   see(1.0);
-  pipeline_.watch(Time::fromSeconds(1.9));
-  pipeline_.watch(Time::fromSeconds(2.1));
-  pipeline_.watch(Time::fromSeconds(2.2));
+  pipeline_.watch(keys_, Time::fromSeconds(1.9));
+  pipeline_.watch(keys_, Time::fromSeconds(2.1));
+  pipeline_.watch(keys_, Time::fromSeconds(2.2));
   EXPECT_THAT(texts(), testing::ElementsAre("camera is silent"));
   see(3.0);
   EXPECT_THAT(texts(), testing::ElementsAre("camera sends again"));

@@ -251,7 +251,7 @@ class Determinism : public test_support::Scratch {
   ProgramEnd fly(const std::string& run, const std::string& seed, std::vector<std::string> more,
                  const ProgramOptions& options = {}) {
     std::vector<std::string> arguments = {"fly", kMission, "--speed", "max",          "--seed",
-                                          seed,  "--out",  path(run), "--time-limit", "40"};
+                                          seed,  "--out",  path(run), "--time-limit", time_limit_s_};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runSwiftlet(arguments, options);
   }
@@ -259,6 +259,22 @@ class Determinism : public test_support::Scratch {
     for (const std::string name : {"/trajectory.tum", "/map.pgm", "/events.jsonl"})
       EXPECT_TRUE(readText(path(a + name)) == readText(path(b + name))) << a << " and " << b << " differ in " << name;
   }
+  /// Flies with a tablet that watches.
+  void flyWatched(const std::string& run, const std::string& seed, std::vector<std::string> more) {
+    std::unique_ptr<Tablet> tablet;
+    ProgramOptions options;
+    options.while_running = [&](pid_t, const std::string& out) {
+      const auto address = out.find("http://127.0.0.1:");
+      if (!tablet && address != std::string::npos && out.find('\n', address) != std::string::npos)
+        tablet = std::make_unique<Tablet>(std::stoi(out.substr(address + 17)));
+    };
+    more.insert(more.end(), {"--port", "0"});
+    const ProgramEnd end = fly(run, seed, std::move(more), options);
+    ASSERT_TRUE(tablet) << describe(end);
+    EXPECT_GT(tablet->frames(), 3) << describe(end);
+  }
+
+  std::string time_limit_s_ = "40";
 };
 
 TEST_F(Determinism, TheSameSeedLeavesTheSameBytes) {
@@ -278,17 +294,19 @@ TEST_F(Determinism, TheSameSeedLeavesTheSameBytes) {
 
 TEST_F(Determinism, AWatchingTabletChangesNothing) {
   fly("alone", "11", {"--headless"});
-  std::unique_ptr<Tablet> tablet;
-  ProgramOptions options;
-  options.while_running = [&](pid_t, const std::string& out) {
-    const auto address = out.find("http://127.0.0.1:");
-    if (!tablet && address != std::string::npos && out.find('\n', address) != std::string::npos)
-      tablet = std::make_unique<Tablet>(std::stoi(out.substr(address + 17)));
-  };
-  const ProgramEnd watched = fly("watched", "11", {"--port", "0"}, options);
-  ASSERT_TRUE(tablet) << describe(watched);
-  EXPECT_GT(tablet->frames(), 3) << describe(watched);
+  flyWatched("watched", "11", {});
   expectSame("alone", "watched");
+}
+
+TEST_F(Determinism, AWatchingTabletChangesNothingWithACamera) {
+  time_limit_s_ = "7";
+  fly("alone", "11", {"--system", "swiftlet_3d", "--headless"});
+  flyWatched("watched", "11", {"--system", "swiftlet_3d"});
+  expectSame("alone", "watched");
+  for (const std::string name : {"/trajectory_camera.tum", "/map.ot", "/cloud.ply"}) {
+    EXPECT_GT(readText(path("alone" + name)).size(), 1000u) << name;
+    EXPECT_TRUE(readText(path("alone" + name)) == readText(path("watched" + name))) << name;
+  }
 }
 
 class CutShort : public test_support::Scratch {

@@ -300,16 +300,19 @@ TEST(SubmapStore, StaysWithinItsVoxels) {
   const TexturedRoom room;
   Mapper3dConfig config;
   config.submaps.reach_m = 0.5;
-  config.submaps.blocks_max = 600;
+  config.submaps.blocks_max = 300;
   Mapper3d mapper(config);
   const auto scans = scansAt(1, {{}});
   for (int i = 0; i < 40; ++i) {
     const double time_s = i / 8.0;
     ASSERT_TRUE(
         mapper.add(room.seen(flight(time_s), time_s), {CameraSeed{flight(time_s), 0}, scans, {}}).pose.isTracked());
-    std::size_t blocks = 0;
-    for (const Submap3d& submap : mapper.submaps()) blocks += submap.voxels->blockCount();
-    ASSERT_LE(blocks, 600u + 955u) << "and the one that grows, which the room bounds";
+    std::size_t blocks = 0, largest = 0;
+    for (const Submap3d& submap : mapper.submaps()) {
+      blocks += submap.voxels->blockCount();
+      largest = std::max(largest, submap.voxels->blockCount());
+    }
+    ASSERT_LE(blocks, 300u + largest) << "the one that grows comes on top";
   }
   EXPECT_GT(mapper.submaps().size(), 1u);
 }

@@ -110,9 +110,12 @@ DenseGrid::Agreement agreementAfterFrames(unsigned seed, const common::PinholeCa
   return dense.agreementWith(mapper.map());
 }
 
-/// The pixels of the small camera are looked at one by one, those of the other in squares of four.
+/// Of odd sizes: its rows are no whole number of blocks of pixels.
+constexpr common::PinholeCamera kOdd{333, 251, 270.0, 270.0, 166.0, 125.0};
+
+/// The pixels of the small camera are looked at one by one, those of larger ones in squares of four.
 class AgreesWithADenseGrid : public testing::TestWithParam<common::PinholeCamera> {};
-INSTANTIATE_TEST_SUITE_P(Cameras, AgreesWithADenseGrid, testing::Values(smallCamera(), xtion()),
+INSTANTIATE_TEST_SUITE_P(Cameras, AgreesWithADenseGrid, testing::Values(smallCamera(), xtion(), kOdd),
                          [](const auto& test) { return "Pixels" + std::to_string(test.param.pixels()); });
 
 TEST_P(AgreesWithADenseGrid, InEachClass) {
@@ -134,6 +137,14 @@ TEST_P(AgreesWithADenseGrid, WhereSurfacesAreBeyondTheRange) {
 TEST_P(AgreesWithADenseGrid, NotWithAPlantedMistake) {
   EXPECT_LT(agreementAfterFrames(1, GetParam(), DenseGrid(5.0, true)).free, 0.97);
   EXPECT_LT(agreementAfterFrames(1, GetParam(), DenseGrid(3.0)).free, 0.97);
+}
+
+/// As RealSense gives them.
+TEST(VoxelMapper, WidePicturesAgreeWithADenseGrid) {
+  const common::PinholeCamera wide{848, 480, 620.0, 620.0, 423.5, 239.5};
+  const DenseGrid::Agreement agreement = agreementAfterFrames(1, wide, DenseGrid(5.0));
+  EXPECT_GE(agreement.free, 0.985);
+  EXPECT_GE(agreement.occupied, 0.99);
 }
 
 /// A camera at (0, 0, 1) that looks along x at a wall 2 m away.

@@ -145,6 +145,56 @@ TEST(RadioLink, FramesThatTakeTooLongAreDropped) {
   EXPECT_GT(link.counts().late, 0u);
 }
 
+/// What would come too late is sent with a quarter of the pixels, and whole again when the radio carries it.
+TEST(RadioLink, FramesThatAreTooLargeForItAreHalved) {
+  RadioLinkConfig config;
+  config.link_kB_s = 100.0;
+  RadioLink link(config);
+  std::mt19937 random(7);
+  RgbdFrame noisy = frameAt(0.0);
+  noisy.camera = {320, 240, 262.5, 262.5, 159.5, 119.5};
+  noisy.color = {320, 240, std::vector<std::uint8_t>(3 * 320 * 240, 128)};
+  noisy.depth = {320, 240, {}};
+  for (int i = 0; i < 320 * 240; ++i)
+    noisy.depth.depth_m.push_back(static_cast<float>((1500U + random() % 64U) / 1000.0));
+  RgbdFrame flat = noisy;
+  for (float& depth_m : flat.depth.depth_m) depth_m = 2.0F;
+  std::vector<int> widths;
+  const auto offer = [&](RgbdFrame frame, double time_s) {
+    frame.stamps = {Time::fromSeconds(time_s), Time::fromSeconds(time_s + 0.01)};
+    link.offer(std::make_shared<const RgbdFrame>(std::move(frame)));
+    while (const auto arrived = link.take(Time::fromSeconds(time_s + 0.5))) {
+      widths.push_back(arrived->color.width_px);
+      EXPECT_EQ(arrived->camera, arrived->color.width_px == 160
+                                     ? (common::PinholeCamera{160, 120, 131.25, 131.25, 79.5, 59.5})
+                                     : noisy.camera);
+    }
+  };
+  offer(noisy, 0.0);
+  offer(noisy, 1.0);
+  EXPECT_EQ(link.halvings(), 1);
+  for (int i = 2; i < 5; ++i) offer(flat, i);
+  EXPECT_EQ(link.halvings(), 0);
+  EXPECT_EQ(widths, (std::vector<int>{160, 160, 160, 320, 320}));
+  EXPECT_EQ(link.counts().halved, 3u);
+  EXPECT_EQ(link.counts().late, 0u);
+}
+
+TEST(FramePacket, AHalvedFrameShowsTheSameSurfaces) {
+  const RgbdFrame whole = frameAt(0.0);
+  const RgbdFrame half = halved(whole);
+  EXPECT_EQ(half.camera.pixels(), 80 * 60);
+  for (const auto& [u, v] : {std::pair{10, 10}, {40, 30}, {70, 50}}) {
+    const Eigen::Vector3d point_m = half.camera.point_camera_m(u, v, static_cast<double>(half.depth.at(u, v)));
+    const Eigen::Vector2d pixel = whole.camera.pixel(point_m);
+    EXPECT_NEAR(pixel.x(), 2 * u + 0.5, 1e-9) << "the middle of its four pixels";
+    EXPECT_NEAR(pixel.y(), 2 * v + 0.5, 1e-9);
+    EXPECT_NEAR(static_cast<double>(half.depth.at(u, v)), static_cast<double>(whole.depth.at(2 * u, 2 * v)), 0.02);
+    EXPECT_NEAR(half.color.rgb[static_cast<std::size_t>(3 * (v * 80 + u))],
+                whole.color.rgb[static_cast<std::size_t>(3 * (2 * v * 160 + 2 * u))], 2);
+  }
+}
+
 /// Packets have nothing to do with each other: of those that arrive, in any order, the voxels are the same as without a
 /// radio.
 TEST(RadioLink, LossAndDisorderChangeNothingButTheDensity) {

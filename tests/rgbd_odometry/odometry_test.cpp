@@ -116,6 +116,22 @@ TEST(RgbdOdometry, BeginsWithTheFirstFrameThatShowsEnough) {
   }
 }
 
+TEST(RgbdOdometry, TracksWithPicturesOfAnySize) {
+  for (const common::PinholeCamera& camera : {common::PinholeCamera{640, 480, 580.0, 580.0, 319.5, 239.5},
+                                              {848, 480, 620.0, 620.0, 423.5, 239.5},
+                                              {333, 251, 300.0, 300.0, 166.0, 125.0}}) {
+    TexturedRoom room;
+    room.camera = camera;
+    RgbdOdometry odometry({});
+    for (int i = 0; i < 6; ++i) {
+      const double time_s = i / kWalkFrames_Hz;
+      const RgbdPose pose = odometry.process(room.seen(walk(time_s), time_s));
+      ASSERT_EQ(pose.state, TrackState::kTracked) << camera.width_px << " px, frame " << i;
+      ASSERT_LT(distance_m(pose.T_map_camera, walk(0.0).inverse() * walk(time_s)), 0.01) << camera.width_px;
+    }
+  }
+}
+
 TEST(RgbdOdometry, EqualFramesGiveEqualBits) {
   const TexturedRoom room;
   RgbdOdometry one({}), other({});

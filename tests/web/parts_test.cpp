@@ -276,6 +276,20 @@ TEST(StateJsonTest, TellsWhatIsLeftToFlyWithOnceItIsKnown) {
   EXPECT_TRUE(state["thrust_margin"].is_null());
 }
 
+TEST(StateJsonTest, TellsTheAgeOfTheFused3DMap) {
+  testing::ExampleFlight flight;
+  test::Layers layers(*flight.advance(0.1));
+  auto map3d = std::make_shared<common::Map3dLayer>();
+  map3d->submaps = std::make_shared<const std::vector<common::Submap3d>>();
+  layers.map3d = map3d;
+  EXPECT_TRUE(nlohmann::json::parse(stateJson(layers.world(), {}))["map3d"]["fused_age_s"].is_null());
+  map3d = std::make_shared<common::Map3dLayer>(*map3d);
+  map3d->fused = std::make_shared<const common::VoxelMap>(0.05);
+  map3d->fused_stamp = layers.world().stamp - common::Duration::fromSeconds(3.5);
+  layers.map3d = map3d;
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(stateJson(layers.world(), {}))["map3d"]["fused_age_s"].get<double>(), 3.5);
+}
+
 TEST(StateJsonTest, StaysValidWithNanAndInvalidText) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(0.1));

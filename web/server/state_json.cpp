@@ -115,11 +115,14 @@ Json avoidanceOf(const common::AvoidanceStatus& avoidance) {
           {"nearest_m", number(avoidance.nearest_m, 2)}};
 }
 
-Json map3dOf(const std::shared_ptr<const common::Map3dLayer>& map3d) {
+Json map3dOf(const std::shared_ptr<const common::Map3dLayer>& map3d, common::Time now) {
   if (!map3d) return nullptr;
   std::size_t points = 0;
   for (const common::Submap3d& submap : *map3d->submaps) points += submap.points->size();
-  return {{"submaps", map3d->submaps->size()}, {"points", points}, {"tracked", map3d->tracked}};
+  return {{"submaps", map3d->submaps->size()},
+          {"points", points},
+          {"tracked", map3d->tracked},
+          {"fused_age_s", map3d->fused ? number((now - map3d->fused_stamp).seconds()) : Json(nullptr)}};
 }
 
 Json zonesOf(const std::vector<common::Polygon>& zones) {
@@ -157,7 +160,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
       {"age_s", number(seen.world_age_s)},
       {"camera_age_s", optional(seen.camera_age_s)},
       {"depth_age_s", optional(seen.depth_age_s)},
-      {"map3d", map3dOf(world.map3d)},
+      {"map3d", map3dOf(world.map3d, world.stamp)},
       {"realtime_factor", optional(seen.realtime_factor)},
       {"pose", poseOf(state)},
       {"velocity_m_s", {number(velocity.x()), number(velocity.y()), number(velocity.z())}},

@@ -1,0 +1,19 @@
+#include "autonomy/estimation/camera_support.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace swiftlet::autonomy {
+namespace {
+
+constexpr double kSupported_m_s = 0.12;
+constexpr double kSupported_m2_s2 = kSupported_m_s * kSupported_m_s;
+
+}  // namespace
+
+CameraSupport supportOf(const common::VehicleState& state) {
+  const Eigen::Matrix3d& covariance = state.velocity_covariance_m2_s2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> horizontal(covariance.topLeftCorner<2, 2>());
+  return {horizontal.eigenvalues()[1] < kSupported_m2_s2, covariance(2, 2) < kSupported_m2_s2};
+}
+
+}  // namespace swiftlet::autonomy
