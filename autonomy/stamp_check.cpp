@@ -7,9 +7,6 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// More than clocks of sensors drift apart in an hour (20 ppm).
-constexpr double kAhead_s = 0.1;
-
 struct SensorName {
   std::string operator()(const common::ImuSample&) const { return "IMU"; }
   std::string operator()(const std::shared_ptr<const common::LaserScan>&) const { return "laser"; }
@@ -25,7 +22,7 @@ struct SensorName {
 bool StampCheck::accepts(const common::SensorEvent& event) {
   const common::Stamps& stamps = common::stampsOf(event);
   const double ahead_s = (stamps.measured - stamps.arrived).seconds();
-  const bool refused = ahead_s > kAhead_s;
+  const bool refused = stampFault(stamps, std::nullopt) != nullptr;
   if (refused && !refused_[event.index()])
     events_.push_back({stamps.arrived, common::Severity::kWarning, "sensors",
                        "a measurement is refused: " + std::visit(SensorName{}, event),

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "autonomy/estimation/stamp_check.hpp"
+#include "autonomy/stamp_check.hpp"
 #include "common/blank_picture.hpp"
 #include "common/vehicle_config.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "autonomy/estimation/stamp_check.hpp"
+#include "autonomy/stamp_check.hpp"
 #include "common/config_fields.hpp"
 #include "perception/projection/placed_returns.hpp"
 
