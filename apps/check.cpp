@@ -1,6 +1,7 @@
 // swiftlet check: validates missions without flying.
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -8,9 +9,15 @@
 #include "apps/command.hpp"
 #include "apps/dry_run.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
+#include "behaviors/registry.hpp"
+#include "behaviors/tree/drawing.hpp"
+#include "behaviors/tree/mocks.hpp"
+#include "behaviors/tree/parser.hpp"
 #include "common/data_paths.hpp"
+#include "interfaces/files/atomic_file.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -19,6 +26,7 @@ struct CheckOptions {
   std::vector<std::string> missions;
   std::string system = "swiftlet";
   std::string dry_run;  ///< The script; empty: none.
+  std::string draw;     ///< The SVG; empty: none.
   bool mock_leaves = false;
   bool json = false;
 };
@@ -86,10 +94,20 @@ void print(const CheckReport& report, std::size_t missions) {
   fmt::print("{} mission{} sound{}\n", missions, missions == 1 ? " is" : "s are", warnings);
 }
 
+void draw(const CheckOptions& options) {
+  const std::string file = common::findData(options.missions.front()).string();
+  const tree::Registry& ours = behaviors::missionRegistry();
+  const tree::Registry registry = options.mock_leaves ? tree::withMocks(file, ours).registry : ours;
+  const tree::ParseResult parsed = tree::parseFile(file, registry);
+  required(interfaces::writeAtomically(options.draw, tree::drawTree(*parsed.tree)));
+}
+
 int check(const CheckOptions& options) {
-  if (!options.dry_run.empty() && options.missions.size() != 1)
-    throw common::InputError(common::Problem{{}, "--dry-run", "the script is of one mission", "name that one alone"});
+  for (const auto& [option, value] : {std::pair{"--dry-run", options.dry_run}, {"--draw", options.draw}})
+    if (!value.empty() && options.missions.size() != 1)
+      throw common::InputError(common::Problem{{}, option, "the file is of one mission", "name that one alone"});
   const CheckReport report = reportOn(options);
+  if (!options.draw.empty() && report.problems.empty()) draw(options);
   if (!options.dry_run.empty() && report.problems.empty()) {
     if (!options.json) print(report, 1);
     showDryRun({options.missions.front(), options.dry_run, options.mock_leaves, options.json});
@@ -116,6 +134,7 @@ void addCheck(Command& program) {
   command.option("--dry-run", options->dry_run,
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "
                  "`TakeOff: RUNNING x3, SUCCESS`.");
+  command.option("--draw", options->draw, "Also write a picture of the tree into this file (SVG).");
   command.flag(
       "--mock-leaves", options->mock_leaves,
       "Let nodes that Swiftlet does not have be mocks, and say whose each node is; such a mission cannot be flown.");

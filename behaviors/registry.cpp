@@ -1,5 +1,9 @@
 #include "behaviors/registry.hpp"
 
+#include <cstdint>
+#include <map>
+#include <string>
+
 #include "behaviors/avoid_obstacle.hpp"
 #include "behaviors/emergency_land.hpp"
 #include "behaviors/explore.hpp"
@@ -29,6 +33,22 @@
 #include "behaviors/wait_for_operator.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+/// Scripts name the choices of ports in capitals: `mode := far ? BRISK : CAREFUL`.
+void addChoices(tree::Registry& registry) {
+  std::map<std::string, std::int64_t> numbers;
+  for (const auto& [id, type] : registry.types())
+    for (const tree::PortManifest& port : type.manifest.ports)
+      for (std::size_t i = 0; i < port.choices.size(); ++i) {
+        std::string name = port.choices[i];
+        for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+        numbers[name] = static_cast<std::int64_t>(i);
+      }
+  for (const auto& [name, number] : numbers) registry.addConstant(name, number);
+}
+
+}  // namespace
 
 const tree::Registry& missionRegistry() {
   static const tree::Registry kRegistry = [] {
@@ -69,6 +89,7 @@ const tree::Registry& missionRegistry() {
     registry.add<IsExplored>();
     registry.add<IsAt>();
     registry.add<IsTargetFound>();
+    addChoices(registry);
     return registry;
   }();
   return kRegistry;

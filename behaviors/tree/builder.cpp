@@ -66,6 +66,7 @@ std::unique_ptr<Node> Builder::makeSubTree(const Place& place, Scope& scope) {
   const int record = addRecord(place, nullptr);
   tree_->setups[static_cast<std::size_t>(record)].name = name == nullptr ? id : *name;
   tree_->setups[static_cast<std::size_t>(record)].conditions = makeConditions(place, scope, "SubTree");
+  tree_->subtree_ids[record] = id;
   auto node = std::make_unique<SubTree>(tree_->setups[static_cast<std::size_t>(record)]);
   finishRecord(record, *node);
 

@@ -30,7 +30,8 @@ bool inRange(const PortManifest& port, const Value& value) {
 /// unit, text is parsed, and numbers are also text.
 template <typename T>
 std::optional<T> converted(const PortManifest& port, const Value& value) {
-  if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;
+  if (port.choices.empty())
+    if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;
   if constexpr (std::is_same_v<T, double>)
     if (const auto* number = std::get_if<std::int64_t>(&value); number != nullptr && inRange(port, value))
       return static_cast<double>(*number);
@@ -50,8 +51,10 @@ std::optional<T> converted(const PortManifest& port, const Value& value) {
     if (bit == 0.0 || bit == 1.0) return bit == 1.0;
   }
   if constexpr (std::is_same_v<T, std::string>)
-    if (number != nullptr || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<bool>(value))
-      return toString(value);
+    if (number != nullptr || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<bool>(value)) {
+      const ReadValue read = readValue(port, toString(value));
+      return read.value ? std::optional<T>(std::get<std::string>(*read.value)) : std::nullopt;
+    }
   if (const auto* text = std::get_if<std::string>(&value)) {
     const ReadValue read = readValue(port, *text);
     if (read.value)
@@ -106,6 +109,16 @@ std::string expectedOf(const PortManifest& port) {
 
 namespace {
 
+/// The text itself where any is allowed; else the choice that it is, or whose number from 0 it is, as of a constant.
+std::optional<std::string_view> choiceOf(const PortManifest& port, std::string_view text) {
+  const auto& choices = port.choices;
+  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end()) return text;
+  const auto number = parseValue(text, PortType::kInt, {});
+  const std::int64_t index = number ? std::get<std::int64_t>(*number) : -1;
+  if (index < 0 || index >= static_cast<std::int64_t>(choices.size())) return std::nullopt;
+  return choices[static_cast<std::size_t>(index)];
+}
+
 /// The first element that is not of the type; nothing if all are.
 std::optional<std::string_view> wrongElement(std::string_view list, PortType type) {
   while (!list.empty()) {
@@ -121,9 +134,7 @@ std::optional<std::string_view> wrongElement(std::string_view list, PortType typ
 
 ReadValue readValue(const PortManifest& port, std::string_view text) {
   ReadValue read;
-  const auto& choices = port.choices;
-  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end())
-    read.value = parseValue(text, port.type, unitOf(port.name));
+  if (const auto chosen = choiceOf(port, text)) read.value = parseValue(*chosen, port.type, unitOf(port.name));
   if (!read.value) {
     read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
   } else if (!inRange(port, *read.value)) {

@@ -41,7 +41,10 @@ std::vector<NodeView> Tree::view() const {
 
 std::vector<PortView> Tree::portsOf(int id) const {
   std::vector<PortView> ports;
-  for (const PortBinding& binding : parts_->setups[static_cast<std::size_t>(id)].ports) {
+  const NodeSetup& setup = parts_->setups[static_cast<std::size_t>(id)];
+  if (const auto subtree = parts_->subtree_ids.find(id); subtree != parts_->subtree_ids.end())
+    ports.push_back({"ID", {}, subtree->second});
+  for (const PortBinding& binding : setup.ports) {
     const std::string& name = binding.manifest->name;
     if (binding.script != nullptr)
       ports.push_back({name, {}, std::string(binding.script->text())});
@@ -51,6 +54,10 @@ std::vector<PortView> Tree::portsOf(int id) const {
       ports.push_back({name, binding.slot->name,
                        binding.slot->value ? std::optional(toString(*binding.slot->value)) : std::nullopt});
   }
+  if (setup.conditions == nullptr) return ports;
+  for (std::size_t kind = 0; kind < kConditionKinds; ++kind)
+    if (const Script* script = setup.conditions->scripts[kind])
+      ports.push_back({std::string(attributeOf(static_cast<ConditionKind>(kind))), {}, std::string(script->text())});
   return ports;
 }
 

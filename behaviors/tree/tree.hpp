@@ -54,6 +54,7 @@ class Tree {
   const std::vector<NodeRecord>& nodes() const;
   std::vector<NodeView> view() const;
 
+  /// Also the `ID` of a SubTree, and scripted conditions.
   std::vector<PortView> portsOf(int id) const;
   /// Another number whenever an entry of its ports was written or has lost its value.
   std::uint64_t writesOfPorts(int id) const;

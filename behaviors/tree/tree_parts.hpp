@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,7 @@ struct TreeParts {
   std::vector<NodeRecord> records;
   std::vector<NodeSetup> setups;                     ///< By node id.
   std::vector<NodeOrigin> origins;                   ///< By node id.
+  std::map<int, std::string> subtree_ids;            ///< Of the SubTrees, by node id: the tree that each uses.
   std::vector<std::unique_ptr<Document>> documents;  ///< From which the tree was made; scripts are read in their text.
   Scripts scripts;
   std::deque<Conditions> conditions;  ///< Stable addresses.

@@ -101,5 +101,16 @@ TEST(LiveTrees, OfMissionsNameTypesAndDefaults) {
   EXPECT_THAT(node.ports.at(0), (common::TreePortView{"height_m", "", "1.2"}));
 }
 
+TEST(LiveTrees, ShowTheTreeOfASubTreeAndScriptedConditions) {
+  tree::testing::Story story(R"(<Sequence><SubTree ID="Visit" name="first" _skipIf="1 > 2"/></Sequence>)",
+                             R"(<BehaviorTree ID="Visit"><A _onSuccess="n := 1"/></BehaviorTree>)");
+  ASSERT_TRUE(story.problems().empty());
+  LiveTree live(story.tree());
+  const common::TreeView view = live.view();
+  EXPECT_EQ(view[1].name, "first");
+  EXPECT_EQ(view[1].ports, (std::vector<common::TreePortView>{{"ID", {}, "Visit"}, {"_skipIf", {}, "1 > 2"}}));
+  EXPECT_EQ(view[2].ports, (std::vector<common::TreePortView>{{"_onSuccess", {}, "n := 1"}}));
+}
+
 }  // namespace
 }  // namespace swiftlet::behaviors::testing

@@ -1,8 +1,11 @@
 // SetFlightMode, WaitForOperator, SaveMap, Photograph and EmergencyLand, tick by tick; the test plays the autonomy.
+#include <cctype>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "behaviors/mission_check.hpp"
+#include "behaviors/registry.hpp"
 #include "tests/behaviors/flight.hpp"
 
 namespace swiftlet::behaviors::testing {
@@ -132,6 +135,30 @@ TEST(EmergencyLand, EndsOnTheFloor) {
   EXPECT_EQ(flight.succeeds().tick(), "DONE");
   EXPECT_THAT(problemsInside("<TakeOff/><EmergencyLand/><Explore/>"),
               ElementsAre(HasSubstr("Explore: the vehicle stands on the floor here")));
+}
+
+TEST(Constants, AreTheChoicesOfPortsInCapitals) {
+  for (const auto& [id, type] : missionRegistry().types())
+    for (const tree::PortManifest& port : type.manifest.ports)
+      for (const std::string& choice : port.choices) {
+        std::string name = choice;
+        for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        const auto known = missionRegistry().constants().find(name);
+        ASSERT_NE(known, missionRegistry().constants().end()) << name;
+        const auto value = tree::readValue(port, std::to_string(known->second)).value;
+        EXPECT_EQ(value, tree::Value(choice)) << id << "." << port.name << ": one name, two numbers";
+      }
+  Flight flight(
+      "<Sequence><TakeOff/><Script code=\"m := 1 &lt; 2 ? CAREFUL : FAST\"/><MoveToGoal goal=\"1;1\" mode=\"{m}\"/>"
+      "</Sequence>");
+  flight.tick();
+  flight.succeeds().tick();
+  ASSERT_EQ(flight.last.state, common::MissionState::kRunning) << flight.last.reason;
+  EXPECT_EQ(flightModeOf(flight), common::FlightMode::kCareful);
+  Flight wrong(
+      "<Sequence><TakeOff/><Script code=\"m := 'care' .. 'less'\"/><MoveToGoal goal=\"1;1\" mode=\"{m}\"/></Sequence>");
+  wrong.tick();
+  EXPECT_EQ(wrong.succeeds().tick(), "FAILED") << "a text that is no choice is not flown as one";
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "behaviors/mission.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
+#include "behaviors/tree/drawing.hpp"
+#include "behaviors/tree/parser.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
@@ -35,6 +37,34 @@ TEST(Schema, IsUpToDate) { expectFresh(kMissions / "swiftlet.xsd", tree::writeSc
 
 TEST(NodeTable, IsUpToDate) {
   expectFresh(fs::path(SWIFTLET_SOURCE_DIR) / "docs" / "nodes.md", tree::writeNodeTable(missionRegistry()));
+}
+
+TEST(Pictures, OfTheShippedMissionsAreUpToDate) {
+  std::string page = textOf(fs::path(SWIFTLET_SOURCE_DIR) / "docs" / "missions.md");
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(kMissions)) {
+    if (entry.path().extension() != ".xml") continue;
+    const std::string picture = "mission_" + entry.path().stem().string() + ".svg";
+    const tree::ParseResult parsed = tree::parseFile(entry.path().string(), missionRegistry());
+    ASSERT_TRUE(parsed.tree.has_value()) << entry.path();
+    expectFresh(fs::path(SWIFTLET_SOURCE_DIR) / "docs/images" / picture, tree::drawTree(*parsed.tree));
+    EXPECT_NE(page.find("images/" + picture), std::string::npos) << picture << " is not on docs/missions.md";
+    ++count;
+  }
+  EXPECT_GE(count, 12);
+}
+
+TEST(Pictures, ShowEveryNodeWithWhatItIsGiven) {
+  const tree::ParseResult parsed = tree::parseText(
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence name=\"a &lt; b\"><TakeOff "
+      "height_m=\"1.5\"/><SubTree ID=\"S\" name=\"home\"/></Sequence></BehaviorTree><BehaviorTree ID=\"S\"><Land "
+      "_skipIf=\"1 > 2\"/></BehaviorTree></root>",
+      "m.xml", missionRegistry());
+  ASSERT_TRUE(parsed.tree.has_value());
+  const std::string svg = tree::drawTree(*parsed.tree);
+  for (const char* words :
+       {">a &lt; b<", ">Sequence<", ">TakeOff<", "height_m=1.5", ">home<", "ID=S", ">Land<", "_skipIf=1 &gt; 2"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words << "\n" << svg;
 }
 
 TEST(Palette, IsUpToDate) {

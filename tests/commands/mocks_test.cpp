@@ -41,6 +41,14 @@ TEST_F(MockLeaves, JudgesAMissionWithoutMocksAsAlways) {
   EXPECT_THAT(end.err, HasSubstr("expected a TakeOff before it"));
 }
 
+TEST_F(MockLeaves, ATreeOfTheEngineAloneIsNoMission) {
+  const std::string path = mockedMission("      <Script code=\"x := 1\"/>\n      <Sleep msec=\"100\"/>\n");
+  EXPECT_EQ(runSwiftlet({"check", path}).exit_code, 2) << "as a mission it never takes off";
+  const ProgramEnd end = runSwiftlet({"check", "--mock-leaves", "--dry-run", write("d.script", "ticks: 5\n"), path});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("ended with SUCCESS after 2 ticks"));
+}
+
 TEST_F(MockLeaves, AreNotFlown) {
   const ProgramEnd end = runSwiftlet({"fly", mockedMission(kHop), "--mock-leaves"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

@@ -78,6 +78,17 @@ TEST_F(GrootMonitorStory, SendsTheTreeWithItsSubtrees) {
             "<TreeNodesModel/>\n</root>\n");
 }
 
+TEST_F(GrootMonitorStory, TellsTheTreeOfASubTreeFromItsNameAndFromTheMainTree) {
+  tree_[2].name = "first visit";
+  tree_[2].ports = {{"ID", {}, "Main"}, {"_skipIf", {}, "n < 2"}};
+  show(0.0);
+  const std::string xml = answer('T');
+  EXPECT_THAT(xml, HasSubstr("<root BTCPP_format=\"4\" main_tree_to_execute=\"Main_\">"));
+  EXPECT_THAT(xml, HasSubstr("<SubTree ID=\"Main\" _fullpath=\"first visit::3\" name=\"first visit\" _uid=\"3\" "
+                             "_skipIf=\"n &lt; 2\"/>"));
+  EXPECT_THAT(xml, HasSubstr("<BehaviorTree ID=\"Main\" _fullpath=\"first visit::3\">"));
+}
+
 TEST_F(GrootMonitorStory, SendsStatusesAndWhatIdleNodesWereBefore) {
   show(0.0);
   EXPECT_THAT(statusesOf(answer('S')), ElementsAre(1, 4, 1, 1, 1, 0));

@@ -10,52 +10,19 @@
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/tree/mocked_tree.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::MockedTree;
 
 std::vector<std::string> namesOf(const std::vector<Mock>& mocks) {
   std::vector<std::string> names;
   for (const Mock& mock : mocks) names.push_back(mock.id + " " + toString(mock.kind));
   return names;
 }
-
-/// A file whose mocks answer what the test says; those that it does not name are SUCCESS.
-class MockedTree {
- public:
-  explicit MockedTree(const std::string& path, const Registry& base = Registry::standard())
-      : mocked_(withMocks(path, base, {},
-                          [this](const Node& mock, bool) {
-                            const auto found = answers_.find(mock.name());
-                            return found == answers_.end() ? Status::kSuccess : found->second;
-                          })),
-        parsed_(parseFile(path, mocked_.registry)) {}
-
-  MockedTree& says(const std::string& leaf, Status status) {
-    answers_[leaf] = status;
-    return *this;
-  }
-  /// "RUNNING: Sequence RUNNING, A SUCCESS, B RUNNING".
-  std::string tick() {
-    if (!parsed_.tree) return toString(parsed_.problems);
-    now_ns_ += 100'000'000;
-    TickContext context(now_ns_);
-    std::string text = toString(parsed_.tree->tick(context));
-    for (const NodeView& node : parsed_.tree->view())
-      text += (node.id == 0 ? ": " : ", ") + node.name + " " + toString(node.status);
-    return text;
-  }
-  const std::vector<Mock>& mocks() const { return mocked_.mocks; }
-  const std::vector<Problem>& problems() const { return parsed_.problems; }
-
- private:
-  std::map<std::string, Status> answers_;
-  MockedRegistry mocked_;
-  ParseResult parsed_;
-  std::int64_t now_ns_ = 0;
-};
 
 std::string written(const std::string& name, const std::string& text) {
   const std::string path = (std::filesystem::path(::testing::TempDir()) / name).string();

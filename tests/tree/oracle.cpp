@@ -1,8 +1,9 @@
 #include "tests/tree/oracle.hpp"
 
 #include <algorithm>
+#include <array>
 
-namespace swiftlet::tree::testing {
+namespace swiftlet::tree::testing::oracle {
 namespace {
 
 bool isBelow(const std::string& path, const std::string& root) { return path.starts_with(root); }
@@ -19,13 +20,49 @@ void eraseBelow(Set& set, const std::string& root) {
 
 std::string nameOf(int leaf) { return std::string(1, static_cast<char>('A' + leaf)); }
 
+constexpr std::array<Status, 4> kStatuses = {Status::kSuccess, Status::kFailure, Status::kRunning, Status::kSkipped};
+constexpr int kMost = 2;  ///< At which count a condition holds.
+
+std::string timesOf(const std::string& attribute, int ticks) {
+  return " " + attribute + "=\"" + std::to_string(100 * ticks) + "\"";
+}
+
+/// The attributes that only some types have.
+std::string attributesOf(const Shape& shape) {
+  const std::string status = toString(kStatuses[static_cast<std::size_t>(shape.number2) % 4]);
+  if (shape.type == "Precondition")
+    return std::string(" if=\"") + (shape.number > 0 ? "n >= 0" : "n &lt; 0") + "\" else=\"" + status + "\"";
+  if (shape.type == "LoopString") {
+    std::string queue;
+    for (int i = 0; i < shape.number; ++i) queue += i == 0 ? "x" : ";x";
+    return " queue=\"" + queue + "\" if_empty=\"" + status + "\"";
+  }
+  if (shape.type == "Switch2") return " variable=\"" + std::to_string(shape.number) + "\" case_1=\"0\" case_2=\"1\"";
+  if (shape.type == "Delay") return timesOf("delay_msec", shape.number);
+  if (shape.type == "Timeout" || shape.type == "Sleep") return timesOf("msec", shape.number);
+  return {};
+}
+
+std::string conditionsOf(const Shape& shape) {
+  static const std::array<std::string, 4> kNames = {"", "_failureIf", "_successIf", "_skipIf"};
+  std::string text = shape.counts ? " _onSuccess=\"n += 1\"" : "";
+  if (shape.condition != Condition::kNone)
+    text += " " + kNames[static_cast<std::size_t>(shape.condition)] + "=\"n >= " + std::to_string(kMost) + "\"";
+  return text;
+}
+
 }  // namespace
+
+std::string toString(Status status) {
+  return std::array<std::string, 4>{"RUNNING", "SUCCESS", "FAILURE", "SKIPPED"}[static_cast<std::size_t>(status)];
+}
 
 std::string childPath(const std::string& path, std::size_t index) { return path + std::to_string(index) + "/"; }
 
 std::string toXml(const Shape& shape) {
-  if (shape.type == "Leaf") return "<" + nameOf(shape.leaf) + "/>";
-  std::string text = "<" + shape.type;
+  if (shape.type == "Leaf") return "<" + nameOf(shape.leaf) + conditionsOf(shape) + "/>";
+  if (shape.type == "Zero") return "<Script code=\"n := 0\"/>";
+  std::string text = "<" + shape.type + attributesOf(shape) + conditionsOf(shape);
   if (shape.type == "Repeat") text += " num_cycles=\"" + std::to_string(shape.number) + "\"";
   if (shape.type == "RetryUntilSuccessful") text += " num_attempts=\"" + std::to_string(shape.number) + "\"";
   if (shape.type == "Parallel")
@@ -41,11 +78,29 @@ std::string toXml(const Shape& shape) {
 Status Oracle::tick(const Shape& shape, const Answers& answers, std::vector<std::string>& log) {
   answers_ = &answers;
   log_ = &log;
+  ++now_;
   return eval(shape, "/");
 }
 
-/// Every node: its memory lasts while it answers RUNNING.
+/// Every node: its conditions come before and after its rule, and its memory lasts while it answers RUNNING.
 Status Oracle::eval(const Shape& shape, const std::string& path) {
+  const bool starts = !memory_.under_way.contains(path) && bug_ != Bug::kConditionsIgnored;
+  Status status = Status::kRunning;
+  if (starts && memory_.counter >= kMost && shape.condition != Condition::kNone)
+    status = shape.condition == Condition::kFailureIf   ? Status::kFailure
+             : shape.condition == Condition::kSuccessIf ? Status::kSuccess
+                                                        : Status::kSkipped;
+  else
+    status = evalRule(shape, path);
+  if (status == Status::kSuccess && shape.counts) ++memory_.counter;
+  if (status == Status::kRunning)
+    memory_.under_way.insert(path);
+  else
+    forget(path);
+  return status;
+}
+
+Status Oracle::evalRule(const Shape& shape, const std::string& path) {
   Status status = Status::kFailure;
   if (shape.type == "Leaf") status = evalLeaf(shape, path);
   if (shape.type == "SequenceWithMemory") status = evalWithMemory(shape, path);
@@ -75,11 +130,48 @@ Status Oracle::eval(const Shape& shape, const std::string& path) {
     if (ended && shape.type == "ForceSuccess") status = Status::kSuccess;
     if (ended && shape.type == "ForceFailure") status = Status::kFailure;
   }
-  if (status == Status::kRunning)
-    memory_.under_way.insert(path);
-  else
-    forget(path);
+  if (shape.type == "Delay" || shape.type == "Timeout" || shape.type == "Sleep") status = evalTimed(shape, path);
+  if (shape.type == "LoopString") status = evalQueue(shape, path);
+  if (shape.type == "Switch2") {
+    const auto chosen = static_cast<std::size_t>(std::clamp(shape.number, 0, 2));
+    status = eval(shape.children[chosen], childPath(path, chosen));
+  }
+  if (shape.type == "Precondition") {
+    const bool runs = shape.number > 0 || memory_.under_way.contains(childPath(path, 0));
+    status =
+        runs ? eval(shape.children[0], childPath(path, 0)) : kStatuses[static_cast<std::size_t>(shape.number2) % 4];
+  }
+  if (shape.type == "Zero") {
+    memory_.counter = 0;
+    status = Status::kSuccess;
+  }
   return status;
+}
+
+/// A clock stands still while its node is suspended.
+Status Oracle::evalTimed(const Shape& shape, const std::string& path) {
+  int& began = memory_.number.try_emplace(path, now_).first->second;
+  if (const auto suspended = memory_.suspended.find(path); suspended != memory_.suspended.end()) {
+    began += now_ - suspended->second;
+    memory_.suspended.erase(suspended);
+  }
+  const bool over = (now_ - began) * (bug_ == Bug::kClockRunsTwice ? 2 : 1) >= shape.number;
+  if (shape.type == "Sleep") return over ? Status::kSuccess : Status::kRunning;
+  const std::string child = childPath(path, 0);
+  if (shape.type == "Delay")
+    return over || memory_.under_way.contains(child) ? eval(shape.children[0], child) : Status::kRunning;
+  return shape.number > 0 && over ? Status::kFailure : eval(shape.children[0], child);
+}
+
+Status Oracle::evalQueue(const Shape& shape, const std::string& path) {
+  const std::string child = childPath(path, 0);
+  int& taken = memory_.number[path];
+  if (bug_ == Bug::kLoopStartsAnew) taken = 0;
+  if (!memory_.under_way.contains(child)) {
+    if (taken >= shape.number) return kStatuses[static_cast<std::size_t>(shape.number2) % 4];
+    ++taken;
+  }
+  return eval(shape.children[0], child) == Status::kFailure ? Status::kFailure : Status::kRunning;
 }
 
 Status Oracle::evalLeaf(const Shape& shape, const std::string& path) {
@@ -281,7 +373,7 @@ void Oracle::forget(const std::string& path) {
 
 void Oracle::suspendBelow(const std::string& path) {
   for (const std::string& active : memory_.under_way)
-    if (isBelow(active, path)) memory_.suspended.insert(active);
+    if (isBelow(active, path)) memory_.suspended.emplace(active, now_);
 }
 
-}  // namespace swiftlet::tree::testing
+}  // namespace swiftlet::tree::testing::oracle

@@ -1,5 +1,6 @@
-// A naive interpreter of trees: no node objects, only a map from the path of a node to its state. Letting go takes no
-// time here, and "would it be skipped?" is answered by trying it on a copy of the whole state.
+// A naive interpreter of trees that shares no file with the engine: no node objects, only a map from the path of a node
+// to its state. Letting go takes no time here, a tick takes 100 ms, and "would it be skipped?" is answered by trying it
+// on a copy of the whole state.
 #pragma once
 
 #include <map>
@@ -7,16 +8,25 @@
 #include <string>
 #include <vector>
 
-#include "behaviors/tree/status.hpp"
+namespace swiftlet::tree::testing::oracle {
 
-namespace swiftlet::tree::testing {
+enum class Status { kRunning, kSuccess, kFailure, kSkipped };
+std::string toString(Status status);
+
+/// Scripted conditions, over one counter `n`.
+enum class Condition { kNone, kFailureIf, kSuccessIf, kSkipIf };
 
 struct Shape {
-  std::string type;  ///< A node type, or "Leaf".
-  int number = 0;    ///< num_cycles, num_attempts, success_count, max_failures, then_skip.
-  int number2 = 0;   ///< failure_count.
-  int leaf = 0;      ///< Which stand-in.
-  std::vector<Shape> children;
+  /// A node type, or "Leaf". "Zero" is a Script that sets the counter to 0.
+  std::string type;
+  /// num_cycles, num_attempts, success_count, max_failures, then_skip, ticks of a time, elements of a queue, the case
+  /// of a Switch, the truth of a Precondition.
+  int number = 0;
+  int number2 = 0;                         ///< failure_count, the status `else` or `if_empty`.
+  int leaf = 0;                            ///< Which stand-in.
+  Condition condition = Condition::kNone;  ///< `n >= 2` decides before it starts.
+  bool counts = false;                     ///< `_onSuccess="n += 1"`.
+  std::vector<Shape> children = {};
 };
 
 /// The answer of every stand-in in one tick. kSkipped: it does not want the vehicle (if it is under way, it keeps
@@ -24,7 +34,16 @@ struct Shape {
 using Answers = std::vector<Status>;
 
 /// Deliberately wrong variants, to see that the comparison notices.
-enum class Bug { kNone, kSequenceRestarts, kPriorityResets, kReactiveRemembers, kMemoryForgets };
+enum class Bug {
+  kNone,
+  kSequenceRestarts,
+  kPriorityResets,
+  kReactiveRemembers,
+  kMemoryForgets,
+  kLoopStartsAnew,
+  kClockRunsTwice,
+  kConditionsIgnored
+};
 
 class Oracle {
  public:
@@ -35,13 +54,17 @@ class Oracle {
  private:
   struct Memory {
     std::set<std::string> under_way;
-    std::set<std::string> suspended;      ///< Leaves that let go.
-    std::map<std::string, int> number;    ///< Position of a Sequence, count of a Repeat.
-    std::map<std::string, Status> ended;  ///< Children of a Parallel.
-    std::map<std::string, int> kept;      ///< What outlasts the end of a node, by its path.
+    std::map<std::string, int> suspended;  ///< Nodes that let go, with the tick in which they did.
+    std::map<std::string, int> number;     ///< Position of a Sequence, count of a Repeat.
+    std::map<std::string, Status> ended;   ///< Children of a Parallel.
+    std::map<std::string, int> kept;       ///< What outlasts the end of a node, by its path.
+    int counter = 0;                       ///< The entry `n`.
   };
 
   Status eval(const Shape& shape, const std::string& path);
+  Status evalRule(const Shape& shape, const std::string& path);
+  Status evalTimed(const Shape& shape, const std::string& path);
+  Status evalQueue(const Shape& shape, const std::string& path);
   Status evalLeaf(const Shape& shape, const std::string& path);
   Status evalChain(const Shape& shape, const std::string& path, Status goes_on);
   Status evalReactive(const Shape& shape, const std::string& path, Status goes_on);
@@ -58,6 +81,7 @@ class Oracle {
   void suspendBelow(const std::string& path);
 
   Bug bug_;
+  int now_ = 0;  ///< Ticks.
   Memory memory_;
   const Answers* answers_ = nullptr;
   std::vector<std::string>* log_ = nullptr;
@@ -67,4 +91,4 @@ std::string childPath(const std::string& path, std::size_t index);
 /// The shape as XML, with stand-ins A, B, ...
 std::string toXml(const Shape& shape);
 
-}  // namespace swiftlet::tree::testing
+}  // namespace swiftlet::tree::testing::oracle

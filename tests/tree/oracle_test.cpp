@@ -1,4 +1,6 @@
-// Random trees with random leaves: the engine answers and ticks exactly as a naive interpreter does.
+// Random trees with random leaves: the engine answers and ticks exactly as a naive interpreter does. RC_PARAMS in the
+// environment sets the number of trees:
+//   RC_PARAMS="max_success=100000" build/release/test_tree --gtest_filter=Engine.EqualsTheNaiveInterpreter
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -9,6 +11,13 @@
 namespace swiftlet::tree::testing {
 namespace {
 
+using oracle::Answers;
+using oracle::Bug;
+using oracle::Condition;
+using oracle::Oracle;
+using oracle::Shape;
+using OracleStatus = oracle::Status;
+
 constexpr int kLeaves = 5;
 constexpr int kTicks = 25;
 
@@ -17,44 +26,60 @@ Shape randomShape(int depth) {
   static const std::vector<std::string> kControls = {
       "Sequence",      "Fallback",           "ReactiveSequence", "ReactiveFallback", "Parallel",
       "Priority",      "SequenceWithMemory", "IfThenElse",       "WhileDoElse",      "AsyncSequence",
-      "AsyncFallback", "ParallelAll",        "TryCatch"};
-  static const std::vector<std::string> kDecorators = {"Inverter", "ForceSuccess",         "ForceFailure",
-                                                       "Repeat",   "RetryUntilSuccessful", "KeepRunningUntilFailure",
-                                                       "RunOnce"};
+      "AsyncFallback", "ParallelAll",        "TryCatch",         "Switch2"};
+  static const std::vector<std::string> kDecorators = {"Inverter",
+                                                       "ForceSuccess",
+                                                       "ForceFailure",
+                                                       "Repeat",
+                                                       "RetryUntilSuccessful",
+                                                       "KeepRunningUntilFailure",
+                                                       "RunOnce",
+                                                       "Precondition",
+                                                       "LoopString",
+                                                       "Delay",
+                                                       "Timeout"};
   constexpr int kLeafWeight = 6;
   const auto controls = static_cast<int>(kControls.size()), decorators = static_cast<int>(kDecorators.size());
   const int kind = depth <= 0 ? 0 : *rc::gen::inRange(0, kLeafWeight + controls + decorators);
+  shape.condition = *rc::gen::weightedElement<Condition>(
+      {{12, Condition::kNone}, {1, Condition::kFailureIf}, {1, Condition::kSuccessIf}, {1, Condition::kSkipIf}});
+  shape.counts = *rc::gen::weightedElement<bool>({{4, false}, {1, true}});
   if (kind < kLeafWeight) {
-    shape.type = "Leaf";
+    shape.type = *rc::gen::weightedElement<std::string>({{12, "Leaf"}, {1, "Sleep"}});
     shape.leaf = *rc::gen::inRange(0, kLeaves);
+    shape.number = *rc::gen::inRange(0, 4);
     return shape;
   }
   const bool control = kind < kLeafWeight + controls;
   shape.type = control ? kControls[static_cast<std::size_t>(kind - kLeafWeight)]
                        : kDecorators[static_cast<std::size_t>(kind - kLeafWeight - controls)];
   const bool two = shape.type == "IfThenElse" || shape.type == "WhileDoElse" || shape.type == "TryCatch";
-  const int children = control ? *rc::gen::inRange(two ? 2 : 1, 4) : 1;
+  const int least = shape.type == "Switch2" ? 3 : two ? 2 : 1;
+  const int children = control ? *rc::gen::inRange(least, 4) : 1;
   for (int i = 0; i < children; ++i) shape.children.push_back(randomShape(depth - 1));
+  const bool counted = shape.type == "Repeat" || shape.type == "RetryUntilSuccessful";
   const bool parallel = shape.type.starts_with("Parallel");
-  shape.number = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(-1, 4);
-  shape.number2 = parallel ? *rc::gen::inRange(-children, children + 1) : 0;
+  shape.number = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(counted ? -1 : 0, 4);
+  shape.number2 = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(0, 4);
   return shape;
 }
 
 Answers randomAnswers() {
   Answers answers;
   for (int i = 0; i < kLeaves; ++i)
-    answers.push_back(*rc::gen::weightedElement<Status>(
-        {{4, Status::kRunning}, {3, Status::kSuccess}, {2, Status::kFailure}, {2, Status::kSkipped}}));
+    answers.push_back(*rc::gen::weightedElement<OracleStatus>({{4, OracleStatus::kRunning},
+                                                               {3, OracleStatus::kSuccess},
+                                                               {2, OracleStatus::kFailure},
+                                                               {2, OracleStatus::kSkipped}}));
   return answers;
 }
 
 void letSay(Story& story, const Answers& answers) {
   for (int i = 0; i < kLeaves; ++i) {
-    const Status answer = answers[static_cast<std::size_t>(i)];
+    const OracleStatus answer = answers[static_cast<std::size_t>(i)];
     const std::string actor(1, static_cast<char>('A' + i));
     // A running stand-in that is asked to skip keeps running, as in the oracle.
-    story.says(actor, answer == Status::kSkipped ? "RUNNING, nothing" : toString(answer));
+    story.says(actor, answer == OracleStatus::kSkipped ? "RUNNING, nothing" : toString(answer));
   }
 }
 
@@ -77,8 +102,11 @@ std::string oracleTick(Oracle& oracle, const Shape& shape, const Answers& answer
   return text;
 }
 
+/// The counter of the conditions is set before the shape.
+Shape withCounter(Shape shape) { return {.type = "Sequence", .children = {{.type = "Zero"}, std::move(shape)}}; }
+
 RC_GTEST_PROP(Engine, EqualsTheNaiveInterpreter, ()) {
-  const Shape shape = randomShape(4);
+  const Shape shape = withCounter(randomShape(4));
   Story story(toXml(shape));
   RC_ASSERT(story.problems().empty());
   Oracle oracle;
@@ -101,6 +129,8 @@ bool isNoticed(Bug bug, const std::string& type) {
         Shape shape = randomShape(3);
         shape.type = type;
         if (shape.children.empty()) shape.children = {randomShape(2), randomShape(2)};
+        if (type == "LoopString" || type == "Delay" || type == "Inverter") shape.children.resize(1);
+        shape = withCounter(shape);
         Story story(toXml(shape));
         if (!story.problems().empty()) return;
         Oracle oracle(bug);
@@ -119,6 +149,9 @@ TEST(Engine, PlantedBugsAreNoticed) {
   EXPECT_TRUE(isNoticed(Bug::kPriorityResets, "Priority"));
   EXPECT_TRUE(isNoticed(Bug::kReactiveRemembers, "ReactiveSequence"));
   EXPECT_TRUE(isNoticed(Bug::kMemoryForgets, "SequenceWithMemory"));
+  EXPECT_TRUE(isNoticed(Bug::kLoopStartsAnew, "LoopString"));
+  EXPECT_TRUE(isNoticed(Bug::kClockRunsTwice, "Delay"));
+  EXPECT_TRUE(isNoticed(Bug::kConditionsIgnored, "Inverter"));
 }
 
 }  // namespace

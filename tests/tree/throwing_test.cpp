@@ -40,9 +40,9 @@ TEST(ALeafThatThrows, WhenItLetsGoHasLetGo) {
   EXPECT_EQ(priority.tick(), "RUNNING: start B");
   priority.says("A", "RUNNING").says("A", "throws explaining");
   EXPECT_EQ(priority.tick(), "RUNNING: start A");
-  EXPECT_THAT(priority.switches(), ElementsAre("B takes over from nobody (B wants)",
-                                               "B lets go for A (threw an exception: boom)",
-                                               "A takes over from B (threw an exception: boom)"));
+  EXPECT_THAT(priority.switches(),
+              ElementsAre("B takes over from nobody (B wants)", "B lets go for A (threw an exception: boom)",
+                          "A takes over from B (threw an exception: boom)"));
 }
 
 }  // namespace

@@ -35,10 +35,10 @@ std::string Loop::checkBuilt() const {
 
 void Loop::clear(TickContext&) { left_.reset(); }
 
-bool Loop::onAsked(const TickContext& context) const {
+bool Loop::onAsked(const TickContext&) const {
   const auto queue = queue_.get();
   const auto text = if_empty_.get();
-  return !queue || !queue->empty() || !text || *text != "SKIPPED" || Composite::onAsked(context);
+  return !queue || !queue->empty() || !text || *text != "SKIPPED";
 }
 
 Status Loop::run(TickContext& context) {

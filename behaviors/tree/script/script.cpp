@@ -110,7 +110,7 @@ std::optional<Operand> Script::evaluate(std::uint32_t index) {
     default: {
       auto a = evaluate(expression.a);
       if (!a) return std::nullopt;
-      Value kept;
+      std::optional<Value> kept;
       const auto b = evaluateRight(expression, *a, kept);
       return b ? evaluateBinary(expression, *a, *b) : std::nullopt;
     }
@@ -118,10 +118,10 @@ std::optional<Operand> Script::evaluate(std::uint32_t index) {
 }
 
 /// The right operand. The left one may refer to an entry; it is copied into `kept` if the right one assigns.
-std::optional<Operand> Script::evaluateRight(const Expression& expression, Operand& a, Value& kept) {
+std::optional<Operand> Script::evaluateRight(const Expression& expression, Operand& a, std::optional<Value>& kept) {
   if (expression.keeps) {
     kept = valueOf(a);
-    a = operandOf(kept);
+    a = operandOf(*kept);
   }
   return evaluate(expression.b);
 }
@@ -136,7 +136,7 @@ std::optional<Script::Link> Script::evaluateLink(const Expression& expression) {
     a = evaluate(expression.a);
   }
   if (!a) return std::nullopt;
-  Value kept;
+  std::optional<Value> kept;
   const auto b = evaluateRight(expression, *a, kept);
   if (!b) return std::nullopt;
   const auto holds = comparison(expression.op, *a, *b);

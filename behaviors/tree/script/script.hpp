@@ -67,7 +67,7 @@ class Script {
   };
 
   std::optional<Operand> evaluate(std::uint32_t index);
-  std::optional<Operand> evaluateRight(const Expression& expression, Operand& a, Value& kept);
+  std::optional<Operand> evaluateRight(const Expression& expression, Operand& a, std::optional<Value>& kept);
   std::optional<Link> evaluateLink(const Expression& expression);
   std::optional<Operand> evaluateUnary(const Expression& expression, const Operand& a);
   std::optional<Operand> evaluateBinary(const Expression& expression, const Operand& a, const Operand& b);

@@ -1,0 +1,116 @@
+#include "behaviors/tree/drawing.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "behaviors/tree/node_manifest.hpp"
+#include "behaviors/tree/xml_text.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+// Pixels.
+constexpr int kMargin = 12, kRow = 26, kIndent = 26, kSign = 18, kGap = 8;
+constexpr int kLetter = 7;  ///< Width of a letter, about.
+constexpr std::size_t kMostLetters = 110;
+
+struct Look {
+  const char* sign;
+  const char* color;
+};
+
+Look lookOf(const NodeRecord& record) {
+  if (record.manifest == nullptr) return {"\u25B8", "#64748b"};
+  const std::string_view id = record.manifest->id;
+  switch (record.manifest->kind) {
+    case NodeKind::kControl:
+      if (id == "Priority") return {"!", "#b91c1c"};
+      if (id.starts_with("Parallel")) return {"\u21C9", "#1d4ed8"};
+      return {id.find("Fallback") != std::string_view::npos ? "?" : "\u2192", "#1d4ed8"};
+    case NodeKind::kDecorator:
+      return {"\u25C7", "#7c3aed"};
+    case NodeKind::kCondition:
+      return {"\u2713", "#a16207"};
+    case NodeKind::kAction:
+      return {"\u25CF", "#15803d"};
+  }
+  return {"", "#000000"};
+}
+
+/// Cut between two characters of UTF-8.
+std::string shortened(const std::string& text) {
+  std::size_t end = kMostLetters;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + " ...";
+}
+
+class Drawing {
+ public:
+  explicit Drawing(const Tree& tree) : tree_(tree), depths_(tree.nodes().size()) {}
+
+  std::string draw() {
+    for (const NodeRecord& record : tree_.nodes()) row(record);
+    const int height = 2 * kMargin + kRow * static_cast<int>(tree_.nodes().size());
+    const std::string size = std::to_string(width_) + "\" height=\"" + std::to_string(height) + "\"";
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size +
+           " font-family=\"sans-serif\" "
+           "font-size=\"13\">\n<rect width=\"" +
+           size + " fill=\"#ffffff\"/>\n" + text_ + "</svg>\n";
+  }
+
+ private:
+  static int xOf(int depth) { return kMargin + depth * kIndent; }
+  static int yOf(int row) { return kMargin + row * kRow; }
+
+  void row(const NodeRecord& record) {
+    const int id = record.node->id();
+    const int depth = record.parent < 0 ? 0 : depths_[static_cast<std::size_t>(record.parent)] + 1;
+    depths_[static_cast<std::size_t>(id)] = depth;
+    const int x = xOf(depth), middle = yOf(id) + kRow / 2;
+    if (record.parent >= 0) connect(xOf(depth - 1) + kSign / 2, yOf(record.parent) + kRow / 2 + kSign / 2, x, middle);
+    const Look look = lookOf(record);
+    text_ += "<rect x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle - kSign / 2) + "\" width=\"" +
+             std::to_string(kSign) + "\" height=\"" + std::to_string(kSign) + "\" rx=\"4\" fill=\"" + look.color +
+             "\"/>\n";
+    write(x + kSign / 2, middle, look.sign, "fill=\"#ffffff\" text-anchor=\"middle\"");
+    words(record, x + kSign + kGap, middle);
+  }
+
+  void words(const NodeRecord& record, int x, int middle) {
+    const std::string& name = record.node->name();
+    write(x, middle, name, "fill=\"#0f172a\" font-weight=\"bold\"");
+    x += kGap + (kLetter + 1) * static_cast<int>(name.size());
+    std::string more;
+    if (record.manifest != nullptr && record.manifest->id != name) more = record.manifest->id;
+    for (const PortView& port : tree_.portsOf(record.node->id()))
+      if (port.name != "ID" || port.value != name)
+        more += (more.empty() ? "" : "  ") + port.name + "=" +
+                (port.entry.empty() ? port.value.value_or("") : "{" + port.entry + "}");
+    if (more.size() > kMostLetters) more = shortened(more);
+    write(x, middle, more, "fill=\"#475569\"");
+    width_ = std::max(width_, x + kLetter * static_cast<int>(more.size()) + kMargin);
+  }
+
+  void connect(int from_x, int from_y, int to_x, int to_y) {
+    text_ += "<path d=\"M" + std::to_string(from_x) + " " + std::to_string(from_y) + "V" + std::to_string(to_y) + "H" +
+             std::to_string(to_x) + "\" fill=\"none\" stroke=\"#94a3b8\"/>\n";
+  }
+
+  void write(int x, int middle, const std::string& words, const std::string& style) {
+    if (!words.empty())
+      text_ += "<text x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle + 5) + "\" " + style + ">" +
+               escaped(words) + "</text>\n";
+  }
+
+  const Tree& tree_;
+  std::vector<int> depths_;  ///< By node id.
+  int width_ = 0;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string drawTree(const Tree& tree) { return Drawing(tree).draw(); }
+
+}  // namespace swiftlet::tree
