@@ -14,7 +14,7 @@ namespace {
 using Point = Eigen::Vector2d;
 using Points = std::vector<Point>;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// The places that the path may lead over: the start, those of the trail where the hull may be, and the person's.
 Points placesOf(const TrailQuestion& ask, const Point& start) {
@@ -32,7 +32,7 @@ Points placesOf(const TrailQuestion& ask, const Point& start) {
 
 /// From the first place to the last one that can be reached, each after all earlier ones.
 Points cheapestChain(const planning::CostMap& costs, const Points& places) {
-  std::vector<double> cost_m(places.size(), kNever);
+  std::vector<double> cost_m(places.size(), kUnreached);
   std::vector<std::size_t> came_from(places.size(), 0);
   cost_m[0] = 0.0;
   std::size_t last = 0;
@@ -44,7 +44,7 @@ Points cheapestChain(const planning::CostMap& costs, const Points& places) {
       cost_m[to] = cost_m[from] + leg.cost_m;
       came_from[to] = from;
     }
-    if (cost_m[to] < kNever) last = to;
+    if (cost_m[to] < kUnreached) last = to;
   }
   Points chain{places[last]};
   for (std::size_t at = last; at != 0; at = came_from[at]) chain.push_back(places[came_from[at]]);
