@@ -168,5 +168,20 @@ TEST_F(Identify, ThePageOfThePapersHasARowForEachExperiment) {
   expectRefused(runSwiftlet({"papers", "--results", write("results.json", "{}")}), "is not the results.json of trials");
 }
 
+TEST_F(Identify, ThePageOfThePapersShowsEveryNatureAndWhatFallsShort) {
+  const auto flown = [](const std::string& name, const std::string& system, const std::string& rms_m) {
+    return R"({"name": ")" + name + R"(", "system": ")" + system +
+           R"(", "runs": 1, "flights": [{"phases": {"hover": {"position_rms_m": )" + rms_m + "}}}]}";
+  };
+  const std::string results = write("two.json", R"({"trials": [)" + flown("mit_hover-mit-mit", "mit", "0.02") + ", " +
+                                                    flown("mit_hover-mit-real", "mit", "0.5") + ", " +
+                                                    flown("mit_hover-swiftlet", "swiftlet", "0.01") + "]}");
+  const ProgramEnd printed = runSwiftlet({"papers", "--results", results});
+  ASSERT_EQ(printed.exit_code, 0) << describe(printed);
+  EXPECT_THAT(printed.out,
+              HasSubstr("| 6 cm RMS | 0.020 (n = 1), mit-mit; 0.500 (n = 1), mit-real: more than twice the "
+                        "paper's, why is not known | 0.010 (n = 1) |"));
+}
+
 }  // namespace
 }  // namespace swiftlet::commands
