@@ -36,7 +36,10 @@ void SwitchedController::reset() {
 tl::expected<void, std::string> SwitchedController::switchTo(ControllerKind kind) {
   if (kind == kind_) return {};
   const auto& next = controllers_[static_cast<std::size_t>(kind)];
-  if (!next) return tl::unexpected(std::string(toString(kind)) + " needs a vehicle_model with every axis identified, and weights for which its gains converge");
+  if (!next)
+    return tl::unexpected(
+        std::string(toString(kind)) +
+        " needs a vehicle_model with every axis identified, and weights for which its gains converge");
   next->reset();
   next->setTrim(controller().trim_odom_m_s2(thrust_), thrust_);
   kind_ = kind;

@@ -59,7 +59,8 @@ std::vector<std::string> TrialResult::missed() const {
                 "no flight was given a map");
   judge.atLeast("share of flights done", figure("done_share"), criteria.done_share_min);
   for (const PhaseBound& bound : figure_bounds)
-    if (std::string failure = evaluation::missed(bound, figure(bound.figure)); !failure.empty()) judge.fail(std::move(failure));
+    if (std::string failure = evaluation::missed(bound, figure(bound.figure)); !failure.empty())
+      judge.fail(std::move(failure));
   if (criteria.verdicts) {
     judge.atMost("share of flights that landed or refused needlessly", figure("needless_share"),
                  criteria.needless_share_max);

@@ -15,8 +15,8 @@ namespace swiftlet::perception {
 
 /// Page's cumulative sum test (1954), as LostTest is, over metres of path: the path to each search counts against the
 /// map if no place fits, and for it if one is convincing. Rooms that look alike fit equally well, which counts neither
-/// way. A vehicle that hovers asks for no search, so nothing is counted. The path flown while the map explained what was
-/// seen counts for it as well: a vehicle that is lost afterwards must find no place for as long a path and more.
+/// way. A vehicle that hovers asks for no search, so nothing is counted. The path flown while the map explained what
+/// was seen counts for it as well: a vehicle that is lost afterwards must find no place for as long a path and more.
 class MapDoubt {
  public:
   /// The places that a search found, the likeliest first, at that path length and time. `complete`: it was not given up

@@ -73,8 +73,8 @@ try {
   const said = await (await answer).json();
   assert.equal(said.accepted, true, said.reason);
   await eventually('the arrival in the map', async () => {
-    const { localization } = await state();
-    return localization.state === 'localized' && Math.hypot(localization.x_m - goal.x_m, localization.y_m - goal.y_m) < 0.2;
+    const { localization, mission } = await state();
+    return mission.phase === 'hold' && localization.state === 'localized' && Math.hypot(localization.x_m - goal.x_m, localization.y_m - goal.y_m) < 0.2;
   });
   await page.screenshot({ path: `${work}/map_flight.png` });
   await fetch(`${flight.url.origin}/api/land`, { method: 'POST', headers });

@@ -31,9 +31,10 @@ std::vector<std::string> shippedMissions() {
     if (entry.path().extension() != ".xml") continue;
     const std::string text = readText(entry.path());
     const auto has = [&](const char* leaf) { return text.find(leaf) != std::string::npos; };
-    const bool needs_map = has("<Localize");                     // Flown in FlyWithMap.
-    const bool needs_more = has("<FollowMe") || has("<Survey");  // A person, a camera: flown in MissionInItsTrial.
-    if (has("leave_building=\"true\"")) continue;                // Their worlds are outdoors: flown in their trials.
+    const bool needs_map = has("<Localize");  // Flown in FlyWithMap.
+    // A person, a camera, a target at its place: flown in MissionInItsTrial.
+    const bool needs_more = has("<FollowMe") || has("<Survey") || has("<Inspect");
+    if (has("leave_building=\"true\"")) continue;  // Their worlds are outdoors: flown in their trials.
     const bool needs_camera = has("<LookAround") || has("<ExploreUntilFound");  // Flown in CameraMission.
     if (!needs_map && !needs_more && !needs_camera) names.push_back(entry.path().stem().string());
   }
@@ -90,25 +91,42 @@ TEST_P(ShippedMission, FliesAccuratelyAndWritesItsRun) {
 
 INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(missionsThat(false)), kByName);
 
-class MissionInItsTrial : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
+class WithSmallCamera : public test_support::Scratch {
+ protected:
+  /// The camera has a quarter of the pixels and a third of the rate, so that a flight takes no longer than one without.
+  std::string smallCamera() const {
+    const std::string camera =
+        write("camera.yaml",
+              "name: small\nwidth_px: 160\nheight_px: 120\nrate_hz: 5\nmount: {x_m: 0.12, z_m: 0.03, pitch_deg: 10}\n");
+    return write(
+        "system.yaml",
+        "vehicle: cobra\nlaser: utm_30lx\nrgbd_camera: " + camera +
+            "\nautonomy: {estimator: {targets: {classes: [{name: red, hue_deg: 0, saturation_min: 0.55}]}}}\n");
+  }
+};
+
+class MissionInItsTrial : public WithSmallCamera, public testing::WithParamInterface<std::string> {};
 
 // The criteria of those trials are for many seeds; one flight must be done and touch nothing. It has the laser alone,
-// because a flight with the camera takes four times as long, and so no furniture below the laser's plane.
+// because a flight with the camera takes four times as long, and so no furniture below the laser's plane; only an
+// inspection is none without a camera.
 TEST_P(MissionInItsTrial, IsFlownToItsEnd) {
   std::string trial = readText(std::string(SWIFTLET_SOURCE_DIR) + "/trials/" + GetParam() + ".yaml");
-  if (const std::size_t world = trial.find("unb_map3d.sdf"); world != std::string::npos)
+  const bool sees = GetParam() == "inspect";
+  if (const std::size_t world = trial.find("unb_map3d.sdf"); !sees && world != std::string::npos)
     trial.replace(world, std::strlen("unb_map3d.sdf"), "unb_case1.sdf");
-  const ProgramEnd end = runSwiftlet({"trial", write(GetParam() + ".yaml", trial), "--system", "swiftlet", "--seed",
-                                      "3", "--repeat", "1", "--json", "--out", path("out")});
+  const ProgramEnd end =
+      runSwiftlet({"trial", write(GetParam() + ".yaml", trial), "--system", sees ? smallCamera() : "swiftlet", "--seed",
+                   "3", "--repeat", "1", "--json", "--out", path("out")});
   ASSERT_LE(end.exit_code, 1) << describe(end);
   const auto flight = nlohmann::json::parse(end.out).at("trials").at(0).at("flights").at(0);
   EXPECT_TRUE(flight.at("mission_done").get<bool>()) << flight.dump(2);
   EXPECT_EQ(flight.at("collisions"), 0) << flight.dump(2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial, testing::Values("follow_me", "survey_floor"), kByName);
+INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial, testing::Values("follow_me", "inspect", "survey_floor"), kByName);
 
-class BareRoom : public test_support::Scratch {
+class BareRoom : public WithSmallCamera {
  protected:
   /// A room of 4.4 m by 3.6 m with a red box; the vehicle stands in it with its back to the box.
   std::string room() const {
@@ -132,19 +150,11 @@ class BareRoom : public test_support::Scratch {
 class CameraMission : public BareRoom, public testing::WithParamInterface<std::string> {};
 using VerticalLaserMission = BareRoom;
 
-// The missions that look for targets find this one within the bound of trials/find_target.yaml. The camera has a
-// quarter of the pixels and a third of the rate, so that the flight takes no longer than one without it.
+// The missions that look for targets find this one within the bound of trials/find_target.yaml.
 TEST_P(CameraMission, IsFlownToItsEnd) {
   const bool looks = GetParam() != "map_room_3d";
-  const std::string camera =
-      write("camera.yaml",
-            "name: small\nwidth_px: 160\nheight_px: 120\nrate_hz: 5\nmount: {x_m: 0.12, z_m: 0.03, pitch_deg: 10}\n");
-  const std::string system =
-      write("system.yaml",
-            "vehicle: cobra\nlaser: utm_30lx\nrgbd_camera: " + camera +
-                "\nautonomy: {estimator: {targets: {classes: [{name: red, hue_deg: 0, saturation_min: 0.55}]}}}\n");
   const std::string trial =
-      write(GetParam() + ".yaml", "mission: missions/" + GetParam() + ".xml\nsystem: " + system +
+      write(GetParam() + ".yaml", "mission: missions/" + GetParam() + ".xml\nsystem: " + smallCamera() +
                                       "\ntime_limit_s: 200\n"
                                       "criteria: {" +
                                       (looks ? "targets_found_min: 1, target_error_max_m: 0.10, " : "") +
