@@ -73,8 +73,8 @@ bool FaultSchedule::anyActive(Time time) const {
 std::optional<Sensor> FaultSchedule::failedForFlight(Time time) const {
   for (const Sensor sensor : {Sensor::kImu, Sensor::kLaser, Sensor::kBattery})
     for (const Scheduled& fault : faults_)
-      if (fault.config.sensor == sensor && fault.activeAt(time) && (time - *fault.begin).seconds() >= kLasting_s &&
-          takesAway(fault.config))
+      if (fault.config.sensor == sensor && fault.activeAt(time) &&
+          (*fault.end - *fault.begin).seconds() >= kLasting_s && takesAway(fault.config))
         return sensor;
   return std::nullopt;
 }

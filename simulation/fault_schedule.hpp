@@ -25,9 +25,9 @@ class FaultSchedule {
   /// The first fault of the sensor that is active at this time; null if there is none.
   const FaultConfig* of(Sensor sensor, common::Time time) const;
   bool anyActive(common::Time time) const;
-  /// The sensor without which no vehicle flies on: the IMU, the laser or the battery's, if one of their faults has been
-  /// active for kLasting_s and takes away what the sensor is for. Delays below kBridged_s and a blocked sector narrower
-  /// than kNarrow_deg take nothing away.
+  /// The sensor without which no vehicle flies on: the IMU, the laser or the battery's, if one of their faults that
+  /// lasts for kLasting_s is active and takes away what the sensor is for. Delays below kBridged_s and a blocked sector
+  /// narrower than kNarrow_deg take nothing away.
   std::optional<Sensor> failedForFlight(common::Time time) const;
 
   static constexpr double kLasting_s = 1.0;    ///< What the prediction of a filter bridges.

@@ -67,6 +67,9 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("min_widened_quality", min_widened_quality, {0, 1},
          "Least quality of a match six times as far off as the first window reaches, since chance matches are likelier "
          "there; nearer ones need less, down to matcher.min_quality within the first window.");
+  fields("widens", widens,
+         "Whether a scan that does not match within what the motion since the last match allows is sought farther off. "
+         "Where inertial samples predict, such a match is mostly another surface, as the other side of a wall.");
   fields(
       "widened_must_hold", widened_must_hold,
       "Whether a match beyond the first window must fix the position in all directions, as the guess no longer does.");
@@ -227,8 +230,8 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& wind
 }
 
 bool LaserOdometry::Impl::canWiden(const SearchWindow& window) const {
-  return window.half_translation_m < config.max_window_m ||
-         window.half_rotation_rad < config.max_window_deg * kRadPerDeg;
+  return config.widens && (window.half_translation_m < config.max_window_m ||
+                           window.half_rotation_rad < config.max_window_deg * kRadPerDeg);
 }
 
 SearchWindow LaserOdometry::Impl::widened(const SearchWindow& window) const {

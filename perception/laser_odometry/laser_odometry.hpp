@@ -50,6 +50,7 @@ struct LaserOdometryConfig {
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
   double min_widened_quality = 0.35;
+  bool widens = true;
   bool widened_must_hold = false;
   double min_overlap = 0.75;
   double min_fit = 0.35;

@@ -110,6 +110,17 @@ TEST(LaserOdometry, WidensTheSearchForAGuessThatIsFarOff) {
   EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
 }
 
+/// Where the guess is an inertial one, what fits elsewhere is another surface.
+TEST(LaserOdometry, WithoutWideningAMatchStaysWithinWhatTheMotionAllows) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometryConfig config;
+  config.widens = false;
+  LaserOdometry odometry(config);
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  const auto off = odometry.add(scanWith(world, {0.30, -0.25, 0.12}, {}, 1));
+  if (off) EXPECT_LT(off->T_from_to.position_m().lpNorm<Eigen::Infinity>(), 1.2 * config.guess_error_m);
+}
+
 TEST(LaserOdometry, DoesNotApplyACorrectionTwice) {
   const test::PlanarWorld world = test::flat();
   LaserOdometryConfig narrow;
