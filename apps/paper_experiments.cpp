@@ -52,16 +52,9 @@ std::vector<std::string> problemsOf(const PaperExperiment& row, const std::map<s
   if (found == trials.end()) return {fmt::format("there is no trial `{}`", row.trial)};
   const TrialConfig& trial = found->second;
   std::vector<std::string> problems;
-  const auto isFlown = [&](const std::string& profile) {
-    return trial.systems.empty()
-               ? trial.system == profile
-               : std::find(trial.systems.begin(), trial.systems.end(), profile) != trial.systems.end();
-  };
   if (!isFigure(trial, row.figure)) problems.push_back(fmt::format("{} has no figure `{}`", row.trial, row.figure));
-  if (!row.profile.empty() && !isFlown(row.profile))
-    problems.push_back(fmt::format("{} does not fly `{}`", row.trial, row.profile));
-  if (row.profile.empty() && !isFlown(row.own))
-    problems.push_back(fmt::format("{} does not fly `{}`", row.trial, row.own));
+  const std::string& profile = row.profile.empty() ? row.own : row.profile;
+  if (!trial.flies(profile)) problems.push_back(fmt::format("{} does not fly `{}`", row.trial, profile));
   return problems;
 }
 

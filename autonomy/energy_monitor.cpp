@@ -21,6 +21,10 @@ constexpr double kUnmoved = 0.05;
 /// Slow links send the battery once a second.
 constexpr double kUnheard_s = 2.5;
 
+bool hasCurrent(const common::BatterySample& sample) {
+  return std::isfinite(sample.current_a) && sample.current_a > 0.0;
+}
+
 double smoothed(double value, double next, double dt_s, double filter_s) {
   return filter_s > 0.0 ? value + std::min(1.0, dt_s / filter_s) * (next - value) : next;
 }
@@ -44,7 +48,7 @@ EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleCo
 
 void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, double thrust_margin, double speed_m_s) {
   const double dt_s = last_ ? std::max(0.0, (sample.stamps.measured - last_->stamps.measured).seconds()) : 0.0;
-  const bool measured = std::isfinite(sample.current_a) && sample.current_a > 0.0;
+  const double current_a = currentOf_a(sample);
   if (!last_ || std::abs(sample.remaining - moved_to_) > kMoved) {
     moved_to_ = sample.remaining;
     drawn_at_move_as_ = drawn_as_;
@@ -53,8 +57,8 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
   if (airborne && !flown_) {
     flown_ = true;
     taken_off_ = sample.stamps.measured;
-    current_a_ = currentOf_a(sample);
-    power_w_ = sample.voltage_v * current_a_;
+    current_a_ = current_a;
+    power_w_ = sample.voltage_v * current_a;
     voltage_v_ = sample.voltage_v;
     margin_ = thrust_margin;
     remaining_at_take_off_ = moved_to_ = sample.remaining;
@@ -62,21 +66,20 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
   } else if (airborne) {
     // A plain mean at first: the motors draw little in the samples before the vehicle has lifted.
     const double filter_s = std::min(config_.power_filter_s, (sample.stamps.measured - taken_off_).seconds());
-    const double current_a = currentOf_a(sample);
     current_a_ = smoothed(current_a_, current_a, dt_s, filter_s);
     power_w_ = smoothed(power_w_, sample.voltage_v * current_a, dt_s, filter_s);
     margin_ = smoothed(margin_, thrust_margin, dt_s, filter_s);
     voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, filter_s);
-    if (measured) drawn_as_ += current_a * dt_s;
+    if (hasCurrent(sample)) drawn_as_ += current_a * dt_s;
     drawn_since_move_as_ += current_a * dt_s;
   }
-  if (airborne) current_model_.add(currentOf_a(sample), speed_m_s, dt_s);
+  if (airborne) current_model_.add(current_a, speed_m_s, dt_s);
   last_ = sample;
 }
 
 /// Without a measured current it is the mean one by which the gauge has fallen, or the last one while that says little.
 double EnergyMonitor::currentOf_a(const common::BatterySample& sample) const {
-  if (std::isfinite(sample.current_a) && sample.current_a > 0.0) return sample.current_a;
+  if (hasCurrent(sample)) return sample.current_a;
   const double drop = flown_ ? remaining_at_take_off_ - sample.remaining : 0.0;
   const double flown_s = (sample.stamps.measured - taken_off_).seconds();
   return drop > kTellingDrop && flown_s > 0.0 ? drop * capacity_as_ / flown_s : current_a_;

@@ -10,8 +10,12 @@ using common::ImuSample;
 using common::Time;
 using common::config::kPositive;
 
+namespace {
+
 /// Three coarse numbers may repeat for longer by chance than those of a whole sample.
 constexpr double kAlone = 3.0;
+
+}  // namespace
 
 bool isFinite(const ImuSample& sample) {
   return sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&

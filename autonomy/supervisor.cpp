@@ -29,16 +29,13 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
 }
 
 common::CommandResult Supervisor::resume(std::uint64_t id) {
-  if (home_.forced() && !operator_holds_) return {id, false, "it flies home: " + home_.reason};
-  if (home_.forced()) {
-    operator_holds_ = false;
-    return {id, true, "it flies home: " + home_.reason};
-  }
-  if (!operator_holds_ && !home_.active) {
+  const bool held = std::exchange(operator_holds_, false);
+  if (home_.forced()) return {id, held, "it flies home: " + home_.reason};
+  if (!held && !home_.active) {
     const std::string reason = holdReason();
     return {id, false, reason.empty() ? "nothing is on hold" : reason + ": that hold ends by itself"};
   }
-  operator_holds_ = home_.active = false;
+  home_.active = false;
   return {id, true, {}};
 }
 

@@ -103,8 +103,7 @@ class Walk {
                            {},
                            tree_.pathOf(node.id())});
     if (id == "Land" || id == "EmergencyLand") return {{true, false}, entry};
-    if (id == "OperatorCommand" || id == "FollowMe") return {{}, entry};
-    if (id == "Patrol" && tree::isAlways(tree_, recordOf(node), "rounds", 0)) return {{}, entry};
+    if (neverSucceeds(tree_, recordOf(node))) return {{}, entry};
     return {entry, entry};
   }
 
@@ -193,6 +192,11 @@ class Walk {
 };
 
 }  // namespace
+
+bool neverSucceeds(const tree::Tree& tree, const tree::NodeRecord& leaf) {
+  const std::string_view id = typeNameOf(leaf);
+  return id == "OperatorCommand" || id == "FollowMe" || (id == "Patrol" && tree::isAlways(tree, leaf, "rounds", 0));
+}
 
 std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree) {
   std::vector<tree::Problem> problems;

@@ -13,8 +13,7 @@ namespace {
 
 std::optional<tree::Outcomes> outcomesOfLeaf(const tree::Tree& tree, const tree::NodeRecord& leaf) {
   if (typeNameOf(leaf) == "LogEvent") return tree::Outcomes{.success = true};
-  if (typeNameOf(leaf) == "OperatorCommand" || typeNameOf(leaf) == "FollowMe") return tree::Outcomes{.failure = true};
-  if (typeNameOf(leaf) == "Patrol" && tree::isAlways(tree, leaf, "rounds", 0)) return tree::Outcomes{.failure = true};
+  if (neverSucceeds(tree, leaf)) return tree::Outcomes{.failure = true};
   return std::nullopt;
 }
 

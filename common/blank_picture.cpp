@@ -19,7 +19,10 @@ double meanOf(const Image& picture) {
 
 }  // namespace
 
-bool isBlack(const Image& picture) { return meanOf(picture) < kBlackMean; }
-bool isWhite(const Image& picture) { return meanOf(picture) > kWhiteMean; }
+Blank blankOf(const Image& picture) {
+  const double mean = meanOf(picture);
+  if (mean < kBlackMean) return Blank::kBlack;
+  return mean > kWhiteMean ? Blank::kWhite : Blank::kNo;
+}
 
 }  // namespace swiftlet::common

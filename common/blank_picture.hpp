@@ -5,8 +5,9 @@
 
 namespace swiftlet::common {
 
+enum class Blank { kNo, kBlack, kWhite };
+
 /// By the mean of all channels: a lens cap leaves noise of some levels. A picture without pixels is neither.
-bool isBlack(const Image& picture);
-bool isWhite(const Image& picture);
+Blank blankOf(const Image& picture);
 
 }  // namespace swiftlet::common

@@ -88,9 +88,7 @@ void TrialConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> TrialConfig::validate() const {
   common::Validation validation;
   for (const SystemBounds& one : asked_of) {
-    const bool flown =
-        systems.empty() ? one.system == system : std::find(systems.begin(), systems.end(), one.system) != systems.end();
-    validation.require(flown, "asked_of", fmt::format("`{}` is not one of the systems", one.system));
+    validation.require(flies(one.system), "asked_of", fmt::format("`{}` is not one of the systems", one.system));
     for (const PhaseBounds& of_phase : one.phases)
       validation.require(std::any_of(phases.begin(), phases.end(),
                                      [&](const PhaseConfig& phase) { return phase.name == of_phase.phase; }),
@@ -114,6 +112,10 @@ std::vector<TrialConfig> TrialConfig::byCondition() const {
       for (const TrialConfig& with_charge : in_nature.byCharge())
         for (TrialConfig& with_fault : with_charge.byFault()) trials.push_back(std::move(with_fault));
   return trials;
+}
+
+bool TrialConfig::flies(const std::string& profile) const {
+  return systems.empty() ? profile == system : std::find(systems.begin(), systems.end(), profile) != systems.end();
 }
 
 std::vector<PhaseBound> TrialConfig::figureBounds() const {

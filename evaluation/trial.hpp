@@ -72,6 +72,8 @@ struct TrialConfig {
   /// name where there are several. The charge is that of every vehicle, as if the scenario had written it out.
   std::vector<TrialConfig> byCondition() const;
 
+  /// Whether one of its flights is with that profile.
+  bool flies(const std::string& profile) const;
   /// The bounds of figures over all flights that it asks of its one system.
   std::vector<PhaseBound> figureBounds() const;
 

@@ -1,6 +1,6 @@
 #include "autonomy/estimation/camera_support.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "common/small_matrices.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -12,8 +12,8 @@ constexpr double kSupported_m2_s2 = kSupported_m_s * kSupported_m_s;
 
 CameraSupport supportOf(const common::VehicleState& state) {
   const Eigen::Matrix3d& covariance = state.velocity_covariance_m2_s2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> horizontal(covariance.topLeftCorner<2, 2>());
-  return {horizontal.eigenvalues()[1] < kSupported_m2_s2, covariance(2, 2) < kSupported_m2_s2};
+  const Eigen::Vector2d horizontal = common::symmetricEigenvalues(Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()));
+  return {horizontal(1) < kSupported_m2_s2, covariance(2, 2) < kSupported_m2_s2};
 }
 
 }  // namespace swiftlet::autonomy

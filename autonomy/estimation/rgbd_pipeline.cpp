@@ -28,8 +28,15 @@ bool isWhole(const common::RgbdFrame& frame) {
 }
 
 const char* pictureFault(const common::Image& picture) {
-  if (common::isBlack(picture)) return "its picture is black";
-  return common::isWhite(picture) ? "its picture is white" : nullptr;
+  switch (common::blankOf(picture)) {
+    case common::Blank::kBlack:
+      return "its picture is black";
+    case common::Blank::kWhite:
+      return "its picture is white";
+    case common::Blank::kNo:
+      break;
+  }
+  return nullptr;
 }
 
 }  // namespace

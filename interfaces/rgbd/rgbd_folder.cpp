@@ -115,8 +115,8 @@ std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair,
     return std::nullopt;
   }
   std::optional<FrameFault> fault = faultOf(*depth, known.depth_units_per_m);
-  if (common::isBlack(*color)) fault = FrameFault::kBlack;
-  if (common::isWhite(*color)) fault = FrameFault::kWhite;
+  const common::Blank blank = common::blankOf(*color);
+  if (blank != common::Blank::kNo) fault = blank == common::Blank::kBlack ? FrameFault::kBlack : FrameFault::kWhite;
   if (fault) {
     skipped = {*fault, pair.color.string()};
     return std::nullopt;

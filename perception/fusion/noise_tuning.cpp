@@ -22,7 +22,7 @@ Errors errorsOf(const TapedFlight& flight, const FusionConfig& config) {
   const ErrorStateFilter& filter = replay.filter();
   Errors errors;
   while (const TrueMotion* truth = replay.next()) {
-    if (!filter.initialized() || filter.health().status == FusionStatus::kDiverged)
+    if (!filter.initialized() || filter.status() == FusionStatus::kDiverged)
       return {std::numeric_limits<double>::infinity(), 1.0};
     const common::VehicleState state = filter.state();
     const Eigen::Vector3d error = inLevelBody(common::yawOf(state.T_odom_body.rotation), state.velocity_odom_m_s) -
