@@ -14,8 +14,8 @@ using common::Time;
 constexpr double kPeriod_s = 0.045;  ///< Scans in between are left out: twenty a second say enough.
 constexpr double kReach_m = 4.0;     ///< What blocks a path is near.
 constexpr double kHover_m_s = 0.2;   ///< Above the speed of a hover in gusts; flights are faster.
-/// Beams that end higher or lower than this beside the body say nothing about its height.
-constexpr float kLevel_m = 0.10F;
+/// Beams that rise or fall by more than this say nothing about the laser's height.
+constexpr double kLevel_m = 0.10;
 constexpr int kHits = 5;                                     ///< Fewer may be noise.
 constexpr double kPassed_s = 0.35;                           ///< Longer than the gap between two legs stays open.
 constexpr int kPasses = 4;                                   ///< So that no single wrong scan frees a place.
@@ -71,7 +71,8 @@ VacatedPlaces::Beams VacatedPlaces::levelBeams(const perception::ProjectedScan& 
     if (!scan.points_level_m[i].allFinite()) continue;
     const Eigen::Vector2d beam_m = T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>()) - from_m;
     const double range_m = beam_m.norm(), share = std::min(1.0, kReach_m / std::max(range_m, 1e-9));
-    if (!(std::abs(height_m) * share < kLevel_m)) continue;
+    const double rise_m = height_m - scan.laser_height_level_m;
+    if (!(std::abs(rise_m) * share < kLevel_m)) continue;
     const Eigen::Vector2d end = (from_m + share * beam_m) / cell_m;
     if (share >= 1.0) {
       const CellIndex last = perception::cellOf(end);

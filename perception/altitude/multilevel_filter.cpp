@@ -68,7 +68,7 @@ struct MultilevelFilter::Impl {
   std::uint64_t version = 0;
 
   // State of the present scan.
-  Time now;
+  Time now, before;  ///< Stamps of this scan and of the last one.
   GroundScan scan;
   std::vector<int> near;
   std::vector<int> present, present_before;  ///< Levels seen in this and in the last scan.
@@ -117,11 +117,13 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::takeConfirmed() {
 /// height would follow them. A level is therefore not used for a while after the sum of its innovations exceeds what
 /// noise explains.
 void MultilevelFilter::Impl::distrustSlopes() {
-  std::erase_if(scan.groups, [this](const BeamGroup& g) {
+  const double late_scans = config.publish_delay_s / (now - before).seconds();
+  std::erase_if(scan.groups, [&](const BeamGroup& g) {
     LevelEstimate& level = store.at(g.level);
     // The error of a correction is the same in each innovation, so the variance of their sum grows with the square of
-    // their number. The errors of a height that follows its measurements are independent.
-    const double same = correction ? 2.0 * level.innovations + 1.0 : 1.0;
+    // their number. The height itself follows measurements that are `publish_delay_s` late: what the prediction errs
+    // since then is shared with the innovations of that time, the less the longer ago they are.
+    const double same = 1.0 + (correction ? 2.0 * level.innovations : std::min<double>(level.innovations, late_scans));
     ++level.innovations;
     level.innovation_sum_m += g.height_m + g.distance_below_m - height.height_m();
     level.innovation_variance_m2 += same * height.ownVariance_m2() + beamVariance(g.beams);
@@ -329,6 +331,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   Impl& f = *impl_;
   AltitudeUpdate outcome;
   if (!f.initialized || time <= f.height.stamp() || !position_map_m.allFinite()) return outcome;
+  f.before = f.height.stamp();
   f.now = time;
   f.changed = false;
   std::swap(f.present, f.present_before);

@@ -100,7 +100,7 @@ class BeamSorter {
         result_(result),
         laser_mount_(T_level_body, laser.mount.pose(), beams()),
         mirror_mount_(T_level_body, laser.mirror_mount.pose(), beams()),
-        surfaces_(result.T_odom_body.position_m.z() + laser_mount_.at(beams() / 2).translation.z(), config) {}
+        surfaces_(result.T_odom_body.position_m.z() + laserHeight_m(), config) {}
 
   void addMirrorBeam(int beam) {
     endRun();
@@ -153,6 +153,8 @@ class BeamSorter {
       ++result_.counts.hits;
     }
   }
+
+  double laserHeight_m() const { return laser_mount_.at(beams() / 2).translation.z(); }
 
   /// Ends a run of beams without return. A short run is dropouts and is left out.
   void endRun() {
@@ -242,6 +244,7 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
   result.heights_level_m.reserve(static_cast<std::size_t>(beams));
 
   BeamSorter sorter(scan, laser, T_level_body, config, result);
+  result.laser_height_level_m = static_cast<float>(sorter.laserHeight_m());
   const bool has_mirror = beams == laser.beams && laser.mirror_beams > 0;
   // The direction is rotated from beam to beam. This saves the sines and keeps 12 digits over thousands of beams.
   double cos_beam = std::cos(scan.angle_min_rad), sin_beam = std::sin(scan.angle_min_rad);

@@ -47,6 +47,7 @@ struct BeamCounts {
 struct ProjectedScan {
   common::Time stamp;                           ///< The middle of the sweep.
   common::Pose3 T_odom_body;                    ///< At `stamp`, as predicted by `PoseAt`.
+  float laser_height_level_m = 0.0F;            ///< Height of the laser, where the beams begin, relative to the body.
   std::vector<Eigen::Vector2f> points_level_m;  ///< End points, in beam order.
   std::vector<float> heights_level_m;           ///< Height of each end point relative to the body.
   /// For each beam that ended on floor or ceiling, the point where it leaves the height band in which "free" means free

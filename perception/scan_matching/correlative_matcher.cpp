@@ -114,7 +114,7 @@ struct CorrelativeMatcher::Impl {
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
 
-/// The points in the view of the reference, or all points if too few are in it.
+/// The points in the view of the reference. If too few are in it, all points but those on the backs of seen surfaces.
 CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(const ProjectedScan& scan,
                                                                               const Pose2& guess,
                                                                               const SearchWindow& window,
@@ -123,12 +123,14 @@ CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(co
       scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points, config.max_range_m);
   const SplitPoints split(points);
   const double margin_m = std::clamp(window.half_translation_m, kViewMargin_m, 2.0 * kViewMargin_m);
-  const std::vector<bool> in_view = view.sees(split.x_m, split.y_m, guess, margin_m);
-  std::vector<Eigen::Vector2f> seen;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (in_view[i]) seen.push_back(points[i]);
-  const double share = static_cast<double>(seen.size()) / std::max(1.0, static_cast<double>(points.size()));
-  if (share < kLeastInView || static_cast<int>(seen.size()) < config.min_points) return {std::move(points), 1.0};
+  const std::vector<ReferenceView::Sight> sights = view.look(split.x_m, split.y_m, guess, margin_m);
+  std::vector<Eigen::Vector2f> seen, possible;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (sights[i] == ReferenceView::Sight::kSeen) seen.push_back(points[i]);
+    if (sights[i] != ReferenceView::Sight::kBackOfSeen) possible.push_back(points[i]);
+  }
+  const double share = static_cast<double>(seen.size()) / std::max(1.0, static_cast<double>(possible.size()));
+  if (share < kLeastInView || static_cast<int>(seen.size()) < config.min_points) return {std::move(possible), 1.0};
   return {std::move(seen), share};
 }
 
@@ -297,12 +299,18 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
                                                const BestPose& best, bool scored) {
   MatchResult result = resultOf(points, grid, best);
   const Pose2 finest = result.finest_T_reference_body;
-  const SplitPoints all_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
+  const SplitPoints spread_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
+  const std::vector<ReferenceView::Sight> sights = view.look(spread_points.x_m, spread_points.y_m, finest, 0.0);
+  std::vector<bool> in_view, possible;
+  for (const ReferenceView::Sight sight : sights) {
+    possible.push_back(sight != ReferenceView::Sight::kBackOfSeen);
+    if (possible.back()) in_view.push_back(sight == ReferenceView::Sight::kSeen);
+  }
+  const SplitPoints all_points = marked(spread_points, possible);
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
   const std::vector<bool> seen = supportedAt(all_points, finest);
   const auto supported = static_cast<double>(std::count(seen.begin(), seen.end(), true));
-  result.overlap = supported / static_cast<double>(all_points.x_m.size());
-  std::vector<bool> in_view = view.sees(all_points.x_m, all_points.y_m, finest, 0.0);
+  result.overlap = supported / static_cast<double>(spread_points.x_m.size());
   if (config.only_seen) {
     const std::vector<bool> away = awayFromUnseen(all_points, seen, field.reach_m());
     std::transform(in_view.begin(), in_view.end(), away.begin(), in_view.begin(), std::logical_and<>());

@@ -17,6 +17,27 @@ constexpr int kJoinedBins = 5;
 constexpr int kEndBins = 20;
 /// Points up to this far behind the end points count as seen, because walls are rough and poses err.
 constexpr double kBehind_m = 0.15;
+/// A normal is that of the line through the neighbours of a point. Shorter lines are noise; longer ones, or lines from
+/// which the point lies farther off than this share of their length, may lead from one surface to another.
+constexpr double kLeastLine_m = 0.08, kLongestLine_m = 1.0, kBend = 0.25;
+/// Sine of the angle by which a surface must face away: normals err.
+constexpr double kFacesAway = 0.17;
+
+/// The unit normal of the surface at a point, towards the laser at the origin; zero if it is not known.
+Eigen::Vector2d normalAt(std::span<const float> x_m, std::span<const float> y_m, std::size_t i) {
+  if (i == 0 || i + 1 >= x_m.size()) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d before(x_m[i - 1], y_m[i - 1]), here(x_m[i], y_m[i]), after(x_m[i + 1], y_m[i + 1]);
+  const Eigen::Vector2d line = after - before;
+  const double length_m = line.norm();
+  if (!(length_m > kLeastLine_m && length_m < kLongestLine_m)) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d normal = Eigen::Vector2d(-line.y(), line.x()) / length_m;
+  if (std::abs(normal.dot(here - before)) > kBend * length_m) return Eigen::Vector2d::Zero();
+  return normal.dot(here) > 0.0 ? Eigen::Vector2d(-normal) : normal;
+}
+
+bool facesAway(const Eigen::Vector2d& normal, const Eigen::Vector2d& to_scan_m) {
+  return normal.dot(to_scan_m) < -kFacesAway * to_scan_m.norm();
+}
 
 }  // namespace
 
@@ -75,27 +96,33 @@ bool ReferenceView::looksAt(const Scan& scan, const Eigen::Vector2d& point_m, do
          range_m * static_cast<double>(scan.sine_to_end[bin]) >= margin_m;
 }
 
-std::vector<bool> ReferenceView::sees(std::span<const float> x_m, std::span<const float> y_m,
-                                      const Pose2& T_reference_body, double margin_m) const {
+std::vector<ReferenceView::Sight> ReferenceView::look(std::span<const float> x_m, std::span<const float> y_m,
+                                                      const Pose2& T_reference_body, double margin_m) const {
   struct Placed {
     Eigen::Matrix2d rotation;
     Eigen::Vector2d position_m;
+    Eigen::Vector2d scan_m;  ///< Where the scan was taken, in the frame of the points.
   };
   std::vector<Placed> T_scan_body;
   T_scan_body.reserve(scans_.size());
   for (const Scan& scan : scans_) {
     const Pose2 pose = scan.T_body_reference * T_reference_body;
-    T_scan_body.push_back({Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix(), pose.position_m()});
+    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
+    T_scan_body.push_back({rotation, pose.position_m(), -(rotation.transpose() * pose.position_m())});
   }
-  std::vector<bool> seen(x_m.size(), false);
+  std::vector<Sight> sights(x_m.size(), Sight::kUnseen);
   for (std::size_t i = 0; i < x_m.size(); ++i) {
-    for (std::size_t k = scans_.size(); k-- > 0 && !seen[i];) {  // Newest first: it usually sees most.
-      const Eigen::Vector2d there_m =
-          T_scan_body[k].rotation * Eigen::Vector2d(x_m[i], y_m[i]) + T_scan_body[k].position_m;
-      seen[i] = looksAt(scans_[k], there_m, margin_m);
+    const Eigen::Vector2d point_m(x_m[i], y_m[i]), normal = normalAt(x_m, y_m, i);
+    bool faced = false;
+    for (std::size_t k = scans_.size(); k-- > 0 && sights[i] != Sight::kSeen;) {  // Newest first: it usually sees most.
+      const Placed& at = T_scan_body[k];
+      if (facesAway(normal, at.scan_m - point_m)) continue;
+      faced = true;
+      if (looksAt(scans_[k], at.rotation * point_m + at.position_m, margin_m)) sights[i] = Sight::kSeen;
     }
+    if (!faced && !scans_.empty()) sights[i] = Sight::kBackOfSeen;
   }
-  return seen;
+  return sights;
 }
 
 }  // namespace swiftlet::perception

@@ -1,9 +1,13 @@
 // The area that the scans of a reference have observed. No pose can explain a point outside of this area. Such points
 // bias the sum of the scores towards the observed area: a robot that drives backwards along a corridor, where new wall
 // appears beside it all the time, would seem to stand still.
+//
+// Nor has a scan observed a surface that faces away from it: in a doorway, the outer face of a wall would be matched to
+// the inner one, and the pose be wrong by the thickness of the wall.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,10 +24,16 @@ class ReferenceView {
   /// Adds the end points of a scan, ordered by angle, in the frame of the body. They must not include points on the
   /// body itself.
   void add(const std::vector<Eigen::Vector2f>& points_body_m, const common::Pose2& T_reference_body);
-  /// Marks the points, given in the frame of a body at `T_reference_body`, that at least one scan observed and that lie
-  /// at least `margin_m` inside the angular limits of its view.
-  std::vector<bool> sees(std::span<const float> x_m, std::span<const float> y_m, const common::Pose2& T_reference_body,
-                         double margin_m) const;
+  enum class Sight : std::uint8_t {
+    kSeen,
+    kUnseen,
+    kBackOfSeen,  ///< On a surface that faces away from every scan.
+  };
+  /// Judges the points, given in beam order in the frame of a body at `T_reference_body`. A point is seen if at least
+  /// one scan observed it, from the side that its surface faces, at least `margin_m` inside the angular limits of the
+  /// scan's view.
+  std::vector<Sight> look(std::span<const float> x_m, std::span<const float> y_m, const common::Pose2& T_reference_body,
+                          double margin_m) const;
 
  private:
   static constexpr int kBins = 360;

@@ -52,17 +52,20 @@ std::vector<bool> awayFromUnseen(const SplitPoints& points, const std::vector<bo
   return kept;
 }
 
-SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marked) {
-  const std::size_t size = points.x_m.size();
-  if (2 * static_cast<std::size_t>(std::count(marked.begin(), marked.end(), true)) < size) return points;
+SplitPoints marked(const SplitPoints& points, const std::vector<bool>& marks) {
   SplitPoints result({});
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!marked[i]) continue;
+  for (std::size_t i = 0; i < points.x_m.size(); ++i) {
+    if (!marks[i]) continue;
     result.x_m.push_back(points.x_m[i]);
     result.y_m.push_back(points.y_m[i]);
     if (!points.heights_m.empty()) result.heights_m.push_back(points.heights_m[i]);
   }
   return result;
+}
+
+SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marks) {
+  const auto count = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), true));
+  return 2 * count < points.x_m.size() ? points : marked(points, marks);
 }
 
 }  // namespace swiftlet::perception

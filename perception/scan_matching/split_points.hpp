@@ -26,7 +26,8 @@ SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_r
 /// bias each match a little in the direction of motion.
 std::vector<bool> awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m);
 
+SplitPoints marked(const SplitPoints& points, const std::vector<bool>& marks);
 /// The marked points, or all points if fewer than half are marked.
-SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marked);
+SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marks);
 
 }  // namespace swiftlet::perception

@@ -27,8 +27,11 @@ Cell merged(Cell a, Cell b) {
 
 bool rowByRow(const CellIndex& a, const CellIndex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-/// The ray to `end`, cut to the fraction `share` of its length if that is below 1.
-Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share) { return share < 1.0F ? end * share : end; }
+/// The ray from (0, 0, `from_m`) to `end`, cut to the fraction `share` of its length if that is below 1.
+Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share, float from_m) {
+  const Eigen::Vector3f from(0.0F, 0.0F, from_m);
+  return share < 1.0F ? from + (end - from) * share : end;
+}
 
 /// How beam `i` met the surface on which the returns beside it lie as well. Its direction is that of the line between
 /// the outermost of them within reach, as long as none is farther from the next than a step in depth.
@@ -58,6 +61,7 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
   DrawnScan drawn;
   drawn.stamp = scan.stamp;
   drawn.body_height_m = scan.T_odom_body.position_m.z();
+  const float from_m = drawn.laser_height_m = scan.laser_height_level_m;
   const auto spacing = static_cast<float>(0.4 * config.resolution_m);
   const auto add = [&](std::vector<Eigen::Vector3f>& list, const Eigen::Vector3f& p) {
     const bool apart = list.empty() || (p - list.back()).head<2>().squaredNorm() > spacing * spacing;
@@ -66,17 +70,17 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
   };
   const auto range = [](const Eigen::Vector3f& p) { return p.head<2>().norm(); };
   const auto withinRange = [&](const Eigen::Vector3f& p, double range_m) {
-    return shortened(p, static_cast<float>(range_m) / std::max(range(p), 1e-6F));
+    return shortened(p, static_cast<float>(range_m) / std::max(range(p), 1e-6F), from_m);
   };
   for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
     const float height_m = i < scan.heights_level_m.size() ? scan.heights_level_m[i] : 0.0F;
     const Eigen::Vector3f end(scan.points_level_m[i].x(), scan.points_level_m[i].y(), height_m);
     if (!end.allFinite()) continue;
-    const double band_m = height_m > 0.0F ? config.max_height_above_m : config.max_height_below_m;
+    const auto band_m = static_cast<float>(height_m > 0.0F ? config.max_height_above_m : -config.max_height_below_m);
     // A beam that ended above or below the band shows free space up to where it left the band.
-    if (std::abs(height_m) > band_m)
+    if (std::abs(height_m) > std::abs(band_m))
       add(drawn.free_level_m,
-          withinRange(shortened(end, static_cast<float>(band_m) / std::abs(height_m)), config.max_hit_range_m));
+          withinRange(shortened(end, (band_m - from_m) / (height_m - from_m), from_m), config.max_hit_range_m));
     else if (range(end) > static_cast<float>(config.max_hit_range_m))
       add(drawn.free_level_m, withinRange(end, config.max_hit_range_m));
     else if (add(drawn.hits_level_m, end))
@@ -90,12 +94,16 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
 }
 
 SlicedMap::SlicedMap(const GridDrawingConfig& config)
-    : config_(config), combined_(common::makeOccupancyGrid(config.resolution_m)), glass_(config.resolution_m) {}
+    : config_(config),
+      combined_(common::makeOccupancyGrid(config.resolution_m)),
+      glass_(config.resolution_m),
+      low_(config.resolution_m) {}
 
 SlicedMap SlicedMap::snapshot() {
   for (auto& [slice, grid] : slices_) grid = grid.snapshot();
   combined_ = combined_.snapshot();
   glass_ = glass_.snapshot();
+  low_ = low_.snapshot();
   return *this;
 }
 
@@ -134,18 +142,21 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   for (auto& [slice, rays] : rays_) rays.clear();
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
   const Eigen::Vector2d body = body_ = T_map_body.position_m() / config_.resolution_m;
-  const int body_slice = sliceAt(scan.body_height_m);
+  const double laser_m = scan.body_height_m + static_cast<double>(scan.laser_height_m);
+  stamp_ = scan.stamp;
+  laser_slice_ = sliceAt(laser_m);
   const auto inCells = [&](const Eigen::Vector3f& end) {
     return Eigen::Vector2d((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
                            (T_map_body.y_m + s * end.x() + c * end.y()) / config_.resolution_m);
   };
-  const auto add = [&](const Eigen::Vector2d& to, double rise_m, bool ended,
+  const auto add = [&](const Eigen::Vector2d& to, double height_m, bool ended,
                        Incidence incidence = Incidence::kUnknown) {
-    const int last = sliceAt(scan.body_height_m + rise_m);
-    const int step = last > body_slice ? 1 : -1;
+    const double rise_m = scan.body_height_m + height_m - laser_m;
+    const int last = sliceAt(laser_m + rise_m);
+    const int step = last > laser_slice_ ? 1 : -1;
     Eigen::Vector2d from = body;
-    for (int slice = body_slice; slice != last; slice += step) {
-      const double boundary_m = (slice + 0.5 * step) * config_.slice_height_m - scan.body_height_m;
+    for (int slice = laser_slice_; slice != last; slice += step) {
+      const double boundary_m = (slice + 0.5 * step) * config_.slice_height_m - laser_m;
       const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / rise_m, 0.0, 1.0);
       rays_[slice].push_back({from, cut});
       from = cut;
@@ -164,7 +175,8 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   for (const Eigen::Vector3f& end : scan.no_returns_level_m) {
     const Eigen::Vector2d to = inCells(end);
     const Eigen::Vector2d seen = beforeWall(body, to, [&](CellIndex cell) { return isWall(cell); });
-    add(seen, end.z() * (seen - body).norm() / std::max((to - body).norm(), 1e-9), false);
+    const auto share = static_cast<float>((seen - body).norm() / std::max((to - body).norm(), 1e-9));
+    add(seen, shortened(end, share, scan.laser_height_m).z(), false);
   }
 }
 
@@ -209,11 +221,14 @@ void SlicedMap::apply(int slice) {
       const Cell old = grid.at(cell);
       const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
       const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
+      const bool low_changed = ended == 0 ? low_.passed(cell, slice) : meetLow(slice, cell);
       if (ended == 0) fadeAround(slice, cell);
       // An unchanged cell is not written, so that its tile stays shared with the snapshots.
-      if (value == old) continue;
-      grid.set(cell, value);
-      if (slice >= lowest_ && slice <= highest_) combine(cell, old, value);
+      if (value != old) grid.set(cell, value);
+      if (low_changed)
+        combine(cell);
+      else if (value != old && slice >= lowest_ && slice <= highest_)
+        combine(cell, old, value);
     }
   }
 }
@@ -223,6 +238,20 @@ void SlicedMap::apply(int slice) {
 bool SlicedMap::isGlass(CellIndex cell) const {
   if (drawn_ % config_.glass_fade_scans == 0 || !occupancy::isOccupied(combined_.at(cell))) return false;
   return glass_.passesThrough(cell, Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5) - body_);
+}
+
+/// Beams ended in the cell in that slice. Returns true if what is known of low obstacles there has changed. The outline
+/// of what reaches up, a wall or a person, is met in the cells beside, too.
+bool SlicedMap::meetLow(int slice, CellIndex cell) {
+  if (slice >= laser_slice_) {
+    low_.reachesUp(cell);
+    return false;
+  }
+  const auto level = slices_.find(laser_slice_);
+  for (int dy = -1; level != slices_.end() && dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      if (occupancy::isOccupied(level->second.at({cell.x + dx, cell.y + dy}))) return false;
+  return low_.hit(cell, slice, stamp_);
 }
 
 /// Most things are upright: a free cell is weak evidence that the cells above and below it are free. This removes the
@@ -258,6 +287,8 @@ void SlicedMap::combine(CellIndex cell) {
   Cell value = occupancy::kUnknown;
   for (auto slice = slices_.lower_bound(lowest_); slice != slices_.end() && slice->first <= highest_; ++slice)
     value = merged(value, slice->second.at(cell));
+  if (const auto top = low_.top(cell); top && *top >= lowest_ && *top <= highest_)
+    value = std::max(value, static_cast<Cell>(config_.max_steps));
   if (value != combined_.at(cell)) combined_.set(cell, value);
 }
 
@@ -270,6 +301,9 @@ void SlicedMap::combineAll() {
       value = merged(value, here);
     });
   }
+  low_.forEach([&](CellIndex c, int top) {
+    if (top >= lowest_ && top <= highest_) fresh.set(c, static_cast<Cell>(config_.max_steps));
+  });
   makeEqual(combined_, fresh);
 }
 

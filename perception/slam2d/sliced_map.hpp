@@ -15,13 +15,15 @@
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/glass_memory.hpp"
 #include "perception/slam2d/grid_drawing_config.hpp"
+#include "perception/slam2d/low_obstacles.hpp"
 
 namespace swiftlet::perception {
 
 /// The part of a scan that is drawn, thinned to the grid: points (x, y, height above the body) in the level frame.
 struct DrawnScan {
   common::Time stamp;
-  double body_height_m = 0.0;  ///< Above the take-off floor.
+  double body_height_m = 0.0;   ///< Above the take-off floor.
+  float laser_height_m = 0.0F;  ///< Above the body: there the beams begin.
   std::vector<Eigen::Vector3f> hits_level_m;
   std::vector<Incidence> incidences;                ///< Of the hits; those that are missing are unknown.
   std::vector<Eigen::Vector3f> free_level_m;        ///< Ends of beams' free parts, where the end itself is not drawn.
@@ -65,6 +67,7 @@ class SlicedMap {
   void drawSlice(int slice, const std::vector<Ray>& rays);
   void apply(int slice);
   bool isGlass(common::CellIndex cell) const;
+  bool meetLow(int slice, common::CellIndex cell);
   void fadeAround(int slice, common::CellIndex cell);
   void combine(common::CellIndex cell);
   void combineAll();
@@ -79,11 +82,14 @@ class SlicedMap {
   std::map<int, common::OccupancyGrid> slices_;
   common::OccupancyGrid combined_;
   GlassMemory glass_;
+  LowObstacles low_;
   double flight_height_m_ = 0.0;
   int lowest_ = 0;  ///< Range of the slices that are combined; empty before the first scan.
   int highest_ = -1;
   int drawn_ = 0;  ///< Number of drawn scans.
   // Working memory for the scan being drawn.
+  common::Time stamp_;
+  int laser_slice_ = 0;  ///< The one of the laser.
   std::map<int, std::vector<Ray>> rays_;
   std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
   Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.

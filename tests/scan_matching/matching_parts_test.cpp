@@ -1,4 +1,5 @@
 // The parts of the matcher, each against a slow and simple computation.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "perception/scan_matching/branch_and_bound.hpp"
+#include "perception/scan_matching/correlative_matcher.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
 #include "perception/scan_matching/quadratic_peak.hpp"
 #include "perception/scan_matching/reference_view.hpp"
@@ -294,7 +296,8 @@ TEST(ReferenceView, EndsBehindWallsAndAtTheEdgeOfTheFieldOfView) {
   ReferenceView view;
   view.add(points, {1.0, 0.0, 0.0});
   const auto sees = [&](float x, float y, const Pose2& body, double margin_m) -> bool {
-    return view.sees(std::vector<float>{x}, std::vector<float>{y}, body, margin_m).front();
+    return view.look(std::vector<float>{x}, std::vector<float>{y}, body, margin_m).front() ==
+           ReferenceView::Sight::kSeen;
   };
   EXPECT_TRUE(sees(4.0F, 0.0F, {}, 0.0)) << "on the wall";
   EXPECT_TRUE(sees(2.0F, 1.0F, {}, 0.0)) << "before it";
@@ -320,8 +323,50 @@ TEST(ReferenceView, OverAFullTurnHasNoEdge) {
     const double angle_rad = deg * std::numbers::pi / 180.0;
     const std::vector<float> x{static_cast<float>(2.9 * std::cos(angle_rad))};
     const std::vector<float> y{static_cast<float>(2.9 * std::sin(angle_rad))};
-    EXPECT_TRUE(view.sees(x, y, {}, 1.0).front()) << deg;
+    EXPECT_EQ(view.look(x, y, {}, 1.0).front(), ReferenceView::Sight::kSeen) << deg;
   }
+}
+
+/// The contour of a wall along x = 4 m, from y = -2 m to 2 m, as a laser at `body` sees it, in its frame.
+std::vector<Eigen::Vector2f> wallSeenFrom(const Pose2& body) {
+  std::vector<Eigen::Vector2f> points;
+  const bool inside = body.x_m < 4.0;
+  for (int i = -20; i <= 20; ++i)  // By increasing angle, as the beams of a laser go round.
+    points.push_back((body.inverse() * Eigen::Vector2d(inside ? 4.0 : 4.12, (inside ? 0.1 : -0.1) * i)).cast<float>());
+  return points;
+}
+
+TEST(ReferenceView, DoesNotSeeTheBackOfAWall) {
+  const Pose2 room{2.0, 0.0, 0.0}, beside{3.0, 1.5, 0.0}, outside{5.0, 0.0, std::numbers::pi};
+  ReferenceView view;
+  view.add(wallSeenFrom(room), room);
+  const auto look = [&](const Pose2& body) {
+    const std::vector<Eigen::Vector2f> points = wallSeenFrom(body);
+    std::vector<float> x, y;
+    for (const Eigen::Vector2f& p : points) x.push_back(p.x()), y.push_back(p.y());
+    return view.look(x, y, body, 0.0);
+  };
+  const auto count = [](const std::vector<ReferenceView::Sight>& sights, ReferenceView::Sight sight) {
+    return std::count(sights.begin(), sights.end(), sight);
+  };
+  EXPECT_EQ(count(look(beside), ReferenceView::Sight::kBackOfSeen), 0);
+  EXPECT_GT(count(look(beside), ReferenceView::Sight::kSeen), 35);
+  // The outer face is 12 cm behind the inner one, as near as a rough wall may be. The ends have no normal.
+  EXPECT_EQ(count(look(outside), ReferenceView::Sight::kBackOfSeen), 39);
+  view.add(wallSeenFrom(outside), outside);
+  EXPECT_EQ(count(look(outside), ReferenceView::Sight::kBackOfSeen), 0);
+  EXPECT_GT(count(look(outside), ReferenceView::Sight::kSeen), 35);
+}
+
+TEST(ReferenceView, AWallSeenFromTheOtherSideMatchesNothing) {
+  const Pose2 room{2.0, 0.0, 0.0}, outside{5.0, 0.0, std::numbers::pi};
+  CorrelativeMatcher matcher{CorrelativeMatcherConfig{}};
+  ProjectedScan inner, outer;
+  inner.points_level_m = wallSeenFrom(room);
+  outer.points_level_m = wallSeenFrom(outside);
+  matcher.addReference(inner, room);
+  EXPECT_FALSE(matcher.match(inner, room, {0.2, 0.1}).failed);
+  EXPECT_TRUE(matcher.match(outer, outside, {0.2, 0.1}).failed);
 }
 
 }  // namespace

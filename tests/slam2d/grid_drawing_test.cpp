@@ -194,6 +194,78 @@ TEST(GridDrawing, LowObstaclesCountOnlyNearTheFlightHeight) {
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
 }
 
+TEST(GridDrawing, BeamsBeginAtTheHeightOfTheLaser) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(0.6, 0.0)); };
+  map.draw(over(0.0, 1.0), {});
+  DrawnScan down = around(0.6, 720);  // The vehicle pitches: its beams end on a table as high as its body.
+  down.body_height_m = 1.0;
+  map.draw(down, {});
+  ASSERT_TRUE(common::occupancy::isOccupied(where()));
+  DrawnScan level = around(3.0, 720);  // 10 cm above the table at each place, not only where they end.
+  level.body_height_m = 1.0;
+  level.laser_height_m = 0.10F;
+  for (Eigen::Vector3f& p : level.hits_level_m) p.z() = 0.10F;
+  for (int i = 0; i < 10; ++i) map.draw(level, {});
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+}
+
+/// Draws scans of one kind over `duration_s`, as a flight does four times a second.
+class Watching {
+ public:
+  explicit Watching(SlicedMap& map) : map_(map) {}
+  void draw(DrawnScan scan, double duration_s) {
+    for (double at_s = 0.0; at_s < duration_s; at_s += 0.25) {
+      scan.stamp = scan.stamp + common::Duration::fromSeconds(now_s_ += 0.25);
+      map_.draw(scan, {});
+      scan.stamp = {};
+    }
+  }
+
+ private:
+  SlicedMap& map_;
+  double now_s_ = 0.0;
+};
+
+TEST(GridDrawing, WhatTiltedBeamsMeetAgainAndAgainStays) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  Watching watching(map);
+  for (int tilt = 0; tilt < 2; ++tilt) {
+    watching.draw(over(0.0, 1.0), 60.0);
+    EXPECT_TRUE(common::occupancy::isFree(where())) << "met once, it fades";
+    watching.draw(over(0.15, 1.0), 0.5);
+  }
+  watching.draw(over(0.0, 1.0), 120.0);
+  EXPECT_TRUE(common::occupancy::isOccupied(where())) << "beams that pass above it do not erase it";
+  EXPECT_TRUE(map.setFlightHeight(1.5));
+  EXPECT_FALSE(common::occupancy::isOccupied(where()));
+  EXPECT_TRUE(map.setFlightHeight(1.0));
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  // It has been taken away: beams reach the wall behind it, at heights at which they met it.
+  DrawnScan through = over(0.0, 1.0);
+  for (Eigen::Vector3f& p : through.hits_level_m) p.z() = -0.5F;
+  through.body_height_m = 1.0;
+  watching.draw(through, 10.0);
+  EXPECT_FALSE(common::occupancy::isOccupied(where()));
+}
+
+TEST(GridDrawing, SomebodyWhoComesTwiceDoesNotStay) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  DrawnScan upright = over(0.15, 1.0);  // Level beams meet the person, too.
+  for (Eigen::Vector3f& p : upright.hits_level_m) p.z() = 0.0F;
+  Watching watching(map);
+  watching.draw(over(0.0, 1.0), 5.0);
+  for (int visit = 0; visit < 3; ++visit) {
+    watching.draw(over(0.15, 1.0), 0.5);
+    watching.draw(upright, 1.0);
+    watching.draw(over(0.15, 1.0), 0.5);
+    watching.draw(over(0.0, 1.0), 90.0);
+    EXPECT_TRUE(common::occupancy::isFree(where())) << visit;
+  }
+}
+
 TEST(GridDrawing, ThinsAndBoundsItsPoints) {
   const GridDrawingConfig config;
   ProjectedScan scan;

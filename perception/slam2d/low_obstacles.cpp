@@ -1,0 +1,71 @@
+#include "perception/slam2d/low_obstacles.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::perception {
+namespace {
+
+constexpr int kSightings = 2;
+/// A tilt lasts for some tenths of a second; what is met again after this time is met by another one.
+constexpr double kApart_s = 0.5;
+/// Beams this many slices below the top go through; nearer ones may pass above, as their height is not known better.
+constexpr int kThrough = 2;
+/// So many scans whose beams went through, without one that ended here, show that it is gone.
+constexpr int kGone = 6;
+
+}  // namespace
+
+bool LowObstacles::isCertain(const Cell& cell) { return cell.sightings >= kSightings; }
+
+bool LowObstacles::hit(common::CellIndex cell, int slice, common::Time now) {
+  const Cell old = cells_.at(cell);
+  Cell next = old;
+  next.met = now;
+  next.through = 0;
+  if (old.sightings == 0) {
+    next.sightings = 1;
+    next.top = static_cast<std::int16_t>(slice);
+    next.passed = false;
+  } else {
+    // From another place or distance the same edge is drawn into the cell beside.
+    int sightings = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Cell near = cells_.at({cell.x + dx, cell.y + dy});
+        const bool again = near.passed && (now - near.met).seconds() >= kApart_s;
+        sightings = std::max(sightings, again ? near.sightings + 1 : static_cast<int>(near.sightings));
+      }
+    next.sightings = static_cast<std::uint8_t>(std::min(sightings, 255));
+    next.top = std::max<std::int16_t>(old.top, static_cast<std::int16_t>(slice));
+    next.passed = false;
+  }
+  cells_.set(cell, next);
+  return isCertain(old) != isCertain(next) || (isCertain(next) && old.top != next.top);
+}
+
+bool LowObstacles::passed(common::CellIndex cell, int slice) {
+  const Cell old = cells_.at(cell);
+  if (old.sightings == 0) return false;
+  Cell next = old;
+  if (slice > old.top) {
+    next.passed = true;
+  } else if (slice <= old.top - kThrough) {
+    if (++next.through >= kGone) next = Cell{};
+  } else {
+    return false;
+  }
+  cells_.set(cell, next);
+  return isCertain(old) != isCertain(next);
+}
+
+void LowObstacles::reachesUp(common::CellIndex cell) {
+  const Cell old = cells_.at(cell);
+  if (old.sightings > 0 && !isCertain(old)) cells_.set(cell, Cell{});
+}
+
+std::optional<int> LowObstacles::top(common::CellIndex cell) const {
+  const Cell known = cells_.at(cell);
+  return isCertain(known) ? std::optional<int>(known.top) : std::nullopt;
+}
+
+}  // namespace swiftlet::perception

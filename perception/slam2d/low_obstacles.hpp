@@ -1,0 +1,56 @@
+// Remembers obstacles that end below the beams: a table, a counter, the back of a chair. Only a tilted beam meets them,
+// for a fraction of a second each time, and level beams pass above them in between. The height of a beam is known to
+// some 2 % of its range, so that beams which pass just above seem to go through, and would erase what was seen. What
+// beams met, passed above, and met again in the same place stays there. People do not: they reach as high as the beams.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/tiled_grid.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception {
+
+/// Heights are numbers of slices. Not thread-safe; a snapshot may go to another thread.
+class LowObstacles {
+ public:
+  explicit LowObstacles(double resolution_m) : cells_(resolution_m) {}
+
+  /// A beam ended in the cell at that height, below that of the laser. Returns true if top() of the cell has changed.
+  bool hit(common::CellIndex cell, int slice, common::Time now);
+  /// A beam ended in the cell at the height of the laser: what was met there before belonged to something that reaches
+  /// up, unless it is certain.
+  void reachesUp(common::CellIndex cell);
+  /// A beam crossed the cell at that height. Returns true if top() of the cell has changed.
+  bool passed(common::CellIndex cell, int slice);
+
+  /// The height up to which something certainly stands in the cell.
+  std::optional<int> top(common::CellIndex cell) const;
+  /// Calls visit(cell, top) for every cell in which something certainly stands.
+  template <typename Visitor>
+  void forEach(Visitor&& visit) const {
+    cells_.forEachCell([&](common::CellIndex index, const Cell& cell) {
+      if (isCertain(cell)) visit(index, static_cast<int>(cell.top));
+    });
+  }
+
+  LowObstacles snapshot() {
+    cells_ = cells_.snapshot();
+    return *this;
+  }
+
+ private:
+  struct Cell {
+    common::Time met;            ///< When a beam last ended here.
+    std::int16_t top = 0;        ///< The highest slice that a beam ended in.
+    std::uint8_t sightings = 0;  ///< Times that it was met, with beams that passed above it in between.
+    std::uint8_t through = 0;    ///< Scans whose beams went through it since it was met.
+    bool passed = false;         ///< Beams have passed above it since it was met.
+  };
+  static bool isCertain(const Cell& cell);
+
+  common::TiledGrid<Cell> cells_;
+};
+
+}  // namespace swiftlet::perception
