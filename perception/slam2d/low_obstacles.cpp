@@ -24,7 +24,7 @@ bool LowObstacles::hit(common::CellIndex cell, int slice, common::Time now) {
   next.through = 0;
   if (old.sightings == 0) {
     next.sightings = 1;
-    next.top = static_cast<std::int16_t>(slice);
+    next.bottom = next.top = static_cast<std::int16_t>(slice);
     next.passed = false;
   } else {
     // From another place or distance the same edge is drawn into the cell beside.
@@ -36,6 +36,7 @@ bool LowObstacles::hit(common::CellIndex cell, int slice, common::Time now) {
         sightings = std::max(sightings, again ? near.sightings + 1 : static_cast<int>(near.sightings));
       }
     next.sightings = static_cast<std::uint8_t>(std::min(sightings, 255));
+    next.bottom = std::min<std::int16_t>(old.bottom, static_cast<std::int16_t>(slice));
     next.top = std::max<std::int16_t>(old.top, static_cast<std::int16_t>(slice));
     next.passed = false;
   }
@@ -49,7 +50,8 @@ bool LowObstacles::passed(common::CellIndex cell, int slice) {
   Cell next = old;
   if (slice > old.top) {
     next.passed = true;
-  } else if (slice <= old.top - kThrough) {
+  } else if (slice >= old.bottom && slice <= old.top - kThrough) {
+    // Below the top of a table beams pass under it; where it was met at several heights, they go through.
     if (++next.through >= kGone) next = Cell{};
   } else {
     return false;

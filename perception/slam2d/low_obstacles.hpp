@@ -43,9 +43,10 @@ class LowObstacles {
  private:
   struct Cell {
     common::Time met;            ///< When a beam last ended here.
+    std::int16_t bottom = 0;     ///< The lowest slice that a beam ended in.
     std::int16_t top = 0;        ///< The highest slice that a beam ended in.
     std::uint8_t sightings = 0;  ///< Times that it was met, with beams that passed above it in between.
-    std::uint8_t through = 0;    ///< Scans whose beams went through it since it was met.
+    std::uint8_t through = 0;    ///< Scans whose beams went through it, between bottom and top, since it was met.
     bool passed = false;         ///< Beams have passed above it since it was met.
   };
   static bool isCertain(const Cell& cell);

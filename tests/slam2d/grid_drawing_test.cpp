@@ -227,6 +227,13 @@ class Watching {
   double now_s_ = 0.0;
 };
 
+/// Beams that reach the wall and are 25 cm below the body where the obstacle stood.
+DrawnScan through() {
+  DrawnScan scan = over(0.0, 1.0);
+  for (Eigen::Vector3f& p : scan.hits_level_m) p.z() = -0.5F;
+  return scan;
+}
+
 TEST(GridDrawing, WhatTiltedBeamsMeetAgainAndAgainStays) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
@@ -235,6 +242,7 @@ TEST(GridDrawing, WhatTiltedBeamsMeetAgainAndAgainStays) {
     watching.draw(over(0.0, 1.0), 60.0);
     EXPECT_TRUE(common::occupancy::isFree(where())) << "met once, it fades";
     watching.draw(over(0.15, 1.0), 0.5);
+    watching.draw(over(0.25, 1.0), 0.5);
   }
   watching.draw(over(0.0, 1.0), 120.0);
   EXPECT_TRUE(common::occupancy::isOccupied(where())) << "beams that pass above it do not erase it";
@@ -242,12 +250,20 @@ TEST(GridDrawing, WhatTiltedBeamsMeetAgainAndAgainStays) {
   EXPECT_FALSE(common::occupancy::isOccupied(where()));
   EXPECT_TRUE(map.setFlightHeight(1.0));
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
-  // It has been taken away: beams reach the wall behind it, at heights at which they met it.
-  DrawnScan through = over(0.0, 1.0);
-  for (Eigen::Vector3f& p : through.hits_level_m) p.z() = -0.5F;
-  through.body_height_m = 1.0;
-  watching.draw(through, 10.0);
-  EXPECT_FALSE(common::occupancy::isOccupied(where()));
+  watching.draw(through(), 10.0);
+  EXPECT_FALSE(common::occupancy::isOccupied(where())) << "it has been taken away";
+}
+
+TEST(GridDrawing, BeamsUnderATableDoNotEraseIt) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  Watching watching(map);
+  for (int tilt = 0; tilt < 2; ++tilt) {
+    watching.draw(over(0.0, 1.0), 5.0);
+    watching.draw(over(0.10, 1.0), 0.5);
+  }
+  watching.draw(through(), 60.0);
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
 }
 
 TEST(GridDrawing, SomebodyWhoComesTwiceDoesNotStay) {
