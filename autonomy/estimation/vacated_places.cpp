@@ -15,7 +15,7 @@ constexpr double kPeriod_s = 0.045;  ///< Scans in between are left out: twenty 
 constexpr double kReach_m = 4.0;     ///< What blocks a path is near.
 constexpr double kHover_m_s = 0.2;   ///< Above the speed of a hover in gusts; flights are faster.
 /// Beams that rise or fall by more than this say nothing about the laser's height.
-constexpr double kLevel_m = 0.10;
+constexpr double kLevel_m = 0.04;
 constexpr int kHits = 5;                                     ///< Fewer may be noise.
 constexpr double kPassed_s = 0.35;                           ///< Longer than the gap between two legs stays open.
 constexpr int kPasses = 4;                                   ///< So that no single wrong scan frees a place.

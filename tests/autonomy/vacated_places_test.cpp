@@ -93,6 +93,12 @@ TEST_F(VacatedPlacesStory, BeamsAtOtherHeightsSayNothing) {
   EXPECT_TRUE(occupiedAt({2.8, 0.0}));
 }
 
+TEST_F(VacatedPlacesStory, TheTopOfATableJustBelowTheBeamsIsKept) {
+  watch(2.0, true, -0.06F);
+  watch(2.0, false);
+  EXPECT_TRUE(occupiedAt({2.8, 0.0}));
+}
+
 TEST_F(VacatedPlacesStory, InFlightTheMapClearsItself) {
   watch(2.0, true);
   speed_m_s_ = 0.5;
