@@ -72,6 +72,11 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   if (step.slope_ended_rise_m)
     say(stamp, Severity::kInfo, "altitude", "the slope has ended",
         fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
+  if (step.floor_regained_m)
+    say(stamp, Severity::kWarning, "altitude", "the floor is below again",
+        fmt::format("what was taken for a level covers the floor that was seen before: the height is corrected by "
+                    "{:+.2f} m",
+                    *step.floor_regained_m));
   if (step.levels_joined > 0)
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
 }

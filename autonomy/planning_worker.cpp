@@ -141,27 +141,32 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
   return result;
 }
 
-/// The reachable place with the highest score: its path cost from here, at most kReach_m, plus kPerMetreOfWidth times
-/// its distance to the nearest obstacle (decision 005). Beyond the length of a room a place is no better for being
-/// farther, and half a metre of width is worth 1.5 m of path.
+/// The reachable place with the highest score among those where the laser knows the position: its path cost from here,
+/// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (decision 005). Beyond the length
+/// of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of path.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
+  constexpr int kEvery = 10;  // Where the best place is not held, cells so far apart are compared.
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
   if (!escape) return std::nullopt;
   planning::CostField field;
   field.spread(map_, escape->back());
-  int best = map_.indexOf(escape->back());
-  double best_score = 0.0;
+  std::pair<double, int> best{0.0, map_.indexOf(escape->back())};
+  std::vector<std::pair<double, int>> others;  // Score and cell.
   for (int i = 0; i < static_cast<int>(map_.size()); ++i) {
     if (!field.reached(i)) continue;
+    const common::CellIndex cell = map_.cellOf(i);
     const double away_m = std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
-    const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(map_.cellOf(i));
-    if (score > best_score) {
-      best_score = score;
-      best = i;
-    }
+    const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(cell);
+    if (score > best.first) best = {score, i};
+    if (cell.x % kEvery == 0 && cell.y % kEvery == 0) others.emplace_back(score, i);
   }
-  return map_.centerOf(map_.cellOf(best));
+  const auto placeOf = [&](int index) { return map_.centerOf(map_.cellOf(index)); };
+  if (planning::isHeld(map_, placeOf(best.second), exploration_)) return placeOf(best.second);
+  std::stable_sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [score, index] : others)
+    if (planning::isHeld(map_, placeOf(index), exploration_)) return placeOf(index);
+  return std::nullopt;
 }
 
 }  // namespace swiftlet::autonomy

@@ -47,7 +47,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   for (perception::GroundPoint& point : ground) point.distance_below_m += ramp_.rise_m();
   perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
   prior.covariance(0, 0) += ramp_.variance_m2();
-  const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior);
+  const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior, ramp_.onSlope());
   if (update.height_above_ground_m)
     surface_height_m_ = vertical->height_m - *update.height_above_ground_m + ramp_.rise_m();
   step.measurement = update.measurement;
@@ -58,6 +58,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
     if (step.measurement->stamp >= slope_ended_) ramp_.measured();
   }
   step.levels_joined = update.levels_joined;
+  step.floor_regained_m = update.floor_regained_m;
   return step;
 }
 

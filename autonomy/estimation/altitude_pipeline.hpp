@@ -33,6 +33,7 @@ struct AltitudeStep {
   std::optional<double> below_m;                         ///< The raw measurement: medianBelow_m of the scan.
   std::optional<perception::VirtualHeight> measurement;  ///< For the filter, with the stamp of an earlier scan.
   int levels_joined = 0;
+  std::optional<double> floor_regained_m;            ///< See perception::AltitudeUpdate.
   bool slope_began = false;                          ///< The ground below slopes from here on.
   std::optional<double> doubt_m_s;                   ///< See SlopeDoubt: the height may be wrong from here on.
   std::optional<perception::HeightDriftRate> drift;  ///< See HeightDrift: the vertical speed is wrong.

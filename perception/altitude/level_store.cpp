@@ -108,4 +108,11 @@ bool LevelStore::covers(int level, CellIndex cell) const {
   return false;
 }
 
+bool LevelStore::coversAround(int level, CellIndex cell) const {
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      if (covers(level, {cell.x + dx, cell.y + dy})) return true;
+  return false;
+}
+
 }  // namespace swiftlet::perception::altitude

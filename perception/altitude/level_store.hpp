@@ -48,12 +48,18 @@ class LevelStore {
   const LevelEstimate& at(int level) const { return levels_[static_cast<std::size_t>(resolved(level))]; }
 
   common::CellIndex cellAt(const Eigen::Vector2d& position_map_m) const { return heads_.cellAt(position_map_m); }
+  Eigen::Vector2d centerOf(common::CellIndex cell) const { return heads_.centerOf(cell); }
   /// Adds a cell to a level. True if the level did not cover the cell before.
   bool extend(int level, common::CellIndex cell);
   /// Finds the levels with a cell within `distance_m` of `center` (a square), in ascending order.
   void near(common::CellIndex center, double distance_m, std::vector<int>& levels) const;
+  bool covers(int level, common::CellIndex cell) const;
+  /// Whether the level covers the cell or one beside it.
+  bool coversAround(int level, common::CellIndex cell) const;
   /// Whether cells of both levels, within `distance_m` (a square) of `center`, are at most `gap_m` apart.
   bool meet(int a, int b, common::CellIndex center, double distance_m, double gap_m) const;
+  /// Whether one has been joined into the other.
+  bool isSame(int a, int b) const { return resolved(a) == resolved(b); }
   /// Merges both levels into the older one and returns its id: multiplies the Gaussians and unites the cells (Grzonka
   /// 2012, IV-C).
   int join(int a, int b);
@@ -67,7 +73,6 @@ class LevelStore {
   };
   int resolved(int level) const;
   int reach(double distance_m) const;
-  bool covers(int level, common::CellIndex cell) const;
 
   double resolution_m_;
   std::vector<LevelEstimate> levels_;

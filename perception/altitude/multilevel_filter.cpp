@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "common/square.hpp"
+#include "perception/altitude/floor_return.hpp"
 #include "perception/altitude/ground_scan.hpp"
 #include "perception/altitude/height_filter.hpp"
 #include "perception/altitude/level_matching.hpp"
 #include "perception/altitude/level_store.hpp"
 #include "perception/altitude/new_surface.hpp"
+#include "perception/altitude/prior_correction.hpp"
 
 namespace swiftlet::perception {
 
@@ -18,21 +20,6 @@ using namespace altitude;
 using common::CellIndex;
 using common::square;
 using common::Time;
-
-namespace {
-
-/// The correction of a prior by a level that was just entered. It is applied to each prior until the fusion filter,
-/// which provides the prior, has received the measurement itself.
-struct PriorCorrection {
-  int level = kNoLevel;
-  Time since;
-  double height_m = 0.0;  ///< To be added to the prior's height.
-  double velocity_m_s = 0.0;
-  Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
-  bool confirmed = false;      ///< The level was seen for so long before that leaving it does not call it in question.
-};
-
-}  // namespace
 
 struct MultilevelFilter::Impl {
   explicit Impl(const Config& c) : config(c), height(c.acceleration_noise_m_s2), store(c.resolution_m) {}
@@ -47,7 +34,8 @@ struct MultilevelFilter::Impl {
   std::optional<VirtualHeight> updateHeight();
   void addNewLevels(AltitudeUpdate& outcome);
   void updateLeftLevels();
-  void extendLevels();
+  void extendLevels(AltitudeUpdate& outcome);
+  void regainFloor(int level, AltitudeUpdate& outcome);
   void searchForLoopClosures(AltitudeUpdate& outcome);
 
   Neighbourhood known() const { return {config, height, store, near, now}; }
@@ -63,6 +51,7 @@ struct MultilevelFilter::Impl {
   std::vector<NewSurface> new_surfaces;
   std::deque<VirtualHeight> pending;
   std::optional<PriorCorrection> correction;
+  FloorReturn floor_return;
   HeightState state;
   bool initialized = false;
   std::uint64_t version = 0;
@@ -90,6 +79,7 @@ bool MultilevelFilter::Impl::leftALevel() const {
 }
 
 void MultilevelFilter::Impl::undoLastUpdates() {
+  if (correction && correction->jumps) return;
   height.recall();
   pending.clear();
   if (correction) store.at(correction->level).seen = false;  // Must be entered again.
@@ -97,19 +87,16 @@ void MultilevelFilter::Impl::undoLastUpdates() {
 }
 
 void MultilevelFilter::Impl::assume(const HeightState& prior) {
-  if (!correction) return height.assume(now, prior.height_m, prior.velocity_m_s, prior.covariance);
-  const double since_s = (now - correction->since).seconds();
-  Eigen::Matrix2d moved;
-  moved << 1.0, since_s, 0.0, 1.0;
-  height.assume(now, prior.height_m + correction->height_m + correction->velocity_m_s * since_s,
-                prior.velocity_m_s + correction->velocity_m_s, moved * correction->covariance * moved.transpose());
+  if (correction && correction->isTakenIn(prior, height)) correction.reset();
+  const HeightState assumed = correction ? correction->applied(prior, height, now) : prior;
+  height.assume(now, assumed.height_m, assumed.velocity_m_s, assumed.covariance);
 }
 
 std::optional<VirtualHeight> MultilevelFilter::Impl::takeConfirmed() {
   if (pending.empty() || (now - pending.front().stamp).seconds() < config.publish_delay_s) return std::nullopt;
   const VirtualHeight oldest = pending.front();
   pending.pop_front();
-  if (correction && oldest.stamp > correction->since) correction.reset();
+  if (correction && !correction->jumps && oldest.stamp > correction->since) correction.reset();
   return oldest;
 }
 
@@ -257,9 +244,39 @@ void MultilevelFilter::Impl::updateLeftLevels() {
 }
 
 /// Line 16: extends the levels by the cells where they were measured.
-void MultilevelFilter::Impl::extendLevels() {
-  for (const Beam& beam : scan.beams)
-    if (beam.level != kNoLevel && store.extend(beam.level, beam.cell)) changed = true;
+void MultilevelFilter::Impl::extendLevels(AltitudeUpdate& outcome) {
+  int floor = kNoLevel;
+  for (const BeamGroup& g : scan.groups)
+    if (g.level == kFloor) floor_return.sawFloor();
+  for (const Beam& beam : scan.beams) {
+    if (beam.level == kNoLevel || !store.extend(beam.level, beam.cell)) continue;
+    changed = true;
+    if (config.one_floor && !store.isSame(beam.level, kFloor) && store.coversAround(kFloor, beam.cell) &&
+        floor_return.sawLevelOverFloor(beam.level, store.centerOf(beam.cell)))
+      floor = beam.level;
+  }
+  if (floor != kNoLevel) regainFloor(floor, outcome);
+}
+
+/// The level is the floor: the height is the distance down to it.
+void MultilevelFilter::Impl::regainFloor(int level, AltitudeUpdate& outcome) {
+  const auto group =
+      std::find_if(scan.groups.begin(), scan.groups.end(), [&](const BeamGroup& g) { return g.level == level; });
+  if (group == scan.groups.end()) return;
+  const double before_m = height.height_m();
+  Eigen::Matrix2d covariance = height.covariance();
+  covariance << beamVariance(group->beams), 0.0, 0.0, covariance(1, 1);
+  height.dropReference();
+  height.assume(now, group->distance_below_m, height.velocity_m_s(), covariance);
+  outcome.floor_regained_m = height.height_m() - before_m;
+  pending.clear();
+  correction = PriorCorrection{kFloor, now, *outcome.floor_regained_m, 0.0, covariance, true, true};
+  (void)store.join(kFloor, level);
+  store.at(kFloor).forgetInnovations();
+  group->level = kFloor;
+  std::replace(present.begin(), present.end(), level, kFloor);
+  std::erase(near, level);
+  floor_return.sawFloor();
 }
 
 /// Line 17: merges levels that meet here and agree.
@@ -307,6 +324,7 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.new_surfaces.clear();
   f.pending.clear();
   f.correction.reset();
+  f.floor_return.sawFloor();
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
@@ -327,7 +345,8 @@ void MultilevelFilter::addAcceleration(Time time, double acceleration_up_m_s2) {
 }
 
 AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& position_map_m,
-                                        std::span<const GroundPoint> points, const std::optional<HeightState>& prior) {
+                                        std::span<const GroundPoint> points, const std::optional<HeightState>& prior,
+                                        bool over_slope) {
   Impl& f = *impl_;
   AltitudeUpdate outcome;
   if (!f.initialized || time <= f.height.stamp() || !position_map_m.allFinite()) return outcome;
@@ -358,7 +377,8 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   seeNewSurfaces(f.new_surfaces, f.config, f.scan.beams, f.height.height_m(), time);
   f.addNewLevels(outcome);
   f.updateLeftLevels();
-  f.extendLevels();
+  if (over_slope) f.floor_return.sawFloor();
+  f.extendLevels(outcome);
   for (const BeamGroup& g : f.scan.groups) {
     LevelEstimate& level = f.store.at(g.level);
     level.seen = true;

@@ -49,6 +49,8 @@ struct AltitudeUpdate {
   std::optional<double> height_above_ground_m;
   int levels_added = 0;
   int levels_joined = 0;
+  /// What was taken for a level is the floor: by so much the height has been corrected.
+  std::optional<double> floor_regained_m;
 };
 
 class MultilevelFilter {
@@ -72,9 +74,10 @@ class MultilevelFilter {
   /// Algorithm 1 for one scan at `time`, with the vehicle at `position_map_m`. Scans must be in order of time; an
   /// earlier one is ignored. Without accelerations since the last scan the velocity is predicted as constant. `prior`,
   /// if given, is the height and vertical speed at `time` from the fusion filter that receives the measurements; it
-  /// replaces the prediction by accelerations.
+  /// replaces the prediction by accelerations. `over_slope`: the points are on a slope, lowered by its known rise to
+  /// the level from which it began.
   AltitudeUpdate update(common::Time time, const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points,
-                        const std::optional<HeightState>& prior = std::nullopt);
+                        const std::optional<HeightState>& prior = std::nullopt, bool over_slope = false);
 
   const HeightState& state() const;
   /// A copy of all levels with their cells.

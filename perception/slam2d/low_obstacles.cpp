@@ -12,6 +12,8 @@ constexpr double kApart_s = 0.5;
 constexpr int kThrough = 2;
 /// So many scans whose beams went through, without one that ended here, show that it is gone.
 constexpr int kGone = 6;
+/// So many beams at the height of the laser in a row are no error of their heights.
+constexpr int kLevel = 3;
 
 }  // namespace
 
@@ -50,6 +52,7 @@ bool LowObstacles::passed(common::CellIndex cell, int slice) {
   Cell next = old;
   if (slice > old.top) {
     next.passed = true;
+    next.level = 0;
   } else if (slice >= old.bottom && slice <= old.top - kThrough) {
     // Below the top of a table beams pass under it; where it was met at several heights, they go through.
     if (++next.through >= kGone) next = Cell{};
@@ -62,7 +65,10 @@ bool LowObstacles::passed(common::CellIndex cell, int slice) {
 
 void LowObstacles::reachesUp(common::CellIndex cell) {
   const Cell old = cells_.at(cell);
-  if (old.sightings > 0 && !isCertain(old)) cells_.set(cell, Cell{});
+  if (old.sightings == 0 || isCertain(old)) return;
+  Cell next = old;
+  if (++next.level >= kLevel) next = Cell{};
+  cells_.set(cell, next);
 }
 
 std::optional<int> LowObstacles::top(common::CellIndex cell) const {

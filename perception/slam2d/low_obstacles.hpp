@@ -19,8 +19,8 @@ class LowObstacles {
 
   /// A beam ended in the cell at that height, below that of the laser. Returns true if top() of the cell has changed.
   bool hit(common::CellIndex cell, int slice, common::Time now);
-  /// A beam ended in the cell at the height of the laser: what was met there before belonged to something that reaches
-  /// up, unless it is certain.
+  /// A beam ended in the cell at the height of the laser. After some of them, what was met there before belonged to
+  /// something that reaches up, unless it is certain.
   void reachesUp(common::CellIndex cell);
   /// A beam crossed the cell at that height. Returns true if top() of the cell has changed.
   bool passed(common::CellIndex cell, int slice);
@@ -47,6 +47,7 @@ class LowObstacles {
     std::int16_t top = 0;        ///< The highest slice that a beam ended in.
     std::uint8_t sightings = 0;  ///< Times that it was met, with beams that passed above it in between.
     std::uint8_t through = 0;    ///< Scans whose beams went through it, between bottom and top, since it was met.
+    std::uint8_t level = 0;      ///< Beams that ended here at the height of the laser since others passed above.
     bool passed = false;         ///< Beams have passed above it since it was met.
   };
   static bool isCertain(const Cell& cell);

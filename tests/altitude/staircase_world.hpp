@@ -104,6 +104,7 @@ struct Overflight {
   double worst_error_m = 0.0, squares_m2 = 0.0;
   int scans = 0, added = 0, joined = 0, without_measurement = 0;
   AltitudeUpdate last;
+  std::optional<double> regained_m;  ///< The last correction by the floor.
 
   double surface(const Eigen::Vector2d& at) const {
     double height_m = 0.0;
@@ -153,7 +154,8 @@ struct Overflight {
       for (GroundPoint& point : points) point.distance_below_m += ramp.rise_m();
       if (prior) prior->covariance(0, 0) += ramp.variance_m2();
     }
-    last = filter.update(now, position_m, points, prior);
+    last = filter.update(now, position_m, points, prior, sees_slopes && ramp.onSlope());
+    if (last.floor_regained_m) regained_m = last.floor_regained_m;
     doubts += doubt.add(now, position_m, prior ? prior->velocity_m_s : vz_m_s, last.measurement) ? 1 : 0;
     if (last.measurement) ramp.measured();
     if (last.measurement) fusion.add(*last.measurement);

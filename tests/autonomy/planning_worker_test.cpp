@@ -126,6 +126,18 @@ TEST_F(Worker, MakesRoomForAPersonInTheDoor) {
   EXPECT_GT((answer.detour->path.points_map_m.back() - door).norm(), 1.5);
 }
 
+/// The west wall has an opening to the outside, where nothing is to be matched, and much more room.
+TEST_F(Worker, MakesRoomWhereThePositionIsKnown) {
+  build(20);
+  for (int y = -150; y < 230; ++y)
+    for (int x = -300; x < 0; ++x) grid->set({x, y}, -common::occupancy::kMaxSteps);
+  for (int y = 25; y < 55; ++y) grid->set({0, y}, -common::occupancy::kMaxSteps);
+  const auto answer = ask(DetourRequest{{6.0, 2.0}}, {{{4.0, 2.0}, 0.5}});
+  ASSERT_TRUE(answer.detour);
+  EXPECT_TRUE(answer.detour->makes_room);
+  EXPECT_GT(answer.detour->path.points_map_m.back().x(), 0.0);
+}
+
 TEST_F(Worker, FliesToSeeWhetherTheDoorIsStillBlocked) {
   build(0);
   for (int y = 30; y <= 50; ++y) grid->set({80, y}, -common::occupancy::kMaxSteps);
