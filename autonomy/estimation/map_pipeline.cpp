@@ -47,7 +47,7 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
 std::shared_ptr<const common::OccupancyGrid> MapPipeline::grid() {
   if (published_grid_version_ != grid_version_) {
     auto grid = std::make_shared<common::OccupancyGrid>(slam_->snapshot());
-    vacated_.clear(*grid);
+    vacated_.clear(*grid, [this](common::CellIndex cell) { return slam_->isLowObstacle(cell); });
     published_grid_ = std::move(grid);
     published_grid_version_ = grid_version_;
   }

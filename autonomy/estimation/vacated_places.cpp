@@ -135,9 +135,9 @@ bool VacatedPlaces::meet(const Beams& beams, Time now) {
   return changed;
 }
 
-void VacatedPlaces::clear(common::OccupancyGrid& grid) const {
+void VacatedPlaces::clear(common::OccupancyGrid& grid, const std::function<bool(CellIndex)>& is_kept) const {
   for (const auto& [x, y] : vacated_)
-    if (common::occupancy::isOccupied(grid.at({x, y}))) grid.set({x, y}, 0);
+    if (common::occupancy::isOccupied(grid.at({x, y})) && !is_kept({x, y})) grid.set({x, y}, 0);
 }
 
 }  // namespace swiftlet::autonomy

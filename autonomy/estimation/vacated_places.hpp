@@ -27,8 +27,8 @@ class VacatedPlaces {
   bool update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
               const common::OccupancyGrid& grid);
 
-  /// Makes the cells of vacated places free.
-  void clear(common::OccupancyGrid& grid) const;
+  /// Makes the cells of vacated places free, but for those that are to be kept.
+  void clear(common::OccupancyGrid& grid, const std::function<bool(common::CellIndex)>& is_kept) const;
 
  private:
   using Cell = std::pair<int, int>;

@@ -89,6 +89,9 @@ class PlanarSlam {
   virtual bool setFlightHeight(double height_m) = 0;
   /// What may touch the hull at flight height, as known now. Shares its tiles with the method's own map.
   virtual common::OccupancyGrid snapshot() = 0;
+  /// Whether something that ends below the plane of the laser certainly stands in the cell: beams that pass say nothing
+  /// of it. A method whose map has no heights knows of none.
+  virtual bool isLowObstacle(common::CellIndex) const { return false; }
 
   virtual const SlamCounts& counts() const = 0;
 

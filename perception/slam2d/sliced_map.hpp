@@ -49,6 +49,8 @@ class SlicedMap {
   /// What may touch the hull at flight height. A cell is occupied where any of the slices is, and free where at least
   /// one is free and none is occupied.
   common::OccupancyGrid atFlightHeight() { return combined_.snapshot(); }
+  /// Whether the cell is occupied by something that ends below the plane of the laser.
+  bool isLowObstacle(common::CellIndex cell) const { return low_.top(cell).has_value(); }
   /// A copy that shares its tiles.
   SlicedMap snapshot();
 

@@ -43,7 +43,7 @@ class VacatedPlacesStory : public testing::Test {
   }
   common::OccupancyGrid published() {
     common::OccupancyGrid grid = map_.snapshot();
-    places_.clear(grid);
+    places_.clear(grid, [this](common::CellIndex cell) { return kept_ && *kept_ == cell; });
     return grid;
   }
   bool occupiedAt(const Eigen::Vector2d& at_m) {
@@ -53,6 +53,7 @@ class VacatedPlacesStory : public testing::Test {
 
   common::OccupancyGrid map_ = common::makeOccupancyGrid(0.05);
   VacatedPlaces places_;
+  std::optional<common::CellIndex> kept_;
   common::Pose2 vehicle_;
   double now_s_ = 0.0, speed_m_s_ = 0.0;
 };
@@ -97,6 +98,14 @@ TEST_F(VacatedPlacesStory, TheTopOfATableJustBelowTheBeamsIsKept) {
   watch(2.0, true, -0.06F);
   watch(2.0, false);
   EXPECT_TRUE(occupiedAt({2.8, 0.0}));
+}
+
+TEST_F(VacatedPlacesStory, WhatTheMapKnowsToEndBelowTheBeamsIsKept) {
+  kept_ = map_.cellAt(2.8, 0.0);
+  watch(2.0, true);
+  watch(2.0, false);
+  EXPECT_TRUE(occupiedAt({2.8, 0.0}));
+  EXPECT_FALSE(occupiedAt({2.8, 0.2}));
 }
 
 TEST_F(VacatedPlacesStory, InFlightTheMapClearsItself) {
