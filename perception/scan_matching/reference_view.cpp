@@ -17,21 +17,27 @@ constexpr int kJoinedBins = 5;
 constexpr int kEndBins = 20;
 /// Points up to this far behind the end points count as seen, because walls are rough and poses err.
 constexpr double kBehind_m = 0.15;
-/// A normal is that of the line through the neighbours of a point. Shorter lines are noise; longer ones, or lines from
-/// which the point lies farther off than this share of their length, may lead from one surface to another.
-constexpr double kLeastLine_m = 0.08, kLongestLine_m = 1.0, kBend = 0.25;
+/// A normal is that of the line between the nearest points on either side that are so far away, over steps along one
+/// surface. Shorter lines are noise; a point that lies farther off its line than this share of its length is a corner.
+constexpr double kNormalReach_m = 0.10, kLongestStep_m = 0.6, kLeastLine_m = 0.08, kBend = 0.25;
 /// Sine of the angle by which a surface must face away: normals err.
 constexpr double kFacesAway = 0.17;
 
 /// The unit normal of the surface at a point, towards the laser at the origin; zero if it is not known.
 Eigen::Vector2d normalAt(std::span<const float> x_m, std::span<const float> y_m, std::size_t i) {
-  if (i == 0 || i + 1 >= x_m.size()) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d before(x_m[i - 1], y_m[i - 1]), here(x_m[i], y_m[i]), after(x_m[i + 1], y_m[i + 1]);
-  const Eigen::Vector2d line = after - before;
+  const auto at = [&](std::size_t k) { return Eigen::Vector2d(x_m[k], y_m[k]); };
+  const Eigen::Vector2d here = at(i);
+  std::size_t first = i, last = i;
+  while (first > 0 && (at(first) - here).norm() < kNormalReach_m && (at(first - 1) - at(first)).norm() < kLongestStep_m)
+    --first;
+  while (last + 1 < x_m.size() && (at(last) - here).norm() < kNormalReach_m &&
+         (at(last + 1) - at(last)).norm() < kLongestStep_m)
+    ++last;
+  const Eigen::Vector2d line = at(last) - at(first);
   const double length_m = line.norm();
-  if (!(length_m > kLeastLine_m && length_m < kLongestLine_m)) return Eigen::Vector2d::Zero();
+  if (!(length_m > kLeastLine_m)) return Eigen::Vector2d::Zero();
   const Eigen::Vector2d normal = Eigen::Vector2d(-line.y(), line.x()) / length_m;
-  if (std::abs(normal.dot(here - before)) > kBend * length_m) return Eigen::Vector2d::Zero();
+  if (std::abs(normal.dot(here - at(first))) > kBend * length_m) return Eigen::Vector2d::Zero();
   return normal.dot(here) > 0.0 ? Eigen::Vector2d(-normal) : normal;
 }
 
