@@ -97,6 +97,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.scan = project(scan);
   altitude_.removeGround(outcome.scan);
   const perception::ProjectedScan standing = withoutPeople(outcome.scan, scan.stamps.measured);
+  perception::markPeople(people_.movingAt(scan.stamps.measured), map_.T_map_odom() * planar(outcome.scan.T_odom_body),
+                         outcome.scan);
   const bool withheld = isWithheld(outcome.scan);
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
   outcome.matched = fuse(odometry);

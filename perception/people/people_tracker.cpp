@@ -64,6 +64,28 @@ std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {
   return result;
 }
 
+std::vector<Disc> PeopleTracker::movingAt(common::Time stamp) const {
+  constexpr double kMayTurn_m_s = 0.3;
+  std::vector<Disc> result;
+  for (const common::DynamicObstacle& o : obstacles()) {
+    if (!o.moving) continue;
+    const double age_s = std::max(0.0, (stamp - o.last_seen).seconds());
+    result.push_back(
+        {o.center_map_m + o.velocity_map_m_s * age_s, o.radius_m + 2.0 * kAround_m + kMayTurn_m_s * age_s});
+  }
+  return result;
+}
+
+void markPeople(std::span<const Disc> people, const Pose2& T_map_body, ProjectedScan& scan) {
+  scan.moves.clear();
+  if (people.empty()) return;
+  for (const Eigen::Vector2f& point_m : scan.points_level_m) {
+    const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(point_m.cast<double>());
+    scan.moves.push_back(
+        std::any_of(people.begin(), people.end(), [&](const Disc& disc) { return disc.covers(point_map_m); }));
+  }
+}
+
 ProjectedScan withoutPeople(std::span<const Disc> people, const Pose2& T_map_body, ProjectedScan scan) {
   if (people.empty()) return scan;
   std::vector<Eigen::Vector2f> points_level_m;

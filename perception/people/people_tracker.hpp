@@ -48,6 +48,8 @@ class PeopleTracker {
   bool anyMoves() const { return obstacles_.anyMoves(); }
   /// The obstacles seen just before `stamp`, predicted to it. Each disc covers the whole outline of a person.
   std::vector<common::Disc> expectedAt(common::Time stamp) const;
+  /// Those that move, also while they are not seen, predicted to `stamp`, with room for what they may do meanwhile.
+  std::vector<common::Disc> movingAt(common::Time stamp) const;
   /// Discs for the cost map: where the obstacles are and will soon be.
   std::vector<common::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 
@@ -58,6 +60,9 @@ class PeopleTracker {
   SeenPoints seen_;
   DynamicObstacles obstacles_;
 };
+
+/// Marks the end points on people (ProjectedScan::moves).
+void markPeople(std::span<const common::Disc> people, const common::Pose2& T_map_body, ProjectedScan& scan);
 
 /// The scan without its end points on people, whose motion would bias a match. If too few points would remain to match,
 /// the whole scan. Beams without return and mirror points stay.

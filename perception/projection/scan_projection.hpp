@@ -50,6 +50,8 @@ struct ProjectedScan {
   float laser_height_level_m = 0.0F;            ///< Height of the laser, where the beams begin, relative to the body.
   std::vector<Eigen::Vector2f> points_level_m;  ///< End points, in beam order.
   std::vector<float> heights_level_m;           ///< Height of each end point relative to the body.
+  /// Whether an end point is on something that moves, in the order of the end points; empty if nothing moves.
+  std::vector<bool> moves;
   /// For each beam that ended on floor or ceiling, the point where it leaves the height band in which "free" means free
   /// for the body, or else its end. Everything from the body to there is free. The third coordinate is the height
   /// relative to the body.

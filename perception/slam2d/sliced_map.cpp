@@ -83,8 +83,10 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
           withinRange(shortened(end, (band_m - from_m) / (height_m - from_m), from_m), config.max_hit_range_m));
     else if (range(end) > static_cast<float>(config.max_hit_range_m))
       add(drawn.free_level_m, withinRange(end, config.max_hit_range_m));
-    else if (add(drawn.hits_level_m, end))
+    else if (add(drawn.hits_level_m, end)) {
       drawn.incidences.push_back(incidenceAt(scan.points_level_m, i));
+      if (!scan.moves.empty()) drawn.moves.push_back(i < scan.moves.size() && scan.moves[i]);
+    }
   }
   for (const Eigen::Vector3f& end : scan.misses_level_m)
     if (end.allFinite()) add(drawn.free_level_m, withinRange(end, config.max_free_range_m));
@@ -165,13 +167,16 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   };
   for (const Eigen::Vector3f& end : scan.free_level_m) add(inCells(end), end.z(), false);
   ended_.clear();
+  moving_.clear();
   for (std::size_t i = 0; i < scan.hits_level_m.size(); ++i) {
     const Eigen::Vector3f& end = scan.hits_level_m[i];
     const Eigen::Vector2d to = inCells(end);
     add(to, end.z(), true, i < scan.incidences.size() ? scan.incidences[i] : Incidence::kUnknown);
     ended_.push_back(cellOf(to));
+    if (i < scan.moves.size() && scan.moves[i]) moving_.push_back(ended_.back());
   }
   std::sort(ended_.begin(), ended_.end(), rowByRow);
+  std::sort(moving_.begin(), moving_.end(), rowByRow);
   for (const Eigen::Vector3f& end : scan.no_returns_level_m) {
     const Eigen::Vector2d to = inCells(end);
     const Eigen::Vector2d seen = beforeWall(body, to, [&](CellIndex cell) { return isWall(cell); });
@@ -247,6 +252,7 @@ bool SlicedMap::meetLow(int slice, CellIndex cell) {
     low_.reachesUp(cell);
     return false;
   }
+  if (std::binary_search(moving_.begin(), moving_.end(), cell, rowByRow)) return false;
   const auto level = slices_.find(laser_slice_);
   for (int dy = -1; level != slices_.end() && dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)

@@ -26,6 +26,7 @@ struct DrawnScan {
   float laser_height_m = 0.0F;  ///< Above the body: there the beams begin.
   std::vector<Eigen::Vector3f> hits_level_m;
   std::vector<Incidence> incidences;                ///< Of the hits; those that are missing are unknown.
+  std::vector<bool> moves;                          ///< Of the hits: on something that moves; missing ones are not.
   std::vector<Eigen::Vector3f> free_level_m;        ///< Ends of beams' free parts, where the end itself is not drawn.
   std::vector<Eigen::Vector3f> no_returns_level_m;  ///< Ends of beams without return; drawn up to a wall.
 };
@@ -94,6 +95,7 @@ class SlicedMap {
   int laser_slice_ = 0;  ///< The one of the laser.
   std::map<int, std::vector<Ray>> rays_;
   std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
+  std::vector<common::CellIndex> moving_;           ///< Of these, those with something that moves; sorted.
   Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
   common::CellRect rect_;
   std::vector<std::uint32_t> marks_;

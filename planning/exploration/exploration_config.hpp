@@ -20,7 +20,7 @@ struct ExplorationConfig {
   double localizability_weight = 0.3;
   double least_wall_share = 0.55;
   double wall_range_m = 25.0;
-  double open_m = 8.0;
+  double open_m = 5.0;
   double max_unheld_m = 4.0;
   double lost_radius_m = 4.0;
   int max_attempts = 3;

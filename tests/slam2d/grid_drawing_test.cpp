@@ -266,6 +266,20 @@ TEST(GridDrawing, BeamsUnderATableDoNotEraseIt) {
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
 }
 
+TEST(GridDrawing, WhatMovesIsNoLowObstacle) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  DrawnScan walker = over(0.15, 1.0);
+  walker.moves.assign(walker.hits_level_m.size(), true);
+  Watching watching(map);
+  for (int pass = 0; pass < 4; ++pass) {
+    watching.draw(over(0.0, 1.0), 5.0);
+    watching.draw(walker, 0.5);
+  }
+  watching.draw(over(0.0, 1.0), 90.0);
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+}
+
 TEST(GridDrawing, SomebodyWhoComesTwiceDoesNotStay) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
