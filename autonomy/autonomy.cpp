@@ -150,7 +150,8 @@ common::Setpoint Autonomy::tick(Time now) {
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
-  estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
+  estimator_.setBelowMap(executor_.dip_m());
+  estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying && executor_.dip_m() == 0.0);
   followMapHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;

@@ -64,19 +64,20 @@ void Executor::followHeight() {
   if (!memory_.lowered_m) return;
   const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
   const bool planned = path != nullptr && path->plan() != nullptr && path->plan()->anyLowered();
-  if (controller_.state() != common::FlightState::kFlying || (!planned && dip_m() <= kBackUp_m)) {
+  if (controller_.state() != common::FlightState::kFlying || (!planned && dip_m() == 0.0)) {
     memory_.lowered_m.reset();
     return;
   }
   const Eigen::Vector2d here_map_m = state_.T_map_body_planar().position_m();
   auto& places = memory_.lowered_map_m;
-  if (dip_m() > kBackUp_m && (places.empty() || (places.back().head<2>() - here_map_m).norm() > kSpacing_m))
+  if (dip_m() > 0.0 && (places.empty() || (places.back().head<2>() - here_map_m).norm() > kSpacing_m))
     places.emplace_back(here_map_m.x(), here_map_m.y(), *memory_.lowered_m);
 }
 
 double Executor::dip_m() const {
   if (!memory_.lowered_m) return 0.0;
-  return std::max(0.0, memory_.cruise_height_m - controller_.reference().position_odom_m.z());
+  const double dip_m = memory_.cruise_height_m - controller_.reference().position_odom_m.z();
+  return dip_m > kBackUp_m ? dip_m : 0.0;
 }
 
 bool Executor::isLower() const {
