@@ -32,7 +32,8 @@ void GrootLink::answer(const std::stop_token& stop) {
     if (const std::uint64_t newest = world_.sequence(); newest != seen) {
       seen = newest;
       const auto world = world_.read();
-      monitor.update(world->mission->status.tree, world->stamp);
+      const common::MissionStatus& mission = world->mission->status;
+      monitor.update(mission.name, mission.tree, world->stamp);
     }
     server_.serve(monitor, kGrootPatience_ms);
   }

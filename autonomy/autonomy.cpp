@@ -57,6 +57,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       inertial_(config.inertial, config.control.position.attitude_lag_s),
       given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
+      lower_obstacles_(vehicle.hull_height_m),
       assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
@@ -149,7 +150,8 @@ common::Setpoint Autonomy::tick(Time now) {
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
-  estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
+  estimator_.setBelowMap(executor_.dip_m());
+  estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying && executor_.dip_m() == 0.0);
   followMapHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;
@@ -168,10 +170,11 @@ void Autonomy::tellInertialInput(const common::Setpoint& setpoint, bool thrust_a
 }
 
 /// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
-/// shown, and neither does a landing.
+/// shown, and neither do a landing and a flight below something, behind which the path rises again.
 void Autonomy::followMapHeight(double height_m) {
   if (controller_.state() == FlightState::kTakingOff) map_height_m_ = height_m;
-  if (controller_.state() == FlightState::kFlying) map_height_m_ = controller_.reference().position_odom_m.z();
+  if (controller_.state() == FlightState::kFlying)
+    map_height_m_ = controller_.reference().position_odom_m.z() + executor_.dip_m();
   if (control::isAirborne(controller_.state())) estimator_.setFlightHeight(map_height_m_);
 }
 
@@ -216,12 +219,12 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   drift_m_ = outcome->drift_m;
 
   const common::VehicleState state = estimator_.state();
-  const auto cost_map = executor_.desk().costMap();
+  const auto cost_map = executor_.costMapHere();
   const auto& decision =
       reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(), drift_m_,
                         estimator_.people().obstacles(),
                         assisted_ ? assist_.wantedVelocity_map_m_s(state) : executor_.wantedVelocity_map_m_s(),
-                        cost_map.get(), camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),
+                        cost_map.get(), obstaclesOfCamera().pointsNear_level_m(outcome->T_map_body, kNear_m),
                         requests_.keepOut().edgesNear_level_m(outcome->T_map_body, kNear_m)});
   executor_.react(decision, state);
 
@@ -247,15 +250,23 @@ void Autonomy::tickBehaviors(Time now) {
   std::shared_ptr<const common::LevelMap> surfaces;
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
-  camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), estimator_.state().T_odom_body.position_m.z());
+  updateCameraObstacles();
   executor_.tick(intent_,
                  {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
                   estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
                   supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(), &estimator_.people().seen(),
-                  requests_.keepOut().zones(), common::PlaceNames::in(given_map_.T_map_given())});
+                  requests_.keepOut().zones(), common::PlaceNames::in(given_map_.T_map_given()), estimator_.map3d()});
   const bool knows_walls = drift_m_ < config_.supervisor.drift_back_m;
   controller_.setEscape(knows_walls ? executor_.escape_map_m(estimator_.state())
                                     : Eigen::Vector2d(Eigen::Vector2d::Zero()));
+}
+
+/// Paths are planned at the height of flight, also while the vehicle is below something; what it brakes for is at its
+/// own height.
+void Autonomy::updateCameraObstacles() {
+  const double height_m = estimator_.state().T_odom_body.position_m.z(), dip_m = executor_.dip_m();
+  camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), height_m + dip_m);
+  if (dip_m > 0.0) lower_obstacles_.update(estimator_.map3d(), given_map_.grid(), height_m);
 }
 
 /// The supervisor's intent comes before the mission's.

@@ -145,6 +145,10 @@ class Autonomy {
   void tellInertialInput(const common::Setpoint& setpoint, bool thrust_applies);
   void prepare();
   void tickBehaviors(common::Time now);
+  void updateCameraObstacles();
+  const CameraObstacles& obstaclesOfCamera() const {
+    return executor_.dip_m() > 0.0 ? lower_obstacles_ : camera_obstacles_;
+  }
   common::Intent nextIntent(common::Time now);
   void fillContext(const Supervision& supervision, common::Time now);
   void endMission(const std::string& reason, common::Time now);
@@ -177,6 +181,7 @@ class Autonomy {
   InertialInput inertial_;
   GivenMapOverlay given_map_;
   CameraObstacles camera_obstacles_;
+  CameraObstacles lower_obstacles_;  ///< At the height of the vehicle while that is below the height of flight.
   PilotAssist assist_;
   bool assisted_ = false;  ///< At the last tick.
   double last_thrust_ = 0.0;

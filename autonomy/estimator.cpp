@@ -125,8 +125,9 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
   outcome.drift_m = drift_m_ = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid(),
-                 localizer_ ? localizer_->background(map_.T_map_odom()) : std::nullopt);
-  if (outcome.matched) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
+                 localizer_ ? localizer_->background(map_.T_map_odom()) : std::nullopt, below_map_m_);
+  // Beams that pass below a beam do not show that it is gone.
+  if (outcome.matched && below_map_m_ == 0.0) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
   reportHealth(now);
   return outcome;
 }

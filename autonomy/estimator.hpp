@@ -110,6 +110,8 @@ class Estimator {
   bool ready() const { return filter_.initialized(); }
   /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
+  /// So much lower than the height of the map the vehicle flies, below something that hangs over its way.
+  void setBelowMap(double below_m) { below_map_m_ = below_m; }
   /// While true, the filter assumes that the vehicle stands still.
   void setAtRest(bool at_rest);
   /// Hears all that the filter is told from now on; null for none. It must outlive the estimator.
@@ -204,6 +206,7 @@ class Estimator {
   double drift_m_ = 0.0;      ///< Of the last scan.
   common::Time height_seen_;  ///< When the last scan that measured the surface below was.
   bool at_flight_height_ = false;
+  double below_map_m_ = 0.0;
   bool imu_seen_ = false;
   bool waiting_said_ = false;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;

@@ -54,6 +54,10 @@ class Executor {
   /// From where the vehicle can stop to the place near it that is farthest from the walls; see
   /// FlightController::setEscape.
   Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
+  /// How much lower than its paths' height the vehicle flies, below something; else 0.
+  double dip_m() const;
+  /// The newest cost map of the height at which the vehicle is; null before the first.
+  std::shared_ptr<const planning::CostMap> costMapHere() const;
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 
@@ -62,6 +66,8 @@ class Executor {
  private:
   void begin(const common::Intent& intent);
   void note(const Progress& progress);
+  void followHeight();
+  bool isLower() const;
   void receive(const PlanningAnswer& answer, common::Time now);
   PlanningClient client() const;
 

@@ -1,6 +1,7 @@
 // How intents are carried out: planning, exploring, arriving, and detours while there is no path.
 #pragma once
 
+#include "autonomy/lower_flight_config.hpp"
 #include "autonomy/maneuvers/follow_config.hpp"
 #include "common/config_fwd.hpp"
 #include "planning/costs/cost_map.hpp"
@@ -30,6 +31,7 @@ struct ExecutorConfig {
   double detour_after_s = 2.5;
   double detour_s = 15.0;
   FollowConfig follow;
+  LowerFlightConfig lower;
 
   void describe(common::config::Fields& fields);
 };

@@ -15,7 +15,7 @@ PlanningDesk::PlanningDesk(const ExecutorConfig& config, const common::VehicleCo
       hull_radius_m_(vehicle.hullRadius_m()),
       jobs_(jobs),
       deliver_(std::move(deliver)),
-      worker_(std::make_shared<PlanningWorker>(config, grid_resolution_m)),
+      worker_(std::make_shared<PlanningWorker>(config, grid_resolution_m, vehicle.hull_height_m)),
       frontiers_(std::make_shared<std::vector<common::Frontier>>()) {}
 
 void PlanningDesk::ask(const ManeuverInput& input, const PlanningClient& client, PlanningQuestion question) {
@@ -26,6 +26,7 @@ void PlanningDesk::ask(const ManeuverInput& input, const PlanningClient& client,
   request.discs = input.discs;
   request.keep_out = input.keep_out;
   request.footprint = {hull_radius_m_, client.clearance_m};
+  request.map3d = input.map3d;
   request.names = input.names;
   request.T_map_body = input.state.T_map_body_planar();
   request.question = std::move(question);
@@ -44,6 +45,7 @@ void PlanningDesk::refresh(const ManeuverInput& input, const PlanningClient& cli
 void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {
   cost_map_ = answer.cost_map;
   goal_map_ = planning::goalMapOf(cost_map_);
+  if (answer.heights) heights_ = answer.heights;
   if (answer.exploration) {
     frontiers_ = std::make_shared<std::vector<common::Frontier>>(answer.exploration->frontiers);
     explored_area_m2_ = answer.exploration->explored_area_m2;

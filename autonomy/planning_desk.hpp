@@ -42,6 +42,8 @@ class PlanningDesk {
 
   /// The newest cost map; null before the first answer.
   std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }
+  /// The newest cost maps of paths at two heights; null before the first such path was asked for.
+  std::shared_ptr<const planning::TwoHeights> heights() const { return heights_; }
   /// The newest cost map for judging goals; null before the first answer.
   std::shared_ptr<const common::GoalMap> goalMap() const { return goal_map_; }
   /// The frontiers found by the last exploration request; never null.
@@ -61,6 +63,7 @@ class PlanningDesk {
   std::shared_ptr<PlanningWorker> worker_;
   std::optional<common::Time> last_request_;
   std::shared_ptr<const planning::CostMap> cost_map_;
+  std::shared_ptr<const planning::TwoHeights> heights_;
   std::shared_ptr<const common::GoalMap> goal_map_;
   std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
   double explored_area_m2_ = 0.0;

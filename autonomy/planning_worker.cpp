@@ -30,7 +30,8 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   answer.intent_id = request.intent_id;
   answer.cost_map = std::make_shared<const planning::CostMap>(map_);
   if (const auto* goal = std::get_if<GoalRequest>(&request.question)) {
-    answer.path = goTo(*goal, request.T_map_body.position_m());
+    if (!goal->height.isLower() || !request.map3d) answer.path = goTo(*goal, request.T_map_body.position_m());
+    goLower(request, *goal, layers, answer);
   } else if (const auto* blocked = std::get_if<DetourRequest>(&request.question)) {
     answer.detour = detour(*blocked, request.discs, request.T_map_body.position_m());
   } else if (const auto* explore_request = std::get_if<ExploreRequest>(&request.question)) {
@@ -114,6 +115,27 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const G
   const auto place = goalPlace(goal);
   if (!place) return tl::make_unexpected(place.error());
   return plan(position_map_m, *place);
+}
+
+/// A path that is flown lower, where there is none at the height of flight, or only a great detour. A vehicle that is
+/// lower already plans at both heights.
+void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& goal,
+                             const planning::CostLayers& layers, PlanningAnswer& answer) {
+  const Eigen::Vector2d here = request.T_map_body.position_m();
+  const auto& direct = answer.path;
+  const double straight_m = (goal.goal_map_m - here).norm();
+  if (direct && *direct && (*direct)->cost_m < straight_m + lower_detour_m_) return;
+  if (direct && !*direct && direct->error().reason == planning::PlanFailure::Reason::kGoalKeptOut) return;
+  if (!request.map3d) return;
+  auto lower = lower_.plan({*request.map3d, *request.grid, request.footprint, layers, request.names, goal.height, here,
+                            goal.goal_map_m, goal.tolerance_m});
+  // Space that the laser has not seen is flown through only below something, and on the way up behind it.
+  if (lower && !lower->anyLowered() && !goal.height.lowered_m) return;
+  answer.heights = lower_.maps();
+  if (lower && direct && *direct && lower->cost_m + lower_detour_m_ > (*direct)->cost_m) return;
+  if (!lower && direct) return;
+  if (lower) ++paths_;
+  answer.path = std::move(lower);
 }
 
 std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,

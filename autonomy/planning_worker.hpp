@@ -11,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include "autonomy/executor_config.hpp"
+#include "autonomy/lower_planner.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/place_names.hpp"
@@ -26,6 +27,7 @@ namespace swiftlet::autonomy {
 struct GoalRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   double tolerance_m = 0.0;  ///< If the goal is not free, a free place within it may replace the goal.
+  HeightState height = {};
 };
 struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
@@ -51,7 +53,8 @@ struct PlanningRequest {
   std::vector<common::Disc> discs;
   std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null: none.
   planning::Footprint footprint;
-  common::PlaceNames names;  ///< For the texts of the answer.
+  std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without one: paths then keep their height.
+  common::PlaceNames names;                         ///< For the texts of the answer.
   common::Pose2 T_map_body;
   PlanningQuestion question;
 };
@@ -74,6 +77,8 @@ struct PlanningAnswer {
   std::shared_ptr<const planning::CostMap> cost_map;
   /// For a GoalRequest the path to the goal, for an ExploreRequest the path to the viewpoint it found.
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
+  /// The cost maps of a path that is flown at two heights, as long as such paths are asked for; else null.
+  std::shared_ptr<const planning::TwoHeights> heights;
   std::optional<DetourPlan> detour;                        ///< For a DetourRequest; none if no place was found.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
   std::optional<double> home_m;                            ///< Length of the path home; none if there is none.
@@ -83,8 +88,10 @@ struct PlanningAnswer {
 /// Used by one job at a time. An answer depends only on the requests so far.
 class PlanningWorker {
  public:
-  PlanningWorker(const ExecutorConfig& config, double resolution_m)
+  PlanningWorker(const ExecutorConfig& config, double resolution_m, double hull_height_m = 0.25)
       : map_(config.cost_map, resolution_m),
+        lower_(config.lower, config.cost_map, resolution_m, hull_height_m),
+        lower_detour_m_(config.lower.detour_m),
         explorer_(planning::makeExplorer(config.explorer, config.exploration)),
         planner_(planning::makePlanner(config.planner)),
         exploration_(config.exploration) {}
@@ -97,6 +104,8 @@ class PlanningWorker {
   tl::expected<Eigen::Vector2d, planning::PlanFailure> goalPlace(const GoalRequest& goal) const;
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
+  void goLower(const PlanningRequest& request, const GoalRequest& goal, const planning::CostLayers& layers,
+               PlanningAnswer& answer);
   std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                    const Eigen::Vector2d& position_map_m);
   void explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer);
@@ -104,6 +113,8 @@ class PlanningWorker {
   std::optional<double> pathHome_m(const Eigen::Vector2d& position_map_m);
 
   planning::CostMap map_;
+  LowerPlanner lower_;
+  double lower_detour_m_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
   std::unique_ptr<planning::Explorer> explorer_;
   std::unique_ptr<planning::Planner> planner_;

@@ -33,6 +33,12 @@ struct FollowMemory {
 struct FlightMemory {
   /// Height of paths over the take-off floor: that of the take-off until a goal names another.
   double cruise_height_m = 1.0;
+  /// The lower height of the plan that leads below something; none once the vehicle is back at the height of paths.
+  std::optional<double> lowered_m;
+  /// Where the vehicle flew lower, and how high over the take-off floor: a flight back along the trail flies there as
+  /// low.
+  std::vector<Eigen::Vector3d> lowered_map_m;
+  bool told_laser_alone = false;  ///< That a laser cannot know whether there is room below.
   ExplorationMemory exploration;
   FollowMemory follow;
   std::optional<Eigen::Vector2d> person_map_m;  ///< Where the person who is, or was, followed was last believed.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -60,6 +61,7 @@ std::string GoTo::reached(const common::PlaceNames& names) const {
 }
 
 Progress GoTo::fly(const ManeuverInput& input) {
+  sees_heights_ = input.map3d != nullptr;
   if (flight_.arrived(input, place_map_m_, intent_.tolerance_m) && looksAsAsked(input.state))
     return Progress::done(reached(input.names));
   if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());
@@ -78,6 +80,15 @@ Progress GoTo::fly(const ManeuverInput& input) {
     flight_.ask(input, GoalRequest{intent_.goal_map_m, std::max(intent_.tolerance_m, intent_.instead_within_m)});
   }
   return Progress::running();
+}
+
+/// A laser sees one plane: what blocks the way there may be a beam with room for the hull below.
+void GoTo::tellLaserAlone(Time now, const planning::PlanFailure& failure) {
+  using Reason = planning::PlanFailure::Reason;
+  const bool may_hang = failure.reason == Reason::kUnreachable || failure.reason == Reason::kGoalUnseen;
+  if (sees_heights_ || !may_hang || std::exchange(setup_.memory.told_laser_alone, true)) return;
+  setup_.memory.say(now, common::Severity::kInfo, "whether there is room below what blocks the way is not known",
+                    "no camera makes a 3D map");
 }
 
 /// The laser does not see behind the vehicle: one that has gone aside and waits there with its back to the blockage
@@ -102,6 +113,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
 Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
   if (!no_path_) {
     setup_.memory.say(now, common::Severity::kWarning, "no path to the goal at present", failure.text);
+    tellLaserAlone(now, failure);
     no_path_ = NoPath{now, failure};
   }
   no_path_->failure = failure;

@@ -13,6 +13,7 @@
 #include "common/polygon.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "perception/people/people_tracker.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/costs/cost_map.hpp"
@@ -35,6 +36,7 @@ struct ManeuverInput {
   const perception::SeenPoints* seen = nullptr;      ///< By the newest scan; null before the first one.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
   common::PlaceNames names = {};                                      ///< For texts.
+  std::shared_ptr<const common::Map3dLayer> map3d = {};               ///< Null without an RGB-D camera.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
 };

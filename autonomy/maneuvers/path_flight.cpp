@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
 
 namespace swiftlet::autonomy {
 
@@ -23,11 +27,17 @@ PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
       mode_(mode),
       keeper_(setup.config.plan_keeper) {}
 
+void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question) {
+  if (auto* goal = std::get_if<GoalRequest>(&question))
+    goal->height = {memory_.cruise_height_m, controller_.reference().position_odom_m.z(), memory_.lowered_m};
+  desk_.ask(input, client_, std::move(question));
+}
+
 bool PathFlight::keep(const ManeuverInput& input) {
   const auto cost_map = desk_.costMap();
   if (!cost_map || !plan()) return true;
   const auto check =
-      keeper_.check(input.now, *cost_map, input.position_map_m(),
+      keeper_.check(input.now, mapsOf(*cost_map), input.position_map_m(),
                     controller_.brakingDistance_m(mode_, input.state.velocity_odom_m_s.head<2>().norm()));
   if (!check.valid) {
     memory_.say(input.now, common::Severity::kInfo, "plan given up", check.reason);
@@ -40,14 +50,42 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   const auto cost_map = desk_.costMap();
   if (!cost_map) return;
   if (!plan()) keeper_.clear();  // A plan that is no longer followed is dropped.
-  if (!keeper_.offer(path, now, *cost_map, state.T_map_body_planar().position_m())) return;
+  if (!keeper_.offer(path, now, mapsOf(*cost_map), state.T_map_body_planar().position_m())) return;
+  if (path.anyLowered()) {
+    if (!memory_.lowered_m)
+      memory_.say(now, common::Severity::kInfo, fmt::format("flies at {:.2f} m for a while", path.lower_height_m),
+                  fmt::format("something hangs over the way at {:.2f} m", memory_.cruise_height_m));
+    memory_.lowered_m = path.lower_height_m;
+  }
   control::FlightPath flown;
-  for (const Eigen::Vector2d& point : path.points_map_m)
-    flown.points_map_m.emplace_back(point.x(), point.y(), memory_.cruise_height_m);
+  flown.points_map_m = liftedPoints(path);
   flown.mode = mode_;
   flown.goal_yaw_map_rad = goal_yaw_map_rad_;
   (void)controller_.follow(flown);
   pace_m_s_ = std::numeric_limits<double>::infinity();
+}
+
+/// The points with their heights; where the height changes, the same place twice. A vehicle that is not at the height
+/// of the first line changes it before it moves on. A path of one height that begins where the hull does not fit at
+/// that height (below a beam) leaves that place as low as the vehicle is.
+std::vector<Eigen::Vector3d> PathFlight::liftedPoints(const planning::Path& path) const {
+  const auto& points = path.points_map_m;
+  const double here_m = controller_.reference().position_odom_m.z();
+  const bool leaves_lower =
+      HeightState{memory_.cruise_height_m, here_m, memory_.lowered_m}.isLower() && path.lowered.empty();
+  const auto heightOf = [&](std::size_t line) {
+    if (leaves_lower && line < path.escape_points) return *memory_.lowered_m;
+    return path.isLowered(line) ? path.lower_height_m : memory_.cruise_height_m;
+  };
+  std::vector<Eigen::Vector3d> lifted;
+  const auto add = [&](std::size_t i, double height_m) { lifted.emplace_back(points[i].x(), points[i].y(), height_m); };
+  if (memory_.lowered_m) add(0, here_m);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1, after = i + 1 < points.size() ? i : before;
+    add(i, heightOf(before));
+    if (heightOf(after) != heightOf(before)) add(i, heightOf(after));
+  }
+  return lifted;
 }
 
 void PathFlight::setPace(double speed_m_s) {
@@ -64,7 +102,7 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
   const Eigen::Vector3d position_map_m = input.state.T_map_body().position_m;
   const bool within =
       (position_map_m.head<2>() - goal_map_m).norm() < tolerance_m &&
-      std::abs(position_map_m.z() - memory_.cruise_height_m - controller_.lift_m()) < std::max(0.10, tolerance_m) &&
+      std::abs(position_map_m.z() - endHeight_m() - controller_.lift_m()) < std::max(0.10, tolerance_m) &&
       input.state.velocity_odom_m_s.norm() < config_.arrival_speed_m_s;
   if (!within) {
     within_since_.reset();
@@ -72,6 +110,13 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
   }
   if (!within_since_) within_since_ = input.now;
   return (input.now - *within_since_).seconds() >= config_.arrival_s;
+}
+
+/// A plan whose goal is free only at the lower height ends there.
+double PathFlight::endHeight_m() const {
+  const planning::Path* flown = plan();
+  const bool lower = flown != nullptr && !flown->lowered.empty() && flown->lowered.back();
+  return lower ? flown->lower_height_m : memory_.cruise_height_m;
 }
 
 std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {

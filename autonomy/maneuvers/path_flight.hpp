@@ -24,7 +24,7 @@ class PathFlight {
   PathFlight(const ManeuverSetup& setup, common::FlightMode mode);
 
   bool mayAsk() const { return desk_.free(); }
-  void ask(const ManeuverInput& input, PlanningQuestion question) { desk_.ask(input, client_, std::move(question)); }
+  void ask(const ManeuverInput& input, PlanningQuestion question);
 
   /// Call it once a tick. Stops if the plan has become invalid on the present cost map; true if a new plan is needed.
   bool keep(const ManeuverInput& input);
@@ -51,6 +51,10 @@ class PathFlight {
   Eigen::Vector2d wantedVelocity_map_m_s() const;
 
  private:
+  planning::PlanMaps mapsOf(const planning::CostMap& costs) const { return {costs, desk_.heights().get()}; }
+  std::vector<Eigen::Vector3d> liftedPoints(const planning::Path& path) const;
+  double endHeight_m() const;
+
   const ExecutorConfig& config_;
   control::FlightController& controller_;
   PlanningDesk& desk_;

@@ -73,9 +73,18 @@ void Retrace::follow(const ManeuverInput& input) {
   path.erase(path.begin(), path.end() - std::ssize(remaining(input.position_map_m())));
   control::FlightPath flown;
   flown.mode = kMode;
-  for (const Eigen::Vector2d& point : straightened(path))
-    flown.points_map_m.emplace_back(point.x(), point.y(), setup_.memory.cruise_height_m);
+  for (const Eigen::Vector2d& point : straightened(path)) flown.points_map_m.push_back(atItsHeight(point));
   following_ = setup_.controller.follow(flown).has_value();
+}
+
+/// Where it flew below something, the vehicle is as low again, from the place on where it had come down.
+Eigen::Vector3d Retrace::atItsHeight(const Eigen::Vector2d& point_map_m) const {
+  // As far as the corners of a straightened path are apart.
+  constexpr double kNear_m = 1.0;
+  double height_m = setup_.memory.cruise_height_m;
+  for (const Eigen::Vector3d& lowered : setup_.memory.lowered_map_m)
+    if ((lowered.head<2>() - point_map_m).norm() < kNear_m) height_m = std::min(height_m, lowered.z());
+  return {point_map_m.x(), point_map_m.y(), height_m};
 }
 
 /// The path from its point nearest to a place on.

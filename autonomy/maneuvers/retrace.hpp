@@ -22,6 +22,7 @@ class Retrace final : public Maneuver {
  private:
   std::span<const Eigen::Vector2d> remaining(const Eigen::Vector2d& from_map_m) const;
   void follow(const ManeuverInput& input);
+  Eigen::Vector3d atItsHeight(const Eigen::Vector2d& point_map_m) const;
   void keepOut(const std::vector<common::Polygon>& zones);
 
   ManeuverSetup setup_;

@@ -10,6 +10,9 @@
 namespace swiftlet::tree {
 namespace {
 
+constexpr const char* kIntoSequence = "put them into a <Sequence>";
+constexpr const char* kComment = "a comment is written as <!-- text -->";
+
 /// Types of BehaviorTree.CPP that this engine does not have, with what to write instead.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kElsewhere = {
     {{"ConsumeQueue", "use LoopDouble, LoopInt, LoopBool or LoopString"},
@@ -62,12 +65,11 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
   if (registry_.find(id) != nullptr)
     report({document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type", {}});
   if (element.children.size() != 1)
-    report({document.at(element),
-            element.name,
+    report({document.at(element), element.name,
             "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
-            {}});
+            element.children.empty() ? "" : kIntoSequence});
   if (element.text_offset)
-    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
+    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", kComment});
   for (const XmlElement& child : element.children) checkElement(document, child);
 }
 
@@ -81,7 +83,7 @@ void Checker::checkElement(const Document& document, const XmlElement& element) 
   else
     checkUnknown(document, element);
   if (element.text_offset)
-    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
+    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", kComment});
   for (const XmlElement& child : element.children) checkElement(document, child);
   open_.pop_back();
 }
@@ -231,10 +233,9 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
   const std::string expected = manifest.kind == NodeKind::kControl     ? "at least 1"
                                : manifest.kind == NodeKind::kDecorator ? "exactly 1"
                                                                        : "none";
-  report({document.at(element),
-          manifest.id,
+  report({document.at(element), manifest.id,
           "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " + expected,
-          {}});
+          manifest.kind == NodeKind::kDecorator && children > 1 ? kIntoSequence : ""});
 }
 
 /// Opens the elements from `from` down to `wanted`; false, with none opened, if it is not below.
@@ -278,7 +279,8 @@ void Checker::checkRecursion() {
       open_.clear();
       for (const XmlElement& child : documents_.trees.find(tree_id_)->second.element->children)
         if (openUpTo(child, use.element)) break;
-      report({use.document->at(*use.element), "SubTree", "the tree contains itself: " + chain + used, {}});
+      report({use.document->at(*use.element), "SubTree", "the tree contains itself: " + chain + used,
+              "a <Repeat> around it runs a tree again"});
       open_.clear();
     }
   }

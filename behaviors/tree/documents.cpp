@@ -112,7 +112,8 @@ bool Documents::checkRoot(const Document& document) {
       problems_.add({document.at(root, attribute.name), "root", "unknown attribute `" + attribute.name + "`",
                      didYouMean(attribute.name, known)});
   if (root.text_offset)
-    problems_.add({document.source.locate(*root.text_offset), "root", "text is not expected here", {}});
+    problems_.add({document.source.locate(*root.text_offset), "root", "text is not expected here",
+                   "a comment is written as <!-- text -->"});
   return true;
 }
 
@@ -184,13 +185,15 @@ void Documents::include(const Document& document, const XmlElement& element, con
   if (std::find(open_.begin(), open_.end(), target) != open_.end()) {
     std::string chain;
     for (const std::string& file : open_) chain += file + " -> ";
-    problems_.add({document.at(element), "include", "files include each other: " + chain + target, {}});
+    problems_.add(
+        {document.at(element), "include", "files include each other: " + chain + target, "take this one out"});
     return;
   }
   if (seen_.contains(target)) return;
   auto text = read_file_(target);
   if (!text) {
-    problems_.add({document.at(element, "path"), "include", "`" + target + "` cannot be read", {}});
+    problems_.add({document.at(element, "path"), "include", "`" + target + "` cannot be read",
+                   "a path begins at the folder of the file that includes"});
     return;
   }
   add(std::move(*text), target, &document, &element);
@@ -211,10 +214,9 @@ void Documents::addTree(const Document& document, const XmlElement& element, boo
   const auto [other, is_new] = trees.try_emplace(name, TreeDefinition{&document, &element});
   if (is_new) return;
   const Location first = other->second.document->at(*other->second.element);
-  problems_.add({document.at(element),
-                 element.name,
+  problems_.add({document.at(element), element.name,
                  "`" + name + "` is defined twice, first at " + toString(Problem{first, {}, {}, {}}),
-                 {}});
+                 "give one of them another ID"});
 }
 
 void Documents::readModel(const Document& document, const XmlElement& element) {
@@ -240,19 +242,20 @@ void Documents::findMain(const Document& document) {
   for (const auto& [id, tree] : trees) ids.push_back(id);
   const std::string* wanted = root.attribute("main_tree_to_execute");
   if (wanted == nullptr && trees.size() != 1) {
-    problems_.add({document.at(root),
-                   "root",
+    problems_.add({document.at(root), "root",
                    trees.empty() ? "there is no <BehaviorTree>"
                                  : "main_tree_to_execute is missing, expected where there are several trees",
-                   {}});
+                   trees.empty() ? "" : "write main_tree_to_execute=\"" + ids.front() + "\" for that one"});
     return;
   }
   main_id = wanted == nullptr ? ids.front() : *wanted;
+  const std::string near = didYouMean(main_id, ids);
+  const std::string hint = near.empty() && !ids.empty() ? "the first one here is `" + ids.front() + "`" : near;
   if (const auto found = trees.find(main_id); found != trees.end())
     main = &found->second;
   else
-    problems_.add({document.at(root, "main_tree_to_execute"), "root",
-                   "there is no <BehaviorTree ID=\"" + main_id + "\">", didYouMean(main_id, ids)});
+    problems_.add(
+        {document.at(root, "main_tree_to_execute"), "root", "there is no <BehaviorTree ID=\"" + main_id + "\">", hint});
 }
 
 }  // namespace swiftlet::tree

@@ -78,13 +78,14 @@ class Reader {
     if (encoding != nullptr) static_cast<Reader*>(self)->declared_encoding_ = encoding;
   }
   static void onDoctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-    static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported");
+    static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported",
+                                     "take it out, and write its entities as the text they stand for");
   }
 
   void open(const XML_Char* name, const XML_Char** attributes) {
     if (problem_) return;
     if (static_cast<int>(open_.size()) >= max_depth_) {
-      stop(name, "elements are nested deeper than " + std::to_string(max_depth_));
+      stop(name, "elements are nested deeper than " + std::to_string(max_depth_), "take levels out");
       return;
     }
     XmlElement& element = open_.empty() ? root_.emplace() : open_.back().element->children.emplace_back();
@@ -107,9 +108,9 @@ class Reader {
     if (first != std::string_view::npos) open_.back().element->text_offset = offset() + first;
   }
 
-  void stop(std::string element, std::string message) {
+  void stop(std::string element, std::string message, std::string hint) {
     if (problem_) return;
-    problem_ = Problem{source_.locate(offset()), std::move(element), std::move(message), {}};
+    problem_ = Problem{source_.locate(offset()), std::move(element), std::move(message), std::move(hint)};
     XML_StopParser(parser_.get(), XML_FALSE);
   }
 
@@ -118,13 +119,31 @@ class Reader {
     if (code == XML_ERROR_INVALID_TOKEN && !isUtf8At(source_.text(), offset()))
       return wrongEncoding(source_.locate(offset()), declared_encoding_);
     Problem problem{source_.locate(offset()), {}, std::string("malformed XML: ") + XML_ErrorString(code), {}};
-    if (!open_.empty()) {
-      const XmlElement& innermost = *open_.back().element;
-      const Location opened = source_.locate(innermost.offset);
-      problem.element = "<" + innermost.name + ">";
-      problem.hint = "<" + innermost.name + "> was opened at line " + std::to_string(opened.line);
+    problem.hint = remedyFor(code);
+    if (open_.empty()) {
+      if (problem.hint.empty()) problem.hint = "a file begins with <root BTCPP_format=\"4\">";
+      return problem;
     }
+    const XmlElement& innermost = *open_.back().element;
+    const Location opened = source_.locate(innermost.offset);
+    problem.element = "<" + innermost.name + ">";
+    if (problem.hint.empty())
+      problem.hint = "<" + innermost.name + "> was opened at line " + std::to_string(opened.line) + ", and </" +
+                     innermost.name + "> closes it";
     return problem;
+  }
+
+  /// By what is written where expat stopped, or just before; empty if that tells nothing.
+  std::string remedyFor(XML_Error code) const {
+    if (code == XML_ERROR_DUPLICATE_ATTRIBUTE) return "give it once";
+    if (code != XML_ERROR_INVALID_TOKEN) return {};
+    const std::string& text = source_.text();
+    const std::size_t at = offset();
+    const auto isAt = [&](std::size_t place, char c) { return place < text.size() && text[place] == c; };
+    if (isAt(at, '&') || (at > 0 && isAt(at - 1, '&'))) return "write & as &amp;";
+    if (isAt(at, '<')) return "in a value, write < as &lt;";
+    if (at > 0 && isAt(at - 1, '=')) return "put the value in quotes";
+    return {};
   }
 
   Problem wrongEncoding(const Location& place, const std::string& encoding) const {

@@ -31,14 +31,15 @@ PeopleTracker::PeopleTracker(const Config& config, const HeightBand& band)
 
 void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, const Pose2& T_map_odom,
                            std::shared_ptr<const common::OccupancyGrid> grid,
-                           const std::optional<GivenBackground>& given) {
+                           const std::optional<GivenBackground>& given, double below_map_m) {
   // Scans placed in the corrected map cannot be compared with the maps before the correction.
   const Pose2 jump = T_map_odom_.inverse() * T_map_odom;
   if (jump.position_m().norm() > kCorrected_m || std::abs(jump.yaw_rad) > kCorrected_rad) background_.restart();
   T_map_odom_ = T_map_odom;
   background_.add(scan.stamp, std::move(grid));
 
-  const auto above_m = static_cast<float>(band_.above_body_m), below_m = static_cast<float>(band_.below_body_m);
+  const auto above_m = static_cast<float>(band_.above_body_m + below_map_m);
+  const auto below_m = static_cast<float>(band_.below_body_m - below_map_m);
   constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   seen_.from_map_m = T_map_body.position_m();
   seen_.above_body_m = scan.heights_level_m;

@@ -16,35 +16,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// The cost of the rest of a plan. It may begin in the lethal zone, which the vehicle must leave, and its first
-/// `escape_points` lines may lead through it; after that, a lethal segment blocks it.
-struct Rest {
-  double cost_m = 0.0;
-  std::optional<Point> blocked_map_m;
-};
-
-Rest costOf(const CostMap& map, const std::vector<Point>& points_m, std::size_t escape_points) {
-  Rest rest;
-  bool leaving = map.costAt(map.cellAt(points_m.front())) == CostMap::kLethal;
-  for (std::size_t i = 1; i < points_m.size(); ++i) {
-    const SegmentCost step = segmentCost(map, points_m[i - 1], points_m[i]);
-    if (!step.lethal) {
-      leaving = false;
-      rest.cost_m += step.cost_m;
-      continue;
-    }
-    const bool out = map.costAt(map.cellAt(points_m[i])) != CostMap::kLethal;
-    if (!leaving && i > escape_points) {
-      rest.blocked_map_m = points_m[i];
-      return rest;
-    }
-    leaving = !out;
-    rest.cost_m += (points_m[i] - points_m[i - 1]).norm();
-  }
-  if (leaving && points_m.size() > 1) rest.blocked_map_m = points_m.back();
-  return rest;
-}
-
 }  // namespace
 
 void PlanKeeper::Config::describe(common::config::Fields& fields) {
@@ -59,15 +30,14 @@ void PlanKeeper::clear() {
   valid_ = false;
 }
 
-PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const Point& position_map_m,
+PlanKeeper::Check PlanKeeper::check(common::Time now, const PlanMaps& maps, const Point& position_map_m,
                                     double braking_m) {
   if (!path_) return {false, true, "no plan"};
   advanceTo(position_map_m);
-  const std::vector<Point> rest = remaining();
-  const double deviation_m = (position_map_m - rest.front()).norm();
+  const double deviation_m = (position_map_m - remaining().front()).norm();
   Check result{true, (now - stamp_).seconds() >= config_.max_age_s, ""};
-  if (const Rest left = costOf(map, rest, remainingEscape()); left.blocked_map_m) {
-    result = {false, true, "blocked before " + map.names().of(*left.blocked_map_m)};
+  if (const Rest left = rest(maps); left.blocked_map_m) {
+    result = {false, true, "blocked before " + maps.costs.names().of(*left.blocked_map_m)};
   } else if (deviation_m > config_.max_deviation_m + braking_m) {
     result = {false, true, fmt::format("{:.2f} m off the plan", deviation_m)};
   }
@@ -75,11 +45,11 @@ PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const 
   return result;
 }
 
-bool PlanKeeper::offer(const Path& path, common::Time now, const CostMap& map, const Point& position_map_m) {
+bool PlanKeeper::offer(const Path& path, common::Time now, const PlanMaps& maps, const Point& position_map_m) {
   if (path_ && valid_ && path.points_map_m.back() == path_->points_map_m.back()) {
     advanceTo(position_map_m);
     stamp_ = now;
-    const Rest old = costOf(map, remaining(), remainingEscape());
+    const Rest old = rest(maps);
     if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - config_.better_by)) return false;
   }
   path_ = path;
@@ -113,6 +83,39 @@ void PlanKeeper::advanceTo(const Point& position_map_m) {
   }
   segment_ = best_segment;
   along_ = best_along;
+}
+
+/// It may begin in the lethal zone, which the vehicle must leave, and the lines of its escape may lead through it;
+/// after that, a lethal line blocks it. A lowered line is judged at its height, and the others of such a plan by what
+/// both sensors know at the height of flight.
+PlanKeeper::Rest PlanKeeper::rest(const PlanMaps& maps) const {
+  const std::vector<Point> points_m = remaining();
+  const std::size_t escape_points = remainingEscape();
+  const bool two = !path_->lowered.empty() && maps.heights != nullptr;
+  const auto mapOf = [&](std::size_t line) -> const CostMap& {
+    if (!two) return maps.costs;
+    return path_->isLowered(segment_ + line) ? maps.heights->lower : maps.heights->upper;
+  };
+  Rest rest;
+  bool leaving = mapOf(0).costAt(maps.costs.cellAt(points_m.front())) == CostMap::kLethal;
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    const CostMap& map = mapOf(i - 1);
+    const SegmentCost step = segmentCost(map, points_m[i - 1], points_m[i]);
+    if (!step.lethal) {
+      leaving = false;
+      rest.cost_m += step.cost_m;
+      continue;
+    }
+    const bool out = map.costAt(map.cellAt(points_m[i])) != CostMap::kLethal;
+    if (!leaving && i > escape_points) {
+      rest.blocked_map_m = points_m[i];
+      return rest;
+    }
+    leaving = !out;
+    rest.cost_m += (points_m[i] - points_m[i - 1]).norm();
+  }
+  if (leaving && points_m.size() > 1) rest.blocked_map_m = points_m.back();
+  return rest;
 }
 
 std::size_t PlanKeeper::remainingEscape() const {

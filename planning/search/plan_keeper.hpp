@@ -12,8 +12,18 @@
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "planning/search/planner.hpp"
+#include "planning/search/two_heights.hpp"
 
 namespace swiftlet::planning {
+
+/// The cost maps by which a plan is judged.
+struct PlanMaps {
+  const CostMap& costs;                 ///< Of the height of flight.
+  const TwoHeights* heights = nullptr;  ///< By which plans with lowered lines are judged; null: none are offered.
+
+  // Implicit, as most plans are flown at one height.
+  PlanMaps(const CostMap& map, const TwoHeights* two = nullptr) : costs(map), heights(two) {}  // NOLINT
+};
 
 /// Not thread-safe. Usage in each tick:
 /// `if (keeper.check(now, map, position).replan) keeper.offer(planner.plan(...), ...)`
@@ -37,11 +47,11 @@ class PlanKeeper {
 
   /// Checks the rest of the plan on the present map (with the discs of dynamic obstacles), and records how far along it
   /// the vehicle is. It may be off the plan by its braking distance more, as a plan may begin with a turn.
-  Check check(common::Time now, const CostMap& map, const Eigen::Vector2d& position_map_m, double braking_m = 0.0);
+  Check check(common::Time now, const PlanMaps& maps, const Eigen::Vector2d& position_map_m, double braking_m = 0.0);
 
   /// Offers a new plan. Returns true when it is taken: there was no plan, the old one is invalid or for another goal,
   /// or the new one is cheaper by more than `better_by`. In any case the age of the kept plan counts from `now`.
-  bool offer(const Path& path, common::Time now, const CostMap& map, const Eigen::Vector2d& position_map_m);
+  bool offer(const Path& path, common::Time now, const PlanMaps& maps, const Eigen::Vector2d& position_map_m);
 
   void clear();
   /// The plan as it was offered; null without one.
@@ -50,9 +60,15 @@ class PlanKeeper {
   std::vector<Eigen::Vector2d> remaining() const;
 
  private:
+  /// The rest of a plan on the present maps.
+  struct Rest {
+    double cost_m = 0.0;
+    std::optional<Eigen::Vector2d> blocked_map_m;
+  };
   void advanceTo(const Eigen::Vector2d& position_map_m);
   /// The points of the escape that remaining() has after its first one.
   std::size_t remainingEscape() const;
+  Rest rest(const PlanMaps& maps) const;
 
   Config config_;
   std::optional<Path> path_;

@@ -2,6 +2,7 @@
 // zone, refusal with a reason, and conversion of a chain of cells into a path that a quadrotor flies well.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,6 +22,13 @@ struct Path {
   double cost_m = 0.0;  ///< Equivalent length in open space: the integral of the cost, which is 1 there.
   /// So many points after the start are the escape: the lines up to them may lead through the lethal zone.
   std::size_t escape_points = 0;
+  /// Of each line between two points, whether it is flown at `lower_height_m` instead of the height of flight
+  /// (two_heights.hpp); empty: none is.
+  std::vector<bool> lowered = {};
+  double lower_height_m = 0.0;  ///< Over the take-off floor.
+
+  bool isLowered(std::size_t line) const { return line < lowered.size() && lowered[line]; }
+  bool anyLowered() const { return std::find(lowered.begin(), lowered.end(), true) != lowered.end(); }
 };
 
 /// Why there is no path.

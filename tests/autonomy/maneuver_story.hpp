@@ -122,7 +122,8 @@ class ManeuverStory : public testing::Test {
             people_,
             seen_.points_map_m.empty() ? nullptr : &seen_,
             keep_out_,
-            names_};
+            names_,
+            map3d_};
   }
 
   common::Time now_;
@@ -135,6 +136,7 @@ class ManeuverStory : public testing::Test {
   perception::SeenPoints seen_;  ///< Empty: none.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
   common::PlaceNames names_;
+  std::shared_ptr<const common::Map3dLayer> map3d_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
   bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.

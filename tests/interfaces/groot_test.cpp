@@ -46,7 +46,7 @@ std::vector<int> statusesOf(const std::string& bytes) {
 
 class GrootMonitorStory : public ::testing::Test {
  protected:
-  void show(double seconds) { monitor_.update(tree_, at(seconds)); }
+  void show(double seconds) { monitor_.update(name_, tree_, at(seconds)); }
   std::string answer(char type, const std::string& second = {}) {
     std::vector<std::string> request = {requestOf(type)};
     if (!second.empty()) request.push_back(second);
@@ -57,6 +57,7 @@ class GrootMonitorStory : public ::testing::Test {
   }
   std::string identity() { return monitor_.answer({requestOf('S')})[0].substr(6); }
 
+  std::string name_ = "GoAndSee";
   common::TreeView tree_ = visitTree();
   GrootMonitor monitor_{"<TreeNodesModel/>\n"};
 };
@@ -64,8 +65,8 @@ class GrootMonitorStory : public ::testing::Test {
 TEST_F(GrootMonitorStory, SendsTheTreeWithItsSubtrees) {
   show(0.0);
   EXPECT_EQ(answer('T'),
-            "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\">\n"
-            "<BehaviorTree ID=\"Main\" _fullpath=\"\">\n"
+            "<root BTCPP_format=\"4\" main_tree_to_execute=\"GoAndSee\">\n"
+            "<BehaviorTree ID=\"GoAndSee\" _fullpath=\"\">\n"
             "<Priority name=\"Priority\" _uid=\"1\">\n"
             "<Hold name=\"Hold\" _uid=\"2\"/>\n"
             "<SubTree ID=\"Visit\" _fullpath=\"Visit::3\" _uid=\"3\"/>\n"
@@ -79,6 +80,7 @@ TEST_F(GrootMonitorStory, SendsTheTreeWithItsSubtrees) {
 }
 
 TEST_F(GrootMonitorStory, TellsTheTreeOfASubTreeFromItsNameAndFromTheMainTree) {
+  name_.clear();
   tree_[2].name = "first visit";
   tree_[2].ports = {{"ID", {}, "Main"}, {"_skipIf", {}, "n < 2"}};
   show(0.0);
@@ -108,8 +110,8 @@ TEST_F(GrootMonitorStory, SendsStatusesAndWhatIdleNodesWereBefore) {
 
 TEST_F(GrootMonitorStory, SendsTheBlackboardsThatAreAskedFor) {
   show(0.0);
-  const auto all = nlohmann::json::from_msgpack(answer('B', "Main;Visit::3;Nowhere"));
-  EXPECT_EQ(all, nlohmann::json({{"Main", nlohmann::json::object()}, {"Visit::3", {{"place", "3;-1.5"}}}}));
+  const auto all = nlohmann::json::from_msgpack(answer('B', "GoAndSee;Visit::3;Nowhere"));
+  EXPECT_EQ(all, nlohmann::json({{"GoAndSee", nlohmann::json::object()}, {"Visit::3", {{"place", "3;-1.5"}}}}));
   EXPECT_EQ(nlohmann::json::from_msgpack(answer('B')), nlohmann::json::object());
 }
 
@@ -137,6 +139,9 @@ TEST_F(GrootMonitorStory, AnotherMissionHasAnotherIdentity) {
   tree_[4].ports[0].value = "1;1";
   show(0.1);
   EXPECT_EQ(identity(), first);
+  name_ = "GoAndLook";
+  show(0.15);
+  EXPECT_NE(identity(), first) << "the same nodes, but another mission";
   tree_.pop_back();
   show(0.2);
   EXPECT_NE(identity(), first);
@@ -210,7 +215,7 @@ TEST(GrootServerTest, AnswersAClientOverTheSocket) {
   EXPECT_GT(server.port(), 0);
   std::jthread serving([&server](const std::stop_token& stop) {
     GrootMonitor monitor("");
-    monitor.update(visitTree(), at(1.0));
+    monitor.update("GoAndSee", visitTree(), at(1.0));
     while (!stop.stop_requested()) server.serve(monitor, 10);
   });
   GrootClient client(server.port());

@@ -57,6 +57,21 @@ TEST_F(People, AWalkerIsTrackedInTheMapAndPredictedToTheNextScan) {
   EXPECT_TRUE(expected[0].covers(Point(5.1, 5.75))) << "the side that faces the laser";
 }
 
+TEST_F(People, WhatIsBelowTheHeightOfTheMapCannotBeCompared) {
+  const auto seenBelow = [&](double below_map_m, float height_m) {
+    PeopleTracker low{PeopleTracker::Config(), HeightBand{}};
+    for (double t = 0.0; t < 1.0; t += 0.025) {
+      ProjectedScan scan = scanAt(t);
+      addPerson(scan, T_map_body.inverse() * Point(4.0 + t, 6.0), height_m);
+      low.update(scan, T_map_body, {}, room, std::nullopt, below_map_m);
+    }
+    return low.obstacles().size();
+  };
+  EXPECT_EQ(seenBelow(0.0, 0.0F), 1u);
+  EXPECT_EQ(seenBelow(0.45, 0.0F), 0u) << "a chair that the map at the height of flight does not have";
+  EXPECT_EQ(seenBelow(0.45, 0.45F), 1u) << "at the height of the map";
+}
+
 TEST_F(People, WhatTheGivenMapHasIsNoPerson) {
   // A pillar that the flight's own map does not have, in a given map whose frame is turned and shifted.
   const Pose2 T_grid_map{3.0, -1.0, 0.7};

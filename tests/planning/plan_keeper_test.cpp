@@ -164,5 +164,22 @@ TEST_F(PlanKeeping, DoesNotAlternateBetweenTwoEqualPaths) {
   EXPECT_NEAR(position.x(), 10.0, 0.2);
 }
 
+TEST_F(PlanKeeping, ALoweredLineIsJudgedAtItsHeight) {
+  common::OccupancyGrid below = test::room(240, 160);
+  test::fill(grid, {{120, 0}, {123, 160}}, test::kWallCell);  // A beam at x = 6 m.
+  map = test::mapOf(grid);
+  TwoHeights heights{map, test::mapOf(below), 0.5};
+  Path path = pathOf(heights.lower, {{2, 4}, {5, 4}, {7, 4}, {10, 4}});
+  path.lowered = {false, true, false};
+  ASSERT_TRUE(keeper.offer(path, at(0), {map, &heights}, {2, 4}));
+  EXPECT_TRUE(keeper.check(at(0.1), {map, &heights}, {2, 4}).valid);
+  EXPECT_TRUE(keeper.check(at(0.2), {map, &heights}, {6, 4}).valid) << "below the beam";
+  test::fill(below, {{130, 70}, {134, 90}}, test::kWallCell);
+  heights.lower = test::mapOf(below);
+  const PlanKeeper::Check blocked = keeper.check(at(0.3), {map, &heights}, {6, 4});
+  EXPECT_FALSE(blocked.valid);
+  EXPECT_THAT(blocked.reason, HasSubstr("blocked before (7.00, 4.00)"));
+}
+
 }  // namespace
 }  // namespace swiftlet::planning

@@ -79,7 +79,7 @@ TEST(Conditions, ThatCannotBeEvaluatedMakeTheNodeFailWithTheReason) {
   Story story("<Sequence><SetBlackboard value=\"maybe\" output_key=\"x\"/><A _skipIf=\"x\"/></Sequence>");
   EXPECT_EQ(story.tick(), "FAILURE");
   EXPECT_THAT(story.failures(), ElementsAre("A: _skipIf: is text, expected true or false"));
-  Story after("<A _onSuccess=\"x := 1 / 0\"/>");
+  Story after("<A _onSuccess=\"x := 1 / (1 - 1)\"/>");
   after.says("A", "SUCCESS");
   EXPECT_EQ(after.tick(), "FAILURE: start A");
   EXPECT_THAT(after.failures(), ElementsAre("A: _onSuccess: division by zero"));
@@ -89,6 +89,8 @@ TEST(Conditions, ProblemsAreFoundBeforeTheFirstTick) {
   EXPECT_THAT(problemText("<A _skipIf=\"1 +\"/>"), HasSubstr("A._skipIf: expected a value at the end of `1 +`"));
   EXPECT_THAT(problemText("<Sequence><Script code=\"x := 1\"/><A _skipIf=\"x = 2\"/></Sequence>"),
               HasSubstr("A._skipIf: it assigns to an entry, but is only asked, use == to compare"));
+  EXPECT_THAT(problemText("<Script code=\"x := 1 / 0\"/>"), HasSubstr("Script.code: division by zero"));
+  EXPECT_THAT(problemText("<A _skipIf=\"1 / 0.0 > 2\"/>"), HasSubstr("A._skipIf: division by zero"));
   EXPECT_THAT(problemText("<A _while=\"ready\"/>"), HasSubstr("A._while: nothing sets the entry {ready}"));
   EXPECT_THAT(problemText("<Script code=\"x = 1\"/>"), HasSubstr("Script.code: nothing sets the entry {x}"));
   EXPECT_THAT(problemText("<Sequence><Script code=\"t := 'soon'\"/><Sleep msec=\"{t}\"/></Sequence>"),

@@ -62,12 +62,14 @@ TEST(Includes, OfEachOtherAreRefused) {
   EXPECT_THAT(
       problemsOf({{"dir/main.xml", tree("Main", "<AlwaysSuccess/>", "a.xml")},
                   {"dir/a.xml", tree("A", "<AlwaysSuccess/>", "../dir/main.xml")}}),
-      ElementsAre("dir/a.xml:2:1: include: files include each other: dir/main.xml -> dir/a.xml -> dir/main.xml"));
+      ElementsAre("dir/a.xml:2:1: include: files include each other: dir/main.xml -> dir/a.xml -> dir/main.xml, take "
+                  "this one out"));
 }
 
 TEST(Includes, OfMissingFilesAreRefused) {
   EXPECT_THAT(problemsOf({{"dir/main.xml", tree("Main", "<AlwaysSuccess/>", "nope.xml")}}),
-              ElementsAre("dir/main.xml:2:10: include: `dir/nope.xml` cannot be read"));
+              ElementsAre("dir/main.xml:2:10: include: `dir/nope.xml` cannot be read, a path begins at the folder "
+                          "of the file that includes"));
   EXPECT_THAT(problemsOf({}), ElementsAre("dir/main.xml: cannot be read"));
 }
 
@@ -80,7 +82,8 @@ TEST(Includes, NameTheFileOfEachProblem) {
 TEST(Includes, WithTheSameTreeIdAreRefused) {
   EXPECT_THAT(problemsOf({{"dir/main.xml", tree("A", "<AlwaysSuccess/>", "a.xml")},
                           {"dir/a.xml", tree("A", "<AlwaysSuccess/>")}}),
-              ElementsAre("dir/main.xml:3:1: BehaviorTree: `A` is defined twice, first at dir/a.xml:2:1"));
+              ElementsAre("dir/main.xml:3:1: BehaviorTree: `A` is defined twice, first at dir/a.xml:2:1, give "
+                          "one of them another ID"));
 }
 
 TEST(Includes, OfTooManyFilesAreRefused) {

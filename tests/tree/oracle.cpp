@@ -18,38 +18,8 @@ void eraseBelow(Set& set, const std::string& root) {
   });
 }
 
-std::string nameOf(int leaf) { return std::string(1, static_cast<char>('A' + leaf)); }
-
-constexpr std::array<Status, 4> kStatuses = {Status::kSuccess, Status::kFailure, Status::kRunning, Status::kSkipped};
 constexpr int kMost = 2;  ///< At which count a condition holds.
-
-std::string timesOf(const std::string& attribute, int ticks) {
-  return " " + attribute + "=\"" + std::to_string(100 * ticks) + "\"";
-}
-
-/// The attributes that only some types have.
-std::string attributesOf(const Shape& shape) {
-  const std::string status = toString(kStatuses[static_cast<std::size_t>(shape.number2) % 4]);
-  if (shape.type == "Precondition")
-    return std::string(" if=\"") + (shape.number > 0 ? "n >= 0" : "n &lt; 0") + "\" else=\"" + status + "\"";
-  if (shape.type == "LoopString") {
-    std::string queue;
-    for (int i = 0; i < shape.number; ++i) queue += i == 0 ? "x" : ";x";
-    return " queue=\"" + queue + "\" if_empty=\"" + status + "\"";
-  }
-  if (shape.type == "Switch2") return " variable=\"" + std::to_string(shape.number) + "\" case_1=\"0\" case_2=\"1\"";
-  if (shape.type == "Delay") return timesOf("delay_msec", shape.number);
-  if (shape.type == "Timeout" || shape.type == "Sleep") return timesOf("msec", shape.number);
-  return {};
-}
-
-std::string conditionsOf(const Shape& shape) {
-  static const std::array<std::string, 4> kNames = {"", "_failureIf", "_successIf", "_skipIf"};
-  std::string text = shape.counts ? " _onSuccess=\"n += 1\"" : "";
-  if (shape.condition != Condition::kNone)
-    text += " " + kNames[static_cast<std::size_t>(shape.condition)] + "=\"n >= " + std::to_string(kMost) + "\"";
-  return text;
-}
+constexpr std::array<Status, 4> kStatuses = {Status::kSuccess, Status::kFailure, Status::kRunning, Status::kSkipped};
 
 }  // namespace
 
@@ -58,22 +28,6 @@ std::string toString(Status status) {
 }
 
 std::string childPath(const std::string& path, std::size_t index) { return path + std::to_string(index) + "/"; }
-
-std::string toXml(const Shape& shape) {
-  if (shape.type == "Leaf") return "<" + nameOf(shape.leaf) + conditionsOf(shape) + "/>";
-  if (shape.type == "Zero") return "<Script code=\"n := 0\"/>";
-  std::string text = "<" + shape.type + attributesOf(shape) + conditionsOf(shape);
-  if (shape.type == "Repeat") text += " num_cycles=\"" + std::to_string(shape.number) + "\"";
-  if (shape.type == "RetryUntilSuccessful") text += " num_attempts=\"" + std::to_string(shape.number) + "\"";
-  if (shape.type == "Parallel")
-    text += " success_count=\"" + std::to_string(shape.number) + "\" failure_count=\"" + std::to_string(shape.number2) +
-            "\"";
-  if (shape.type == "ParallelAll") text += " max_failures=\"" + std::to_string(shape.number) + "\"";
-  if (shape.type == "RunOnce") text += shape.number > 0 ? " then_skip=\"true\"" : " then_skip=\"false\"";
-  text += ">";
-  for (const Shape& child : shape.children) text += toXml(child);
-  return text + "</" + shape.type + ">";
-}
 
 Status Oracle::tick(const Shape& shape, const Answers& answers, std::vector<std::string>& log) {
   answers_ = &answers;
@@ -86,13 +40,14 @@ Status Oracle::tick(const Shape& shape, const Answers& answers, std::vector<std:
 Status Oracle::eval(const Shape& shape, const std::string& path) {
   const bool starts = !memory_.under_way.contains(path) && bug_ != Bug::kConditionsIgnored;
   Status status = Status::kRunning;
-  if (starts && memory_.counter >= kMost && shape.condition != Condition::kNone)
+  const bool enough = shape.condition != Condition::kNone && entry(shape.counter).value >= kMost;
+  if (starts && enough && shape.condition != Condition::kNone)
     status = shape.condition == Condition::kFailureIf   ? Status::kFailure
              : shape.condition == Condition::kSuccessIf ? Status::kSuccess
                                                         : Status::kSkipped;
   else
     status = evalRule(shape, path);
-  if (status == Status::kSuccess && shape.counts) ++memory_.counter;
+  if (status == Status::kSuccess && shape.counts) write(shape.counter, entry(shape.counter).value + 1.0);
   if (status == Status::kRunning)
     memory_.under_way.insert(path);
   else
@@ -131,20 +86,16 @@ Status Oracle::evalRule(const Shape& shape, const std::string& path) {
     if (ended && shape.type == "ForceFailure") status = Status::kFailure;
   }
   if (shape.type == "Delay" || shape.type == "Timeout" || shape.type == "Sleep") status = evalTimed(shape, path);
-  if (shape.type == "LoopString") status = evalQueue(shape, path);
-  if (shape.type == "Switch2") {
-    const auto chosen = static_cast<std::size_t>(std::clamp(shape.number, 0, 2));
-    status = eval(shape.children[chosen], childPath(path, chosen));
-  }
+  if (shape.type.starts_with("Loop")) status = evalQueue(shape, path);
+  if (shape.type.starts_with("Switch")) status = evalSwitch(shape, path);
+  if (shape.type.find("Update") != std::string::npos) status = evalUpdated(shape, path);
+  if (shape.type == "SubTree") status = evalSubTree(shape, path);
   if (shape.type == "Precondition") {
     const bool runs = shape.number > 0 || memory_.under_way.contains(childPath(path, 0));
     status =
         runs ? eval(shape.children[0], childPath(path, 0)) : kStatuses[static_cast<std::size_t>(shape.number2) % 4];
   }
-  if (shape.type == "Zero") {
-    memory_.counter = 0;
-    status = Status::kSuccess;
-  }
+  if (shape.type.starts_with("Zero") || shape.type == "Touch") status = evalScript(shape);
   return status;
 }
 
@@ -163,23 +114,12 @@ Status Oracle::evalTimed(const Shape& shape, const std::string& path) {
   return shape.number > 0 && over ? Status::kFailure : eval(shape.children[0], child);
 }
 
-Status Oracle::evalQueue(const Shape& shape, const std::string& path) {
-  const std::string child = childPath(path, 0);
-  int& taken = memory_.number[path];
-  if (bug_ == Bug::kLoopStartsAnew) taken = 0;
-  if (!memory_.under_way.contains(child)) {
-    if (taken >= shape.number) return kStatuses[static_cast<std::size_t>(shape.number2) % 4];
-    ++taken;
-  }
-  return eval(shape.children[0], child) == Status::kFailure ? Status::kFailure : Status::kRunning;
-}
-
 Status Oracle::evalLeaf(const Shape& shape, const std::string& path) {
   const bool active = memory_.under_way.contains(path);
   const Status answer = (*answers_)[static_cast<std::size_t>(shape.leaf)];
   if (!active && answer == Status::kSkipped) return Status::kSkipped;
   const bool resumed = memory_.suspended.erase(path) > 0;
-  log_->push_back((active ? resumed ? "resume " : "" : "start ") + nameOf(shape.leaf));
+  log_->push_back((active ? resumed ? "resume " : "" : "start ") + std::string(1, static_cast<char>('A' + shape.leaf)));
   return answer == Status::kSkipped ? Status::kRunning : answer;
 }
 

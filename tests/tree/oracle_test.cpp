@@ -16,17 +16,26 @@ using oracle::Bug;
 using oracle::Condition;
 using oracle::Oracle;
 using oracle::Shape;
+using oracle::Sharing;
 using OracleStatus = oracle::Status;
 
 constexpr int kLeaves = 5;
 constexpr int kTicks = 25;
 
+/// The counters that a tree has for itself begin at 0; the others are written as they are, so that it uses them all.
+void share(Shape& shape, int sharing) {
+  shape.number = sharing;
+  const auto how = static_cast<Sharing>(sharing);
+  const std::string first = how == Sharing::kNone ? "Zero" : how == Sharing::kOne ? "ZeroM" : "Touch";
+  shape.children = {{.type = "Sequence", .children = {{.type = first}, shape.children[0]}}};
+}
+
 Shape randomShape(int depth) {
   Shape shape;
   static const std::vector<std::string> kControls = {
-      "Sequence",      "Fallback",           "ReactiveSequence", "ReactiveFallback", "Parallel",
-      "Priority",      "SequenceWithMemory", "IfThenElse",       "WhileDoElse",      "AsyncSequence",
-      "AsyncFallback", "ParallelAll",        "TryCatch",         "Switch2"};
+      "Sequence",           "Fallback",   "ReactiveSequence", "ReactiveFallback", "Parallel",      "Priority",
+      "SequenceWithMemory", "IfThenElse", "WhileDoElse",      "AsyncSequence",    "AsyncFallback", "ParallelAll",
+      "TryCatch",           "Switch2",    "Switch3",          "Switch4",          "Switch5",       "Switch6"};
   static const std::vector<std::string> kDecorators = {"Inverter",
                                                        "ForceSuccess",
                                                        "ForceFailure",
@@ -35,7 +44,14 @@ Shape randomShape(int depth) {
                                                        "KeepRunningUntilFailure",
                                                        "RunOnce",
                                                        "Precondition",
+                                                       "LoopDouble",
+                                                       "LoopInt",
+                                                       "LoopBool",
                                                        "LoopString",
+                                                       "SkipUnlessUpdated",
+                                                       "WaitValueUpdate",
+                                                       "SubTree",
+                                                       "SubTree",
                                                        "Delay",
                                                        "Timeout"};
   constexpr int kLeafWeight = 6;
@@ -44,8 +60,9 @@ Shape randomShape(int depth) {
   shape.condition = *rc::gen::weightedElement<Condition>(
       {{12, Condition::kNone}, {1, Condition::kFailureIf}, {1, Condition::kSuccessIf}, {1, Condition::kSkipIf}});
   shape.counts = *rc::gen::weightedElement<bool>({{4, false}, {1, true}});
+  shape.counter = *rc::gen::element<std::string>("n", "m");
   if (kind < kLeafWeight) {
-    shape.type = *rc::gen::weightedElement<std::string>({{12, "Leaf"}, {1, "Sleep"}});
+    shape.type = *rc::gen::weightedElement<std::string>({{12, "Leaf"}, {1, "Sleep"}, {1, "WasEntryUpdated"}});
     shape.leaf = *rc::gen::inRange(0, kLeaves);
     shape.number = *rc::gen::inRange(0, 4);
     return shape;
@@ -54,13 +71,17 @@ Shape randomShape(int depth) {
   shape.type = control ? kControls[static_cast<std::size_t>(kind - kLeafWeight)]
                        : kDecorators[static_cast<std::size_t>(kind - kLeafWeight - controls)];
   const bool two = shape.type == "IfThenElse" || shape.type == "WhileDoElse" || shape.type == "TryCatch";
-  const int least = shape.type == "Switch2" ? 3 : two ? 2 : 1;
-  const int children = control ? *rc::gen::inRange(least, 4) : 1;
-  for (int i = 0; i < children; ++i) shape.children.push_back(randomShape(depth - 1));
+  const bool switches = shape.type.starts_with("Switch");
+  const int children = switches ? shape.type.back() - '0' + 1 : control ? *rc::gen::inRange(two ? 2 : 1, 4) : 1;
+  // A Switch has many children: they are smaller, so that a tree stays one that can be read.
+  for (int i = 0; i < children; ++i) shape.children.push_back(randomShape(depth - (children > 4 ? 2 : 1)));
   const bool counted = shape.type == "Repeat" || shape.type == "RetryUntilSuccessful";
   const bool parallel = shape.type.starts_with("Parallel");
   shape.number = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(counted ? -1 : 0, 4);
   shape.number2 = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(0, 4);
+  shape.leaf = *rc::gen::inRange(0, kLeaves);
+  if (switches) shape.number = *rc::gen::inRange(0, children + 1);
+  if (shape.type == "SubTree") share(shape, *rc::gen::inRange(0, 5));
   return shape;
 }
 
@@ -107,15 +128,38 @@ Shape withCounter(Shape shape) { return {.type = "Sequence", .children = {{.type
 
 RC_GTEST_PROP(Engine, EqualsTheNaiveInterpreter, ()) {
   const Shape shape = withCounter(randomShape(4));
-  Story story(toXml(shape));
+  std::string trees;
+  const std::string xml = toXml(shape, trees);
+  Story story(xml, trees);
+  RC_LOG() << xml << "\n" << trees << toString(story.problems()) << "\n";
   RC_ASSERT(story.problems().empty());
   Oracle oracle;
-  RC_LOG() << toXml(shape) << "\n";
   for (int i = 0; i < kTicks; ++i) {
     const Answers answers = randomAnswers();
     letSay(story, answers);
     RC_ASSERT(ticksOnly(story.tick()) == oracleTick(oracle, shape, answers));
   }
+}
+
+/// Leaves that count and ask, as many as there are answers.
+std::vector<Shape> countingLeaves() {
+  std::vector<Shape> leaves;
+  for (int i = 0; i < kLeaves; ++i)
+    leaves.push_back({.type = "Leaf",
+                      .leaf = i,
+                      .condition = *rc::gen::element(Condition::kNone, Condition::kFailureIf, Condition::kSkipIf),
+                      .counts = true,
+                      .counter = *rc::gen::element<std::string>("n", "m")});
+  return leaves;
+}
+
+/// Counts before, inside and behind a SubTree, so that it shows whose counters they are.
+Shape countedSubTree() {
+  Shape inner{.type = "SubTree", .children = {{.type = "Sequence", .children = countingLeaves()}}};
+  share(inner, *rc::gen::inRange(0, 5));
+  Shape all{.type = "Sequence", .children = countingLeaves()};
+  all.children.insert(all.children.begin() + 2, std::move(inner));
+  return all;
 }
 
 /// True when a tree is found on which the engine and the wrong oracle differ.
@@ -129,9 +173,15 @@ bool isNoticed(Bug bug, const std::string& type) {
         Shape shape = randomShape(3);
         shape.type = type;
         if (shape.children.empty()) shape.children = {randomShape(2), randomShape(2)};
-        if (type == "LoopString" || type == "Delay" || type == "Inverter") shape.children.resize(1);
+        const bool decorator = type.starts_with("Loop") || type == "Delay" || type == "Inverter" ||
+                               type.find("Update") != std::string::npos;
+        if (decorator) shape.children.resize(1);
+        if (type == "Switch2") shape.children.resize(3, shape.children[0]);
+        if (type == "SubTree") shape = countedSubTree();
         shape = withCounter(shape);
-        Story story(toXml(shape));
+        std::string trees;
+        const std::string xml = toXml(shape, trees);
+        Story story(xml, trees);
         if (!story.problems().empty()) return;
         Oracle oracle(bug);
         for (int i = 0; i < kTicks && !noticed; ++i) {
@@ -152,6 +202,12 @@ TEST(Engine, PlantedBugsAreNoticed) {
   EXPECT_TRUE(isNoticed(Bug::kLoopStartsAnew, "LoopString"));
   EXPECT_TRUE(isNoticed(Bug::kClockRunsTwice, "Delay"));
   EXPECT_TRUE(isNoticed(Bug::kConditionsIgnored, "Inverter"));
+  EXPECT_TRUE(isNoticed(Bug::kNewsForgotten, "SkipUnlessUpdated"));
+  EXPECT_TRUE(isNoticed(Bug::kNewsNotTaken, "WaitValueUpdate"));
+  EXPECT_TRUE(isNoticed(Bug::kSwitchSticks, "Switch2"));
+  EXPECT_TRUE(isNoticed(Bug::kScopesShared, "SubTree"));
+  EXPECT_TRUE(isNoticed(Bug::kSwapIgnored, "SubTree"));
+  EXPECT_TRUE(isNoticed(Bug::kElementLost, "LoopDouble"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 namespace swiftlet::tree::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -57,13 +58,25 @@ TEST(Problems, AValidFileHasNone) {
 TEST(Problems, MalformedXmlIsReported) {
   EXPECT_THAT(
       problemsOf("<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"A\">\n    <Sequence>\n  </BehaviorTree>\n</root>"),
-      ElementsAre("f.xml:4:5: <Sequence>: malformed XML: mismatched tag, <Sequence> was opened at line 3"));
+      ElementsAre("f.xml:4:5: <Sequence>: malformed XML: mismatched tag, <Sequence> was opened at line 3, and "
+                  "</Sequence> closes it"));
   EXPECT_THAT(
       problemsOf("<root BTCPP_format=\"4\">\n"),
-      ElementsAre(HasSubstr("f.xml:2:1: <root>: malformed XML: no element found, <root> was opened at line 1")));
-  EXPECT_THAT(problemsOf(""), ElementsAre("f.xml:1:1: malformed XML: no element found"));
+      ElementsAre(HasSubstr(
+          "f.xml:2:1: <root>: malformed XML: no element found, <root> was opened at line 1, and </root> closes it")));
+  EXPECT_THAT(problemsOf(""),
+              ElementsAre("f.xml:1:1: malformed XML: no element found, a file begins with <root BTCPP_format=\"4\">"));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\" BTCPP_format=\"4\"/>"),
-              ElementsAre(HasSubstr("duplicate attribute")));
+              ElementsAre(HasSubstr("duplicate attribute, give it once")));
+}
+
+TEST(Problems, WhatXmlReservesIsReportedWithHowItIsWritten) {
+  EXPECT_THAT(problemsIn("<Script code=\"a := 1 && 0\"/>"),
+              ElementsAre(AllOf(HasSubstr("f.xml:3:23: "), HasSubstr(", write & as &amp;"))));
+  EXPECT_THAT(problemsIn("<Script code=\"a := 1 & 0\"/>"), ElementsAre(HasSubstr(", write & as &amp;")));
+  EXPECT_THAT(problemsIn("<ScriptCondition code=\"1 < 2\"/>"),
+              ElementsAre(AllOf(HasSubstr("f.xml:3:26: "), HasSubstr(", in a value, write < as &lt;"))));
+  EXPECT_THAT(problemsIn("<Script code=1/>"), ElementsAre(HasSubstr(", put the value in quotes")));
 }
 
 TEST(Problems, AnUnknownNodeIsReported) {
@@ -137,31 +150,35 @@ TEST(Problems, AnOutputWithoutAnEntryIsReported) {
 TEST(Problems, AWrongNumberOfChildrenIsReported) {
   EXPECT_THAT(problemsIn("<Sequence/>"), ElementsAre("f.xml:3:1: Sequence: has 0 children, expected at least 1"));
   EXPECT_THAT(problemsIn("<Inverter><AlwaysSuccess/><AlwaysSuccess/></Inverter>"),
-              ElementsAre("f.xml:3:1: Inverter: has 2 children, expected exactly 1"));
+              ElementsAre("f.xml:3:1: Inverter: has 2 children, expected exactly 1, put them into a <Sequence>"));
   EXPECT_THAT(problemsIn("<AlwaysSuccess><AlwaysSuccess/></AlwaysSuccess>"),
               ElementsAre("f.xml:3:1: AlwaysSuccess: has 1 child, expected none"));
   EXPECT_THAT(problemsIn(""), ElementsAre("f.xml:2:1: BehaviorTree: `Main` has 0 children, expected 1"));
   EXPECT_THAT(problemsIn("<AlwaysSuccess/><AlwaysSuccess/>"),
-              ElementsAre(HasSubstr("`Main` has 2 children, expected 1")));
+              ElementsAre(HasSubstr("`Main` has 2 children, expected 1, put them into a <Sequence>")));
   EXPECT_THAT(problemsIn("<Parallel success_count=\"3\"><AlwaysSuccess/></Parallel>"),
               ElementsAre("f.xml:3:1: Parallel: success_count is 3, but it has only 1 child"));
 }
 
 TEST(Problems, UnexpectedTextIsReported) {
   EXPECT_THAT(problemsIn("<Sequence>\n go! <AlwaysSuccess/></Sequence>"),
-              ElementsAre("f.xml:4:2: Sequence: text is not expected here"));
+              ElementsAre("f.xml:4:2: Sequence: text is not expected here, a comment is written as <!-- text -->"));
 }
 
 TEST(Problems, MistakesInSubTreesAreReported) {
   EXPECT_THAT(problemsIn("<SubTree ID=\"Sbu\"/>", "<BehaviorTree ID=\"Sub\"><AlwaysSuccess/></BehaviorTree>"),
               ElementsAre("f.xml:3:10: SubTree: there is no <BehaviorTree ID=\"Sbu\">, did you mean `Sub`?"));
   EXPECT_THAT(problemsIn("<SubTree/>"), ElementsAre("f.xml:3:1: SubTree: the attribute `ID` is missing"));
-  EXPECT_THAT(problemsIn("<SubTree ID=\"Main\"/>"),
-              ElementsAre("f.xml:3:1: SubTree: the tree contains itself: Main -> Main"));
-  EXPECT_THAT(problemsIn("<SubTree ID=\"B\"/>",
-                         "<BehaviorTree ID=\"B\"><SubTree ID=\"C\"/></BehaviorTree>\n"
-                         "<BehaviorTree ID=\"C\"><Inverter><SubTree ID=\"B\"/></Inverter></BehaviorTree>\n"),
-              ElementsAre("f.xml:6:32: SubTree: the tree contains itself: B -> C -> B"));
+  EXPECT_THAT(
+      problemsIn("<SubTree ID=\"Main\"/>"),
+      ElementsAre(
+          "f.xml:3:1: SubTree: the tree contains itself: Main -> Main, a <Repeat> around it runs a tree again"));
+  EXPECT_THAT(
+      problemsIn("<SubTree ID=\"B\"/>",
+                 "<BehaviorTree ID=\"B\"><SubTree ID=\"C\"/></BehaviorTree>\n"
+                 "<BehaviorTree ID=\"C\"><Inverter><SubTree ID=\"B\"/></Inverter></BehaviorTree>\n"),
+      ElementsAre(
+          "f.xml:6:32: SubTree: the tree contains itself: B -> C -> B, a <Repeat> around it runs a tree again"));
   EXPECT_THAT(
       problemsIn("<SubTree ID=\"Sub\" clearance_cm=\"5\"/>",
                  "<BehaviorTree ID=\"Sub\"><Fly goal=\"1;2\" clearance_m=\"{clearance_m}\"/></BehaviorTree>"),
@@ -205,7 +222,11 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
   const std::string two =
       "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>\n<BehaviorTree "
       "ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>";
-  EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\">" + two), ElementsAre(HasSubstr("main_tree_to_execute is missing")));
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\">" + two),
+              ElementsAre(HasSubstr("main_tree_to_execute is missing, expected where there are several trees, write "
+                                    "main_tree_to_execute=\"A\" for that one")));
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\" main_tree_to_execute=\"Flight\">" + two),
+              ElementsAre(HasSubstr("there is no <BehaviorTree ID=\"Flight\">, the first one here is `A`")));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\" main_tree_to_execute=\"a\">" + two),
               ElementsAre("f.xml:1:24: root: there is no <BehaviorTree ID=\"a\">, did you mean `A`?"));
   EXPECT_THAT(
@@ -227,8 +248,10 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
 
 TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {
   EXPECT_THAT(problemsIn("<AlwaysSuccess _skipif=\"x==1\"/>"), ElementsAre(HasSubstr("unknown attribute `_skipif`")));
-  EXPECT_THAT(problemsOf("<!DOCTYPE root [<!ENTITY a \"b\">]><root BTCPP_format=\"4\"/>"),
-              ElementsAre("f.xml:1:16: <!DOCTYPE>: a DOCTYPE is not supported"));
+  EXPECT_THAT(
+      problemsOf("<!DOCTYPE root [<!ENTITY a \"b\">]><root BTCPP_format=\"4\"/>"),
+      ElementsAre("f.xml:1:16: <!DOCTYPE>: a DOCTYPE is not supported, take it out, and write its entities as the text "
+                  "they stand for"));
   EXPECT_THAT(problemsIn("<AlwaysSuccess/>", "<include ros_pkg=\"p\" path=\"x.xml\"/>"),
               ElementsAre(HasSubstr("ros_pkg is not supported")));
 }

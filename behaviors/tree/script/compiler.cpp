@@ -5,6 +5,8 @@
 #include <charconv>
 #include <optional>
 
+#include "behaviors/tree/script/operand.hpp"
+
 namespace swiftlet::tree {
 namespace {
 
@@ -217,8 +219,15 @@ ScriptCompiler::Index ScriptCompiler::name(const Token& token) {
   return add({.op = Op::kEntry, .of = entry(token.text, true)});
 }
 
+bool ScriptCompiler::isZero(const ScriptExpression& expression) const {
+  if (expression.op != Op::kConstant) return false;
+  const auto number = numberOf(operandOf(code_->constants[expression.of]));
+  return number && *number == 0.0;
+}
+
 /// `right` was compiled when the code had `writes_before` assignments.
 ScriptCompiler::Index ScriptCompiler::addBinary(Op op, Index left, Index right, std::size_t writes_before) {
+  if (op == Op::kDivide && problem_.empty() && isZero(code_->expressions[right])) problem_ = "division by zero";
   const auto buffer = static_cast<Index>(code_->joins);
   if (op == Op::kJoin || op == Op::kAdd) ++code_->joins;
   return add({.op = op, .keeps = code_->writes.size() > writes_before, .a = left, .b = right, .of = buffer});

@@ -40,6 +40,7 @@ class ScriptCompiler {
   Index name(const Token& token);
 
   Index add(ScriptExpression expression);
+  bool isZero(const ScriptExpression& expression) const;
   Index addBinary(Op op, Index left, Index right, std::size_t writes_before);
   template <typename T>
   Index constant(T value);

@@ -41,9 +41,13 @@ std::int64_t microseconds(common::Time time) { return time.nanoseconds() / 1000;
 
 }  // namespace
 
-void GrootMonitor::update(const common::TreeView& tree, common::Time stamp) {
+void GrootMonitor::update(const std::string& name, const common::TreeView& tree, common::Time stamp) {
   stamp_ = stamp;
-  if (!std::equal(tree.begin(), tree.end(), tree_.begin(), tree_.end(), isSameNode)) replaceTree(tree);
+  const bool same = std::equal(tree.begin(), tree.end(), tree_.begin(), tree_.end(), isSameNode);
+  if (!same || name_ != name) {
+    name_ = name;
+    replaceTree(tree);
+  }
   for (std::size_t i = 0; i < tree.size(); ++i) {
     if (tree[i] == tree_[i]) continue;
     if (tree[i].status != tree_[i].status) changeStatus(i, tree[i], stamp);
@@ -55,7 +59,7 @@ void GrootMonitor::replaceTree(const common::TreeView& tree) {
   tree_ = tree;
   statuses_.clear();
   for (const common::TreeNodeView& node : tree) statuses_.push_back(codeOf(node.status));
-  xml_ = grootXml(tree, models_);
+  xml_ = grootXml(name_, tree, models_);
   identity_.clear();
   appendBytes(identity_, common::fnv1a(xml_), 8);
   appendBytes(identity_, common::fnv1a("tree of " + xml_), 8);
@@ -120,7 +124,7 @@ std::string GrootMonitor::statusBytes() const {
 
 /// The entries that the ports of a tree's nodes are bound to, and that are set.
 std::string GrootMonitor::blackboards(const std::string& names) const {
-  const std::vector<std::string> blackboards = grootBlackboards(tree_);
+  const std::vector<std::string> blackboards = grootBlackboards(name_, tree_);
   nlohmann::json all = nlohmann::json::object();
   for (std::size_t begin = 0; begin <= names.size();) {
     const std::size_t end = std::min(names.find(';', begin), names.size());

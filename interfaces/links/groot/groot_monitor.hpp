@@ -28,8 +28,9 @@ class GrootMonitor {
   /// `models`: the <TreeNodesModel> element with the types that Groot2 does not know; may be empty.
   explicit GrootMonitor(std::string models) : models_(std::move(models)) {}
 
-  /// The tree as of `stamp`. A tree of other nodes is another tree, with another identity.
-  void update(const common::TreeView& tree, common::Time stamp);
+  /// The tree as of `stamp`; `name` is the ID of its main tree. A tree of another name or other nodes is another tree,
+  /// with another identity.
+  void update(const std::string& name, const common::TreeView& tree, common::Time stamp);
 
   /// The parts of the reply. A request that cannot be answered gets "error" and the reason.
   std::vector<std::string> answer(const std::vector<std::string>& request);
@@ -42,6 +43,7 @@ class GrootMonitor {
   void record(bool on);
 
   std::string models_;
+  std::string name_;
   common::TreeView tree_;
   std::vector<std::uint8_t> statuses_;  ///< By node, as Groot2 numbers them.
   std::string xml_;

@@ -20,9 +20,9 @@ const std::string& treeOf(const common::TreeNodeView& subtree) {
   return id == nullptr ? subtree.name : *id;
 }
 
-/// The ID of the main tree: no other tree may have it.
-std::string mainOf(const common::TreeView& tree) {
-  std::string id = "Main";
+/// The ID that the main tree is shown with: its own, or one that no other tree has.
+std::string mainOf(const std::string& name, const common::TreeView& tree) {
+  std::string id = name.empty() ? "Main" : name;
   const auto isOfSubTree = [&](const common::TreeNodeView& node) {
     return node.type == "SubTree" && treeOf(node) == id;
   };
@@ -32,8 +32,8 @@ std::string mainOf(const common::TreeView& tree) {
 
 class GrootWriter {
  public:
-  explicit GrootWriter(const common::TreeView& tree)
-      : tree_(tree), main_(mainOf(tree)), blackboards_(grootBlackboards(tree)), children_(tree.size()) {
+  GrootWriter(const std::string& name, const common::TreeView& tree)
+      : tree_(tree), main_(mainOf(name, tree)), blackboards_(grootBlackboards(name, tree)), children_(tree.size()) {
     for (std::size_t i = 0; i < tree.size(); ++i)
       if (tree[i].parent >= 0) children_[static_cast<std::size_t>(tree[i].parent)].push_back(i);
   }
@@ -96,13 +96,13 @@ class GrootWriter {
 
 }  // namespace
 
-std::string grootXml(const common::TreeView& tree, const std::string& models) {
-  return GrootWriter(tree).write(models);
+std::string grootXml(const std::string& name, const common::TreeView& tree, const std::string& models) {
+  return GrootWriter(name, tree).write(models);
 }
 
-std::vector<std::string> grootBlackboards(const common::TreeView& tree) {
+std::vector<std::string> grootBlackboards(const std::string& name, const common::TreeView& tree) {
   std::vector<std::string> names;
-  const std::string main = mainOf(tree);
+  const std::string main = mainOf(name, tree);
   for (const common::TreeNodeView& node : tree) {
     if (node.parent < 0) {
       names.push_back(main);

@@ -1,0 +1,41 @@
+// What the 3D map shows at places of the map from one height to another: whether a hull that reaches from the one to
+// the other may be there.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/voxel_map.hpp"
+#include "common/world/map3d_layer.hpp"
+
+namespace swiftlet::autonomy {
+
+/// Free only where every voxel was seen to be free: a hull is not sent where nobody looked.
+enum class ColumnState { kUnknown, kFree, kOccupied };
+
+/// One thread. Reads submaps whose origin is within reach of a place.
+class VoxelColumns {
+ public:
+  /// Heights are over the take-off floor; the voxels of the floor itself count as nothing. Submaps farther from
+  /// `around_map_m` than a camera sees beyond `reach_m` are left out.
+  VoxelColumns(const common::Map3dLayer& layer, double low_m, double high_m, const Eigen::Vector2d& around_map_m,
+               double reach_m);
+
+  ColumnState at(const Eigen::Vector2d& place_map_m) const;
+
+ private:
+  struct Source {
+    common::Pose2 T_submap_map;
+    std::shared_ptr<const common::VoxelMap> voxels;
+  };
+  void mark(const Source& source, const Eigen::Vector2d& place_map_m, std::vector<ColumnState>& states) const;
+
+  double low_m_, high_m_;
+  std::vector<Source> sources_;
+  mutable std::vector<ColumnState> states_;  ///< Of the voxels of the present column.
+};
+
+}  // namespace swiftlet::autonomy
