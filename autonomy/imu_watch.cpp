@@ -46,7 +46,7 @@ bool ImuWatch::repeats() const {
   return last_ && (last_->stamps.measured - std::max(rates_changed_, force_changed_)).seconds() > config_.repeats_s;
 }
 
-std::string ImuWatch::fault(Time now) const {
+std::string_view ImuWatch::fault(Time now) const {
   if (!last_) return {};
   const common::Stamps& newest = last_->stamps;
   if ((now - newest.arrived).seconds() > config_.silent_s)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
@@ -33,8 +33,9 @@ class ImuWatch {
   /// The newest samples are an old one that a driver repeats: they say nothing of the motion, and must not be
   /// integrated.
   bool repeats() const;
-  /// What is wrong at `now`, for people; empty if nothing is, and before the first sample.
-  std::string fault(common::Time now) const;
+  /// What is wrong at `now`, for people; empty if nothing is, and before the first sample. A view of a literal: a tick
+  /// in which the samples cannot be used allocates nothing either.
+  std::string_view fault(common::Time now) const;
 
  private:
   ImuWatchConfig config_;

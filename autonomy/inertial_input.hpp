@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "autonomy/imu_substitute.hpp"
@@ -41,8 +42,8 @@ class InertialInput {
   /// Call at each tick of the control.
   void flown(const common::Setpoint& setpoint, const InertialContext& context);
 
-  /// Why measured samples cannot be used at `now`; empty if they can.
-  std::string fault(common::Time now) const { return watch_.fault(now); }
+  /// Why measured samples cannot be used at `now`; empty if they can. As of ImuWatch::fault.
+  std::string_view fault(common::Time now) const { return watch_.fault(now); }
   /// Why the vehicle must come down although samples arrive; empty if it need not.
   std::string mustLandFor(common::Time now) const { return check_.mustLand(now) ? check_.fault() : std::string(); }
   /// The events since the last call.

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -54,8 +55,9 @@ struct FlightTick {
   double battery_v = 0.0;               ///< Latest voltage; 0 while unknown.
   bool fusion_diverged = false;
   /// Why the inertial samples cannot be used, for example "the inertial samples repeat"; empty if they can. The state
-  /// is then one that setpoints predict, with a horizontal part that other sensors support or none.
-  std::string inertial_fault;
+  /// is then one that setpoints predict, with a horizontal part that other sensors support or none. Only read in the
+  /// tick itself.
+  std::string_view inertial_fault;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
   /// The motors get the thrust of the last setpoint: while a pilot overrules it, nothing is learned of it.
@@ -168,7 +170,7 @@ class FlightController {
   void enter(common::FlightState from, common::FlightState entered);
   void say(common::Severity severity, std::string text, std::string reason = {});
   void watch(const FlightTick& tick);
-  void watchInertial(const std::string& fault);
+  void watchInertial(std::string_view fault);
   void watchHorizontal(const FlightTick& tick);
   void escape();
   void keepPathInMap(const common::VehicleState& state);

@@ -32,13 +32,13 @@ void FlightController::watch(const FlightTick& tick) {
   }
 }
 
-void FlightController::watchInertial(const std::string& fault) {
+void FlightController::watchInertial(std::string_view fault) {
   if (fault.empty()) {
     if (inertial_lost_) say(Severity::kInfo, "inertial samples are good again");
     inertial_lost_.reset();
   } else if (!inertial_lost_) {
     inertial_lost_ = now_;
-    say(Severity::kWarning, "inertial samples cannot be used", fault);
+    say(Severity::kWarning, "inertial samples cannot be used", std::string(fault));
   }
   inertial_fault_ = fault;
 }

@@ -143,8 +143,8 @@ AxisModel fitted(const std::vector<AxisSeries>& flights, Terms terms, const Axis
 
 }  // namespace
 
-bool lagIsAtBound(const AxisModel& axis, const AxisFitOptions& options) {
-  return axis.lag_s > options.longest_lag_s - 0.5 * options.lag_step_s;
+bool lagIsAtBound(const AxisModel& axis, double longest_lag_s, const AxisFitOptions& options) {
+  return axis.lag_s > longest_lag_s - 0.5 * options.lag_step_s;
 }
 
 tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flights, bool damped,
@@ -169,7 +169,9 @@ tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flig
 }
 
 tl::expected<AxisModel, std::string> fitRate(const std::vector<AxisSeries>& flights, const AxisFitOptions& options) {
-  return fitAxis(flights, false, options);
+  AxisFitOptions of_rate = options;
+  of_rate.longest_lag_s = options.longest_rate_lag_s;
+  return fitAxis(flights, false, of_rate);
 }
 
 }  // namespace swiftlet::control

@@ -24,6 +24,9 @@ struct AxisSeries {
 struct AxisFitOptions {
   double window_s = 0.3;  ///< The change of velocity over such a time is one equation.
   double longest_lag_s = 0.4;
+  /// Of the yaw rate. Propellers turn a vehicle by their drag alone, so a small one takes 0.6 s and more to follow;
+  /// with a lag that is cut off the gain comes out too small.
+  double longest_rate_lag_s = 1.5;
   double lag_step_s = 0.01;
   double shortest_s = 15.0;      ///< Less flight is not enough.
   double widest_interval = 0.3;  ///< A gain whose interval is a greater share of it is not identified.
@@ -38,7 +41,7 @@ tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flig
                                              const AxisFitOptions& options = {});
 
 /// Whether the residual was least at the longest lag that was tried: the lag may be longer, or cannot be told.
-bool lagIsAtBound(const AxisModel& axis, const AxisFitOptions& options = {});
+bool lagIsAtBound(const AxisModel& axis, double longest_lag_s, const AxisFitOptions& options = {});
 
 /// As fitAxis without damping for a rate that follows its command: angle(t + T) - angle(t) = k int(u) + b T.
 tl::expected<AxisModel, std::string> fitRate(const std::vector<AxisSeries>& flights,

@@ -77,15 +77,16 @@ Identification identify(const std::vector<FlightSamples>& flights, const common:
   model.battery_empty_v = vehicle.battery_empty_v;
   model.battery_capacity_ah = vehicle.battery_capacity_ah;
 
-  const auto keep = [&](const char* name, const tl::expected<AxisModel, std::string>& fitted, AxisModel& axis) {
+  const auto keep = [&](const char* name, const tl::expected<AxisModel, std::string>& fitted, double longest_lag_s,
+                        AxisModel& axis) {
     if (!fitted) return result.problems.push_back(std::string(name) + ": " + fitted.error());
     axis = *fitted;
-    if (lagIsAtBound(axis, options))
+    if (lagIsAtBound(axis, longest_lag_s, options))
       result.doubts.push_back(
           fmt::format("{}: lag at its bound of {:g} s; fly with quicker changes of the command", name, axis.lag_s));
   };
   const auto both = [&](const char* name, const std::vector<AxisSeries>& series, AxisModel& axis, AxisModel& damped) {
-    keep(name, fitAxis(series, false, options), axis);
+    keep(name, fitAxis(series, false, options), options.longest_lag_s, axis);
     if (const auto fitted = fitAxis(series, true, options)) damped = *fitted;
   };
   LevelVelocity forward, left{.left = true};
@@ -116,7 +117,7 @@ Identification identify(const std::vector<FlightSamples>& flights, const common:
                           series.velocity.push_back(last + common::wrapAngle(sample.yaw_odom_rad - last));
                         }),
                options),
-       model.yaw);
+       options.longest_rate_lag_s, model.yaw);
 
   return result;
 }

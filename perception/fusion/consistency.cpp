@@ -82,7 +82,7 @@ Replay replayed(const TapedFlight& flight, const FusionConfig& config) {
     const FusionCounts now = filter.counts();
     const FusionCounts since = before.value_or(now);
     replay.samples.push_back(
-        {errorsOf(filter, *truth),
+        {errorsOf(filter, taped.truthOfState()),
          {between(since.relative_poses, now.relative_poses), between(since.heights, now.heights)}});
     before = now;
   }

@@ -66,6 +66,9 @@ struct ErrorStateFilter::Impl {
   Insertion counted(Insertion outcome);
   Insertion insert(const Measurement& measurement) { return counted(history.insert(measurement)); }
   Insertion insertVertical(MeasurementKind kind, Time time, double value, double variance, double common_variance_m2);
+  /// Covariance of `Rows` errors from the `first` on, by what is not known of the laser.
+  template <int Rows>
+  Eigen::Matrix<double, Rows, Rows> byLaser(const FilterState& state, int first) const;
   bool horizontalFresh(const Slot& newest) const;
   bool verticalFresh(const Slot& newest) const;
 
@@ -96,6 +99,14 @@ Insertion ErrorStateFilter::Impl::insertVertical(MeasurementKind kind, Time time
   m.covariance(0, 0) = variance;
   m.common_variance_m2 = common_variance_m2;
   return insert(m);
+}
+
+template <int Rows>
+Eigen::Matrix<double, Rows, Rows> ErrorStateFilter::Impl::byLaser(const FilterState& state, int first) const {
+  const Eigen::Vector4d sigma(config.laser_yaw_sigma_deg * common::kRadPerDeg, config.laser_position_sigma_m,
+                              config.laser_position_sigma_m, config.laser_clock_sigma_s);
+  const Eigen::Matrix<double, Rows, kLaserSize> errors = state.by_laser.middleRows<Rows>(first) * sigma.asDiagonal();
+  return errors * errors.transpose();
 }
 
 bool ErrorStateFilter::Impl::horizontalFresh(const Slot& newest) const {
@@ -239,6 +250,8 @@ common::VehicleState ErrorStateFilter::state() const {
   out.vertical_valid = !f.history.diverged() && f.verticalFresh(newest) &&
                        velocity_sigma.z() <= f.config.valid_velocity_sigma_m_s &&
                        out.position_covariance_m2(2, 2) <= square(f.config.valid_height_sigma_m);
+  out.position_covariance_m2 += f.byLaser<3>(s, kPosition);
+  out.velocity_covariance_m2_s2 += f.byLaser<3>(s, kVelocity);
   return out;
 }
 
@@ -275,7 +288,8 @@ Eigen::Vector2d ErrorStateFilter::wind_odom_m_s() const {
 
 Eigen::Matrix<double, 15, 15> ErrorStateFilter::covariance() const {
   if (impl_->history.empty()) return Eigen::Matrix<double, 15, 15>::Zero();
-  return impl_->history.newest().state.covariance.topLeftCorner<15, 15>();
+  const FilterState& s = impl_->history.newest().state;
+  return s.covariance.topLeftCorner<15, 15>() + impl_->byLaser<15>(s, 0);
 }
 
 std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const { return impl_->history.poseAt(time); }

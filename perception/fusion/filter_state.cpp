@@ -30,12 +30,16 @@ void FilterState::clonePose() {
     dropClone(oldest);
   }
   const int n = dimension();
-  clones[static_cast<std::size_t>(clone_count++)] = {stamp, stamp, {rotation_odom_body, position_odom_m}};
+  clones[static_cast<std::size_t>(clone_count++)] = {
+      stamp, stamp, {rotation_odom_body, position_odom_m}, velocity_odom_m_s, yaw_rate_odom_rad_s};
   covariance.conservativeResize(n + kCloneSize, n + kCloneSize);
   covariance.block(n, 0, 3, n) = covariance.block(kPosition, 0, 3, n);
   covariance.block(n + 3, 0, 3, n) = covariance.block(kAttitude, 0, 3, n);
   covariance.block(0, n, n + kCloneSize, 3) = covariance.block(0, kPosition, n + kCloneSize, 3);
   covariance.block(0, n + 3, n + kCloneSize, 3) = covariance.block(0, kAttitude, n + kCloneSize, 3);
+  by_laser.conservativeResize(n + kCloneSize, kLaserSize);
+  by_laser.middleRows<3>(n) = by_laser.middleRows<3>(kPosition);
+  by_laser.middleRows<3>(n + 3) = by_laser.middleRows<3>(kAttitude);
 }
 
 void FilterState::dropClone(int index) {
@@ -47,6 +51,10 @@ void FilterState::dropClone(int index) {
   covariance.block(at, 0, after, at) = old.block(at + kCloneSize, 0, after, at);
   covariance.block(0, at, at, after) = old.block(0, at + kCloneSize, at, after);
   covariance.block(at, at, after, after) = old.block(at + kCloneSize, at + kCloneSize, after, after);
+  const LaserSensitivity old_by_laser = by_laser;
+  by_laser.resize(n - kCloneSize, kLaserSize);
+  by_laser.topRows(at) = old_by_laser.topRows(at);
+  by_laser.bottomRows(after) = old_by_laser.bottomRows(after);
   const auto dropped = clones.begin() + index;
   std::copy(dropped + 1, clones.begin() + clone_count, dropped);
   --clone_count;

@@ -25,16 +25,23 @@ inline constexpr int kCore = 18;
 inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
 inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
+/// What is not known of the laser: yaw, x and y of its mount in the body, and its clock.
+inline constexpr int kLaserSize = 4;
 
 /// Sized for the present clones, without heap use.
 using ErrorCovariance =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxDimension, kMaxDimension>;
 using ErrorVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxDimension, 1>;
 
+/// How the errors of the state follow from those of the laser.
+using LaserSensitivity = Eigen::Matrix<double, Eigen::Dynamic, kLaserSize, Eigen::ColMajor, kMaxDimension, kLaserSize>;
+
 struct ClonedPose {
   common::Time stamp;
   common::Time last_used;
   common::Pose3 T_odom_body;
+  Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
+  double yaw_rate_odom_rad_s = 0.0;
 };
 
 /// The memory of a gate. It is part of the state, so that a replay makes the same decisions.
@@ -67,7 +74,10 @@ struct FilterState {
   DragStretch drag_stretch;
   std::array<ClonedPose, kMaxClones> clones;
   int clone_count = 0;
+  /// As if the laser were known exactly; the gains are those of this covariance.
   ErrorCovariance covariance = ErrorCovariance::Zero(kCore, kCore);
+  LaserSensitivity by_laser = LaserSensitivity::Zero(kCore, kLaserSize);
+  double yaw_rate_odom_rad_s = 0.0;  ///< Of the last step.
 
   double height_common_variance_m2 = 0.0;  ///< Variance of the last height that averaging does not reduce.
   GateMemory relative_gate;

@@ -75,6 +75,12 @@ void FusionConfig::describe(common::config::Fields& fields) {
   fields("drag_noise_m_s2_rthz", drag_noise_m_s2_rthz, kPositive, "Noise density of the force that is taken for drag.");
   fields("wind_sigma_m_s", wind_sigma_m_s, {0.0, 20}, "Standard deviation of each component of the wind at the start.");
   fields("wind_walk_m_s_rts", wind_walk_m_s_rts, {0.0, 20}, "Random walk of each component of the wind.");
+  fields("laser_yaw_sigma_deg", laser_yaw_sigma_deg, {0.0, 10},
+         "Standard deviation of the yaw by which the laser is mounted otherwise than its data sheet says.");
+  fields("laser_position_sigma_m", laser_position_sigma_m, {0.0, 0.1},
+         "Standard deviation of the x and y by which the laser is mounted otherwise than its data sheet says.");
+  fields("laser_clock_sigma_s", laser_clock_sigma_s, {0.0, 0.1},
+         "Standard deviation of the time by which the laser's stamps are off.");
   fields("rest_s", rest_s, {0.1, 10}, "Duration of the samples at rest that the start averages.");
   fields("rest_gyroscope_sigma_rad_s", rest_gyroscope_sigma_rad_s, kPositive,
          "With more spread of the gyroscope than this the vehicle is moving.");

@@ -36,6 +36,9 @@ struct FusionConfig {
   double drag_noise_m_s2_rthz = 0.1;
   double wind_sigma_m_s = 0.3;
   double wind_walk_m_s_rts = 0.001;
+  double laser_yaw_sigma_deg = 0.6;
+  double laser_position_sigma_m = 0.006;
+  double laser_clock_sigma_s = 0.003;
   double rest_s = 0.5;
   double rest_gyroscope_sigma_rad_s = 0.05;
   double rest_accelerometer_sigma_m_s2 = 0.5;

@@ -97,6 +97,7 @@ void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, c
   applyToRows(f, state.covariance);
   // F P is computed above. (F P) F^T = (F (F P)^T)^T and P is symmetric, so F is applied to the rows of the transpose.
   applyToRows(f, state.covariance.transpose());
+  applyToRows(f, state.by_laser);
   addNoise(state, m.dt_s, noise);
 
   const Eigen::Vector3d acceleration = m.force_odom_m_s2 - Eigen::Vector3d(0.0, 0.0, noise.gravity_m_s2);
@@ -104,6 +105,7 @@ void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, c
   state.velocity_odom_m_s += m.dt_s * acceleration;
   state.rotation_odom_body =
       (state.rotation_odom_body * common::expSO3(m.dt_s * m.angular_velocity_body_rad_s)).normalized();
+  state.yaw_rate_odom_rad_s = (m.rotation_odom_body * m.angular_velocity_body_rad_s).z();
   state.stamp = end.stamp;
 }
 

@@ -45,7 +45,8 @@ Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation) {
 
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance) {
-  const common::Pose3& from = state.clones[static_cast<std::size_t>(clone)].T_odom_body;
+  const ClonedPose& cloned = state.clones[static_cast<std::size_t>(clone)];
+  const common::Pose3& from = cloned.T_odom_body;
   const double yaw = common::yawOf(from.rotation), c = std::cos(yaw), s = std::sin(yaw);
   Eigen::Matrix2d to_level;
   to_level << c, s, -s, c;
@@ -63,6 +64,13 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
   m.jacobian.block<1, 3>(2, at + 3) = -yaw_from;
   m.jacobian.block<1, 3>(2, kAttitude) = yawJacobian(state.rotation_odom_body);
   m.noise = covariance;
+  const double turned_rad = common::yawOf(state.rotation_odom_body) - yaw;
+  const Eigen::Vector2d left(-moved.y(), moved.x());  // By which a turn of the clone moves the body.
+  m.by_laser.block<2, 1>(0, 0) = -left;
+  m.by_laser.block<2, 2>(0, 1) = Eigen::Rotation2Dd(turned_rad).toRotationMatrix() - Eigen::Matrix2d::Identity();
+  m.by_laser.block<2, 1>(0, 3) =
+      to_level * (state.velocity_odom_m_s - cloned.velocity_odom_m_s).head<2>() - cloned.yaw_rate_odom_rad_s * left;
+  m.by_laser(2, 3) = state.yaw_rate_odom_rad_s - cloned.yaw_rate_odom_rad_s;
   return m;
 }
 
@@ -76,6 +84,7 @@ Linearized<2> relativePoseAcross(const FilterState& state, int clone, const comm
   m.residual = seen * whole.residual;
   m.jacobian = seen * whole.jacobian;
   m.noise = seen * whole.noise * seen.transpose();
+  m.by_laser = seen * whole.by_laser;
   return m;
 }
 
@@ -196,6 +205,11 @@ bool update(FilterState& state, const Linearized<K>& measurement) {
   ErrorVector error(state.dimension());
   error.noalias() = whitened.lazyProduct(residual);
   state.covariance.noalias() -= whitened.lazyProduct(whitened.transpose());
+  const int n = state.dimension();
+  Eigen::Matrix<double, K, kLaserSize> seen_by_laser = measurement.by_laser;
+  seen_by_laser.noalias() += measurement.jacobian.leftCols(n).lazyProduct(state.by_laser);
+  factor.matrixL().solveInPlace(seen_by_laser);
+  state.by_laser.noalias() -= whitened.lazyProduct(seen_by_laser);
   state.inject(error);
   return true;
 }

@@ -1,4 +1,5 @@
-// The measurement models of the fusion filter, linearized: residual = measured - predicted = H * error + noise.
+// The measurement models of the fusion filter, linearized: residual = measured - predicted = H * error + noise, and the
+// errors of the laser that are only considered.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +15,11 @@ struct Linearized {
   Eigen::Matrix<double, K, 1> residual = Eigen::Matrix<double, K, 1>::Zero();
   Eigen::Matrix<double, K, kMaxDimension> jacobian = Eigen::Matrix<double, K, kMaxDimension>::Zero();
   Eigen::Matrix<double, K, K> noise = Eigen::Matrix<double, K, K>::Identity();
+  Eigen::Matrix<double, K, kLaserSize> by_laser = Eigen::Matrix<double, K, kLaserSize>::Zero();
 };
 
-/// Planar pose of the body in the level frame of the body at a clone.
+/// Planar pose of the body in the level frame of the body at a clone, by a laser that may be mounted otherwise than is
+/// believed: it measures E^-1 T E of a motion T, E being the error of its mount, at a time that its clock is off.
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance);
 /// Relative pose where the scene does not constrain the position along one direction (a unit vector in the level frame
@@ -52,7 +55,9 @@ Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation);
 /// Squared Mahalanobis distance of the residual.
 template <int K>
 double mahalanobis2(const FilterState& state, const Linearized<K>& measurement);
-/// The Kalman update. Returns false and changes nothing if the innovation covariance is not positive definite.
+/// The Kalman update, with the gain of a laser that is known exactly. What its errors do to the estimate is followed
+/// (consider covariance analysis: Tapley, Schutz and Born 2004, section 6.2). Returns false and changes nothing if the
+/// innovation covariance is not positive definite.
 template <int K>
 bool update(FilterState& state, const Linearized<K>& measurement);
 

@@ -21,12 +21,13 @@ Errors errorsOf(const TapedFlight& flight, const FusionConfig& config) {
   TapedReplay replay(flight, config);
   const ErrorStateFilter& filter = replay.filter();
   Errors errors;
-  while (const TrueMotion* truth = replay.next()) {
+  while (replay.next() != nullptr) {
     if (!filter.initialized() || filter.status() == FusionStatus::kDiverged)
       return {std::numeric_limits<double>::infinity(), 1.0};
     const common::VehicleState state = filter.state();
+    const TrueMotion truth = replay.truthOfState();
     const Eigen::Vector3d error = inLevelBody(common::yawOf(state.T_odom_body.rotation), state.velocity_odom_m_s) -
-                                  inLevelBody(truth->yaw_map_rad, truth->velocity_map_m_s);
+                                  inLevelBody(truth.yaw_map_rad, truth.velocity_map_m_s);
     errors.square += error.squaredNorm();
     errors.count += 1.0;
   }

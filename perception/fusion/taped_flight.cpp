@@ -13,7 +13,25 @@ bool isSampleAfter(const FilterInput& input, common::Time time) {
   return imu != nullptr && imu->stamps.arrived > time;
 }
 
+TrueMotion between(const TrueMotion& before, const TrueMotion& after, common::Time time) {
+  const double share = (time - before.stamp).seconds() / (after.stamp - before.stamp).seconds();
+  const auto mixed = [share](const Eigen::Vector3d& a, const Eigen::Vector3d& b) -> Eigen::Vector3d {
+    return a + share * (b - a);
+  };
+  const double turned_rad = common::wrapAngle(after.yaw_map_rad - before.yaw_map_rad);
+  return {time, before.yaw_map_rad + share * turned_rad, mixed(before.velocity_map_m_s, after.velocity_map_m_s),
+          mixed(before.position_map_m, after.position_map_m)};
+}
+
 }  // namespace
+
+TrueMotion TapedReplay::truthOfState() const {
+  const common::Time time = filter_.newest();
+  std::size_t after = next_truth_ - 1;
+  while (after > 1 && flight_.truth[after - 1].stamp > time) --after;
+  if (after == 0 || time >= flight_.truth[after].stamp) return flight_.truth[after];
+  return between(flight_.truth[after - 1], flight_.truth[after], time);
+}
 
 const TrueMotion* TapedReplay::next(const Told& told) {
   if (next_truth_ == flight_.truth.size()) return nullptr;

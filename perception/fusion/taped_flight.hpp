@@ -36,6 +36,9 @@ class TapedReplay {
   /// Tells the filter what arrived until the next instant of the truth, and returns that instant; null when there is
   /// none. `told`, if there is one, gets each input after the filter.
   const TrueMotion* next(const Told& told = nullptr);
+  /// The truth at the time of the filter's state, which is that of its newest sample: samples arrive late. Only after
+  /// next().
+  TrueMotion truthOfState() const;
   const ErrorStateFilter& filter() const { return filter_; }
 
  private:

@@ -54,12 +54,37 @@ class HandledVehicle final : public common::Vehicle {
   const double& thrust_share_;
 };
 
+/// The room, the vehicle and the frame of a mission that the stories share.
+inline simulation::WorldModel storyRoom() {
+  simulation::WorldModel world = simulation::boxRoom();
+  world.shapes.push_back(simulation::boxShape("cupboard", {2.5, 2.5, 0}, {3.5, 3.3, 2.5}));
+  world.shapes.push_back(simulation::boxShape("shelf", {-4.9, -1.0, 0}, {-4.4, 1.0, 2.5}));
+  return world;
+}
+inline simulation::Scenario storyScenario() {
+  using common::config::readFile;
+  simulation::Scenario scenario;
+  scenario.seed = 1;
+  scenario.start.from_world = false;
+  scenario.vehicle = readFile<common::VehicleConfig>(SWIFTLET_SOURCE_DIR "/config/vehicles/cobra.yaml");
+  scenario.laser = readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
+  return scenario;
+}
+/// `leaves` are flown one after the other, below AvoidObstacle and Hold.
+inline behaviors::Mission storyMission(const std::string& leaves) {
+  return behaviors::Mission::fromText(
+      R"(<root BTCPP_format="4" main_tree_to_execute="Story"><BehaviorTree ID="Story"><Priority>)"
+      "<AvoidObstacle/><Hold/><Sequence>" +
+          leaves + "</Sequence></Priority></BehaviorTree></root>",
+      "story.xml");
+}
+
 class AutonomyStory {
  public:
-  /// `leaves` are flown one after the other, below AvoidObstacle and Hold.
+  /// `leaves` as for storyMission.
   explicit AutonomyStory(const std::string& leaves, const GivenMap* given = nullptr)
-      : vehicle_(room(), scenario()),
-        autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, mission(leaves),
+      : vehicle_(storyRoom(), storyScenario()),
+        autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, storyMission(leaves),
                   common::makeLockstepJobs(0), given) {}
 
   double thrust_share = 1.0;  ///< Of each commanded thrust that reaches the motors.
@@ -108,29 +133,6 @@ class AutonomyStory {
   std::vector<common::CommandResult> results;
 
  private:
-  static simulation::WorldModel room() {
-    simulation::WorldModel world = simulation::boxRoom();
-    world.shapes.push_back(simulation::boxShape("cupboard", {2.5, 2.5, 0}, {3.5, 3.3, 2.5}));
-    world.shapes.push_back(simulation::boxShape("shelf", {-4.9, -1.0, 0}, {-4.4, 1.0, 2.5}));
-    return world;
-  }
-  static simulation::Scenario scenario() {
-    using common::config::readFile;
-    simulation::Scenario scenario;
-    scenario.seed = 1;
-    scenario.start.from_world = false;
-    scenario.vehicle = readFile<common::VehicleConfig>(SWIFTLET_SOURCE_DIR "/config/vehicles/cobra.yaml");
-    scenario.laser = readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
-    return scenario;
-  }
-  static behaviors::Mission mission(const std::string& leaves) {
-    return behaviors::Mission::fromText(
-        R"(<root BTCPP_format="4" main_tree_to_execute="Story"><BehaviorTree ID="Story"><Priority>)"
-        "<AvoidObstacle/><Hold/><Sequence>" +
-            leaves + "</Sequence></Priority></BehaviorTree></root>",
-        "story.xml");
-  }
-
   /// Collects the events of the flight.
   struct Listener final : FlightSink {
     explicit Listener(AutonomyStory& heard) : story(heard) {}

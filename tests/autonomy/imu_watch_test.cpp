@@ -29,7 +29,7 @@ class ImuWatchStory : public testing::Test {
       watch_.add(sample_);
     }
   }
-  std::string fault(double later_s = 0.0) const { return watch_.fault(Time::fromSeconds(now_s_ + later_s)); }
+  std::string_view fault(double later_s = 0.0) const { return watch_.fault(Time::fromSeconds(now_s_ + later_s)); }
 
   ImuWatch watch_{ImuWatchConfig{}};
   common::ImuSample sample_;

@@ -117,16 +117,24 @@ TEST(FitRate, LeavesOutAnOffsetThatDoesNotDifferFromZero) {
   EXPECT_EQ(without->offset, 0.0);
   EXPECT_GT(without->offset_interval, 0.0);
   EXPECT_NEAR(without->gain, 0.9, 0.01);
-  EXPECT_FALSE(lagIsAtBound(*without));
+  EXPECT_FALSE(lagIsAtBound(*without, AxisFitOptions{}.longest_rate_lag_s));
   const auto with = fitRate({turnsWith(0.9, 0.1, 0.05)});
   ASSERT_TRUE(with);
   EXPECT_NEAR(with->offset, 0.05, 0.01);
 }
 
-TEST(FitRate, ALagBeyondTheSearchIsSeenAtItsBound) {
-  const auto slow = fitRate({turnsWith(0.9, 0.8, 0.0)});
+TEST(FitRate, ASlowYawIsToldWithItsGain) {
+  const auto slow = fitRate({turnsWith(1.0, 0.65, 0.0)});
   ASSERT_TRUE(slow);
-  EXPECT_TRUE(lagIsAtBound(*slow));
+  EXPECT_NEAR(slow->lag_s, 0.65, 0.05);
+  EXPECT_NEAR(slow->gain, 1.0, 0.02);
+}
+
+TEST(FitRate, ALagBeyondTheSearchIsSeenAtItsBound) {
+  const double longest_s = AxisFitOptions{}.longest_rate_lag_s;
+  const auto slow = fitRate({turnsWith(0.9, 2.0 * longest_s, 0.0)});
+  ASSERT_TRUE(slow);
+  EXPECT_TRUE(lagIsAtBound(*slow, longest_s));
 }
 
 TEST(Identify, SaysThatALagIsAtItsBound) {

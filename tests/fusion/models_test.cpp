@@ -23,9 +23,12 @@ FilterState randomState(common::RandomStream& random, int clones) {
   Eigen::Matrix<double, kCore, kCore> a;
   for (int i = 0; i < a.size(); ++i) a(i) = random.gaussian(0.1);
   state.covariance = a * a.transpose();
+  for (double& by_laser : state.by_laser.reshaped()) by_laser = random.gaussian(0.5);
   for (int i = 0; i < clones; ++i) {
     move();
     state.stamp = common::Time::fromSeconds(0.1 * i);
+    state.velocity_odom_m_s = vector(random, 1.0);
+    state.yaw_rate_odom_rad_s = random.gaussian(1.0);
     state.clonePose();
   }
   move();
@@ -35,6 +38,7 @@ FilterState randomState(common::RandomStream& random, int clones) {
   state.gyroscope_bias_rad_s = vector(random, 0.02);
   state.drag_1_s = random.uniform(0.1, 0.5);
   state.wind_odom_m_s = vector(random, 0.3).head<2>();
+  state.yaw_rate_odom_rad_s = random.gaussian(1.0);
   return state;
 }
 
@@ -67,6 +71,34 @@ TEST_P(Jacobians, RelativePoseIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) {
     return relativePose(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity());
   });
+}
+/// What a laser measures that is mounted askew and whose clock is off.
+TEST_P(Jacobians, RelativePoseByTheErrorsOfTheLaserIsTheNumericDerivative) {
+  const ClonedPose& from = state.clones[1];
+  const auto later = [](const common::Pose3& pose, const Eigen::Vector3d& velocity_m_s, double rate_rad_s,
+                        double by_s) {
+    common::Pose2 moved = planar(pose);
+    moved.x_m += by_s * velocity_m_s.x();
+    moved.y_m += by_s * velocity_m_s.y();
+    moved.yaw_rad += by_s * rate_rad_s;
+    return moved;
+  };
+  const auto measured = [&](const Eigen::Vector4d& off) {
+    const common::Pose2 mount{off[1], off[2], off[0]};
+    const common::Pose2 T_odom_from = later(from.T_odom_body, from.velocity_odom_m_s, from.yaw_rate_odom_rad_s, off[3]);
+    const common::Pose2 T_odom_to = later({state.rotation_odom_body, state.position_odom_m}, state.velocity_odom_m_s,
+                                          state.yaw_rate_odom_rad_s, off[3]);
+    return mount.inverse() * (T_odom_from.inverse() * T_odom_to) * mount;
+  };
+  const auto by_laser = relativePose(state, 1, measured(Eigen::Vector4d::Zero()), Eigen::Matrix3d::Identity()).by_laser;
+  constexpr double h = 1e-6;
+  for (int column = 0; column < kLaserSize; ++column) {
+    const Eigen::Vector4d step = h * Eigen::Vector4d::Unit(column);
+    const Eigen::Vector3d numeric = (relativePose(state, 1, measured(step), Eigen::Matrix3d::Identity()).residual -
+                                     relativePose(state, 1, measured(-step), Eigen::Matrix3d::Identity()).residual) /
+                                    (2 * h);
+    EXPECT_LT((by_laser.col(column) - numeric).cwiseAbs().maxCoeff(), 2e-6) << "column " << column;
+  }
 }
 TEST_P(Jacobians, RelativePoseAcrossIsTheNumericDerivative) {
   expectJacobian<2>(state, [](const FilterState& s) {
@@ -146,8 +178,9 @@ TEST_P(Jacobians, PropagatingTheCovarianceIsFPFt) {
   ImuValue end{state.stamp + common::Duration::fromMilliseconds(5), vector(random, 0.5), Eigen::Vector3d(0, 0, 9.81)};
   Eigen::MatrixXd f = Eigen::MatrixXd::Identity(state.dimension(), state.dimension());
   f.topLeftCorner<kCore, kCore>() = transition(state, begin, end);
-  const Eigen::MatrixXd expected = f * state.covariance * f.transpose();
+  const Eigen::MatrixXd expected = f * state.covariance * f.transpose(), by_laser = f * state.by_laser;
   propagate(state, begin, end, {});
+  EXPECT_LT((state.by_laser - by_laser).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((state.covariance - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -161,8 +194,11 @@ TEST_P(Jacobians, UpdateIsTheTextbookUpdate) {
       k * m.noise * k.transpose();
   FilterState expected = state;
   expected.inject(k * m.residual);
+  // What an error of the laser adds to a measurement, the gain takes into the estimate.
+  const Eigen::MatrixXd by_laser = state.by_laser - k * (h * state.by_laser + m.by_laser);
   ASSERT_TRUE(update(state, m));
   EXPECT_LT((state.covariance - joseph).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((state.by_laser - by_laser).cwiseAbs().maxCoeff(), 1e-10);
   EXPECT_LT((state.position_odom_m - expected.position_odom_m).norm(), 1e-10);
   EXPECT_LT(state.rotation_odom_body.angularDistance(expected.rotation_odom_body), 1e-7);
 }
@@ -180,6 +216,7 @@ TEST(Clones, ACloneHasTheCovariancesOfItsPose) {
       EXPECT_EQ(state.covariance(at + i, j), state.covariance(pose(i), j));
       EXPECT_EQ(state.covariance(j, at + i), state.covariance(j, pose(i)));
     }
+  for (int i = 0; i < kCloneSize; ++i) EXPECT_EQ(state.by_laser.row(at + i), state.by_laser.row(pose(i)));
   state.clonePose();  // The same instant again: nothing new.
   EXPECT_EQ(state.dimension(), n);
 }
@@ -189,6 +226,7 @@ TEST(Clones, TheLeastRecentlyUsedCloneIsDropped) {
   FilterState state = randomState(random, kMaxClones);
   state.clones[0].last_used = common::Time::fromSeconds(0.95);
   const ErrorCovariance before = state.covariance;
+  const LaserSensitivity by_laser_before = state.by_laser;
   state.clonePose();
   EXPECT_EQ(state.clone_count, kMaxClones);
   EXPECT_EQ(state.cloneAt(common::Time::fromSeconds(0.0)), 0);
@@ -197,6 +235,7 @@ TEST(Clones, TheLeastRecentlyUsedCloneIsDropped) {
   const int third = kCore + 2 * kCloneSize, second = kCore + kCloneSize;
   EXPECT_EQ(state.covariance(second, second), before(third, third));
   EXPECT_EQ(state.covariance(second, 2), before(third, 2));
+  EXPECT_EQ(state.by_laser.row(second), by_laser_before.row(third));
 }
 
 }  // namespace

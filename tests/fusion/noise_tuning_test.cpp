@@ -28,8 +28,16 @@ std::vector<std::string_view> wordsOf(const std::string& line) {
   return words;
 }
 
+/// How the laser is mounted otherwise than the filter believes, and by how much its stamps are off.
+struct LaserErrors {
+  common::Pose2 mount;
+  double clock_s = 0.0;
+  double reference_every_s = 0.5;  ///< A new reference scan.
+};
+
 /// A flight whose scans are late by 20 ms, as a tape.
-TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double seconds = 20.0) {
+TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double seconds = 20.0,
+                        const LaserErrors& laser = {}) {
   SyntheticFlight flight(seed, seconds, noise);
   common::RandomStream random(seed, "tape");
   const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 1e-4, 1.2e-5).asDiagonal();
@@ -46,13 +54,15 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
       taped.inputs.push_back(
           TapedHeight{to, flight.motion.pose(scan_s).position_m.z() + random.gaussian(0.01), 1e-4, 0});
       if (reference_s >= 0.0) {
-        common::Pose2 relative = planar(flight.motion.pose(reference_s)).inverse() * planar(flight.motion.pose(scan_s));
+        const common::Pose2 moved = planar(flight.motion.pose(reference_s + laser.clock_s)).inverse() *
+                                    planar(flight.motion.pose(scan_s + laser.clock_s));
+        common::Pose2 relative = laser.mount.inverse() * moved * laser.mount;
         relative.x_m += random.gaussian(0.01);
         relative.y_m += random.gaussian(0.01);
         relative.yaw_rad += random.gaussian(std::sqrt(1.2e-5));
         taped.inputs.push_back(TapedRelativePose{Time::fromSeconds(reference_s), to, relative, covariance, {}});
       }
-      if (reference_s < 0.0 || scan_s - reference_s > 0.5) {
+      if (reference_s < 0.0 || scan_s - reference_s > laser.reference_every_s) {
         taped.inputs.push_back(TapedClone{to});
         reference_s = scan_s;
       }
@@ -122,6 +132,27 @@ TEST(NoiseTuning, LearnsBetterVelocitiesOnFlightsThatItDidNotSee) {
       << "it is deterministic";
 }
 
+// Samples arrive late: what the filter knows is compared with the truth of then, not of now.
+TEST(TapedReplay, GivesTheTruthAtTheTimeOfTheState) {
+  TapedFlight flight = tapedFlight(1, {}, 8.0);
+  for (FilterInput& input : flight.inputs)
+    if (auto* imu = std::get_if<common::ImuSample>(&input)) imu->stamps.arrived += common::Duration::fromSeconds(0.012);
+  TapedReplay replay(flight, withoutDrag());
+  const Motion motion;
+  int compared = 0;
+  while (const TrueMotion* now = replay.next()) {
+    const TrueMotion truth = replay.truthOfState();
+    if (now == &flight.truth.front()) continue;  // Nothing is known of the time before.
+    EXPECT_EQ(truth.stamp, replay.filter().newest());
+    EXPECT_GE((now->stamp - truth.stamp).seconds(), 0.01);
+    if (++compared < 4) continue;
+    const Truth then = motion.truth(truth.stamp.seconds());
+    EXPECT_LT((truth.position_map_m - then.T_odom_body.position_m).norm(), 1e-4);
+    EXPECT_NEAR(common::wrapAngle(truth.yaw_map_rad - common::yawOf(then.T_odom_body.rotation)), 0.0, 1e-4);
+  }
+  EXPECT_GT(compared, 300);
+}
+
 TEST(ChiSquaredBounds, AgreeWithTables) {
   EXPECT_NEAR(chiSquaredBounds95(100).lower * 100, 74.22, 0.1);
   EXPECT_NEAR(chiSquaredBounds95(100).upper * 100, 129.56, 0.1);
@@ -151,6 +182,44 @@ TEST(FlightConsistency, IsOneForAFilterThatIsRightAboutItsNoise) {
     EXPECT_GT(figure.upper, 1.0) << figure.name;
   }
   EXPECT_EQ(consistency.innovations[1].degrees, 40) << "heights in a second";
+}
+
+/// All scans are matched to the first one, by lasers whose mounts and clocks are as far off as the filter believes.
+std::vector<TapedFlight> flightsWithLasersAskew() {
+  std::vector<TapedFlight> flights;
+  const FusionConfig config;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    common::RandomStream random(seed, "laser");
+    LaserErrors laser;
+    laser.mount.yaw_rad = random.gaussian(config.laser_yaw_sigma_deg * common::kRadPerDeg);
+    laser.mount.x_m = random.gaussian(config.laser_position_sigma_m);
+    laser.mount.y_m = random.gaussian(config.laser_position_sigma_m);
+    laser.clock_s = random.gaussian(config.laser_clock_sigma_s);
+    laser.reference_every_s = 1e9;
+    flights.push_back(tapedFlight(seed, {}, 12.0, laser));
+  }
+  return flights;
+}
+
+TEST(FlightConsistency, HoldsForLasersAskewWhereTheirMountIsConsidered) {
+  const std::vector<TapedFlight> flights = flightsWithLasersAskew();
+  const Consistency considered = consistencyOf(flights, withoutDrag());
+  FusionConfig sure = withoutDrag();
+  sure.laser_yaw_sigma_deg = sure.laser_position_sigma_m = sure.laser_clock_sigma_s = 0.0;
+  const Consistency exact = consistencyOf(flights, sure);
+  ASSERT_EQ(considered.flights, 20u);
+  ASSERT_EQ(exact.flights, 20u);
+  for (const std::size_t i : {2u, 3u}) {
+    const ConsistencyFigure& figure = considered.errors[i];
+    std::printf("  %s: NEES %.2f, %.2f where the mount counts as exact\n", figure.name.c_str(), figure.mean,
+                exact.errors[i].mean);
+    EXPECT_GT(figure.mean, 0.4) << figure.name;
+    EXPECT_LT(figure.mean, 1.6) << figure.name;
+    EXPECT_TRUE(figure.well_sized()) << figure.name << " " << figure.sigma_ratio;
+  }
+  EXPECT_GT(exact.errors[2].mean, 4.0);
+  EXPECT_FALSE(exact.errors[2].consistent());
+  EXPECT_FALSE(exact.errors[2].well_sized());
 }
 
 TEST(FlightConsistency, IsMuchMoreThanOneForAFilterThatIsNot) {
