@@ -28,18 +28,19 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
   const Clock::time_point now = Clock::now();
   if (!world->map3d || now < next_ || !jobs_->idle("map3d")) return;
   next_ = now + kPeriod;
-  jobs_->submit("map3d", now_, kLatency, [this, layer = world->map3d]() -> common::JobRunner::Deliver {
+  jobs_->submit("map3d", now_, kLatency, [this, layer = world->map3d, world_stamp = world->stamp]() -> common::JobRunner::Deliver {
     const Clock::time_point begin = Clock::now();
-    const interfaces::Map3dFiles files = map3dFilesInFlight(*layer);
+    // Shared: the files of a large map take 100 MB, and a delivery is copied.
+    const auto files = std::make_shared<const interfaces::Map3dFiles>(map3dFilesInFlight(*layer, world_stamp));
     return [this, files, took = Clock::now() - begin](common::Time) {
-      folder_.showMap3d(files);
+      folder_.showMap3d(*files);
       next_ = std::max(next_, Clock::now() + kLeastPause * took);
     };
   });
 }
 
 void Map3dSink::writeNow(const common::World& world) {
-  if (world.map3d) folder_.showMap3d(map3dFiles(*world.map3d));
+  if (world.map3d) folder_.showMap3d(map3dFiles(*world.map3d, world.stamp));
 }
 
 }  // namespace swiftlet::apps
