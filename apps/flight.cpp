@@ -80,7 +80,7 @@ class Flight {
     for (const auto& vehicle : vehicles_) {
       if (vehicle->finished()) continue;
       if (vehicle->over())
-        vehicle->finish(secondsSince(begin_));
+        vehicle->finish(secondsSince(begin_), memory_);
       else
         any = true;
     }
@@ -94,6 +94,7 @@ class Flight {
   }
 
   void pace() {
+    memory_.look();
     const double wall_s = secondsSince(begin_);
     if (hooks_.progress && wall_s - last_progress_s_ >= 0.1) {
       last_progress_s_ = wall_s;
@@ -122,6 +123,7 @@ class Flight {
   fs::path folder_;
   std::vector<std::unique_ptr<VehicleFlight>> vehicles_;
   common::Time now_;
+  MemoryWatch memory_;
   Clock::time_point begin_ = Clock::now();
   double last_progress_s_ = 0.0;
 };

@@ -1,5 +1,6 @@
 // swiftlet: the only main(). Each command is one file beside this one.
 #include <fcntl.h>
+#include <malloc.h>
 
 #include <cerrno>
 #include <csignal>
@@ -21,6 +22,15 @@ void openStandardStreams() {
     if (::fcntl(descriptor, F_GETFD) < 0) (void)::open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY);
 }
 
+/// Large blocks go back to the system when they are freed. Otherwise glibc soon keeps blocks of up to 32 MB for each
+/// thread, which was a quarter of the memory of a long flight.
+void returnLargeBlocks() {
+#ifdef __GLIBC__
+  constexpr int kLarge_bytes = 1 << 20;  // More than a picture of a camera.
+  mallopt(M_MMAP_THRESHOLD, kLarge_bytes);
+#endif
+}
+
 /// What was printed may have been lost: a full disk is told, a reader that has gone is not.
 int withOutput(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
@@ -34,6 +44,7 @@ int withOutput(int code) {
 int main(int argc, char** argv) {
   using namespace swiftlet;
   openStandardStreams();
+  returnLargeBlocks();
   // Beyond a limit of the shell (ulimit -f) a write then fails, and is told, as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
 

@@ -10,9 +10,10 @@ namespace swiftlet::apps {
 
 namespace {
 
-interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::VoxelMap& fused,
+interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::VoxelMap& fused, common::Time fused_stamp,
                                const mapping3d::CloudConfig& cloud) {
   interfaces::Map3dFiles files;
+  files.octree_stamp = fused_stamp;
   files.cloud_ply =
       interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys, cloud), interfaces::CloudFormat::kPly);
   files.map_bt = interfaces::toOctree(fused, interfaces::OctreeFormat::kBinary);
@@ -22,17 +23,17 @@ interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::Vo
 
 }  // namespace
 
-interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer) {
+interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer, common::Time now) {
   if (layer.submaps->empty()) return {};
   const double resolution_m = layer.submaps->front().voxels->resolution_m();
-  return filesOf(layer, mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m), {});
+  return filesOf(layer, mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m), now, {});
 }
 
-interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer) {
-  if (!layer.fused) return map3dFiles(layer);
+interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer, common::Time now) {
+  if (!layer.fused) return map3dFiles(layer, now);
   mapping3d::CloudConfig quick;
   quick.neighbours = 0;
-  return filesOf(layer, *layer.fused, quick);
+  return filesOf(layer, *layer.fused, layer.fused_stamp, quick);
 }
 
 }  // namespace swiftlet::apps

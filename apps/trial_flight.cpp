@@ -50,7 +50,7 @@ FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const Flight
 }
 
 evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evaluation::FlightRecord& record,
-                                const simulation::SimulatedVehicle& vehicle, double wall_time_s) {
+                                const simulation::SimulatedVehicle& vehicle, const interfaces::FlightEnd& end) {
   evaluation::TrueWorld truth;
   truth.rays = &vehicle.rays();
   truth.vehicle = vehicle.scenario().vehicle;
@@ -65,7 +65,7 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   truth.quadrotor = vehicle.scenario().quadrotor;
   truth.clearance_m = trial.clearance_m;
   truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
-  return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
+  return evaluation::scoreOf(record, truth, trial.criteria, seed, end.wall_time_s.value_or(0.0), end.machine);
 }
 
 /// What another trial left there would look like this one's until its last flight; what is not a trial's is kept.
@@ -154,7 +154,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
   hooks.stop = &stop;
   hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
     evaluation::FlightScore& score = by_name[vehicle.name()];
-    score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
+    score = scoreOf(trial, seed, record, vehicle, end);
     score.vehicle = vehicle.name();
     end.coverage = score.coverage;
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});

@@ -16,15 +16,16 @@ namespace {
 
 using interfaces::Outcome;
 
-autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& name, behaviors::Mission mission) {
+autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& name, behaviors::Mission mission,
+                                const std::shared_ptr<JobMeter>& meter) {
   std::optional<autonomy::GivenMap> given;
   if (setup.map) {
     given = setup.map->map;
     given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
   }
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
-                            common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get(),
-                            setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr,
+                            timed(common::makeLockstepJobs(1), meter), given ? &*given : nullptr, name,
+                            setup.memory.read.get(), setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr,
                             setup.system.model ? &*setup.system.model : nullptr,
                             setup.system.vertical_laser ? &*setup.system.vertical_laser : nullptr);
 }
@@ -106,7 +107,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
                 evaluation::knowableFrame(vehicle_->T_world_map(), vehicle_->scenario().sensors.laser_errors),
                 setup.map ? setup.map->T_world_given : std::nullopt),
       script_(setup.operator_steps, name_),
-      autonomy_(makeAutonomy(setup, name_, std::move(mission.mission))),
+      autonomy_(makeAutonomy(setup, name_, std::move(mission.mission), job_meter_)),
       folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       map3d_(folder_),
@@ -210,7 +211,7 @@ bool VehicleFlight::end(Outcome outcome, std::string reason) {
   return true;
 }
 
-void VehicleFlight::finish(double wall_s) {
+void VehicleFlight::finish(double wall_s, MemoryWatch& memory) {
   loop_.finish();
   pictures_.drawNow(*autonomy_.world());
   map3d_.writeNow(*autonomy_.world());
@@ -219,6 +220,7 @@ void VehicleFlight::finish(double wall_s) {
   end.outcome = outcome_;
   end.reason = reason_;
   end.wall_time_s = wall_s;
+  end.machine = machineUse(memory);
   end.ground_truth_map = recorder_.record().truth_map;
   evaluation::FlightRecord record = recorder_.finish();
   record.operator_answers = script_.answers();
@@ -231,6 +233,16 @@ void VehicleFlight::finish(double wall_s) {
   folder_.finish(end);
   if (web_) showEnd();
   vehicle_.reset();
+}
+
+common::MachineUse VehicleFlight::machineUse(MemoryWatch& memory) const {
+  common::MachineUse use{memory.peak_MB(), std::nullopt, std::nullopt};
+  if (!autonomy_.cameraCounts()) return use;
+  if (const auto ends = job_meter_->ends("mapping3d")) {
+    use.frame_first_ms = ends->first_ms;
+    use.frame_last_ms = ends->last_ms;
+  }
+  return use;
 }
 
 /// A crash teaches nothing of the vehicle that flies next.

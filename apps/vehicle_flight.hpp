@@ -10,7 +10,9 @@
 #include "apps/control_log_sink.hpp"
 #include "apps/flight_setup.hpp"
 #include "apps/map3d_sink.hpp"
+#include "apps/memory_watch.hpp"
 #include "apps/picture_sink.hpp"
+#include "apps/timed_jobs.hpp"
 #include "apps/visual_odometry_sink.hpp"
 #include "autonomy/autonomy.hpp"
 #include "autonomy/flight_loop.hpp"
@@ -41,7 +43,7 @@ class VehicleFlight {
   /// Its mission has ended, it has crashed, or something ends it from outside.
   bool over();
   /// Writes the last files and leaves the arena, where the vehicle stays as it is; once, when it is over.
-  void finish(double wall_s);
+  void finish(double wall_s, MemoryWatch& memory);
   bool finished() const { return vehicle_ == nullptr; }
 
   std::shared_ptr<const common::World> world() const { return autonomy_.world(); }
@@ -55,6 +57,7 @@ class VehicleFlight {
   common::LosslessQueue<common::OperatorCommand>& commands();
   void landIfAsked();
   void warnOfUnwrittenFiles();
+  common::MachineUse machineUse(MemoryWatch& memory) const;
   void keepMemory(interfaces::FlightEnd& end);
   bool cameToRest();
   bool end(interfaces::Outcome outcome, std::string reason);
@@ -68,6 +71,7 @@ class VehicleFlight {
   std::string name_;  ///< Empty when it flies alone.
   evaluation::FlightRecorder recorder_;
   evaluation::OperatorScript script_;
+  std::shared_ptr<JobMeter> job_meter_ = std::make_shared<JobMeter>();
   autonomy::Autonomy autonomy_;
   interfaces::RunFolder folder_;
   PictureSink pictures_;

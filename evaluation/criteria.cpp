@@ -97,6 +97,11 @@ void describeWhole(Criteria& c, common::config::Fields& fields) {
          "Greatest horizontal distance from the take-off place at which the vehicle is at the end.");
   fields("unfinished_distance_min_m", c.unfinished_distance_min_m, {0, 1e5},
          "Least distance flown by a vehicle that ends without having done its mission.");
+  fields("memory_max_MB", c.memory_max_MB, kPositive,
+         "Greatest resident memory of the program, in 10^6 bytes. Flights side by side (--jobs) share it.");
+  fields("frame_growth_max", c.frame_growth_max, kPositive,
+         "Greatest processor time of a camera frame in the 3D map, median of the last tenth of the frames over that of "
+         "the first tenth.");
   fields("all_resumed", c.all_resumed, "Whether everything that was interrupted must have gone on.");
   fields("goal_error_median_max_m", c.goal_error_median_max_m, kPositive,
          "Greatest median of all flights' goal errors.");

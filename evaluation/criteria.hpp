@@ -48,6 +48,8 @@ struct Criteria {
   double false_targets_max = kAny;
   double end_distance_max_m = kAny;
   double unfinished_distance_min_m = 0.0;
+  double memory_max_MB = kAny;
+  double frame_growth_max = kAny;
   bool all_resumed = true;
   double goal_error_median_max_m = kAny;
   double home_error_median_max_m = kAny;

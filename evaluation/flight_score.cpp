@@ -126,7 +126,7 @@ ConductScore scoreOf(const ConductRecord& record, const TrueWorld& world) {
 }  // namespace
 
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
-                    double wall_time_s) {
+                    double wall_time_s, const common::MachineUse& machine) {
   FlightScore score;
   score.seed = seed;
   score.outcome = outcomeOf(record);
@@ -165,6 +165,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.interruptions = record.interruptions;
   score.resumed = record.resumed;
   if (wall_time_s > 0) score.realtime_factor = record.flight_time_s / wall_time_s;
+  score.machine = machine;
   score.failures = missed(score, criteria);
   return score;
 }

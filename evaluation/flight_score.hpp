@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/machine_use.hpp"
 #include "evaluation/behavior_score.hpp"
 #include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
@@ -101,6 +102,7 @@ struct FlightScore {
   int interruptions = 0;
   int resumed = 0;
   double realtime_factor = 0.0;
+  common::MachineUse machine;
 
   /// Every criterion that was missed, with figure and bound; empty if the flight passed.
   std::vector<std::string> failures;
@@ -109,7 +111,7 @@ struct FlightScore {
 
 /// `wall_time_s` is the computing time; 0 if not known.
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
-                    double wall_time_s);
+                    double wall_time_s, const common::MachineUse& machine = {});
 
 /// The figures of how the vehicle was flown, by their names in results.json.
 std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const ConductScore& score);

@@ -88,6 +88,12 @@ void judgeDistances(const FlightScore& score, const Criteria& criteria, Judge& j
                   criteria.unfinished_distance_min_m);
 }
 
+/// What the computer needed is asked of every flight, however it ended.
+void judgeMachine(const common::MachineUse& machine, const Criteria& criteria, Judge& judge) {
+  judge.atMost("memory, MB", machine.memory_peak_MB, criteria.memory_max_MB);
+  judge.atMost("camera frame at the end over one at the start", machine.frameGrowth(), criteria.frame_growth_max);
+}
+
 }  // namespace
 
 std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria) {
@@ -98,6 +104,7 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   judgeConduct(score.conduct, criteria, asked_of_mission, judge);
   judgeBehaviors(score.behaviors, criteria, judge);
   judgeDistances(score, criteria, judge);
+  judgeMachine(score.machine, criteria, judge);
   judgeSteps(score, judge);
   return judge.failures;
 }

@@ -46,6 +46,8 @@ std::optional<double> visualOdometryRms_m(const FlightScore& flight) {
 std::optional<double> visualOdometryLostShare(const FlightScore& flight) {
   return flight.visual_odometry ? std::optional(flight.visual_odometry->lost_share) : std::nullopt;
 }
+std::optional<double> memoryPeak_MB(const FlightScore& flight) { return flight.machine.memory_peak_MB; }
+std::optional<double> frameGrowth(const FlightScore& flight) { return flight.machine.frameGrowth(); }
 template <Verdict kVerdict>
 std::optional<double> is(const FlightScore& flight) {
   return flight.verdict == kVerdict ? 1.0 : 0.0;
@@ -108,6 +110,8 @@ const std::vector<TrialFigure>& trialFigures() {
       {"estimate_rms_median_raw_m", kMedian, of<&Score::estimate_rms_raw_m>},
       {"map_wall_error_median_raw_m", kMedian, of<&Score::map_wall_error_median_raw_m>},
       {"realtime_factor_median", kMedian, of<&Score::realtime_factor>},
+      {"memory_peak_MB", kMax, memoryPeak_MB},
+      {"frame_growth_max", kMax, frameGrowth},
   };
   return figures;
 }

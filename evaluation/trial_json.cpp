@@ -48,6 +48,12 @@ ordered_json map3dJson(const Map3dScore& score) {
   return json;
 }
 
+ordered_json machineJson(const common::MachineUse& machine) {
+  return {{"memory_peak_MB", orNull(machine.memory_peak_MB)},
+          {"frame_first_ms", orNull(machine.frame_first_ms)},
+          {"frame_last_ms", orNull(machine.frame_last_ms)}};
+}
+
 ordered_json phasesJson(const FlightScore& flight) {
   ordered_json json = ordered_json::object();
   for (const PhaseScore& phase : flight.phases)
@@ -119,6 +125,7 @@ ordered_json flightJson(const FlightScore& flight) {
   if (flight.visual_odometry)
     json["visual_odometry"] = {{"rms_m", orNull(flight.visual_odometry->rms_m)},
                                {"lost_share", orNull(flight.visual_odometry->lost_share)}};
+  if (flight.machine.memory_peak_MB) json["machine"] = machineJson(flight.machine);
   if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
   if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
   return json;

@@ -67,6 +67,8 @@ const std::vector<SummaryColumn>& allColumns() {
       {"touch-down max (m/s)", "touch_down_speed_max_m_s", decimals<2>, &Criteria::touch_down_speed_max_m_s, true},
       {"fault to safe max (s)", "safe_action_max_s", decimals<2>, &Criteria::safe_action_max_s, true},
       {"home energy err max", "home_energy_error_max", percent, &Criteria::home_energy_error_max, true},
+      {"memory max (MB)", "memory_peak_MB", decimals<0>, &Criteria::memory_max_MB, true},
+      {"frame at the end / start", "frame_growth_max", decimals<2>, &Criteria::frame_growth_max, true},
       {"x real time", "realtime_factor_median", decimals<1>, nullptr},
   };
   return columns;

@@ -42,6 +42,15 @@ ordered_json targetJson(const common::Target& target) {
           {"views", target.views}};
 }
 
+ordered_json machineJson(const FlightSummary& summary) {
+  return {{"started", summary.info.started},
+          {"wall_time_s", orNull(summary.wall_time_s)},
+          {"realtime_factor", orNull(summary.realtime_factor)},
+          {"memory_peak_MB", orNull(summary.machine.memory_peak_MB)},
+          {"frame_first_ms", orNull(summary.machine.frame_first_ms)},
+          {"frame_last_ms", orNull(summary.machine.frame_last_ms)}};
+}
+
 ordered_json localizationJson(const std::string& map, const LocalizationSummary& summary) {
   ordered_json pose = nullptr;
   if (const common::Pose2& at = summary.last.T_given_body; summary.last.localized())
@@ -96,12 +105,10 @@ std::string toJson(const FlightSummary& summary) {
       {"phases", phases},
       {"frontiers", frontiers},
       {"figures", figures},
-      {"machine",
-       {{"started", summary.info.started},
-        {"wall_time_s", orNull(summary.wall_time_s)},
-        {"realtime_factor", orNull(summary.realtime_factor)}}},
+      {"machine", machineJson(summary)},
   };
   for (const common::Target& target : summary.targets) json["targets"].push_back(targetJson(target));
+  if (summary.octree_age_s) json["octree_age_s"] = rounded(*summary.octree_age_s);
   if (!summary.info.nature.empty()) json["nature"] = summary.info.nature;
   if (!summary.info.vehicle.empty()) json["vehicle"] = summary.info.vehicle;
   if (summary.localization) json["localization"] = localizationJson(summary.info.given_map, *summary.localization);

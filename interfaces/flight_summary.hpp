@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "common/localization.hpp"
+#include "common/machine_use.hpp"
 #include "common/time.hpp"
 #include "common/world/frontier.hpp"
 #include "common/world/targets_layer.hpp"
@@ -84,12 +85,14 @@ struct FlightSummary {
   std::optional<double> coverage;  ///< Share of the reachable free space in [0, 1]; none if the truth is not known.
   std::optional<LocalizationSummary> localization;  ///< None if it was given no map.
   std::vector<Phase> phases;
+  std::optional<double> octree_age_s;  ///< How much older map.bt and map.ot are than the summary; none without them.
   std::vector<common::Frontier> frontiers;  ///< The frontiers that remained, each with its reason.
   std::vector<common::Target> targets;      ///< What the camera has found of those that it looked for.
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;
   std::optional<double> wall_time_s;      ///< Computing time.
   std::optional<double> realtime_factor;  ///< Flown time over wall_time_s, from start to end.
+  common::MachineUse machine;
 };
 
 /// mission.json, indented. Figures have at most four decimals; those that are not finite, or not known, are null.

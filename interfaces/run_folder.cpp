@@ -191,6 +191,7 @@ struct RunFolder::Impl {
   }
 
   void writeSummary(Durability durability = Durability::kProcess) {
+    if (octree_stamp) summary.octree_age_s = (last_snapshot - *octree_stamp).seconds();
     write("mission.json", toJson(summary), durability);
     write("report.html", flightReport(summary, events, pictures, config_yaml), durability);
   }
@@ -215,6 +216,7 @@ struct RunFolder::Impl {
   std::optional<Time> mission_begin, last_flown;
   bool mission_over = false;
   Time last_snapshot;
+  std::optional<Time> octree_stamp;
   int photos = 0;
   std::optional<std::string> failure;
 };
@@ -345,6 +347,7 @@ void RunFolder::showMap3d(const Map3dFiles& map) {
   if (!map.cloud_ply.empty()) impl_->write("cloud.ply", map.cloud_ply);
   if (!map.map_bt.empty()) impl_->write("map.bt", map.map_bt);
   if (!map.map_ot.empty()) impl_->write("map.ot", map.map_ot);
+  if (!map.map_bt.empty()) impl_->octree_stamp = map.octree_stamp;
 }
 
 /// Appends the bytes of the lines to one text, so that the file is written at once.
@@ -362,6 +365,7 @@ void RunFolder::finish(const FlightEnd& end) {
   run.summary.coverage = end.coverage;
   run.summary.figures = end.figures;
   run.summary.wall_time_s = end.wall_time_s;
+  run.summary.machine = end.machine;
   if (end.wall_time_s && *end.wall_time_s > 0)
     run.summary.realtime_factor = run.last_snapshot.seconds() / *end.wall_time_s;
   if (run.grid) run.keep(writeMap(run.path, "map", *run.grid, Durability::kPower));

@@ -26,6 +26,7 @@
 
 #include "common/event.hpp"
 #include "common/geometry.hpp"
+#include "common/machine_use.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/trajectory.hpp"
@@ -53,6 +54,7 @@ struct FlightEnd {
   std::optional<double> wall_time_s;
   common::Trajectory ground_truth_map = {};  ///< In the `map` frame; empty if nobody knows it.
   std::string vehicle_memory_yaml = {};      ///< What is known of the vehicle now; empty: nothing is to be kept.
+  common::MachineUse machine = {};
 };
 
 /// The 3D map as the bytes of its files; an empty one is not written.
@@ -60,6 +62,7 @@ struct Map3dFiles {
   std::string cloud_ply;
   std::string map_bt;
   std::string map_ot;
+  common::Time octree_stamp = {};  ///< When submaps and poses were those that the last two are fused from.
 };
 
 /// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is

@@ -102,8 +102,16 @@ std::string summarySection(const FlightSummary& summary) {
       facts.emplace_back("Knew its place",
                          fmt::format("{:.0f} % of the flight", 100 * localization.localized_s / localization.flown_s));
   }
+  if (summary.octree_age_s)
+    facts.emplace_back("Age of the octree (map.bt, map.ot)", fmt::format("{:.1f} s", *summary.octree_age_s));
   facts.emplace_back("Battery left", fmt::format("{:.0f} %", 100 * summary.battery_remaining));
   if (summary.realtime_factor) facts.emplace_back("Real time", fmt::format("× {:.1f}", *summary.realtime_factor));
+  const common::MachineUse& machine = summary.machine;
+  if (machine.memory_peak_MB)
+    facts.emplace_back("Memory of the program", fmt::format("up to {:.0f} MB", *machine.memory_peak_MB));
+  if (machine.frameGrowth())
+    facts.emplace_back("Computing time of a camera frame",
+                       fmt::format("{:.1f} ms, {:.1f} ms at the end", *machine.frame_first_ms, *machine.frame_last_ms));
   return html::section("Summary", html::facts(facts));
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -47,9 +46,17 @@ SurfacePoint surfacePoint(const PclPoint& point) {
 
 bool isKnown(const Vector3f& normal) { return normal.squaredNorm() > 0.5F; }
 
-/// Calls its argument for each point, the same ones in the same order each time. A list of all points of a large map
-/// would take as much memory as the map.
-using PointSource = std::function<void(const std::function<void(const SurfacePoint&)>&)>;
+/// Points with their pose in the cloud. A list of all points of a large map would take as much memory as the map.
+struct Piece {
+  const std::vector<SurfacePoint>* points;
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  Vector3f origin_m = Vector3f::Zero();
+
+  SurfacePoint at(std::size_t index) const {
+    const SurfacePoint& point = (*points)[index];
+    return {rotation * point.position_m + origin_m, rotation * point.normal, point.rgb};
+  }
+};
 using TileIndex = std::array<std::int64_t, 3>;
 
 std::optional<TileIndex> tileOf(const SurfacePoint& point, float cube_m) {
@@ -63,68 +70,95 @@ std::optional<TileIndex> tileOf(const SurfacePoint& point, float cube_m) {
   return tile;
 }
 
-/// The points by tiles whose borders are borders of cubes. They are counted first: a cloud that grows takes up to twice
-/// its memory.
-std::map<TileIndex, PclCloud::Ptr> tilesOf(const PointSource& points, float cube_m) {
-  std::map<TileIndex, std::size_t> sizes;
-  points([&](const SurfacePoint& point) {
-    if (const auto tile = tileOf(point, cube_m)) ++sizes[*tile];
-  });
-  std::map<TileIndex, PclCloud::Ptr> tiles;
-  for (const auto& [index, size] : sizes) {
-    tiles[index] = pcl::make_shared<PclCloud>();
-    tiles[index]->reserve(size);
-  }
-  points([&](const SurfacePoint& point) {
-    if (const auto tile = tileOf(point, cube_m)) tiles[*tile]->push_back(pclPoint(point));
-  });
+/// What of a piece lies in a tile.
+struct Share {
+  const Piece* piece;
+  std::size_t points;
+};
+
+/// Tiles whose borders are borders of cubes, each with what lies in it.
+std::map<TileIndex, std::vector<Share>> tilesOf(const std::vector<Piece>& pieces, float cube_m) {
+  std::map<TileIndex, std::vector<Share>> tiles;
+  for (const Piece& piece : pieces)
+    for (std::size_t i = 0; i < piece.points->size(); ++i) {
+      const auto tile = tileOf(piece.at(i), cube_m);
+      if (!tile) continue;
+      std::vector<Share>& shares = tiles[*tile];
+      if (shares.empty() || shares.back().piece != &piece) shares.push_back({&piece, 0});
+      ++shares.back().points;
+    }
   return tiles;
 }
 
-/// One point a cube. Opposite normals of a thin wall may cancel each other: the point has none then.
-PclCloud::Ptr thinned(const PointSource& points, float cube_m) {
-  std::map<TileIndex, PclCloud::Ptr> tiles = tilesOf(points, cube_m);
+PclCloud::Ptr cloudOf(const TileIndex& tile, const std::vector<Share>& shares, float cube_m) {
   std::size_t size = 0;
-  for (auto& [index, tile] : tiles) {
+  for (const Share& share : shares) size += share.points;
+  auto cloud = pcl::make_shared<PclCloud>();
+  cloud->reserve(size);
+  for (const Share& share : shares)
+    for (std::size_t i = 0; i < share.piece->points->size(); ++i) {
+      const SurfacePoint point = share.piece->at(i);
+      if (tileOf(point, cube_m) == tile) cloud->push_back(pclPoint(point));
+    }
+  return cloud;
+}
+
+/// Opposite normals of a thin wall may cancel each other: the point has none then.
+void clearUnknownNormals(PclCloud& cloud) {
+  for (PclPoint& point : cloud)
+    if (!point.getNormalVector3fMap().allFinite() || !isKnown(point.getNormalVector3fMap()))
+      point.getNormalVector3fMap().setZero();
+}
+
+std::size_t sizeOf(const std::vector<Piece>& pieces) {
+  std::size_t size = 0;
+  for (const Piece& piece : pieces) size += piece.points->size();
+  return size;
+}
+
+/// One point a cube, made tile by tile: PCL's points take twice the memory of the map's. `convert` makes a point of the
+/// result from one of PCL's.
+template <typename Points, typename Convert>
+Points thinned(const std::vector<Piece>& pieces, float cube_m, const Convert& convert) {
+  Points all;
+  all.reserve(sizeOf(pieces));  // What is not used of it is never touched, so that it takes no memory.
+  for (const auto& [tile, shares] : tilesOf(pieces, cube_m)) {
     pcl::VoxelGrid<PclPoint> grid;
     grid.setLeafSize(cube_m, cube_m, cube_m);
     grid.setDownsampleAllData(true);
-    grid.setInputCloud(tile);
-    auto kept = pcl::make_shared<PclCloud>();
-    grid.filter(*kept);
-    tile = kept;
-    size += kept->size();
+    grid.setInputCloud(cloudOf(tile, shares, cube_m));
+    PclCloud kept;
+    grid.filter(kept);
+    clearUnknownNormals(kept);
+    for (const PclPoint& point : kept) all.push_back(convert(point));
   }
-  auto all = pcl::make_shared<PclCloud>();
-  all->reserve(size);
-  for (auto& [index, tile] : tiles) *all += *std::exchange(tile, nullptr);
-  for (PclPoint& point : *all)
-    if (!point.getNormalVector3fMap().allFinite() || !isKnown(point.getNormalVector3fMap()))
-      point.getNormalVector3fMap().setZero();
   return all;
 }
 
 /// Surfaces have a quarter of the points in cubes of twice the size.
-PclCloud::Ptr thinned(const PointSource& points, const CloudConfig& config) {
+template <typename Points, typename Convert>
+Points thinned(const std::vector<Piece>& pieces, const CloudConfig& config, const Convert& convert) {
   auto cube_m = static_cast<float>(config.cube_m);
-  PclCloud::Ptr cloud = thinned(points, cube_m);
-  while (cloud->size() > config.points_max) {
-    const double surplus = static_cast<double>(cloud->size()) / static_cast<double>(config.points_max);
+  auto points = thinned<Points>(pieces, cube_m, convert);
+  while (points.size() > config.points_max) {
+    const double surplus = static_cast<double>(points.size()) / static_cast<double>(config.points_max);
     cube_m *= static_cast<float>(std::max(kLeastGrowth, std::sqrt(surplus)));
-    cloud = thinned(points, cube_m);
+    points = Points();
+    points = thinned<Points>(pieces, cube_m, convert);
   }
-  return cloud;
+  return points;
 }
 
-PclCloud::Ptr withoutOutliers(const PclCloud::Ptr& cloud, const CloudConfig& config) {
-  if (cloud->size() <= static_cast<std::size_t>(config.neighbours)) return cloud;
+void removeOutliers(const PclCloud::Ptr& cloud, const CloudConfig& config) {
+  if (cloud->size() <= static_cast<std::size_t>(config.neighbours)) return;
   pcl::StatisticalOutlierRemoval<PclPoint> filter;
   filter.setInputCloud(cloud);
   filter.setMeanK(config.neighbours);
   filter.setStddevMulThresh(config.deviations);
-  auto kept = pcl::make_shared<PclCloud>();
-  filter.filter(*kept);
-  return kept;
+  pcl::Indices kept;  // In ascending order.
+  filter.filter(kept);
+  for (std::size_t i = 0; i < kept.size(); ++i) (*cloud)[i] = (*cloud)[static_cast<std::size_t>(kept[i])];
+  cloud->resize(kept.size());
 }
 
 /// The direction of least spread of the points, on the side of `side`.
@@ -146,23 +180,24 @@ void addMissingNormals(const PclCloud::Ptr& cloud) {
   if (missing.empty() || missing.size() == cloud->size()) return;
   pcl::KdTreeFLANN<PclPoint> tree;
   tree.setInputCloud(cloud);
-  const PclCloud measured = *cloud;
+  std::vector<Vector3f> normals;  // Of the missing ones; those are found from measured ones alone.
   pcl::Indices indices;
   std::vector<float> squares_m2;
   for (const std::size_t i : missing) {
-    tree.nearestKSearch(measured[i], kPlaneNeighbours, indices, squares_m2);
+    tree.nearestKSearch((*cloud)[i], kPlaneNeighbours, indices, squares_m2);
     Vector3f side = Vector3f::Zero();
-    for (const auto neighbour : indices) side += measured[static_cast<std::size_t>(neighbour)].getNormalVector3fMap();
-    if (side.squaredNorm() > 0.0F) (*cloud)[i].getNormalVector3fMap() = planeNormal(measured, indices, side);
+    for (const auto neighbour : indices) side += (*cloud)[static_cast<std::size_t>(neighbour)].getNormalVector3fMap();
+    normals.push_back(side.squaredNorm() > 0.0F ? planeNormal(*cloud, indices, side) : Vector3f(Vector3f::Zero()));
   }
+  for (std::size_t i = 0; i < missing.size(); ++i) (*cloud)[missing[i]].getNormalVector3fMap() = normals[i];
 }
 
-std::vector<SurfacePoint> cleaned(const PointSource& points, const CloudConfig& config) {
-  PclCloud::Ptr cloud = thinned(points, config);
-  if (config.neighbours > 0) {
-    cloud = withoutOutliers(cloud, config);
-    addMissingNormals(cloud);
-  }
+std::vector<SurfacePoint> cleaned(const std::vector<Piece>& pieces, const CloudConfig& config) {
+  if (config.neighbours == 0) return thinned<std::vector<SurfacePoint>>(pieces, config, surfacePoint);
+  const auto cloud = pcl::make_shared<PclCloud>(
+      thinned<PclCloud>(pieces, config, [](const PclPoint& point) -> const PclPoint& { return point; }));
+  removeOutliers(cloud, config);
+  addMissingNormals(cloud);
   std::vector<SurfacePoint> kept;
   kept.reserve(cloud->size());
   for (const PclPoint& point : *cloud) kept.push_back(surfacePoint(point));
@@ -172,21 +207,18 @@ std::vector<SurfacePoint> cleaned(const PointSource& points, const CloudConfig& 
 }  // namespace
 
 std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
-  return cleaned([&](const auto& visit) { std::for_each(points.begin(), points.end(), visit); }, config);
+  return cleaned({{&points}}, config);
 }
 
 std::vector<SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
                                   const CloudConfig& config) {
-  const auto points = [&](const std::function<void(const SurfacePoint&)>& visit) {
-    for (const common::Submap3d& submap : submaps) {
-      const common::Pose3 T_map_submap = submap.T_map_submap(keys);
-      const Eigen::Matrix3f rotation = T_map_submap.rotation.toRotationMatrix().cast<float>();
-      const Vector3f origin_m = T_map_submap.position_m.cast<float>();
-      for (const SurfacePoint& point : *submap.points)
-        visit({rotation * point.position_m + origin_m, rotation * point.normal, point.rgb});
-    }
-  };
-  return cleaned(points, config);
+  std::vector<Piece> pieces;
+  for (const common::Submap3d& submap : submaps) {
+    const common::Pose3 T_map_submap = submap.T_map_submap(keys);
+    pieces.push_back({submap.points.get(), T_map_submap.rotation.toRotationMatrix().cast<float>(),
+                      T_map_submap.position_m.cast<float>()});
+  }
+  return cleaned(pieces, config);
 }
 
 }  // namespace swiftlet::mapping3d

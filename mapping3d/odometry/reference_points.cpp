@@ -94,6 +94,7 @@ std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vis
       if (textured && textured->u == middle.u && textured->v == middle.v) continue;
       if (const auto surface = surfaceAt(middle)) points.push_back(pointAt(level, middle, surface));
     }
+  points.shrink_to_fit();  // They are kept as long as their key frame.
   return points;
 }
 

@@ -135,6 +135,15 @@ const tests = {
     return page;
   },
 
+  async 'the age of the octree is told, and grows until it is made again'() {
+    const page = await open();
+    const age_s = async () => Number((await page.locator('#octree-age').textContent()).match(/^(\d+\.\d) s old$/)?.[1] ?? NaN);
+    await eventually('an age', async () => (await age_s()) > 0);
+    const first_s = await age_s();
+    await eventually('a greater age', async () => (await age_s()) > first_s + 0.5);
+    return page;
+  },
+
   async 'zooming leaves the whole map, fit and follow come back to it and to the vehicle'() {
     const page = await open();
     await shown3d(page);
@@ -245,6 +254,7 @@ const tests = {
     assert.equal((await (await fetch(`${other.url.origin}/api/state`)).json()).map3d, null);
     assert.equal(await page.locator('#show3d').isVisible(), false);
     assert.equal(await page.locator('#depth-card').isVisible(), false);
+    assert.equal(await page.locator('#octree').isVisible(), false);
     assert.ok((await (await fetch(`${origin}/api/state`)).json()).map3d.points > 0);
     await page.context().close();
     await other.stop();

@@ -11,9 +11,13 @@ namespace swiftlet::evaluation {
 namespace {
 
 using common::MissionState;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// A flight in the small room that meets every criterion.
 FlightRecord goodRecord() {
@@ -86,6 +90,27 @@ TEST_F(FlightScoring, EveryMissedCriterionIsNamed) {
                   "mission time, s: 82.000, at most 80 was asked for",
                   "estimate RMS, m: 0.030, at most 0.02 was asked for",
                   "estimate RMS in space, m: 0.040, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
+}
+
+// However the flight ended: a program that fills the memory is no better for having crashed.
+TEST_F(FlightScoring, WhatTheComputerNeededIsAskedOfEveryFlight) {
+  TrueWorld world;
+  world.rays = &rays_;
+  Criteria criteria;
+  criteria.verdicts = true;
+  criteria.memory_max_MB = 1000;
+  criteria.frame_growth_max = 1.5;
+  FlightRecord record = goodRecord();
+  record.mission = MissionState::kFailed;
+  const auto failures = [&](const common::MachineUse& machine) {
+    return scoreOf(record, world, criteria, 7, 3.0, machine).failures;
+  };
+  EXPECT_THAT(failures({999.0, 20.0, 29.0}), Not(Contains(AnyOf(HasSubstr("memory"), HasSubstr("frame")))));
+  EXPECT_THAT(failures({1001.0, 20.0, 31.0}),
+              AllOf(Contains("memory, MB: 1001.000, at most 1000 was asked for"),
+                    Contains("camera frame at the end over one at the start: 1.550, at most 1.5 was asked for")));
+  EXPECT_THAT(failures({}), AllOf(Contains("memory, MB: not measured, at most 1000 was asked for"),
+                                  Contains(HasSubstr("at the start: not measured"))));
 }
 
 // Without the north wall the flood fill leaves the room.

@@ -65,6 +65,18 @@ TEST(TrialResultsJson, ContainsTheFiguresOfAllFlights) {
   EXPECT_EQ(trial["flights"][4]["failures"][0], "collision: touched `box`");
 }
 
+TEST(TrialResultsJson, TellsWhatTheComputerNeeded) {
+  TrialResults all = results();
+  all.trials[0].flights[0].machine = {400.0, 20.0, 22.0};
+  all.trials[0].flights[1].machine = {700.0, std::nullopt, std::nullopt};
+  const json trial = json::parse(toJson(all))["trials"][0];
+  EXPECT_EQ(trial["memory_peak_MB"], 700.0);
+  EXPECT_EQ(trial["frame_growth_max"], 1.1) << "of the only flight that has it";
+  EXPECT_EQ(trial["flights"][0]["machine"]["frame_first_ms"], 20.0);
+  EXPECT_TRUE(trial["flights"][1]["machine"]["frame_first_ms"].is_null());
+  EXPECT_FALSE(trial["flights"][2].contains("machine"));
+}
+
 TEST(TrialResultsJson, RoundsFiguresAndWritesNullForUnexplored) {
   TrialResults all = results();
   FlightScore& first = all.trials[0].flights[0];

@@ -117,6 +117,7 @@ TEST(RunFolder, ContainsEveryFile) {
   flight.flyInto(run);
   run.show(ReportPictures{kPng, "", {"<svg></svg>"}});
   FlightEnd end{Outcome::kDone, "", 0.995, {{"goal_error_m", 0.05}}, 0.5};
+  end.machine = {412.4, 30.0, 33.0};
   run.finish(end);
   ASSERT_EQ(run.failure(), std::nullopt);
 
@@ -125,6 +126,8 @@ TEST(RunFolder, ContainsEveryFile) {
   EXPECT_EQ(mission["seed"], 7);
   EXPECT_NEAR(mission["mission_time_s"].get<double>(), 9.0, 1e-9);
   EXPECT_NEAR(mission["machine"]["realtime_factor"].get<double>(), 20.0, 1e-9);
+  EXPECT_EQ(mission["machine"]["memory_peak_MB"], 412.4);
+  EXPECT_EQ(mission["machine"]["frame_last_ms"], 33.0);
   EXPECT_EQ(mission["coverage"], 0.995);
   EXPECT_EQ(mission["figures"]["goal_error_m"], 0.05);
   EXPECT_EQ(mission["explored_area_m2"], 12.5);
@@ -370,9 +373,12 @@ TEST(RunFolder, KeepsThe3DMapAndTheCamerasTrajectory) {
   seen(0.1, true);  // The same frame in the next snapshot.
   seen(0.2, false);
   seen(0.3, true);
-  run.showMap3d({"ply bytes", "bt bytes", ""});
-  run.showMap3d({"newer bytes", "", ""});
+  run.showMap3d({"ply bytes", "bt bytes", "", Time::fromSeconds(0.05)});
+  run.showMap3d({"newer bytes", "", "", Time::fromSeconds(0.1)});
   run.finish({});
+  // The octree is still the first one, and the last snapshot was at 0.15 s.
+  EXPECT_NEAR(json::parse(bytesOf(folder / "run/mission.json"))["octree_age_s"].get<double>(), 0.1, 1e-9);
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("Age of the octree (map.bt, map.ot)"));
   const common::Trajectory trajectory = readTum(folder / "run/trajectory_camera.tum");
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory[1].stamp, Time::fromSeconds(0.3));

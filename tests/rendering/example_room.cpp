@@ -137,6 +137,10 @@ std::shared_ptr<const common::Map3dLayer> ExampleMapper::look(const common::Pose
   submaps_.back().points = std::make_shared<const std::vector<common::SurfacePoint>>(growing_);
   layer_.frame = frame;
   layer_.tracked = true;
+  if (!layer_.fused) {
+    layer_.fused = std::make_shared<const common::VoxelMap>(0.05);
+    layer_.fused_stamp = stamp;
+  }
   return publish();
 }
 

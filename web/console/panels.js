@@ -48,6 +48,8 @@ export function showState(state) {
   setText('explored', withUnit(state.explored_area_m2, 1, 'm²'));
   element('given-map').hidden = !state.localization;
   if (state.localization) setText('given-place', placeText(state.localization));
+  element('octree').hidden = !state.map3d;
+  if (state.map3d) setText('octree-age', state.map3d.fused_age_s === null ? 'none yet' : `${state.map3d.fused_age_s.toFixed(1)} s old`);
   setText('time', clockText(state.stamp_s));
   setText('flown', withUnit(state.distance_flown_m, 1, 'm'));
   setText('speed', withUnit(state.speed_m_s, 2, 'm/s'));
