@@ -6,6 +6,8 @@ namespace swiftlet::perception {
 namespace {
 
 constexpr int kSightings = 2;
+/// What beams pass, and none meets for so long times its sightings, is no longer certain.
+constexpr double kKept_s = 30.0;
 /// A tilt lasts for some tenths of a second; what is met again after this time is met by another one.
 constexpr double kApart_s = 0.5;
 /// Beams this many slices below the top go through; nearer ones may pass above, as their height is not known better.
@@ -46,11 +48,13 @@ bool LowObstacles::hit(common::CellIndex cell, int slice, common::Time now) {
   return isCertain(old) != isCertain(next) || (isCertain(next) && old.top != next.top);
 }
 
-bool LowObstacles::passed(common::CellIndex cell, int slice) {
+bool LowObstacles::passed(common::CellIndex cell, int slice, common::Time now) {
   const Cell old = cells_.at(cell);
   if (old.sightings == 0) return false;
   Cell next = old;
-  if (slice > old.top) {
+  if ((now - old.met).seconds() > kKept_s * old.sightings) {
+    next = Cell{};
+  } else if (slice > old.top) {
     next.passed = true;
     next.level = 0;
   } else if (slice >= old.bottom && slice <= old.top - kThrough) {

@@ -1,7 +1,8 @@
 // Remembers obstacles that end below the beams: a table, a counter, the back of a chair. Only a tilted beam meets them,
 // for a fraction of a second each time, and level beams pass above them in between. The height of a beam is known to
 // some 2 % of its range, so that beams which pass just above seem to go through, and would erase what was seen. What
-// beams met, passed above, and met again in the same place stays there. People do not: they reach as high as the beams.
+// beams met, passed above, and met again in the same place stays there, the longer the more often it was met. People do
+// not: they reach as high as the beams.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ class LowObstacles {
   /// something that reaches up, unless it is certain.
   void reachesUp(common::CellIndex cell);
   /// A beam crossed the cell at that height. Returns true if top() of the cell has changed.
-  bool passed(common::CellIndex cell, int slice);
+  bool passed(common::CellIndex cell, int slice, common::Time now);
 
   /// The height up to which something certainly stands in the cell.
   std::optional<int> top(common::CellIndex cell) const;

@@ -167,16 +167,16 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   };
   for (const Eigen::Vector3f& end : scan.free_level_m) add(inCells(end), end.z(), false);
   ended_.clear();
-  moving_.clear();
   for (std::size_t i = 0; i < scan.hits_level_m.size(); ++i) {
     const Eigen::Vector3f& end = scan.hits_level_m[i];
     const Eigen::Vector2d to = inCells(end);
-    add(to, end.z(), true, i < scan.incidences.size() ? scan.incidences[i] : Incidence::kUnknown);
     ended_.push_back(cellOf(to));
-    if (i < scan.moves.size() && scan.moves[i]) moving_.push_back(ended_.back());
+    // Who moves is met by level beams, too, which see when the place is free again; a tilted beam leaves a trace below.
+    const bool moves = i < scan.moves.size() && scan.moves[i];
+    if (moves && sliceAt(scan.body_height_m + static_cast<double>(end.z())) < laser_slice_) continue;
+    add(to, end.z(), true, i < scan.incidences.size() ? scan.incidences[i] : Incidence::kUnknown);
   }
   std::sort(ended_.begin(), ended_.end(), rowByRow);
-  std::sort(moving_.begin(), moving_.end(), rowByRow);
   for (const Eigen::Vector3f& end : scan.no_returns_level_m) {
     const Eigen::Vector2d to = inCells(end);
     const Eigen::Vector2d seen = beforeWall(body, to, [&](CellIndex cell) { return isWall(cell); });
@@ -226,7 +226,7 @@ void SlicedMap::apply(int slice) {
       const Cell old = grid.at(cell);
       const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
       const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
-      const bool low_changed = ended == 0 ? low_.passed(cell, slice) : meetLow(slice, cell);
+      const bool low_changed = ended == 0 ? low_.passed(cell, slice, stamp_) : meetLow(slice, cell);
       if (ended == 0) fadeAround(slice, cell);
       // An unchanged cell is not written, so that its tile stays shared with the snapshots.
       if (value != old) grid.set(cell, value);
@@ -252,7 +252,6 @@ bool SlicedMap::meetLow(int slice, CellIndex cell) {
     low_.reachesUp(cell);
     return false;
   }
-  if (std::binary_search(moving_.begin(), moving_.end(), cell, rowByRow)) return false;
   const auto level = slices_.find(laser_slice_);
   for (int dy = -1; level != slices_.end() && dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)

@@ -95,7 +95,6 @@ class SlicedMap {
   int laser_slice_ = 0;  ///< The one of the laser.
   std::map<int, std::vector<Ray>> rays_;
   std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
-  std::vector<common::CellIndex> moving_;           ///< Of these, those with something that moves; sorted.
   Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
   common::CellRect rect_;
   std::vector<std::uint32_t> marks_;

@@ -238,13 +238,12 @@ TEST(GridDrawing, WhatTiltedBeamsMeetAgainAndAgainStays) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
   Watching watching(map);
-  for (int tilt = 0; tilt < 2; ++tilt) {
-    watching.draw(over(0.0, 1.0), 60.0);
-    EXPECT_TRUE(common::occupancy::isFree(where())) << "met once, it fades";
+  for (int tilt = 0; tilt < 3; ++tilt) {
+    watching.draw(over(0.0, 1.0), 15.0);
     watching.draw(over(0.15, 1.0), 0.5);
     watching.draw(over(0.25, 1.0), 0.5);
   }
-  watching.draw(over(0.0, 1.0), 120.0);
+  watching.draw(over(0.0, 1.0), 45.0);
   EXPECT_TRUE(common::occupancy::isOccupied(where())) << "beams that pass above it do not erase it";
   EXPECT_TRUE(map.setFlightHeight(1.5));
   EXPECT_FALSE(common::occupancy::isOccupied(where()));
@@ -258,12 +257,14 @@ TEST(GridDrawing, BeamsUnderATableDoNotEraseIt) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
   Watching watching(map);
-  for (int tilt = 0; tilt < 2; ++tilt) {
+  for (int tilt = 0; tilt < 3; ++tilt) {
     watching.draw(over(0.0, 1.0), 5.0);
     watching.draw(over(0.10, 1.0), 0.5);
   }
-  watching.draw(through(), 60.0);
+  watching.draw(through(), 45.0);
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  watching.draw(through(), 60.0);
+  EXPECT_FALSE(common::occupancy::isOccupied(where())) << "it was not met for a minute";
 }
 
 TEST(GridDrawing, WhatMovesIsNoLowObstacle) {
