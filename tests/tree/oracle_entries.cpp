@@ -149,7 +149,7 @@ Status Oracle::evalQueue(const Shape& shape, const std::string& path) {
 Status Oracle::evalSwitch(const Shape& shape, const std::string& path) {
   const double variable = shape.number2 % 2 != 0 ? entry("n").value : shape.number;
   const int cases = casesOf(shape);
-  int chosen = variable < cases ? static_cast<int>(variable) : cases;
+  int chosen = variable >= 0.0 && variable < cases ? static_cast<int>(variable) : cases;
   if (bug_ == Bug::kSwitchSticks) chosen = memory_.number.try_emplace(path, chosen).first->second;
   for (int other = 0; other <= cases; ++other)
     if (other != chosen) forget(childPath(path, static_cast<std::size_t>(other)));
