@@ -53,6 +53,10 @@ void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, c
   }
   if (const auto background = background_.at(scan.stamp))
     obstacles_.update(scan.stamp, seen_, *background, given ? &*given : nullptr);
+  std::set<int> moved;
+  for (const common::DynamicObstacle& o : obstacles())
+    if (o.moving || moved_.contains(o.id)) moved.insert(o.id);
+  moved_ = std::move(moved);
 }
 
 std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {
@@ -69,10 +73,10 @@ std::vector<Disc> PeopleTracker::movingAt(common::Time stamp) const {
   constexpr double kMayTurn_m_s = 0.3;
   std::vector<Disc> result;
   for (const common::DynamicObstacle& o : obstacles()) {
-    if (!o.moving) continue;
+    if (!moved_.contains(o.id)) continue;
     const double age_s = std::max(0.0, (stamp - o.last_seen).seconds());
     result.push_back(
-        {o.center_map_m + o.velocity_map_m_s * age_s, o.radius_m + 2.0 * kAround_m + kMayTurn_m_s * age_s});
+        {o.center_map_m + o.believedVelocity_map_m_s() * age_s, o.radius_m + 2.0 * kAround_m + kMayTurn_m_s * age_s});
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/check.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "perception/projection/scan_projection.hpp"
@@ -202,8 +203,10 @@ class Walks {
   }
 
   Eigen::Vector2d somewhere(common::RandomStream& random) const {
+    SWIFTLET_CHECK(!free_.empty(), free_.size());
     for (;;) {
-      const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(free_.size()));
+      const auto at =
+          std::min(free_.size() - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(free_.size())));
       if (free_[at] != 0) return pointOf({static_cast<int>(at) % width_, static_cast<int>(at) / width_});
     }
   }
