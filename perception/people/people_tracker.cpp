@@ -24,6 +24,11 @@ constexpr double kAround_m = 0.20;
 /// Least share of a scan's points that must remain when points on people are removed.
 constexpr double kLeastShare = 0.4;
 
+bool isOnAny(std::span<const Disc> people, const Pose2& T_map_body, const Eigen::Vector2f& point_level_m) {
+  const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(point_level_m.cast<double>());
+  return std::any_of(people.begin(), people.end(), [&](const Disc& disc) { return disc.covers(point_map_m); });
+}
+
 }  // namespace
 
 PeopleTracker::PeopleTracker(const Config& config, const HeightBand& band)
@@ -84,11 +89,7 @@ std::vector<Disc> PeopleTracker::movingAt(common::Time stamp) const {
 void markPeople(std::span<const Disc> people, const Pose2& T_map_body, ProjectedScan& scan) {
   scan.moves.clear();
   if (people.empty()) return;
-  for (const Eigen::Vector2f& point_m : scan.points_level_m) {
-    const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(point_m.cast<double>());
-    scan.moves.push_back(
-        std::any_of(people.begin(), people.end(), [&](const Disc& disc) { return disc.covers(point_map_m); }));
-  }
+  for (const Eigen::Vector2f& point_m : scan.points_level_m) scan.moves.push_back(isOnAny(people, T_map_body, point_m));
 }
 
 ProjectedScan withoutPeople(std::span<const Disc> people, const Pose2& T_map_body, ProjectedScan scan) {
@@ -96,8 +97,7 @@ ProjectedScan withoutPeople(std::span<const Disc> people, const Pose2& T_map_bod
   std::vector<Eigen::Vector2f> points_level_m;
   std::vector<float> heights_level_m;
   for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
-    const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>());
-    if (std::any_of(people.begin(), people.end(), [&](const Disc& disc) { return disc.covers(point_map_m); })) continue;
+    if (isOnAny(people, T_map_body, scan.points_level_m[i])) continue;
     points_level_m.push_back(scan.points_level_m[i]);
     heights_level_m.push_back(scan.heights_level_m[i]);
   }

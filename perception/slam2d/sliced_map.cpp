@@ -232,7 +232,7 @@ void SlicedMap::apply(int slice) {
       if (value != old) grid.set(cell, value);
       if (low_changed)
         combine(cell);
-      else if (value != old && slice >= lowest_ && slice <= highest_)
+      else if (value != old && isCombined(slice))
         combine(cell, old, value);
     }
   }
@@ -292,7 +292,7 @@ void SlicedMap::combine(CellIndex cell) {
   Cell value = occupancy::kUnknown;
   for (auto slice = slices_.lower_bound(lowest_); slice != slices_.end() && slice->first <= highest_; ++slice)
     value = merged(value, slice->second.at(cell));
-  if (const auto top = low_.top(cell); top && *top >= lowest_ && *top <= highest_)
+  if (const auto top = low_.top(cell); top && isCombined(*top))
     value = std::max(value, static_cast<Cell>(config_.max_steps));
   if (value != combined_.at(cell)) combined_.set(cell, value);
 }
@@ -307,7 +307,7 @@ void SlicedMap::combineAll() {
     });
   }
   low_.forEach([&](CellIndex c, int top) {
-    if (top >= lowest_ && top <= highest_) fresh.set(c, static_cast<Cell>(config_.max_steps));
+    if (isCombined(top)) fresh.set(c, static_cast<Cell>(config_.max_steps));
   });
   makeEqual(combined_, fresh);
 }

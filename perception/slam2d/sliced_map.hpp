@@ -65,6 +65,7 @@ class SlicedMap {
   };
 
   int sliceAt(double height_m) const;
+  bool isCombined(int slice) const { return slice >= lowest_ && slice <= highest_; }
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
   bool isWall(common::CellIndex cell) const;
   void drawSlice(int slice, const std::vector<Ray>& rays);
