@@ -74,12 +74,14 @@ export class Map3dView {
   draw() {
     if (this.wanted || this.stopped) return;
     this.wanted = true;
+    this.canvas.dataset.stale = true;
     const paintNext = () => requestAnimationFrame(() => {
       this.wanted = false;
       if (this.stopped) return;
       try {
         const begin = performance.now();
         this.paint();
+        this.canvas.dataset.stale = false;
         const end = performance.now();
         this.restsUntil = 2 * end - begin;
       } catch (error) {
