@@ -23,6 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
+  if (setup.record_rgbd && !setup.system.rgbd_camera)
+    throw common::InputError(common::Problem{{},
+                                             "--record-rgbd",
+                                             "the vehicle of `" + setup.system.name + "` has no RGB-D camera",
+                                             "`--system swiftlet_3d` has one"});
   simulation::Scenario scenario = setup.scenario;
   scenario.vehicle = setup.system.vehicle;
   scenario.laser = setup.system.laser;

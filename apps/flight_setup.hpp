@@ -34,6 +34,7 @@ struct FlightSetup {
   VehicleMemorySetup memory;
   bool visual_odometry_alone = false;  ///< The RGB-D camera is tracked without any other sensor, too, for the score.
   bool control_log = false;            ///< Whether the run keeps control.tsv.
+  bool record_rgbd = false;            ///< Whether the run keeps the frames of the RGB-D camera.
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
   bool wait = false;             ///< On the ground, until the operator starts a mission.

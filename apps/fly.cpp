@@ -44,6 +44,7 @@ struct FlyOptions {
   std::optional<int> seed;
   std::string vehicle_memory;
   bool control_log = false;
+  bool record_rgbd = false;
   std::string speed;
   bool headless = false;
   bool wait = false;
@@ -80,6 +81,7 @@ FlightSetup setupOf(const FlyOptions& options) {
     setup.memory = setupOfMemory(options.vehicle_memory, setup.system.vehicle, setup.scenario.vehicles.size(),
                                  MemoryUse::kReadAndWrite);
   setup.control_log = options.control_log;
+  setup.record_rgbd = options.record_rgbd;
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -265,6 +267,8 @@ void addFly(Command& program) {
                  "File with what earlier flights learned of the vehicle: read at the start, written at the end.");
   command.flag("--control-log", options->control_log,
                "Keep commands, motion and battery at 100 Hz in the run: what `identify` reads.");
+  command.flag("--record-rgbd", options->record_rgbd,
+               "Keep the frames of the RGB-D camera in the run, as a folder that `map3d` reads.");
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");
   command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");

@@ -270,7 +270,8 @@ void addMap3d(Command& program) {
                  "Poses of the camera from other sensors, to begin each alignment with: TUM (t x y z qx qy qz qw), or "
                  "none.");
   command.option("--intrinsics", options->intrinsics,
-                 "Calibration of the camera (YAML), as far as it differs from the usual one of the format.");
+                 "Calibration of the camera (YAML), as far as it differs from the usual one of the format. Default: "
+                 "calibration.yaml of the folder, if there is one.");
   command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
   command.flag("--mesh", options->mesh, "Also write mesh.ply, the surfaces of the map as coloured triangles.");
   command.flag("--json", options->json, "Print the figures as JSON.");

@@ -6,9 +6,9 @@
 
 #include "common/base64.hpp"
 #include "common/jpeg_encoder.hpp"
+#include "common/png_encoder.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
-#include "rendering/encode.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "rendering/map_picture.hpp"
 #include "rendering/map_renderer.hpp"
@@ -86,7 +86,7 @@ interfaces::ReportPictures reportPictures(const common::World& world, const inte
   view.height_px = 720;
   rendering::MapPicture picture = rendering::pictureOf(world, hull_diameter_m);
   picture.scan_map_m.clear();
-  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(picture, view));
+  const std::vector<std::uint8_t> png = common::encodePng(rendering::renderMap(picture, view));
 
   const common::VehicleLayer& vehicle = *world.vehicle;
   const auto trail_map_m = vehicle.trail.points_map_m();

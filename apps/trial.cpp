@@ -41,6 +41,7 @@ struct TrialOptions {
   std::string system;
   std::string nature;  ///< Empty: those of the trial.
   bool control_log = false;
+  bool record_rgbd = false;
   std::string vehicle_memory;     ///< Empty: each flight starts from the data sheet.
   std::optional<double> battery;  ///< None: as the trial says.
   std::string out;
@@ -81,8 +82,8 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const Vehicle
   std::mutex mutex;
   flyInParallel(count, options.jobs, stop, [&](int i) {
     const int seed = first_seed + i;
-    auto flown =
-        flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop, {memory, options.control_log});
+    auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop,
+                        {memory, options.control_log, options.record_rgbd});
     const std::scoped_lock lock(mutex);
     if (!options.json)
       for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
@@ -187,6 +188,8 @@ void addTrial(Command& program) {
                  "File with what earlier flights learned of the vehicle: each flight starts from it, none writes it.");
   command.flag("--control-log", options->control_log,
                "Keep commands, motion and battery at 100 Hz in each run: what `identify` reads.");
+  command.flag("--record-rgbd", options->record_rgbd,
+               "Keep the frames of the RGB-D camera in the run, as a folder that `map3d` reads.");
   command.option("--nature", options->nature, "Nature to fly them all in, instead of their own.");
   command.option("--battery", options->battery, {0.01, 1},
                  "Charge at the start to fly them all with, as a share of the full one.");

@@ -162,6 +162,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
   FlightSetup setup = setupOf(trial, map, seed, folder);
   setup.memory = extras.memory;
   setup.control_log = extras.control_log;
+  setup.record_rgbd = extras.record_rgbd;
   const FlightResult result = flySimulated(setup, soundMissions(setup, map != nullptr), hooks);
   if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
   std::vector<evaluation::FlightScore> scores;

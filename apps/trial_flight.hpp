@@ -27,6 +27,7 @@ std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, 
 struct FlightExtras {
   VehicleMemorySetup memory = {};
   bool control_log = false;  ///< Whether the runs keep control.tsv.
+  bool record_rgbd = false;  ///< Whether the runs keep the frames of the RGB-D camera.
 };
 
 /// Flies a prepared trial once and returns a score for each vehicle. The run lies in `folder`, and FlightScore::folder

@@ -72,6 +72,13 @@ std::unique_ptr<VisualOdometrySink> visualOdometryOf(const FlightSetup& setup) {
                                               setup.system.rgbd_camera->mount.pose());
 }
 
+std::unique_ptr<RgbdSink> rgbdSinkOf(const FlightSetup& setup, const interfaces::RunFolder& folder,
+                                     const simulation::SimulatedVehicle& vehicle) {
+  if (!setup.record_rgbd || !setup.system.rgbd_camera) return nullptr;
+  const common::Pose3 mount_error = vehicle.scenario().sensors.rgbd_errors.mount_error.pose();
+  return std::make_unique<RgbdSink>(folder.path(), vehicle, mount_error * setup.system.rgbd_camera->mount.pose());
+}
+
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
                             const std::string& mission_file) {
   interfaces::RunInfo info;
@@ -112,6 +119,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       map3d_(folder_),
       control_log_(setup.control_log ? std::make_unique<ControlLogSink>(folder_.path(), *vehicle_) : nullptr),
+      rgbd_(rgbdSinkOf(setup, folder_, *vehicle_)),
       visual_odometry_(visualOdometryOf(setup)),
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, commands(), sinks()) {
@@ -139,6 +147,7 @@ std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
   std::vector<autonomy::FlightSink*> all;
   for (const auto& sink : sinks_) all.push_back(sink.get());
   if (control_log_) all.push_back(control_log_.get());
+  if (rgbd_) all.push_back(rgbd_.get());
   if (visual_odometry_) all.push_back(visual_odometry_.get());
   all.push_back(&pictures_);
   all.push_back(&map3d_);
@@ -266,6 +275,7 @@ void VehicleFlight::showEnd() const {
 VehicleResult VehicleFlight::result() const {
   std::optional<std::string> failure = memory_failure_ ? memory_failure_ : folder_.failure();
   if (!failure && control_log_) failure = control_log_->failure();
+  if (!failure && rgbd_) failure = rgbd_->failure();
   return {name_, folder_.summary(), folder_.path(), failure};
 }
 

@@ -12,6 +12,7 @@
 #include "apps/map3d_sink.hpp"
 #include "apps/memory_watch.hpp"
 #include "apps/picture_sink.hpp"
+#include "apps/rgbd_sink.hpp"
 #include "apps/timed_jobs.hpp"
 #include "apps/visual_odometry_sink.hpp"
 #include "autonomy/autonomy.hpp"
@@ -77,6 +78,7 @@ class VehicleFlight {
   PictureSink pictures_;
   Map3dSink map3d_;
   std::unique_ptr<ControlLogSink> control_log_;          ///< Null unless it is asked for.
+  std::unique_ptr<RgbdSink> rgbd_;                       ///< Null unless it is asked for.
   std::unique_ptr<VisualOdometrySink> visual_odometry_;  ///< Null unless it is asked for.
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.

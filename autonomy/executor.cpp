@@ -81,7 +81,8 @@ double Executor::dip_m() const {
 }
 
 bool Executor::isLower() const {
-  return HeightState{memory_.cruise_height_m, controller_.reference().position_odom_m.z(), memory_.lowered_m}.isLower();
+  return FlightHeights{memory_.cruise_height_m, controller_.reference().position_odom_m.z(), memory_.lowered_m}
+      .isLower();
 }
 
 std::shared_ptr<const planning::CostMap> Executor::costMapHere() const {

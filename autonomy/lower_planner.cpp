@@ -77,7 +77,7 @@ LowerPlanner::LowerPlanner(const LowerFlightConfig& config, const planning::Cost
     : config_(config), half_hull_m_(0.5 * hull_height_m), upper_(costs, resolution_m), lower_(costs, resolution_m) {}
 
 /// The first height that differs is one hull below.
-std::optional<double> LowerPlanner::chooseHeight(const HeightState& height) const {
+std::optional<double> LowerPlanner::chooseHeight(const FlightHeights& height) const {
   if (height.lowered_m) return height.lowered_m;
   const double highest_m = height.cruise_m - 2.0 * half_hull_m_;
   if (highest_m < config_.least_height_m) return std::nullopt;
@@ -101,10 +101,10 @@ tl::expected<planning::Path, planning::PlanFailure> LowerPlanner::plan(const Low
   const auto lower_m = config_.enabled ? chooseHeight(question.height) : std::nullopt;
   if (!lower_m) return tl::make_unexpected(planning::PlanFailure{});
   update(question, *lower_m);
-  planning::TwoHeightsQuestion way;
-  way.start_map_m = question.start_map_m;
-  way.starts_lower = question.height.isLower();
-  way.change_cost_m = config_.change_cost_m;
+  planning::TwoHeightsQuestion asked;
+  asked.start_map_m = question.start_map_m;
+  asked.starts_lower = question.height.isLower();
+  asked.change_cost_m = config_.change_cost_m;
   planning::PlanFailure failure;
   for (const planning::CostMap* map : {&maps_->upper, &maps_->lower}) {
     const planning::CostGoalMap goals(*map);
@@ -115,8 +115,8 @@ tl::expected<planning::Path, planning::PlanFailure> LowerPlanner::plan(const Low
       failure = planning::failureOf(place.error());
       continue;
     }
-    way.goal_map_m = *place;
-    auto path = planAtTwoHeights(*maps_, way);
+    asked.goal_map_m = *place;
+    auto path = planAtTwoHeights(*maps_, asked);
     if (path) return path;
     failure = path.error();
   }

@@ -1,4 +1,4 @@
-// Paths below what hangs over the way: where the voxels of the camera show room for the hull at a lower height, the
+// Paths below what hangs over them: where the voxels of the camera show room for the hull at a lower height, the
 // vehicle flies there, and comes back up behind it. A laser alone cannot know that room.
 //
 //   voxels, grid at the height of flight --> two cost maps, one lower --> planAtTwoHeights
@@ -19,7 +19,7 @@
 namespace swiftlet::autonomy {
 
 /// What is known of heights when a path is asked for.
-struct HeightState {
+struct FlightHeights {
   double cruise_m = 1.0;            ///< The height of flight, over the take-off floor.
   double reference_m = 1.0;         ///< Where the vehicle is to be.
   std::optional<double> lowered_m;  ///< The lower height of the plan that is flown; none while it flies no such plan.
@@ -35,7 +35,7 @@ struct LowerQuestion {
   planning::Footprint footprint;
   const planning::CostLayers& layers;
   const common::PlaceNames& names;
-  HeightState height;
+  FlightHeights height;
   Eigen::Vector2d start_map_m;
   Eigen::Vector2d goal_map_m;
   double tolerance_m = 0.0;  ///< A free place within it may replace the goal.
@@ -53,7 +53,7 @@ class LowerPlanner {
   std::shared_ptr<const planning::TwoHeights> maps() const { return maps_; }
 
  private:
-  std::optional<double> chooseHeight(const HeightState& height) const;
+  std::optional<double> chooseHeight(const FlightHeights& height) const;
   void update(const LowerQuestion& question, double lower_m);
 
   LowerFlightConfig config_;

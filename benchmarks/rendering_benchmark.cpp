@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "common/jpeg_encoder.hpp"
-#include "rendering/encode.hpp"
+#include "common/png_encoder.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/resize.hpp"
@@ -67,7 +67,7 @@ BENCHMARK(jpeg)->Unit(benchmark::kMillisecond);
 void png(benchmark::State& state) {
   const common::Image image = renderMap(pictureOf(wholeMap().world(), 0.55), {});
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = encodePng(image).size();
+  for (auto _ : state) bytes = common::encodePng(image).size();
   state.counters["bytes"] = static_cast<double>(bytes);
 }
 BENCHMARK(png)->Unit(benchmark::kMillisecond);

@@ -21,6 +21,7 @@
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/files/tum.hpp"
+#include "interfaces/rgbd/rgbd_calibration.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -276,7 +277,7 @@ void RunFolder::Impl::followCamera(const common::World& world) {
     camera_trajectory_file = std::move(*writer);
   }
   camera_stamp = stamp;
-  keep(camera_trajectory_file->write({stamp, world.map3d->T_map_camera}));
+  keep(camera_trajectory_file->write({stamp, world.map3d->T_map_camera * T_camera_optical()}));
 }
 
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)

@@ -5,7 +5,8 @@
 //   trajectory.tum   the estimate in `map`
 //   ground_truth.tum   the true trajectory of a simulated vehicle in `map`, while airborne; written at the end
 //   trajectory_given.tum   the pose in the given map, if there is one, while localized
-//   trajectory_camera.tum   with an RGB-D camera: the poses in `map` of the frames that were aligned to the 3D map
+//   trajectory_camera.tum   with an RGB-D camera: the poses in `map` of the frames that were aligned to the 3D map,
+//                    with x right, y down and z along the view, as TUM RGB-D has them
 //   cloud.ply, map.bt, map.ot     with an RGB-D camera: the 3D map, replaced every few seconds and at the end
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   map-NAME.pgm, map-NAME.yaml    each map that the mission saved
@@ -14,7 +15,8 @@
 //   config.yaml      the settings in force
 //   vehicle_memory_read.yaml, vehicle_memory_learned.yaml    of a flight with a vehicle's memory: before and after it
 //   control.tsv      with --control-log: commands, motion and battery at 100 Hz (interfaces/control_log.hpp)
-//   fusion.tsv       with it: all that the fusion filter was told (perception/fusion/filter_tape.hpp)
+//   rgbd/            with --record-rgbd: the frames of the RGB-D camera (interfaces/rgbd/rgbd_recorder.hpp)
+//   fusion.tsv       with --control-log: all that the fusion filter was told (perception/fusion/filter_tape.hpp)
 //   nature.yaml      what a simulated vehicle drew from its nature; none if it draws nothing
 #pragma once
 

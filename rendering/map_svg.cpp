@@ -8,7 +8,7 @@
 
 #include "common/base64.hpp"
 #include "common/markup.hpp"
-#include "rendering/encode.hpp"
+#include "common/png_encoder.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/svg.hpp"
 
@@ -84,7 +84,7 @@ std::string mapSvg(const MapPicture& picture, int width_px) {
                  R"(style="max-width:100%;height:auto" role="img" aria-label="Map">{2})",
                  width_px, height_px, svg::style());
   fmt::format_to(out, R"(<image width="{}" height="{}" href="data:image/png;base64,{}"/>)", width_px, height_px,
-                 common::base64(encodePng(renderMap(below, view))));
+                 common::base64(common::encodePng(renderMap(below, view))));
   // The picture below is always light, so the lines on it are too.
   text += R"(<g style="--c1:#1f6fe0;--c2:#d9480f;--c3:#0a8f6c;--c4:#9c36b5;--c5:#b7791f;--c6:#c2255c;--ink:#2b3947">)";
   const std::vector<MapLine> named = namedOnce(picture.lines);

@@ -72,7 +72,7 @@ std::vector<Eigen::Vector3d> PathFlight::liftedPoints(const planning::Path& path
   const auto& points = path.points_map_m;
   const double here_m = controller_.reference().position_odom_m.z();
   const bool leaves_lower =
-      HeightState{memory_.cruise_height_m, here_m, memory_.lowered_m}.isLower() && path.lowered.empty();
+      FlightHeights{memory_.cruise_height_m, here_m, memory_.lowered_m}.isLower() && path.lowered.empty();
   const auto heightOf = [&](std::size_t line) {
     if (leaves_lower && line < path.escape_points) return *memory_.lowered_m;
     return path.isLowered(line) ? path.lower_height_m : memory_.cruise_height_m;

@@ -171,7 +171,10 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
                 "",
                 fmt::format("holds no pair of a colour and a depth image, {} images are unpaired", listing.unpaired),
                 ""});
-  if (!calibration_file.empty()) common::config::YamlReader::fromFile(calibration_file).read(listing.calibration);
+  const fs::path recorded = folder / "calibration.yaml";
+  const std::string calibration =
+      calibration_file.empty() && fs::exists(recorded) ? recorded.string() : calibration_file;
+  if (!calibration.empty()) common::config::YamlReader::fromFile(calibration).read(listing.calibration);
   return listing;
 }
 

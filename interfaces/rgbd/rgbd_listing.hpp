@@ -26,7 +26,8 @@ struct RgbdListing {
 /// Recognizes folders in the format of TUM RGB-D (associations.txt, or rgb.txt and depth.txt) and of 7-Scenes
 /// (frame-XXXXXX.color.png or .jpg, .depth.png). Throws InputError for any other folder, for a list that cannot be read
 /// (with file, line and column), and for a folder without a single pair. A calibration file (YAML) holds what differs
-/// from the calibration of the format; what it does not name stays. Throws InputError for its mistakes, all at once.
+/// from the calibration of the format; what it does not name stays. If none is given, a calibration.yaml in the folder
+/// is read. Throws InputError for its mistakes, all at once.
 RgbdListing listRgbdFolder(const std::filesystem::path& folder, const std::string& calibration_file = {});
 
 /// TUM: two images are a pair if their stamps are at most this apart, as in the benchmark's associate.py.

@@ -36,8 +36,8 @@ class HeightSearch {
             static_cast<std::int32_t>(std::lround(change_cost_m / maps.upper.resolution_m() * CostMap::kStraightMin))) {
   }
 
-  /// From one place to another, both included; empty if there is no way.
-  std::vector<Place> way(const Place& from, const Place& to) {
+  /// From one place to another, both included; empty if there is no path.
+  std::vector<Place> path(const Place& from, const Place& to) {
     cost_.assign(2 * static_cast<std::size_t>(cells_), kNotReached);
     from_.assign(cost_.size(), -1);
     const int first = nodeOf(from), last = nodeOf(to);
@@ -131,12 +131,12 @@ tl::expected<Path, PlanFailure> planAtTwoHeights(const TwoHeights& maps, const T
   const std::optional<CellPath> escape = escapeFrom(first, first.cellAt(question.start_map_m));
   if (!escape) return tl::make_unexpected(unreachable(maps.upper, question.goal_map_m));
 
-  const std::vector<Place> way =
-      HeightSearch(maps, question.change_cost_m).way({escape->back(), question.starts_lower}, {goal, ends_lower});
-  if (way.empty()) return tl::make_unexpected(unreachable(maps.upper, question.goal_map_m));
+  const std::vector<Place> path =
+      HeightSearch(maps, question.change_cost_m).path({escape->back(), question.starts_lower}, {goal, ends_lower});
+  if (path.empty()) return tl::make_unexpected(unreachable(maps.upper, question.goal_map_m));
   std::vector<Place> places;
   for (const CellIndex cell : *escape) places.push_back({cell, question.starts_lower});
-  places.insert(places.end(), way.begin() + 1, way.end());
+  places.insert(places.end(), path.begin() + 1, path.end());
   return linesThrough(maps, places, escape->size() - 1, question);
 }
 

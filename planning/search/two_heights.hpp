@@ -1,4 +1,4 @@
-// Paths that change their height: where something hangs over the way at the height of flight, the vehicle flies lower.
+// Paths that change their height: where something hangs over the path at the height of flight, the vehicle flies lower.
 //
 //   at the height of flight  o----o                 o----> goal
 //                                 |    beam         |

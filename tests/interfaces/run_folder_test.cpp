@@ -383,6 +383,8 @@ TEST(RunFolder, KeepsThe3DMapAndTheCamerasTrajectory) {
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory[1].stamp, Time::fromSeconds(0.3));
   EXPECT_NEAR(trajectory[1].pose.position_m.x(), 0.3, 1e-9);
+  // The view is along z of the file, and along x of the vehicle's frame `camera`.
+  EXPECT_NEAR((trajectory[1].pose.rotation * Eigen::Vector3d::UnitZ()).x(), 1.0, 1e-6);
   EXPECT_EQ(bytesOf(folder / "run/cloud.ply"), "newer bytes");
   EXPECT_EQ(bytesOf(folder / "run/map.bt"), "bt bytes");
   EXPECT_FALSE(std::filesystem::exists(folder / "run/map.ot"));

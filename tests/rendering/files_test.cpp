@@ -1,4 +1,4 @@
-// The formats of files: PNG, JPEG, SVG.
+// The drawings in SVG.
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -6,11 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
-#include "common/base64.hpp"
-#include "common/jpeg_encoder.hpp"
-#include "rendering/encode.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
 #include "rendering/plot_svg.hpp"
@@ -22,45 +18,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-common::Image pattern(int width_px, int height_px) {
-  common::Image image{width_px, height_px, {}};
-  for (int i = 0; i < 3 * width_px * height_px; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * 7));
-  return image;
-}
-
-TEST(EncodeTest, PngReadsBackAsTheSamePicture) {
-  const common::Image image = pattern(31, 17);
-  const Bytes png = encodePng(image);
-  png_image reader{};
-  reader.version = PNG_IMAGE_VERSION;
-  ASSERT_NE(png_image_begin_read_from_memory(&reader, png.data(), png.size()), 0);
-  reader.format = PNG_FORMAT_RGB;
-  Bytes pixels(PNG_IMAGE_SIZE(reader));
-  ASSERT_NE(png_image_finish_read(&reader, nullptr, pixels.data(), 0, nullptr), 0);
-  EXPECT_EQ(pixels, image.rgb);
-  EXPECT_EQ(encodePng(image), png);
-}
-
-TEST(EncodeTest, JpegHasItsMarkersAndIsRepeatable) {
-  common::JpegEncoder encoder;
-  const Bytes large = encoder.encode(pattern(200, 100), 80);
-  EXPECT_EQ(large[0], 0xff);
-  EXPECT_EQ(large[1], 0xd8);
-  EXPECT_EQ(large[large.size() - 1], 0xd9);
-  const Bytes small = encoder.encode(pattern(8, 8), 80);
-  EXPECT_LT(small.size(), large.size());
-  EXPECT_EQ(encoder.encode(pattern(200, 100), 80), large);
-}
-
-TEST(EncodeTest, Base64FollowsTheStandard) {
-  const auto of = [](const std::string& text) { return common::base64(Bytes(text.begin(), text.end())); };
-  EXPECT_EQ(of(""), "");
-  EXPECT_EQ(of("f"), "Zg==");
-  EXPECT_EQ(of("fo"), "Zm8=");
-  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(of("\xff\xfe\xfd"), "//79");
-}
 
 int countOf(const std::string& text, const std::string& what) {
   int count = 0;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rendering/encode.hpp"
+#include "common/png_encoder.hpp"
 #include "rendering/map_renderer.hpp"
 #include "tests/rendering/example_flight.hpp"
 
@@ -26,7 +26,7 @@ TEST(MapRendererTest, WritesPicturesToLookAt) {
   for (const Scheme scheme : {Scheme::kLight, Scheme::kDark}) {
     MapView view;
     view.scheme = scheme;
-    const Bytes png = encodePng(renderMap(picture, view));
+    const std::vector<std::uint8_t> png = common::encodePng(renderMap(picture, view));
     std::ofstream(std::string(SWIFTLET_BINARY_DIR) + (scheme == Scheme::kLight ? "/map_light.png" : "/map_dark.png"),
                   std::ios::binary)
         .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));

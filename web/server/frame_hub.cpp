@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/check.hpp"
+#include "common/png_encoder.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "rendering/canvas.hpp"
 #include "rendering/depth_picture.hpp"
@@ -169,8 +170,8 @@ FrameHub::Drawn FrameHub::drawDepth(const PictureView& asked, common::Time now) 
           depth.value->stamps.measured, depth.unix_time};
 }
 
-rendering::Bytes FrameHub::png(const PictureView& view) const {
-  return rendering::encodePng(
+std::vector<std::uint8_t> FrameHub::png(const PictureView& view) const {
+  return common::encodePng(
       rendering::renderMap(rendering::pictureOf(*telemetry_.world().value, hull_diameter_m_), mapView(view)));
 }
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/jpeg_encoder.hpp"
-#include "rendering/encode.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
 #include "web/server/picture_view.hpp"
@@ -39,12 +39,12 @@ class FrameHub {
                                            common::Duration period, common::Time sent);
 
   /// A single picture as PNG. A world must have been seen.
-  rendering::Bytes png(const PictureView& view) const;
+  std::vector<std::uint8_t> png(const PictureView& view) const;
 
  private:
   /// A picture and the times that its part of the stream says.
   struct Drawn {
-    rendering::Bytes jpeg;
+    std::vector<std::uint8_t> jpeg;
     common::Time stamp;  ///< Time of the flight.
     common::Time seen;   ///< When the server first saw the source, since 1970.
   };

@@ -124,7 +124,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     vehicle.telemetry.look();
     if (!vehicle.telemetry.world().value) return sendError(503, "there is no map yet");
     if (!byOperator() && !core_->viewersMaySend()) return sendError(503, "too many viewers; try again");
-    const rendering::Bytes png = vehicle.hub.png(picture.view);
+    const std::vector<std::uint8_t> png = vehicle.hub.png(picture.view);
     Response response = make(200, "image/png");
     response.body().assign(png.begin(), png.end());
     core_->sent(*this, png.size());

@@ -220,7 +220,7 @@ std::optional<Operand> Script::bits(Op op, const Operand& a, const Operand& b) {
 }
 
 std::optional<bool> Script::comparison(Op op, const Operand& a, const Operand& b) {
-  const Operand left = namedNumber(a, b), right = namedNumber(b, a);
+  const Operand left = constantBeside(a, b), right = constantBeside(b, a);
   if (op == Op::kEqual) return areEqual(left, right);
   if (op == Op::kUnequal) return !areEqual(left, right);
   const auto order = compare(left, right);
@@ -232,7 +232,7 @@ std::optional<bool> Script::comparison(Op op, const Operand& a, const Operand& b
 }
 
 /// Beside a number, the text 'RED' is the constant RED.
-Operand Script::namedNumber(const Operand& operand, const Operand& other) const {
+Operand Script::constantBeside(const Operand& operand, const Operand& other) const {
   const auto* text = std::get_if<std::string_view>(&operand);
   if (text == nullptr || owner_->constants_.empty() || std::holds_alternative<std::string_view>(other)) return operand;
   const auto known = owner_->constants_.find(*text);

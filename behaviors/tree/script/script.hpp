@@ -75,7 +75,7 @@ class Script {
   std::optional<Operand> arithmetic(Op op, const Operand& a, const Operand& b);
   std::optional<Operand> bits(Op op, const Operand& a, const Operand& b);
   std::optional<bool> comparison(Op op, const Operand& a, const Operand& b);
-  Operand namedNumber(const Operand& operand, const Operand& other) const;
+  Operand constantBeside(const Operand& operand, const Operand& other) const;
   std::optional<Operand> join(std::uint32_t buffer, const Operand& a, const Operand& b);
   std::optional<Operand> assign(const Expression& expression);
   std::optional<bool> truth(std::uint32_t index);
