@@ -37,7 +37,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
   for (const perception::GroundPoint& point : ground)
     seen_.add(point.position_map_m, vertical->height_m - point.distance_below_m);
-  fan_.add(scan, T_odom_body, vertical->height_m);
+  fan_.add(scan, T_odom_body, vertical->height_m, surface_height_m_);
   const bool was_on_slope = ramp_.onSlope();
   step.slope_ended_rise_m =
       ramp_.move(T_map_odom, T_odom_body.position_m(), slopes_.gradientAt(T_map_body.position_m()));

@@ -22,6 +22,9 @@ constexpr int kBesideCells = 2;
 /// So many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
 /// branches and rocks may lie on a plane in a single one.
 constexpr int kLeastPlanes = 2;
+/// A plane that lies higher above the ground below the vehicle does not go on from it. The gradients of cells are wrong
+/// by up to a tenth, 3 m away.
+constexpr double kAboveGround_m = 0.3;
 
 Eigen::Vector3d pointOdom_m(const ProjectedScan& scan, std::size_t i, const common::Pose2& T_odom_body,
                             double height_m) {
@@ -31,8 +34,10 @@ Eigen::Vector3d pointOdom_m(const ProjectedScan& scan, std::size_t i, const comm
 
 }  // namespace
 
-void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m) {
+void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m,
+                    double surface_height_m) {
   for (std::size_t i = 0; i < scan.points_level_m.size(); i += kEveryPoint) {
+    if (!scan.moves.empty() && scan.moves[i]) continue;
     const float range_m = scan.points_level_m[i].norm();
     if (range_m > kFanRange_m || range_m < kObstacle_m) continue;
     const Eigen::Vector3d point_m = pointOdom_m(scan, i, T_odom_body, height_m);
@@ -40,8 +45,10 @@ void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body,
     Cell& cell = cells_[index];
     if (cell.plane.points() == 0 || (scan.stamp - cell.since).seconds() > kTogether_s) cell = {scan.stamp, {}};
     cell.plane.add(point_m);
-    if (const auto gradient = cell.plane.gradient(); gradient && gradient->norm() >= kLeastGradient)
-      slopes_[index] = {cell.plane, *gradient};
+    const auto gradient = cell.plane.gradient();
+    if (!gradient || gradient->norm() < kLeastGradient) continue;
+    const Slope slope{cell.plane, *gradient};
+    if (slope.height_m(T_odom_body.position_m()) < surface_height_m + kAboveGround_m) slopes_[index] = slope;
   }
 }
 

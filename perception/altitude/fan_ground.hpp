@@ -2,6 +2,9 @@
 // it looks like a wall. Over several scans from different heights or attitudes it does not: the end points on a wall
 // stay above each other, those on a ramp lie on a plane that slopes.
 //
+// Ground also goes on from the ground below the vehicle: its plane, extended to there, is no higher. A person who walks
+// while the laser tilts leaves end points on a sloping plane as well, at the height of the chest.
+//
 //   end points, in odom --> a plane in each cell, of 3 s --> cells that slope --> beams that met ground
 #pragma once
 
@@ -19,8 +22,9 @@ namespace swiftlet::perception {
 /// One thread. In the frame `odom`, whose z is the height over the take-off floor.
 class FanGround {
  public:
-  /// Learns from a scan, taken from that pose and height.
-  void add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m);
+  /// Learns from a scan, taken from that pose and height, `surface_height_m` being that of the ground below. What moves
+  /// is left out.
+  void add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m, double surface_height_m);
 
   /// Makes floor hits of the end points that lie on ground that is known to slope.
   void remove(ProjectedScan& scan) const;

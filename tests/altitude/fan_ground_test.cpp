@@ -20,6 +20,15 @@ constexpr double kFoot_m = 3.0;
 
 double acrossRoom_m(double bearing_rad) { return std::min(9.0 / std::cos(bearing_rad), 9.0); }
 
+/// Somebody 0.6 m wide, 2 m ahead, who walks away while the vehicle rises by `gradient` metres a metre.
+Ranges walker(double gradient) {
+  return [gradient](double bearing_rad, double height_m) {
+    const double ahead_m = 2.0 + (height_m - 1.0) / gradient;
+    return std::abs(ahead_m * std::tan(bearing_rad)) < 0.3 ? ahead_m / std::cos(bearing_rad)
+                                                           : acrossRoom_m(bearing_rad);
+  };
+}
+
 /// A ramp ahead, 2.4 m wide, that rises by 1 m; behind it a room.
 Ranges ramp(double gradient) {
   return [gradient](double bearing_rad, double height_m) {
@@ -44,7 +53,7 @@ class ClimbBefore : public testing::Test {
   }
   void climb(double from_m, double to_m, const Ranges& ranges_m) {
     for (double height_m = from_m; height_m < to_m; height_m += 0.01)
-      fan_.add(scanAt(height_m, ranges_m), {}, height_m);
+      fan_.add(scanAt(height_m, ranges_m), {}, height_m, 0.0);
   }
   /// End points ahead and nearer than the room behind.
   static int near(const ProjectedScan& scan) {
@@ -103,8 +112,27 @@ TEST_F(ClimbBefore, GroundThatIsNearStaysAnObstacle) {
   EXPECT_EQ(close(), before);
 }
 
+TEST_F(ClimbBefore, APersonWhoWalksAwayIsNone) {
+  climb(1.0, 1.3, walker(0.25));
+  ProjectedScan scan = scanAt(1.15, walker(0.25));
+  ASSERT_GT(near(scan), 50);
+  fan_.remove(scan);
+  EXPECT_EQ(scan.counts.floor_hits, 0);
+}
+
+TEST_F(ClimbBefore, WhatMovesTellsNothing) {
+  for (double height_m = 0.15; height_m < 0.5; height_m += 0.01) {
+    ProjectedScan scan = scanAt(height_m, ramp(0.268));
+    scan.moves.assign(scan.points_level_m.size(), true);
+    fan_.add(scan, {}, height_m, 0.0);
+  }
+  ProjectedScan scan = scanAt(0.55, ramp(0.268));
+  fan_.remove(scan);
+  EXPECT_EQ(scan.counts.floor_hits, 0);
+}
+
 TEST_F(ClimbBefore, HoveringTellsNothing) {
-  for (int i = 0; i < 200; ++i) fan_.add(scanAt(0.5, ramp(0.268)), {}, 0.5);
+  for (int i = 0; i < 200; ++i) fan_.add(scanAt(0.5, ramp(0.268)), {}, 0.5, 0.0);
   ProjectedScan scan = scanAt(0.5, ramp(0.268));
   fan_.remove(scan);
   EXPECT_EQ(scan.counts.floor_hits, 0);
