@@ -1,8 +1,10 @@
 #include "mapping3d/cloud/cloud.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -10,7 +12,6 @@
 
 #include <pcl/common/centroid.h>
 #include <pcl/common/eigen.h>
-#include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
@@ -116,11 +117,9 @@ std::size_t sizeOf(const std::vector<Piece>& pieces) {
   return size;
 }
 
-/// One point a cube, made tile by tile: PCL's points take twice the memory of the map's. `convert` makes a point of the
-/// result from one of PCL's.
-template <typename Points, typename Convert>
-Points thinned(const std::vector<Piece>& pieces, float cube_m, const Convert& convert) {
-  Points all;
+/// One point a cube, made tile by tile: PCL's points take twice the memory of the map's.
+std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, float cube_m) {
+  std::vector<SurfacePoint> all;
   all.reserve(sizeOf(pieces));  // What is not used of it is never touched, so that it takes no memory.
   for (const auto& [tile, shares] : tilesOf(pieces, cube_m)) {
     pcl::VoxelGrid<PclPoint> grid;
@@ -130,39 +129,121 @@ Points thinned(const std::vector<Piece>& pieces, float cube_m, const Convert& co
     PclCloud kept;
     grid.filter(kept);
     clearUnknownNormals(kept);
-    for (const PclPoint& point : kept) all.push_back(convert(point));
+    for (const PclPoint& point : kept) all.push_back(surfacePoint(point));
   }
   return all;
 }
 
 /// Surfaces have a quarter of the points in cubes of twice the size.
-template <typename Points, typename Convert>
-Points thinned(const std::vector<Piece>& pieces, const CloudConfig& config, const Convert& convert) {
+std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, const CloudConfig& config) {
   auto cube_m = static_cast<float>(config.cube_m);
-  auto points = thinned<Points>(pieces, cube_m, convert);
+  std::vector<SurfacePoint> points = thinned(pieces, cube_m);
   while (points.size() > config.points_max) {
     const double surplus = static_cast<double>(points.size()) / static_cast<double>(config.points_max);
     cube_m *= static_cast<float>(std::max(kLeastGrowth, std::sqrt(surplus)));
-    points = Points();
-    points = thinned<Points>(pieces, cube_m, convert);
+    points = {};
+    points = thinned(pieces, cube_m);
   }
   return points;
 }
 
-void removeOutliers(const PclCloud::Ptr& cloud, const CloudConfig& config) {
-  if (cloud->size() <= static_cast<std::size_t>(config.neighbours)) return;
-  pcl::StatisticalOutlierRemoval<PclPoint> filter;
-  filter.setInputCloud(cloud);
-  filter.setMeanK(config.neighbours);
-  filter.setStddevMulThresh(config.deviations);
-  pcl::Indices kept;  // In ascending order.
-  filter.filter(kept);
-  for (std::size_t i = 0; i < kept.size(); ++i) (*cloud)[i] = (*cloud)[static_cast<std::size_t>(kept[i])];
-  cloud->resize(kept.size());
+/// A part of a cloud with the points around it, for searches: a tree of a whole large cloud takes as much memory as the
+/// cloud. A small one is one part.
+struct Part {
+  std::vector<std::uint32_t> points;  ///< Their indices in the cloud: first those of the part itself.
+  std::size_t own = 0;
+  pcl::PointCloud<pcl::PointXYZ>::Ptr positions;
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
+};
+
+class Parts {
+ public:
+  explicit Parts(const std::vector<SurfacePoint>& cloud) : cloud_(cloud), is_whole_(cloud.size() <= kWhole) {
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      squares_[squareOf(cloud[i])].push_back(static_cast<std::uint32_t>(i));
+  }
+
+  /// `visit(part)` for each part in turn; each point is one part's own.
+  template <typename Visit>
+  void forEach(const Visit& visit) const {
+    for (const auto& [square, own] : squares_) {
+      Part part{own, own.size(), pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(), {}};
+      addAround(square, part);
+      for (const std::uint32_t i : part.points) {
+        const Vector3f& at_m = cloud_[i].position_m;
+        part.positions->push_back({at_m.x(), at_m.y(), at_m.z()});
+      }
+      part.tree.setInputCloud(part.positions);
+      visit(part);
+    }
+  }
+
+ private:
+  using Square = std::array<int, 2>;
+  static constexpr std::size_t kWhole = 300'000;
+  static constexpr float kSide_m = 5.0F;
+  /// Neighbours are nearer: a point whose neighbours are not is an outlier by any measure.
+  static constexpr float kAround_m = 0.5F;
+
+  Square squareOf(const SurfacePoint& point) const {
+    if (is_whole_) return {0, 0};
+    return {static_cast<int>(std::floor(point.position_m.x() / kSide_m)),
+            static_cast<int>(std::floor(point.position_m.y() / kSide_m))};
+  }
+  void addAround(const Square& square, Part& part) const {
+    const Vector3f low_m(kSide_m * static_cast<float>(square[0]), kSide_m * static_cast<float>(square[1]), 0.0F);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto beside = squares_.find({square[0] + dx, square[1] + dy});
+        if (beside == squares_.end() || (dx == 0 && dy == 0)) continue;
+        for (const std::uint32_t i : beside->second) {
+          const Vector3f from_low_m = cloud_[i].position_m - low_m;
+          const bool near =
+              from_low_m.head<2>().minCoeff() >= -kAround_m && from_low_m.head<2>().maxCoeff() <= kSide_m + kAround_m;
+          if (near) part.points.push_back(i);
+        }
+      }
+  }
+
+  const std::vector<SurfacePoint>& cloud_;
+  bool is_whole_;
+  std::map<Square, std::vector<std::uint32_t>> squares_;
+};
+
+/// Statistical outlier removal as PCL's class does it, part by part.
+void removeOutliers(std::vector<SurfacePoint>& cloud, const CloudConfig& config) {
+  if (cloud.size() <= static_cast<std::size_t>(config.neighbours)) return;
+  std::vector<float> distances_m(cloud.size(), 0.0F);
+  double sum_m = 0.0, squares_m2 = 0.0;
+  Parts(cloud).forEach([&](const Part& part) {
+    pcl::Indices indices;
+    std::vector<float> found_m2;
+    for (std::size_t k = 0; k < part.own; ++k) {
+      const int found = part.tree.nearestKSearch(static_cast<int>(k), config.neighbours + 1, indices, found_m2);
+      double distance_m = 0.0;
+      for (int n = 1; n < found; ++n)
+        distance_m += std::sqrt(static_cast<double>(found_m2[static_cast<std::size_t>(n)]));
+      // Of a point alone in its part the neighbours are farther than a part is wide.
+      distance_m = found > config.neighbours ? distance_m / config.neighbours : std::numeric_limits<double>::infinity();
+      distances_m[part.points[k]] = static_cast<float>(distance_m);
+      if (!std::isfinite(distance_m)) continue;
+      sum_m += distance_m;
+      squares_m2 += distance_m * distance_m;
+    }
+  });
+  const auto count = static_cast<double>(std::count_if(distances_m.begin(), distances_m.end(),
+                                                       [](float distance_m) { return std::isfinite(distance_m); }));
+  if (count < 2.0) return;
+  const double variance_m2 = (squares_m2 - sum_m * sum_m / count) / (count - 1.0);
+  const double most_m = sum_m / count + config.deviations * std::sqrt(std::max(0.0, variance_m2));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (static_cast<double>(distances_m[i]) <= most_m) cloud[kept++] = cloud[i];
+  cloud.resize(kept);
 }
 
 /// The direction of least spread of the points, on the side of `side`.
-Vector3f planeNormal(const PclCloud& cloud, const pcl::Indices& indices, const Vector3f& side) {
+Vector3f planeNormal(const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& indices, const Vector3f& side) {
   Eigen::Matrix3f covariance;
   Eigen::Vector4f centroid;
   if (pcl::computeMeanAndCovarianceMatrix(cloud, indices, covariance, centroid) < 3) return Vector3f::Zero();
@@ -173,35 +254,31 @@ Vector3f planeNormal(const PclCloud& cloud, const pcl::Indices& indices, const V
   return normal.dot(side) < 0.0F ? Vector3f(-normal) : normal;
 }
 
-void addMissingNormals(const PclCloud::Ptr& cloud) {
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < cloud->size(); ++i)
-    if (!isKnown((*cloud)[i].getNormalVector3fMap())) missing.push_back(i);
-  if (missing.empty() || missing.size() == cloud->size()) return;
-  pcl::KdTreeFLANN<PclPoint> tree;
-  tree.setInputCloud(cloud);
-  std::vector<Vector3f> normals;  // Of the missing ones; those are found from measured ones alone.
-  pcl::Indices indices;
-  std::vector<float> squares_m2;
-  for (const std::size_t i : missing) {
-    tree.nearestKSearch((*cloud)[i], kPlaneNeighbours, indices, squares_m2);
-    Vector3f side = Vector3f::Zero();
-    for (const auto neighbour : indices) side += (*cloud)[static_cast<std::size_t>(neighbour)].getNormalVector3fMap();
-    normals.push_back(side.squaredNorm() > 0.0F ? planeNormal(*cloud, indices, side) : Vector3f(Vector3f::Zero()));
-  }
-  for (std::size_t i = 0; i < missing.size(); ++i) (*cloud)[missing[i]].getNormalVector3fMap() = normals[i];
+void addMissingNormals(std::vector<SurfacePoint>& cloud) {
+  const auto unknown =
+      std::count_if(cloud.begin(), cloud.end(), [](const auto& point) { return !isKnown(point.normal); });
+  if (unknown == 0 || static_cast<std::size_t>(unknown) == cloud.size()) return;
+  std::vector<std::pair<std::uint32_t, Vector3f>> found;  // The missing ones are found from measured ones alone.
+  Parts(cloud).forEach([&](const Part& part) {
+    pcl::Indices indices;
+    std::vector<float> squares_m2;
+    for (std::size_t k = 0; k < part.own; ++k) {
+      if (isKnown(cloud[part.points[k]].normal)) continue;
+      part.tree.nearestKSearch(static_cast<int>(k), kPlaneNeighbours, indices, squares_m2);
+      Vector3f side = Vector3f::Zero();
+      for (const auto neighbour : indices) side += cloud[part.points[static_cast<std::size_t>(neighbour)]].normal;
+      if (side.squaredNorm() > 0.0F) found.emplace_back(part.points[k], planeNormal(*part.positions, indices, side));
+    }
+  });
+  for (const auto& [point, normal] : found) cloud[point].normal = normal;
 }
 
 std::vector<SurfacePoint> cleaned(const std::vector<Piece>& pieces, const CloudConfig& config) {
-  if (config.neighbours == 0) return thinned<std::vector<SurfacePoint>>(pieces, config, surfacePoint);
-  const auto cloud = pcl::make_shared<PclCloud>(
-      thinned<PclCloud>(pieces, config, [](const PclPoint& point) -> const PclPoint& { return point; }));
+  std::vector<SurfacePoint> cloud = thinned(pieces, config);
+  if (config.neighbours == 0) return cloud;
   removeOutliers(cloud, config);
   addMissingNormals(cloud);
-  std::vector<SurfacePoint> kept;
-  kept.reserve(cloud->size());
-  for (const PclPoint& point : *cloud) kept.push_back(surfacePoint(point));
-  return kept;
+  return cloud;
 }
 
 }  // namespace

@@ -111,6 +111,25 @@ TEST(CleanCloudTest, RemovesSpecksAndKeepsTheWall) {
   EXPECT_GT(kept.size(), 0.97 * static_cast<double>(alone));
 }
 
+/// Large clouds are searched part by part; a speck at the border of two parts is one all the same, and a wall there
+/// none.
+TEST(CleanCloudTest, ALargeCloudIsCleanedAsASmallOneIs) {
+  std::vector<SurfacePoint> points;
+  for (int y = 0; y < 560; ++y)
+    for (int x = 0; x < 560; ++x)
+      points.push_back({Vector3f(0.02F * static_cast<float>(x) + 0.01F, 0.02F * static_cast<float>(y) + 0.01F, 0.01F),
+                        Vector3f::UnitZ(),
+                        {1, 2, 3}});
+  const std::size_t floor = points.size();
+  for (int i = 0; i < 100; ++i)
+    points.push_back({Vector3f(0.14F * static_cast<float>(i), 5.0F, 1.0F), Vector3f::UnitZ(), {9, 9, 9}});
+  CloudConfig config;
+  config.deviations = 20.0;  // Corners have their neighbours on one side.
+  const std::vector<SurfacePoint> kept = cleanCloud(points, config);
+  EXPECT_EQ(kept.size(), floor);
+  for (const SurfacePoint& point : kept) ASSERT_LT(point.position_m.z(), 0.5F);
+}
+
 TEST(CleanCloudTest, MissingNormalsAreThoseOfThePlaneOnTheSideOfTheKnownOnes) {
   std::mt19937 random(3);
   std::vector<SurfacePoint> points = wall(random);
