@@ -24,9 +24,6 @@ double clearanceOf(const common::IntentKind& kind, double otherwise_m) {
       kind);
 }
 
-/// A reference this near to the height of paths is back there.
-constexpr double kBackUp_m = 0.02;
-
 }  // namespace
 
 using common::IntentState;
@@ -52,41 +49,15 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   names_ = input.names;
   if (input.anybody_walks) memory_.exploration.people_seen = now_;
   if (intent.id != intent_.id) begin(intent);
-  followHeight();
+  const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
+  lowered_.follow(path ? path->plan() : nullptr, state_);
   if (maneuver_) note(maneuver_->step(input));
   desk_.refresh(maneuver_ ? maneuver_->planningInput(input) : input, client());
   status_.released = controller_.stopped() && !retreat_.active();
 }
 
-/// Remembers where the vehicle flies lower than its paths do, until it is back at their height.
-void Executor::followHeight() {
-  constexpr double kSpacing_m = 0.1;
-  if (!memory_.lowered_m) return;
-  const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
-  const bool planned = path != nullptr && path->plan() != nullptr && path->plan()->anyLowered();
-  if (controller_.state() != common::FlightState::kFlying || (!planned && dip_m() == 0.0)) {
-    memory_.lowered_m.reset();
-    return;
-  }
-  const Eigen::Vector2d here_map_m = state_.T_map_body_planar().position_m();
-  auto& places = memory_.lowered_map_m;
-  if (dip_m() > 0.0 && (places.empty() || (places.back().head<2>() - here_map_m).norm() > kSpacing_m))
-    places.emplace_back(here_map_m.x(), here_map_m.y(), *memory_.lowered_m);
-}
-
-double Executor::dip_m() const {
-  if (!memory_.lowered_m) return 0.0;
-  const double dip_m = memory_.cruise_height_m - controller_.reference().position_odom_m.z();
-  return dip_m > kBackUp_m ? dip_m : 0.0;
-}
-
-bool Executor::isLower() const {
-  return FlightHeights{memory_.cruise_height_m, controller_.reference().position_odom_m.z(), memory_.lowered_m}
-      .isLower();
-}
-
 std::shared_ptr<const planning::CostMap> Executor::costMapHere() const {
-  if (isLower() && desk_.heights()) return {desk_.heights(), &desk_.heights()->lower};
+  if (lowered_.heights().isLower() && desk_.heights()) return {desk_.heights(), &desk_.heights()->lower};
   return desk_.costMap();
 }
 

@@ -9,6 +9,7 @@
 
 #include "autonomy/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
+#include "autonomy/maneuvers/lowered_flight.hpp"
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
 #include "autonomy/planning_desk.hpp"
@@ -55,7 +56,7 @@ class Executor {
   /// FlightController::setEscape.
   Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
   /// How much lower than its paths' height the vehicle flies, below something; else 0.
-  double dip_m() const;
+  double dip_m() const { return lowered_.dip_m(); }
   /// The newest cost map of the height at which the vehicle is; null before the first.
   std::shared_ptr<const planning::CostMap> costMapHere() const;
   /// The state of the planning.
@@ -66,8 +67,6 @@ class Executor {
  private:
   void begin(const common::Intent& intent);
   void note(const Progress& progress);
-  void followHeight();
-  bool isLower() const;
   void receive(const PlanningAnswer& answer, common::Time now);
   PlanningClient client() const;
 
@@ -77,6 +76,7 @@ class Executor {
   PlanningDesk desk_;
   RetreatFlight retreat_;
   FlightMemory memory_;
+  LoweredFlight lowered_{memory_, controller_};
 
   common::Intent intent_;
   common::IntentStatus status_;

@@ -61,6 +61,7 @@ void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const
   float last_m = 0.0F;
   for (const Eigen::Vector2f& point : points_body_m) {
     const float range_m = point.norm();
+    if (!std::isfinite(range_m)) continue;
     const int bin = binOf(std::atan2(point.y(), point.x()));
     int step = bin - last_bin;
     if (step > kBins / 2) step -= kBins;
@@ -96,8 +97,9 @@ void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const
 }
 
 bool ReferenceView::looksAt(const Scan& scan, const Eigen::Vector2d& point_m, double margin_m) {
-  const auto bin = static_cast<std::size_t>(binOf(std::atan2(point_m.y(), point_m.x())));
   const double range_m = point_m.norm();
+  if (!std::isfinite(range_m)) return false;
+  const auto bin = static_cast<std::size_t>(binOf(std::atan2(point_m.y(), point_m.x())));
   return range_m <= static_cast<double>(scan.seen_to_m[bin]) + kBehind_m &&
          range_m * static_cast<double>(scan.sine_to_end[bin]) >= margin_m;
 }
