@@ -79,8 +79,12 @@ void Canvas::coverSegment(const Point& a, const Point& b, double radius_px) {
       const double t1 = std::clamp((y + 0.5 + reach + 0.5 - a.y()) / along.y(), 0.0, 1.0);
       const double near = a.x() + std::min(t0 * along.x(), t1 * along.x()) - reach - 1.0;
       const double far = a.x() + std::max(t0 * along.x(), t1 * along.x()) + reach + 1.0;
-      x0 = std::max(x0, static_cast<int>(std::max(near, 0.0)));
-      x1 = std::min(x1, static_cast<int>(std::min(far + 1.0, static_cast<double>(image_.width_px))));
+      // Not std::clamp: points may be so far away that their differences are not finite.
+      const auto column = [&](double x) {
+        return static_cast<int>(std::min<double>(image_.width_px, std::max(0.0, x)));
+      };
+      x0 = std::max(x0, column(near));
+      x1 = std::min(x1, column(far + 1.0));
     }
     for (int x = x0; x < x1; ++x) {
       const Point from_a = Point(x + 0.5, y + 0.5) - a;
