@@ -29,16 +29,31 @@ double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pos
 
 Inspect::Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup)
     : Tour(setup, "inspect a point", intent.mode, kOnCircle_m), intent_(intent) {
-  if (intent.height_m)
-    setup.memory.cruise_height_m = *intent.height_m;
-  else if (setup.camera != nullptr && intent.point_height_m)
-    setup.memory.cruise_height_m =
-        std::max(common::kLeastFlightHeight_m,
-                 heightToSee_m({intent.radius_m, *intent.point_height_m}, setup.camera->mount.pose()));
-  setup.controller.lookAt(intent.point_map_m);
+  if (intent.height_m) setup.memory.cruise_height_m = *intent.height_m;
+}
+
+/// As the flight has estimated the mount, where it has: 1 deg of it is a fifth of what the axis may be off.
+common::Pose3 Inspect::T_body_camera(const ManeuverInput& input) const {
+  if (input.map3d && input.map3d->frame) return input.map3d->camera.T_body_camera;
+  return setup_.camera != nullptr ? setup_.camera->mount.pose() : common::Pose3{};
+}
+
+/// The heading in `map` at which the camera's axis passes over the point.
+double Inspect::headingToSee_rad(const ManeuverInput& input) const {
+  const Eigen::Vector2d look = intent_.point_map_m - input.position_map_m();
+  return std::atan2(look.y(), look.x()) - common::yawOf(T_body_camera(input).rotation);
+}
+
+void Inspect::watch(const ManeuverInput& input) {
+  const double heading_rad = headingToSee_rad(input);
+  setup_.controller.lookAt(input.position_map_m() +
+                           intent_.radius_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
 }
 
 std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const ManeuverInput& input) {
+  if (!intent_.height_m && setup_.camera != nullptr && intent_.point_height_m)
+    setup_.memory.cruise_height_m = std::max(
+        common::kLeastFlightHeight_m, heightToSee_m({intent_.radius_m, *intent_.point_height_m}, T_body_camera(input)));
   const Eigen::Vector2d from_point = input.position_map_m() - intent_.point_map_m;
   const auto placeAt = [&](double angle_rad) -> Eigen::Vector2d {
     return intent_.point_map_m + intent_.radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
@@ -67,9 +82,8 @@ bool Inspect::isOnCircle(const ManeuverInput& input) const {
 
 bool Inspect::ready(const ManeuverInput& input) {
   if (passed() != 1) return true;
-  const Eigen::Vector2d look = intent_.point_map_m - input.position_map_m();
-  return std::abs(common::wrapAngle(std::atan2(look.y(), look.x()) - input.state.T_map_body_planar().yaw_rad)) <
-         kFacesPoint_rad;
+  const double yaw_rad = input.state.T_map_body_planar().yaw_rad;
+  return std::abs(common::wrapAngle(headingToSee_rad(input) - yaw_rad)) < kFacesPoint_rad;
 }
 
 }  // namespace swiftlet::autonomy

@@ -11,6 +11,9 @@ class Inspect final : public Tour {
   Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup);
 
  private:
+  void watch(const ManeuverInput& input) override;
+  common::Pose3 T_body_camera(const ManeuverInput& input) const;
+  double headingToSee_rad(const ManeuverInput& input) const;
   std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
   bool ready(const ManeuverInput& input) override;
   bool inspecting(const ManeuverInput& input) const override;

@@ -69,30 +69,45 @@ TEST_F(TourInFlight, ASurveyWithoutAFreePlaceFails) {
   EXPECT_EQ(executor_.status().reason, "none of its places is free");
 }
 
-TEST_F(TourInFlight, AnInspectionOrbitsWithTheNoseOnThePoint) {
-  common::InspectIntent intent;
-  intent.point_map_m = {4.0, 2.0};
-  intent.radius_m = 1.2;
-  want(intent);
-  double worst_rad = 0.0, turned_rad = 0.0;
-  std::optional<double> last_rad;
-  runUntil(
-      [&] {
-        if (ended()) return true;
-        const Eigen::Vector2d from = position_m() - intent.point_map_m;
-        if (!executor_.status().inspecting) return false;
-        const double angle_rad = std::atan2(from.y(), from.x());
-        const double yaw_rad = state_.T_map_body_planar().yaw_rad;
-        worst_rad = std::max(worst_rad, std::abs(common::wrapAngle(std::atan2(-from.y(), -from.x()) - yaw_rad)));
-        if (last_rad) turned_rad += common::wrapAngle(angle_rad - *last_rad);
-        last_rad = angle_rad;
-        EXPECT_NEAR(from.norm(), 1.2, 0.1);
-        return false;
-      },
-      90.0);
-  EXPECT_EQ(executor_.status().state, IntentState::kSucceeded) << executor_.status().reason;
-  EXPECT_LT(worst_rad, 4.0 * common::kRadPerDeg);
-  EXPECT_NEAR(turned_rad, 2.0 * 3.14159, 0.5);
+class InspectionInFlight : public TourInFlight {
+ protected:
+  /// Orbits (4, 2) once. The greatest angle between the heading plus `camera_yaw_rad` and the direction of the point.
+  double worstAngle_rad(double camera_yaw_rad) {
+    common::InspectIntent intent;
+    intent.point_map_m = {4.0, 2.0};
+    intent.radius_m = 1.2;
+    want(intent);
+    double worst_rad = 0.0, turned_rad = 0.0;
+    std::optional<double> last_rad;
+    runUntil(
+        [&] {
+          if (ended()) return true;
+          const Eigen::Vector2d from = position_m() - intent.point_map_m;
+          if (!executor_.status().inspecting) return false;
+          const double angle_rad = std::atan2(from.y(), from.x());
+          const double axis_rad = state_.T_map_body_planar().yaw_rad + camera_yaw_rad;
+          worst_rad = std::max(worst_rad, std::abs(common::wrapAngle(std::atan2(-from.y(), -from.x()) - axis_rad)));
+          if (last_rad) turned_rad += common::wrapAngle(angle_rad - *last_rad);
+          last_rad = angle_rad;
+          EXPECT_NEAR(from.norm(), 1.2, 0.1);
+          return false;
+        },
+        90.0);
+    EXPECT_EQ(executor_.status().state, IntentState::kSucceeded) << executor_.status().reason;
+    EXPECT_NEAR(turned_rad, 2.0 * 3.14159, 0.5);
+    return worst_rad;
+  }
+};
+
+TEST_F(InspectionInFlight, OrbitsWithTheNoseOnThePoint) { EXPECT_LT(worstAngle_rad(0.0), 4.0 * common::kRadPerDeg); }
+
+TEST_F(InspectionInFlight, OrbitsWithTheAxisOfTheCameraOnThePointAsTheFlightHasEstimatedItsMount) {
+  constexpr double kYaw_rad = 10.0 * common::kRadPerDeg;
+  auto layer = std::make_shared<common::Map3dLayer>();
+  layer->frame = std::make_shared<common::RgbdFrame>();
+  layer->camera.T_body_camera.rotation = Eigen::AngleAxisd(kYaw_rad, Eigen::Vector3d::UnitZ());
+  map3d_ = layer;
+  EXPECT_LT(worstAngle_rad(kYaw_rad), 4.0 * common::kRadPerDeg);
 }
 
 TEST_F(TourInFlight, APartOfTheCircleThatIsNotFreeIsLeftOut) {
