@@ -9,11 +9,12 @@ struct Map3dLayer;
 
 namespace swiftlet::apps {
 
-/// The cloud and the voxels of all submaps in the frame `map`; nothing before there are submaps. Pure functions, which
-/// take seconds for a long flight. The first fuses the voxels as they are now; the second takes those that the flight
-/// has fused last, if it has, and leaves specks in the cloud.
-/// `now` is the time of the snapshot that the layer is of.
-interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer, common::Time now);
+/// The octrees of all submaps in the frame `map`, of the voxels as they are now; nothing before there are submaps. A
+/// pure function, as are those below; each takes seconds for a long flight. `now` is the time of the layer's snapshot.
+interfaces::Map3dFiles octreeFiles(const common::Map3dLayer& layer, common::Time now);
+/// The cloud of all submaps, without specks.
+interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer);
+/// Both, quickly: the voxels that the flight has fused last, if it has, and a cloud with specks.
 interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer, common::Time now);
 
 }  // namespace swiftlet::apps

@@ -52,7 +52,10 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
 }
 
 void Map3dSink::writeNow(const common::World& world) {
-  if (world.map3d) folder_.showMap3d(map3dFiles(*world.map3d, world.stamp));
+  if (!world.map3d) return;
+  // One after the other: of a large building each takes 100 MB and more while it is made.
+  folder_.showMap3d(octreeFiles(*world.map3d, world.stamp));
+  folder_.showMap3d(cloudFile(*world.map3d));
 }
 
 }  // namespace swiftlet::apps
