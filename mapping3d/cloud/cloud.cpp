@@ -152,7 +152,7 @@ std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, const CloudC
 struct Part {
   std::vector<std::uint32_t> points;  ///< Their indices in the cloud: first those of the part itself.
   std::size_t own = 0;
-  pcl::PointCloud<pcl::PointXYZ>::Ptr positions;
+  pcl::PointCloud<pcl::PointXYZ>::Ptr positions = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
 };
 
@@ -167,7 +167,9 @@ class Parts {
   template <typename Visit>
   void forEach(const Visit& visit) const {
     for (const auto& [square, own] : squares_) {
-      Part part{own, own.size(), pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(), {}};
+      Part part;
+      part.points = own;
+      part.own = own.size();
       addAround(square, part);
       for (const std::uint32_t i : part.points) {
         const Vector3f& at_m = cloud_[i].position_m;
