@@ -22,12 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void requireCamera(const FlightSetup& setup) {
+  if (!setup.record_rgbd || setup.system.rgbd_camera) return;
+  throw common::InputError(common::Problem{{},
+                                           "--record-rgbd",
+                                           "the vehicle of `" + setup.system.name + "` has no RGB-D camera",
+                                           "`--system swiftlet_3d` has one"});
+}
+
 std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
-  if (setup.record_rgbd && !setup.system.rgbd_camera)
-    throw common::InputError(common::Problem{{},
-                                             "--record-rgbd",
-                                             "the vehicle of `" + setup.system.name + "` has no RGB-D camera",
-                                             "`--system swiftlet_3d` has one"});
   simulation::Scenario scenario = setup.scenario;
   scenario.vehicle = setup.system.vehicle;
   scenario.laser = setup.system.laser;
@@ -55,6 +58,7 @@ class Flight {
  public:
   Flight(const FlightSetup& setup, std::vector<FlightMission> missions, const FlightHooks& hooks)
       : setup_(setup), hooks_(hooks) {
+    requireCamera(setup);
     const auto arena = makeArena(setup);
     folder_ = folderOf(setup);
     const std::vector<std::string> names = vehicleNames(setup.scenario);

@@ -57,7 +57,7 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   truth.laser = vehicle.scenario().laser;
   if (truth.rgbd_camera = vehicle.scenario().rgbd_camera; truth.rgbd_camera) {
     const simulation::RgbdErrorsConfig& errors = vehicle.scenario().sensors.rgbd_errors;
-    truth.T_body_camera = errors.mount_error.pose() * truth.rgbd_camera->mount.pose();
+    truth.T_body_camera = errors.T_body_camera(truth.rgbd_camera->mount);
     truth.camera_clock_offset_s = errors.clock_offset_s + 1e-6 * errors.clock_drift_ppm * record.flight_time_s;
   }
   for (const evaluation::TrialTarget& target : trial.targets)

@@ -74,9 +74,9 @@ std::unique_ptr<VisualOdometrySink> visualOdometryOf(const FlightSetup& setup) {
 
 std::unique_ptr<RgbdSink> rgbdSinkOf(const FlightSetup& setup, const interfaces::RunFolder& folder,
                                      const simulation::SimulatedVehicle& vehicle) {
-  if (!setup.record_rgbd || !setup.system.rgbd_camera) return nullptr;
-  const common::Pose3 mount_error = vehicle.scenario().sensors.rgbd_errors.mount_error.pose();
-  return std::make_unique<RgbdSink>(folder.path(), vehicle, mount_error * setup.system.rgbd_camera->mount.pose());
+  if (!setup.record_rgbd) return nullptr;
+  return std::make_unique<RgbdSink>(
+      folder.path(), vehicle, vehicle.scenario().sensors.rgbd_errors.T_body_camera(setup.system.rgbd_camera->mount));
 }
 
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,

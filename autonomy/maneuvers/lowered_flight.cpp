@@ -18,8 +18,9 @@ void LoweredFlight::follow(const planning::Path* plan, const common::VehicleStat
 
 double LoweredFlight::dip_m() const {
   constexpr double kBackUp_m = 0.02;  // A reference this near to the height of paths is back there.
-  if (!memory_.lowered_m) return 0.0;
-  const double dip_m = memory_.cruise_height_m - controller_.reference().position_odom_m.z();
+  const FlightHeights now = heights();
+  if (!now.lowered_m) return 0.0;
+  const double dip_m = now.cruise_m - now.reference_m;
   return dip_m > kBackUp_m ? dip_m : 0.0;
 }
 

@@ -28,8 +28,7 @@ PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
       keeper_(setup.config.plan_keeper) {}
 
 void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question) {
-  if (auto* goal = std::get_if<GoalRequest>(&question))
-    goal->height = {memory_.cruise_height_m, controller_.reference().position_odom_m.z(), memory_.lowered_m};
+  if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = lowered_.heights();
   desk_.ask(input, client_, std::move(question));
 }
 
@@ -70,16 +69,15 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
 /// that height (below a beam) leaves that place as low as the vehicle is.
 std::vector<Eigen::Vector3d> PathFlight::liftedPoints(const planning::Path& path) const {
   const auto& points = path.points_map_m;
-  const double here_m = controller_.reference().position_odom_m.z();
-  const bool leaves_lower =
-      FlightHeights{memory_.cruise_height_m, here_m, memory_.lowered_m}.isLower() && path.lowered.empty();
+  const FlightHeights heights = lowered_.heights();
+  const bool leaves_lower = heights.isLower() && path.lowered.empty();
   const auto heightOf = [&](std::size_t line) {
     if (leaves_lower && line < path.escape_points) return *memory_.lowered_m;
     return path.isLowered(line) ? path.lower_height_m : memory_.cruise_height_m;
   };
   std::vector<Eigen::Vector3d> lifted;
   const auto add = [&](std::size_t i, double height_m) { lifted.emplace_back(points[i].x(), points[i].y(), height_m); };
-  if (memory_.lowered_m) add(0, here_m);
+  if (memory_.lowered_m) add(0, heights.reference_m);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1, after = i + 1 < points.size() ? i : before;
     add(i, heightOf(before));

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "autonomy/maneuvers/lowered_flight.hpp"
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "common/flight_mode.hpp"
 #include "planning/search/plan_keeper.hpp"
@@ -59,6 +60,7 @@ class PathFlight {
   control::FlightController& controller_;
   PlanningDesk& desk_;
   FlightMemory& memory_;
+  LoweredFlight lowered_{memory_, controller_};
   PlanningClient client_;
   common::FlightMode mode_;
   planning::PlanKeeper keeper_;

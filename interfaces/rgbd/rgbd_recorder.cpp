@@ -8,20 +8,20 @@
 
 #include <fmt/core.h>
 
+#include "common/config.hpp"
 #include "common/png_encoder.hpp"
 #include "interfaces/rgbd/rgbd_calibration.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
-constexpr double kUnitsPerMetre = 5000.0;  // Of the format.
-
 common::DepthCodes codesOf(const common::DepthImage& depth) {
+  static const auto units_per_m = static_cast<float>(tumCalibration().depth_units_per_m);
   constexpr float kMostCode = 65534.0F;  // Some programs take the greatest number for a mark.
   common::DepthCodes codes{depth.width_px, depth.height_px, {}};
   codes.codes.reserve(depth.depth_m.size());
   for (const float depth_m : depth.depth_m) {
-    const float code = std::round(depth_m * static_cast<float>(kUnitsPerMetre));
+    const float code = std::round(depth_m * units_per_m);
     codes.codes.push_back(common::isMeasured(depth_m) && code <= kMostCode ? static_cast<std::uint16_t>(code)
                                                                            : std::uint16_t{0});
   }
@@ -32,13 +32,16 @@ Written writeImage(const std::filesystem::path& file, const std::vector<std::uin
   return writeAtomically(file, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
+/// Of the recorded images: no distortion, the depth registered to the colour image.
 std::string calibrationOf(const common::PinholeCamera& camera) {
-  return fmt::format(
-      "# Of the recorded images: no distortion, the depth registered to the colour image.\n"
-      "color: {{width_px: {}, height_px: {}, fx_px: {:.4f}, fy_px: {:.4f}, cx_px: {:.4f}, cy_px: {:.4f}}}\n"
-      "depth_units_per_m: {:.0f}\n"
-      "is_registered: true\n",
-      camera.width_px, camera.height_px, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, kUnitsPerMetre);
+  RgbdCalibration calibration = tumCalibration();
+  calibration.color.width_px = camera.width_px;
+  calibration.color.height_px = camera.height_px;
+  calibration.color.fx_px = camera.fx_px;
+  calibration.color.fy_px = camera.fy_px;
+  calibration.color.cx_px = camera.cx_px;
+  calibration.color.cy_px = camera.cy_px;
+  return common::config::YamlPrinter(common::config::YamlPrinter::Comments::kYes).print(calibration);
 }
 
 }  // namespace

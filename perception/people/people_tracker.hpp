@@ -50,8 +50,8 @@ class PeopleTracker {
   bool anyMoves() const { return obstacles_.anyMoves(); }
   /// The obstacles seen just before `stamp`, predicted to it. Each disc covers the whole outline of a person.
   std::vector<common::Disc> expectedAt(common::Time stamp) const;
-  /// Those that move or have moved since they are tracked, also while they stand or are not seen, predicted to `stamp`,
-  /// with room for what they may do meanwhile.
+  /// The obstacles that move or have moved since they are tracked, also while they stand or are not seen. They are
+  /// predicted to `stamp`, with room for what they may do meanwhile.
   std::vector<common::Disc> movingAt(common::Time stamp) const;
   /// Discs for the cost map: where the obstacles are and will soon be.
   std::vector<common::Disc> discs(common::Time now) const { return obstacles_.discs(now); }

@@ -44,7 +44,7 @@ RgbdCamera::RgbdCamera(const common::RgbdCameraConfig& config, const RgbdErrorsC
     : config_(config),
       errors_(errors),
       true_camera_(withFocalShare(config.camera(), errors.focal_share)),
-      T_body_camera_(errors.mount_error.pose() * config.mount.pose()),
+      T_body_camera_(errors.T_body_camera(config.mount)),
       shader_(world),
       color_(errors, 1.0 / config.rate_hz, seed),
       depth_(config, errors, seed),

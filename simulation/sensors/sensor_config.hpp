@@ -92,6 +92,8 @@ struct RgbdErrorsConfig {
   double clock_drift_ppm = 0.0;
 
   void describe(common::config::Fields& fields);
+  /// The true pose of a camera that its data sheet mounts so.
+  common::Pose3 T_body_camera(const common::MountConfig& sheet) const { return mount_error.pose() * sheet.pose(); }
 };
 
 /// Errors of the fuel gauge, which counts the current from a charge that it guesses at the start.

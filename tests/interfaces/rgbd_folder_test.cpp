@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <png.h>
-
 #include <filesystem>
 #include <map>
 #include <string>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/png_encoder.hpp"
 #include "common/random.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "tests/support/scratch.hpp"
@@ -24,44 +23,22 @@ using testing::HasSubstr;
 
 constexpr int kWidth_px = 64, kHeight_px = 48;
 
-std::string png(const std::vector<std::uint8_t>& bytes, int width_px, int height_px, int bits, int type) {
-  std::string out;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png_create_info_struct(png);
-  png_set_write_fn(
-      png, &out,
-      [](png_structp p, png_bytep data, std::size_t size) {
-        static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<const char*>(data), size);
-      },
-      nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width_px), static_cast<png_uint_32>(height_px), bits, type,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  const std::size_t row_bytes = bytes.size() / static_cast<std::size_t>(height_px);
-  for (std::size_t v = 0; v < static_cast<std::size_t>(height_px); ++v)
-    png_write_row(png, bytes.data() + v * row_bytes);
-  png_write_end(png, nullptr);
-  png_destroy_write_struct(&png, &info);
-  return out;
-}
+std::string textOf(const std::vector<std::uint8_t>& png) { return {png.begin(), png.end()}; }
 
 std::string colorPng(std::uint64_t seed, int width_px = kWidth_px, int height_px = kHeight_px) {
   common::RandomStream random(seed, "color");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(3 * width_px * height_px));
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.uniform(0.0, 256.0));
-  return png(bytes, width_px, height_px, 8, PNG_COLOR_TYPE_RGB);
+  return textOf(common::encodePng(common::Image{width_px, height_px, std::move(bytes)}));
 }
 std::string plainPng(std::uint8_t value) {
-  return png(std::vector<std::uint8_t>(std::size_t{3} * kWidth_px * kHeight_px, value), kWidth_px, kHeight_px, 8,
-             PNG_COLOR_TYPE_RGB);
+  return textOf(common::encodePng(
+      common::Image{kWidth_px, kHeight_px, std::vector<std::uint8_t>(std::size_t{3} * kWidth_px * kHeight_px, value)}));
 }
 std::string depthPng(int code, int width_px = kWidth_px, int height_px = kHeight_px) {
-  std::vector<std::uint8_t> bytes;
-  for (int i = 0; i < width_px * height_px; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(code / 256));
-    bytes.push_back(static_cast<std::uint8_t>(code % 256));
-  }
-  return png(bytes, width_px, height_px, 16, PNG_COLOR_TYPE_GRAY);
+  const auto pixels = static_cast<std::size_t>(width_px * height_px);
+  return textOf(common::encodePng(
+      common::DepthCodes{width_px, height_px, std::vector<std::uint16_t>(pixels, static_cast<std::uint16_t>(code))}));
 }
 
 class RgbdFolders : public test_support::Scratch {

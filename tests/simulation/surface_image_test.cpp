@@ -1,11 +1,12 @@
 // Pictures on surfaces: textures of meshes, and albedo maps of a world's materials.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <array>
+#include <fstream>
 #include <string>
 
+#include "common/png_encoder.hpp"
 #include "fixtures.hpp"
 #include "simulation/sensors/surface_shader.hpp"
 
@@ -27,11 +28,9 @@ void writePicture(const std::filesystem::path& file) {
                 : (right ? std::array<std::uint8_t, 3>{0, 255, 0} : std::array<std::uint8_t, 3>{255, 0, 0});
       rgb.insert(rgb.end(), color.begin(), color.end());
     }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = image.height = kSide;
-  image.format = PNG_FORMAT_RGB;
-  ASSERT_NE(png_image_write_to_file(&image, file.c_str(), 0, rgb.data(), 0, nullptr), 0);
+  const std::vector<std::uint8_t> png = common::encodePng(common::Image{kSide, kSide, std::move(rgb)});
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
 }
 
 /// What a camera at x = -3 sees ahead at that place.
