@@ -94,7 +94,7 @@ void Papers::describe(common::config::Fields& fields) {
 
 Papers readPapers() {
   const std::string file = common::findData("config/papers.yaml").string();
-  const auto papers = common::config::readFile<Papers>(file);
+  auto papers = common::config::readFile<Papers>(file);
   const auto trials = allTrials();
   std::vector<common::Problem> problems;
   for (const PaperExperiment& row : papers.experiments)

@@ -107,7 +107,9 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
-  localize({standing, T_odom_body, odometry.covariance, withheld, odometry.interrupted}, now);
+  const Eigen::Matrix3d step_covariance =
+      outcome.matched ? step_uncertainty_.add(odometry, T_odom_body, horizontalCovariance_m2()) : odometry.covariance;
+  localize({standing, T_odom_body, step_covariance, withheld, odometry.interrupted}, now);
 
   if (odom_at_key_) altitude_.follow(*map_.keyPoses(), odom_at_key_->key);
   const AltitudeStep altitude =
@@ -118,7 +120,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
     height_seen_ = now;
   }
 
-  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), odometry.covariance, outcome.matched}, now);
+  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
   scanned_ = outcome.scan.stamp;
@@ -184,7 +186,7 @@ void Estimator::mapSweeps(Time now) {
 
 /// None where the place in the map is only predicted: nothing else places the sweep.
 std::optional<SweepSituation> Estimator::situationAt(const VerticalLaserPipeline::Interval& times, Time now) {
-  const perception::PoseHistory history = filter_.poses(times.begin, times.end);
+  const perception::PoseHistory history = filter_.motion(times.begin, times.end);
   if (!odom_at_key_ || (now - map_seen_).seconds() >= kSupported_s) return std::nullopt;
   if (!history.covers(times.begin) || !history.covers(times.end)) return std::nullopt;
   const Pose3 newest = filter_.state().T_odom_body;
@@ -254,7 +256,7 @@ std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names
 perception::ProjectedScan Estimator::project(const common::LaserScan& scan) const {
   const Time begin = scan.stamps.measured;
   const Time end = begin + scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size());
-  const perception::PoseHistory history = filter_.poses(begin, end);
+  const perception::PoseHistory history = filter_.motion(begin, end);
   const Pose3 newest = filter_.state().T_odom_body;
   return laser_.project(scan, [&](Time t) { return history.at(t).value_or(newest); });
 }
@@ -312,18 +314,19 @@ void Estimator::fuse(const CameraStep& step, Time now) {
   if (step.clone_after) addClone(*step.clone_after);
 }
 
+Eigen::Matrix2d Estimator::horizontalCovariance_m2() const {
+  return filter_.state().position_covariance_m2.topLeftCorner<2, 2>();
+}
+
 /// What the scan told of the position, for the drift.
 PositionFix Estimator::positionFix(const OdometryStep& step, bool matched, const Pose2& T_odom_body,
                                    const MapStep& map) const {
   PositionFix fix;
   fix.stamp = filter_.newest();
-  fix.covariance_odom_m2 = filter_.state().position_covariance_m2.topLeftCorner<2, 2>();
+  fix.covariance_odom_m2 = horizontalCovariance_m2();
   // A restart of the odometry has nothing to tell of the motion before it.
   fix.matched = matched && !step.interrupted;
-  if (step.measurement && step.measurement->unobservable_direction) {
-    const double yaw_rad = T_odom_body.yaw_rad - step.measurement->T_from_to.yaw_rad;
-    fix.unobservable_direction_odom = Eigen::Rotation2Dd(yaw_rad) * *step.measurement->unobservable_direction;
-  }
+  fix.unobservable_direction_odom = unobservableDirection(step, T_odom_body);
   fix.new_reference = matched && !step.covariance.isZero();
   if (map.at_key) fix.newest_key = map.at_key->key;
   fix.known_key = map.known_key;

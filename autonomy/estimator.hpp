@@ -22,6 +22,7 @@
 #include "autonomy/estimation/laser_pipeline.hpp"
 #include "autonomy/estimation/map_pipeline.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/step_uncertainty.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
 #include "autonomy/estimation/vertical_laser_pipeline.hpp"
 #include "common/config_fwd.hpp"
@@ -153,6 +154,7 @@ class Estimator {
   void addClone(common::Time time);
   bool fuse(const OdometryStep& step);
   void fuse(const AltitudeStep& step, common::Time stamp);
+  Eigen::Matrix2d horizontalCovariance_m2() const;
   PositionFix positionFix(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body,
                           const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
@@ -186,6 +188,7 @@ class Estimator {
   LaserPipeline laser_;
   AltitudePipeline altitude_;
   MapPipeline map_;
+  StepUncertainty step_uncertainty_;
   DriftMonitor drift_;
   FlightLocalizerConfig localization_config_;
   common::JobRunner& jobs_;

@@ -28,6 +28,18 @@ void LaserPipelineConfig::describe(common::config::Fields& fields) {
          "Yaw error of a match for each radian of tilt, since the attitude is not exact.");
 }
 
+namespace {
+
+/// The covariance without the variance along the direction that the scan does not fix.
+Eigen::Matrix3d observedPart(const perception::RelativePose& relative) {
+  if (!relative.unobservable_direction) return relative.covariance;
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= *relative.unobservable_direction * relative.unobservable_direction->transpose();
+  return across * relative.covariance * across;
+}
+
+}  // namespace
+
 LaserPipeline::LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser)
     : config_(config), laser_(laser), odometry_(config.odometry) {}
 
@@ -65,7 +77,7 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
   step.covariance =
-      common::turned(relative->covariance + tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg),
+      common::turned(observedPart(*relative) + tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg),
                      -relative->T_from_to.yaw_rad);
   return step;
 }

@@ -32,7 +32,7 @@ namespace swiftlet::autonomy {
 struct MappedScan {
   const perception::ProjectedScan& scan;
   common::Pose3 T_odom_body;                                  ///< The filter's pose at its stamp.
-  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();  ///< OdometryStep::covariance.
+  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();  ///< Of the motion since the last scan, axes of the body.
   bool matched = false;                                       ///< An unmatched scan is not added to the map.
 };
 

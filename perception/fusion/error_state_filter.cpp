@@ -296,7 +296,7 @@ std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const { return 
 
 std::optional<VerticalState> ErrorStateFilter::verticalAt(Time time) const { return impl_->history.verticalAt(time); }
 
-PoseHistory ErrorStateFilter::poses(Time from, Time to) const { return impl_->history.poses(from, to); }
+PoseHistory ErrorStateFilter::motion(Time from, Time to) const { return impl_->history.motion(from, to); }
 
 FusionStatus ErrorStateFilter::status() const {
   Impl& f = *impl_;

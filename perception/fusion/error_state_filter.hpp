@@ -18,7 +18,7 @@
 // covariance is widened by the size of the residual. Too many of these recoveries are a divergence, which lasts until
 // initialize().
 //
-// Single-threaded. No heap use after construction, except in poses(), in health() when it is not ok, and in
+// Single-threaded. No heap use after construction, except in motion(), in health() when it is not ok, and in
 // initialize() when it fails. Non-finite or impossible input is counted and left out.
 #pragma once
 
@@ -111,8 +111,10 @@ class ErrorStateFilter {
   /// Height and vertical speed of the body origin along z of odom; nullopt where poseAt() has no pose. The height is
   /// interpolated; the speed and the covariance are those of the last IMU sample at or before `time`.
   std::optional<VerticalState> verticalAt(common::Time time) const;
-  /// The poses that cover [from, to], as far as the history goes. For many queries, as when a scan is deskewed.
-  PoseHistory poses(common::Time from, common::Time to) const;
+  /// The poses that cover [from, to], as far as the history goes, for many queries, as when a scan is deskewed. The
+  /// positions follow from the last one by the velocity: a correction of the position in between is no motion, and
+  /// where the position is unknown to a metre the drag alone corrects it by centimetres.
+  PoseHistory motion(common::Time from, common::Time to) const;
 
   /// The status alone allocates nothing.
   FusionStatus status() const;

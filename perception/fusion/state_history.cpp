@@ -160,8 +160,9 @@ std::optional<VerticalState> StateHistory::verticalAt(Time time) {
   return vertical;
 }
 
-PoseHistory StateHistory::poses(Time from, Time to) {
+PoseHistory StateHistory::motion(Time from, Time to) {
   std::vector<common::StampedPose> poses;
+  std::vector<Eigen::Vector3d> velocities_m_s;
   if (count_ == 0) return {};
   replay(count_);
   for (std::size_t i = 0; i < count_; ++i) {
@@ -169,7 +170,13 @@ PoseHistory StateHistory::poses(Time from, Time to) {
     const bool ends_before = i + 1 < count_ && slot(i + 1).state.stamp <= from;
     if (ends_before) continue;
     poses.push_back({s.stamp, {s.rotation_odom_body, s.position_odom_m}});
+    velocities_m_s.push_back(s.velocity_odom_m_s);
     if (s.stamp >= to) break;
+  }
+  for (std::size_t i = poses.size(); i-- > 1;) {
+    const Eigen::Vector3d mean_m_s = 0.5 * (velocities_m_s[i - 1] + velocities_m_s[i]);
+    poses[i - 1].pose.position_m =
+        poses[i].pose.position_m - (poses[i].stamp - poses[i - 1].stamp).seconds() * mean_m_s;
   }
   if (!poses.empty() && poses.back().stamp < to) {
     const Time end = std::min(to, poses.back().stamp + Duration::fromSeconds(kMaxExtrapolation_s));

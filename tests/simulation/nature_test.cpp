@@ -112,7 +112,7 @@ TEST(Nature, EveryDrawIsWithinItsRangeAndTheRangeIsUsed) {
   }
   EXPECT_LT(least, 0.905);
   EXPECT_GT(greatest, 1.095);
-  for (const int motor : {1, 2, 3, 4}) EXPECT_NEAR(weak[static_cast<std::size_t>(motor)], kSeeds / 4, 25) << motor;
+  for (const int motor : {1, 2, 3, 4}) EXPECT_NEAR(weak[static_cast<std::size_t>(motor)], kSeeds / 4.0, 25) << motor;
 }
 
 TEST(Nature, TellsWhatAKeyIsDrawnFrom) {

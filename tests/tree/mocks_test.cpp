@@ -25,7 +25,7 @@ std::vector<std::string> namesOf(const std::vector<Mock>& mocks) {
 }
 
 std::string written(const std::string& name, const std::string& text) {
-  const std::string path = (std::filesystem::path(::testing::TempDir()) / name).string();
+  std::string path = (std::filesystem::path(::testing::TempDir()) / name).string();
   std::ofstream(path) << text;
   return path;
 }
