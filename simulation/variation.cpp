@@ -24,7 +24,8 @@ constexpr double kSearchFloorFrom_m = 0.5;   // Height above the start from whic
 constexpr double kSearchFloorDown_m = 20.0;  // A start farther above a floor is a mistake.
 constexpr double kUnevenFloor_m =
     0.03;  // Greatest height difference of the feet; the vehicle tips at 0.05 (referee.cpp).
-constexpr double kSameFloor_m = 0.05;  // A drawn start must be on the same floor as the nominal one, not on a crate.
+constexpr double kTakeOffRoom_m = 0.10;  // Around the hull on its way up; gusts move it by up to 9 cm before it flies.
+constexpr double kSameFloor_m = 0.05;    // A drawn start must be on the same floor as the nominal one, not on a crate.
 
 StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {
   StartConfig start = scenario.start;
@@ -166,22 +167,30 @@ class Reach {
   std::optional<common::TiledGrid<std::uint8_t>> cells_;
 };
 
-/// Conditions for a start drawn in an area: it is on the floor of the nominal start, nothing is above it, and the
-/// nominal start can be reached from it.
-std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, const RayCaster& rays, Reach& reach) {
-  if (drawn.scenario.variation.start_area_world_m.empty()) return std::nullopt;
+/// A problem if the vehicle would touch something on its way up to its flight height: under a chair the hull may fit.
+std::optional<Problem> noRoomAbove(const Drawn& drawn, const RayCaster& rays) {
   const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
   const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
-  if (std::abs(floor_m.z() - nominal.z_m) > kSameFloor_m)
-    return startProblem(drawn, "is not on the floor of the start that is given", "choose the area elsewhere");
   const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
   const double standing_m = drawn.scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m;
   for (double height_m = standing_m; height_m < drawn.scenario.variation.flight_height_m;
        height_m += hull.half_height_m) {
     const Eigen::Vector3d at = floor_m + height_m * Eigen::Vector3d::UnitZ();
-    if (rays.sweep(hull, at, at, 0.05).shape != Hit::kNothing)
-      return startProblem(drawn, "has no room above it", "choose the area elsewhere");
+    if (rays.sweep(hull, at, at, kTakeOffRoom_m).shape != Hit::kNothing)
+      return startProblem(drawn, "has no room above it", "move the start, or lower variation.flight_height_m");
   }
+  return std::nullopt;
+}
+
+/// Conditions for a start that is drawn: nothing is above it. In an area it is also on the floor of the nominal start,
+/// which can be reached from it.
+std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, const RayCaster& rays, Reach& reach) {
+  const Variation& variation = drawn.scenario.variation;
+  const bool in_area = !variation.start_area_world_m.empty();
+  if (!in_area && variation.start_position_m == 0.0) return std::nullopt;
+  if (in_area && std::abs(drawn.T_world_map.position_m.z() - nominal.z_m) > kSameFloor_m)
+    return startProblem(drawn, "is not on the floor of the start that is given", "choose the area elsewhere");
+  if (auto problem = noRoomAbove(drawn, rays); problem || !in_area) return problem;
   if (reach.has({nominal.x_m, nominal.y_m})) return std::nullopt;
   return startProblem(drawn, "does not lead to the start that is given", "choose the area elsewhere");
 }

@@ -38,6 +38,8 @@ struct FlightMemory {
   /// Where the vehicle flew lower, and how high over the take-off floor: a flight back along the trail flies there as
   /// low.
   std::vector<Eigen::Vector3d> lowered_map_m;
+  /// Where the vehicle stood before it last took off: there it can stand again. None where the position was unknown.
+  std::optional<Eigen::Vector2d> stood_map_m;
   bool told_laser_alone = false;  ///< That a laser cannot know whether there is room below.
   ExplorationMemory exploration;
   FollowMemory follow;

@@ -10,6 +10,8 @@ namespace {
 constexpr double kStopping_s = 1.5;  ///< From the greatest speed to a hover, with what then settles.
 /// Nearer than this the place is reached: the margin of the place is larger.
 constexpr double kTolerance_m = 0.08;
+/// This near to where it took off the vehicle lands there: what it stood on carries it, level or not.
+constexpr double kTakeOffPlace_m = 0.5;
 /// Time for the flight of at most LandingNeeds::reach_m at careful speed, a plan and an arrival.
 constexpr double kApproach_s = 15.0;
 
@@ -41,6 +43,12 @@ void Land::choose(const ManeuverInput& input) {
   if (!knows || setup_.retreat.active()) return descend(input.now, {});
   if (!setup_.controller.stopped() && (input.now - *since_).seconds() < kStopping_s) return;
 
+  if (const auto& stood_map_m = setup_.memory.stood_map_m;
+      stood_map_m && (*stood_map_m - input.position_map_m()).norm() < kTakeOffPlace_m &&
+      cost_map->costAt(cost_map->cellAt(*stood_map_m)) != planning::CostMap::kLethal) {
+    place_map_m_ = stood_map_m;
+    return;
+  }
   planning::LandingNeeds needs;
   needs.hull_radius_m = cost_map->footprint().hull_radius_m;
   const Eigen::Vector2d here_map_m = input.position_map_m();

@@ -11,7 +11,7 @@ Progress TakeOff::step(const ManeuverInput& input) {
   if (!begun_) {
     if (!control::isAirborne(controller_.state()) && !input.take_off_refusal.empty())
       return Progress::failed("take-off refused: " + input.take_off_refusal);
-    begin();
+    begin(input);
   }
   if (!commanded_)
     return control::isAirborne(controller_.state()) ? cannot("take off", controller_)
@@ -31,10 +31,11 @@ Progress TakeOff::step(const ManeuverInput& input) {
   return cannot("take off", controller_);
 }
 
-void TakeOff::begin() {
+void TakeOff::begin(const ManeuverInput& input) {
   begun_ = true;
   if (controller_.state() == FlightState::kFlying || controller_.state() == FlightState::kTakingOff) return;
   memory_.cruise_height_m = intent_.height_m;
+  memory_.stood_map_m = input.state.horizontal_valid ? std::optional(input.position_map_m()) : std::nullopt;
   commanded_ = controller_.command(control::TakeOff{intent_.height_m});
 }
 

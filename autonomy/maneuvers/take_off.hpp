@@ -16,7 +16,7 @@ class TakeOff final : public Maneuver {
   Progress step(const ManeuverInput& input) override;
 
  private:
-  void begin();
+  void begin(const ManeuverInput& input);
 
   common::TakeOffIntent intent_;
   control::FlightController& controller_;

@@ -14,6 +14,8 @@ using common::CellIndex;
 using Eigen::Vector2d;
 
 constexpr double kUnseen_m = std::numeric_limits<double>::quiet_NaN();
+/// Beyond the hull and its margin, so far cells are looked for that show the surface to go on.
+constexpr double kBeyond_m = 0.2;
 /// A cell counts from this much overlap on, far above the rounding of its place.
 constexpr double kTouching_m = 1e-6;
 
@@ -36,29 +38,45 @@ class SurfaceWindow {
 
   double heightAt(const Vector2d& place_map_m) const { return heightOf(cellAt(place_map_m)); }
 
-  /// Whether a disc lies on one surface of that height, as far as it was seen; `across_m` is the extent of what was.
-  bool isLevel(const Vector2d& center_map_m, double radius_m, double height_m, double step_m, double& across_m) const {
-    const CellIndex center = cellAt(center_map_m);
-    const int reach = static_cast<int>(std::ceil(radius_m / resolution_m_)) + 1;
-    Vector2d least = center_map_m, most = center_map_m;
-    for (int y = center.y - reach; y <= center.y + reach; ++y) {
-      for (int x = center.x - reach; x <= center.x + reach; ++x) {
-        const double seen_m = heightOf({x, y});
-        if (std::isnan(seen_m)) continue;
-        // By the nearest point of the cell: a surface begins somewhere in it. A cell that the disc only touches is not
-        // in it.
-        const Vector2d low(x * resolution_m_, y * resolution_m_), high = low.array() + resolution_m_;
-        if ((center_map_m.cwiseMax(low).cwiseMin(high) - center_map_m).norm() > radius_m - kTouching_m) continue;
-        if (std::abs(seen_m - height_m) > step_m) return false;
-        least = least.cwiseMin(low);
-        most = most.cwiseMax(high);
-      }
-    }
-    across_m = (most - least).maxCoeff();
-    return true;
+  /// Whether a disc lies on one surface of that height, as far as it was seen.
+  bool isLevel(const Vector2d& center_map_m, double radius_m, double height_m, double step_m) const {
+    bool level = true;
+    eachSeen(center_map_m, radius_m, [&](const Vector2d& low, double seen_m) {
+      // By the nearest point of the cell: a surface begins somewhere in it. A cell that the disc only touches is not in
+      // it.
+      const Vector2d high = low.array() + resolution_m_;
+      if ((center_map_m.cwiseMax(low).cwiseMin(high) - center_map_m).norm() > radius_m - kTouching_m) return;
+      if (std::abs(seen_m - height_m) > step_m) level = false;
+    });
+    return level;
+  }
+
+  /// How far to both sides of the center that surface was seen: to its farthest cell within the radius, and opposite.
+  double seenToBothSides_m(const Vector2d& center_map_m, double radius_m, double height_m, double step_m) const {
+    std::vector<Vector2d> cells_m;
+    Vector2d farthest_m = Vector2d::Zero();
+    eachSeen(center_map_m, radius_m, [&](const Vector2d& low, double seen_m) {
+      const Vector2d at_m = low.array() + 0.5 * resolution_m_ - center_map_m.array();
+      if (std::abs(seen_m - height_m) > step_m || at_m.norm() > radius_m) return;
+      cells_m.push_back(at_m);
+      if (at_m.norm() > farthest_m.norm()) farthest_m = at_m;
+    });
+    double opposite_m = 0.0;
+    for (const Vector2d& at_m : cells_m) opposite_m = std::max(opposite_m, -at_m.dot(farthest_m.normalized()));
+    return std::min(farthest_m.norm(), opposite_m);
   }
 
  private:
+  /// Visits the cells around a place that were seen, by their lower corners.
+  template <typename Visit>
+  void eachSeen(const Vector2d& center_map_m, double radius_m, const Visit& visit) const {
+    const CellIndex center = cellAt(center_map_m);
+    const int reach = static_cast<int>(std::ceil(radius_m / resolution_m_)) + 1;
+    for (int y = center.y - reach; y <= center.y + reach; ++y)
+      for (int x = center.x - reach; x <= center.x + reach; ++x)
+        if (const double seen_m = heightOf({x, y}); !std::isnan(seen_m))
+          visit(Vector2d(x * resolution_m_, y * resolution_m_), seen_m);
+  }
   bool contains(CellIndex c) const {
     return c.x >= begin_.x && c.x < begin_.x + side_ && c.y >= begin_.y && c.y < begin_.y + side_;
   }
@@ -81,11 +99,12 @@ std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& plac
                              const LandingNeeds& needs) {
   const double height_m = surfaces.heightAt(place_map_m);
   if (std::isnan(height_m)) return std::nullopt;
-  double across_m = 0.0;
-  if (!surfaces.isLevel(place_map_m, needs.hull_radius_m + needs.margin_m, height_m, needs.step_m, across_m))
-    return std::nullopt;
-  const bool raised = height_m >= needs.step_m, unseen = across_m < 2.0 * needs.hull_radius_m;
-  if (raised && unseen) return std::nullopt;
+  const double needed_m = needs.hull_radius_m + needs.margin_m;
+  if (!surfaces.isLevel(place_map_m, needed_m, height_m, needs.step_m)) return std::nullopt;
+  // The last cell that was seen may hold the edge.
+  const double seen_to_m = surfaces.seenToBothSides_m(place_map_m, needed_m + kBeyond_m, height_m, needs.step_m);
+  const bool raised = height_m >= needs.step_m, unseen = seen_to_m < needed_m;
+  if (raised && seen_to_m < needs.hull_radius_m) return std::nullopt;
   return length_m + (raised ? needs.upper_cost_m : 0.0) + (unseen ? needs.unseen_cost_m : 0.0);
 }
 

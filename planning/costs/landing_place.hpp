@@ -17,8 +17,8 @@ struct LandingNeeds {
   double step_m = 0.06;       ///< Surfaces whose heights differ by less are one floor, for the noise of the heights.
   double reach_m = 4.0;       ///< Greatest length of the flight to the place.
   double upper_cost_m = 1.5;  ///< A raised surface is chosen only if the floor is farther away by this path length.
-  /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen across the hull is
-  /// farther away by this path length.
+  /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen to both sides of
+  /// the hull is farther away by this path length.
   double unseen_cost_m = 1.0;
 };
 

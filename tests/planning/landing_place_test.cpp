@@ -42,12 +42,12 @@ TEST_F(LandingPlaceStory, OnOneFloorTheVehicleLandsWhereItIs) {
   EXPECT_EQ(*place, Vector2d(5.0, 2.0));
 }
 
-TEST_F(LandingPlaceStory, TheEndOfTheTrailIsLeftForFloorThatWasSeenAcrossTheHull) {
+TEST_F(LandingPlaceStory, TheEndOfTheTrailIsLeftForFloorThatWasSeenToBothSidesOfTheHull) {
   see(0.0, {1, 1.9}, {4, 2.1});
   const auto place = from(3.95, 2.0);
   ASSERT_TRUE(place);
-  EXPECT_LT(place->x(), 4.0 - needs_.hull_radius_m + needs_.margin_m + 0.01);
-  EXPECT_GT(place->x(), 3.6);
+  EXPECT_LT(place->x(), 4.0 - needs_.hull_radius_m) << "an edge may begin where nothing was seen";
+  EXPECT_GT(place->x(), 3.4);
   needs_.reach_m = 0.05;
   EXPECT_EQ(*from(3.95, 2.0), Vector2d(3.95, 2.0)) << "better than none";
 }
@@ -62,7 +62,7 @@ TEST_F(LandingPlaceStory, AnEdgeIsLeftByTheHullAndItsMargin) {
 }
 
 TEST_F(LandingPlaceStory, ATableOfUnknownWidthIsNoPlaceButARaisedFloorIs) {
-  see(0.0, {1, 1.9}, {2, 2.1});
+  see(0.0, {0.5, 1.9}, {2, 2.1});
   see(0.75, {2, 1.9}, {3.5, 2.1});
   EXPECT_LT(from(2.8, 2.0)->x(), 2.0) << "the floor is near";
   needs_.reach_m = 0.5;

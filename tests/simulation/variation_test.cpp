@@ -105,6 +105,19 @@ TEST(Variation, ColoursAndLightAreThoseOfTheSeedWithinTheirBounds) {
   EXPECT_THROW(SimulatedVehicle(world, scenario), common::InputError);
 }
 
+/// The hull stands under a table, but cannot take off from there.
+TEST(Variation, AVariedStartHasRoomAbove) {
+  WorldModel world = boxRoom();
+  world.shapes.push_back(boxShape("table", {0.1, -1.0, 0.6}, {1.0, 1.0, 0.65}));
+  Scenario scenario;
+  scenario.variation.start_position_m = 0.6;
+  for (int seed = 1; seed <= 20; ++seed) {
+    scenario.seed = seed;
+    const SimulatedVehicle vehicle(world, scenario);
+    EXPECT_LT(vehicle.T_world_map().position_m.x(), 0.1 - scenario.vehicle.hullRadius_m()) << "seed " << seed;
+  }
+}
+
 TEST(Variation, ARandomStartHasFloorHeadroomAndAPathToTheNominalStart) {
   WorldModel world = boxRoom();
   world.shapes.push_back(boxShape("stage", {-5.0, -4.0, 0.0}, {-3.0, 4.0, 0.3}));

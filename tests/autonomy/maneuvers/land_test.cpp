@@ -1,4 +1,6 @@
 // Land, from the air to the ground, with interruptions.
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,25 +25,36 @@ TEST_F(LandManeuver, SucceedsEveryTimeOnTheGround) {
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kSucceeded);
 }
 
-/// A floor that was seen along a strip through the room, up to the edge of a platform at x = 2 m.
-std::shared_ptr<const common::LevelMap> edgeAt2() {
+/// A floor that was seen along a strip through the room, up to the edge of a platform.
+std::shared_ptr<const common::LevelMap> edgeAt(double x_m) {
   auto levels = std::make_shared<common::LevelMap>();
   levels->levels = {{0, 0.0, 1e-4, {}}, {1, 0.2, 1e-4, {}}};
   for (int x = 2; x < 26; ++x)
-    for (int y = 18; y < 22; ++y) levels->levels[x < 20 ? 0 : 1].cells.push_back({x, y});
+    for (int y = 18; y < 22; ++y) levels->levels[x < std::lround(10.0 * x_m) ? 0 : 1].cells.push_back({x, y});
   return levels;
 }
 
 TEST_F(LandManeuver, FliesAwayFromAnEdgeBeforeItDescends) {
   want(to(2.05, 2.0));
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
-  surfaces_ = edgeAt2();
+  surfaces_ = edgeAt(2.0);
   want(common::LandIntent{});
   ASSERT_EQ(runToTheEnd(25.0), IntentState::kSucceeded);
   EXPECT_LT(position_m().x(), 2.0 - 0.275) << "the hull is off the edge";
   EXPECT_GT(position_m().x(), 1.2);
   EXPECT_EQ(timesSaid("landing at"), 1);
   EXPECT_EQ(timesSaid("landing where it is"), 0);
+}
+
+/// What it stood on carries it, also if beams that look down say that it is not level: it took off at x = 1.5 m.
+TEST_F(LandManeuver, LandsWhereItTookOffAlsoOnAnEdge) {
+  want(to(1.7, 2.1));
+  ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  surfaces_ = edgeAt(1.6);
+  want(common::LandIntent{});
+  ASSERT_EQ(runToTheEnd(25.0), IntentState::kSucceeded);
+  EXPECT_LT(distanceTo_m({1.5, 2.0}), 0.1);
+  EXPECT_EQ(timesSaid("landing at"), 0);
 }
 
 TEST_F(LandManeuver, LandsWhereItIsIfNoLevelPlaceIsKnown) {
@@ -59,7 +72,7 @@ TEST_F(LandManeuver, LandsWhereItIsIfNoLevelPlaceIsKnown) {
 TEST_F(LandManeuver, WithoutAPositionItDescendsAtOnce) {
   want(to(2.05, 2.0));
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
-  surfaces_ = edgeAt2();
+  surfaces_ = edgeAt(2.0);
   state_.horizontal_valid = false;
   want(common::LandIntent{});
   run(0.2);
