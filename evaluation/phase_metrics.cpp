@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,13 @@
 namespace swiftlet::evaluation {
 
 using common::Time;
+
+namespace {
+
+/// Ticks of 10 ms; an estimate older than they are is stale, not wrong.
+constexpr std::size_t kTruths = 10;
+
+}  // namespace
 
 void PhaseBound::describe(common::config::Fields& fields) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -122,7 +130,22 @@ void PhaseRecorder::tickInPhase(Time now, const common::Pose3& T_map_truth, cons
   speed_x_m_s_.push_back(std::abs(velocity_map_m_s.x()));
   speed_y_m_s_.push_back(std::abs(velocity_map_m_s.y()));
   yaw_rad_.push_back(common::yawOf(T_map_truth.rotation));
-  velocity_error_m_s_.push_back((estimate.velocity_map_m_s() - velocity_map_m_s).norm());
+  // An estimate is of the last inertial sample, some milliseconds before the tick.
+  true_velocities_m_s_.emplace_back(now, velocity_map_m_s);
+  if (true_velocities_m_s_.size() > kTruths) true_velocities_m_s_.pop_front();
+  if (const auto then_m_s = trueVelocityAt(estimate.stamp))
+    velocity_error_m_s_.push_back((estimate.velocity_map_m_s() - *then_m_s).norm());
+}
+
+/// Interpolated; nothing outside of the last ticks.
+std::optional<Eigen::Vector3d> PhaseRecorder::trueVelocityAt(Time time) const {
+  const auto& truths = true_velocities_m_s_;
+  if (truths.empty() || time < truths.front().first || time > truths.back().first) return std::nullopt;
+  const auto after = std::find_if(truths.begin(), truths.end(), [&](const auto& truth) { return truth.first >= time; });
+  if (after->first == time) return after->second;
+  const auto before = std::prev(after);
+  const double share = (time - before->first).seconds() / (after->first - before->first).seconds();
+  return Eigen::Vector3d((1.0 - share) * before->second + share * after->second);
 }
 
 /// Yaw is unwrapped about its circular mean.
@@ -146,6 +169,7 @@ void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
                             {"yaw_std_rad", statisticsOf(yaw_off).standard_deviation},
                             {"height_mean_m", height.mean},
                             {"height_std_m", height.standard_deviation},
+                            {"velocity_error_mean_m_s", velocity_error.mean},
                             {"velocity_error_rms_m_s", velocity_error.rmse}};
   figures.insert(figures.end(), all.begin(), all.end());
   if (config_.place_map_m.empty()) return;

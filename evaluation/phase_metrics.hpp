@@ -2,6 +2,7 @@
 // on them by name.
 #pragma once
 
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -81,6 +82,7 @@ class PhaseRecorder {
   PhaseScore finish() const;
 
  private:
+  std::optional<Eigen::Vector3d> trueVelocityAt(common::Time time) const;
   void addPlaces(PhaseFigures& figures) const;
   void addLevels(PhaseFigures& figures) const;
 
@@ -88,6 +90,7 @@ class PhaseRecorder {
   bool in_phase_ = false;  ///< By the last snapshot.
   std::optional<common::Time> since_, last_;
   double time_s_ = 0.0;
+  std::deque<std::pair<common::Time, Eigen::Vector3d>> true_velocities_m_s_;  ///< Of the last ticks, in `map`.
   std::vector<double> x_m_, y_m_, height_m_, speed_m_s_, yaw_rad_, velocity_error_m_s_;
   std::vector<double> speed_x_m_s_, speed_y_m_s_;  ///< Sizes of the velocity along the axes of `map`.
   std::vector<double> level_heights_m_;            ///< Of the last map in the phase, ascending.

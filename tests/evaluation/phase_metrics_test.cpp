@@ -33,6 +33,7 @@ class Phase : public testing::Test {
     pose.position_m = {x_m, 0.0, height_m};
     pose.rotation = common::quaternionFrom({0.0, 0.0, yaw_rad});
     common::VehicleState estimate;
+    estimate.stamp = time_;
     estimate.velocity_odom_m_s = {speed_m_s + 0.1, 0, 0};
     recorder_.tick(time_, pose, {speed_m_s, 0, 0}, estimate);
   }
@@ -65,6 +66,7 @@ TEST_F(Phase, CountsOnlyWhileItLastsAndAfterItHasSettled) {
   EXPECT_NEAR(figure("height_mean_m"), 1.0, 1e-9);
   EXPECT_NEAR(figure("height_std_m"), 0.02, 1e-9);
   EXPECT_NEAR(figure("yaw_std_rad"), 0.1, 1e-9);
+  EXPECT_NEAR(figure("velocity_error_mean_m_s"), 0.1, 1e-9);
   EXPECT_NEAR(figure("velocity_error_rms_m_s"), 0.1, 1e-9);
 }
 
@@ -86,6 +88,21 @@ TEST_F(Phase, HasTheLevelsOfItsLastMap) {
   EXPECT_EQ(figure("levels"), 2);
   EXPECT_NEAR(figure("level_0_height_m"), 0.0, 1e-9);
   EXPECT_NEAR(figure("level_1_height_m"), 0.74, 1e-9);
+}
+
+/// The estimate is of the last inertial sample: compared with the truth of the tick it would seem to lag.
+TEST(PhaseVelocity, IsComparedWithTheTruthAtTheTimeOfTheEstimate) {
+  PhaseRecorder recorder({.name = "all"});
+  recorder.world(test::Layers().world());
+  for (int tick = 1; tick <= 100; ++tick) {
+    const Time now = Time::fromSeconds(0.01 * tick);
+    common::VehicleState estimate;
+    estimate.stamp = now - common::Duration::fromMilliseconds(6);
+    estimate.velocity_odom_m_s.x() = 3.0 * estimate.stamp.seconds() + 0.02;
+    recorder.tick(now, {}, {3.0 * now.seconds(), 0, 0}, estimate);
+  }
+  EXPECT_NEAR(recorder.finish().figure("velocity_error_mean_m_s").value(), 0.02, 1e-9);
+  EXPECT_NEAR(recorder.finish().figure("velocity_error_rms_m_s").value(), 0.02, 1e-9);
 }
 
 TEST(PhaseYaw, IsAveragedOnTheCircle) {
