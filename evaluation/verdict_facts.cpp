@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
+#include "common/small_matrices.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 
@@ -55,7 +54,7 @@ bool fixesPosition(const Vector3d& position_world_m, const TrueWorld& world) {
     const Vector2d normal = hit.normal_world.head<2>().cast<double>();
     information += normal * normal.transpose();
   });
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information).eigenvalues().minCoeff() >= kLeastBeams;
+  return common::symmetricEigenvalues(information)(0) >= kLeastBeams;
 }
 
 bool isEnclosed(const Vector3d& position_world_m, const TrueWorld& world) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "common/small_matrices.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -12,16 +12,14 @@ namespace {
 /// long.
 constexpr double kHeld_s = 0.5;
 
-using Eigensolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>;
-
 /// What is left of a difference of covariances when no direction may shrink.
 Eigen::Matrix2d positivePart(const Eigen::Matrix2d& difference_m2) {
-  const Eigensolver solver(difference_m2);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
+  const common::SymmetricEigen<2> eigen = common::symmetricEigen(difference_m2);
+  return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
 }
 
 double greatestSigma_m(const Eigen::Matrix2d& covariance_m2) {
-  return std::sqrt(std::max(0.0, Eigensolver(covariance_m2, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff()));
+  return std::sqrt(std::max(0.0, common::symmetricEigenvalues(covariance_m2)(1)));
 }
 
 }  // namespace

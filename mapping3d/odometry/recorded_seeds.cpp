@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "common/config_fields.hpp"
 #include "common/normal_distribution.hpp"
+#include "common/small_matrices.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
@@ -30,10 +30,9 @@ constexpr double kSigmaFactor = 5.0;
 bool isCertain(const Alignment& fit) {
   const Matrix6d covariance = kSigmaFactor * kSigmaFactor * fit.measured_information.inverse();
   if (!covariance.allFinite()) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shift(covariance.topLeftCorner<3, 3>());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> turn(covariance.bottomRightCorner<3, 3>());
-  return shift.eigenvalues().maxCoeff() < kLeastCertain_m * kLeastCertain_m &&
-         turn.eigenvalues().maxCoeff() < kLeastCertain_rad * kLeastCertain_rad;
+  const Eigen::Matrix3d shift = covariance.topLeftCorner<3, 3>(), turn = covariance.bottomRightCorner<3, 3>();
+  return common::symmetricEigenvalues(shift)(2) < kLeastCertain_m * kLeastCertain_m &&
+         common::symmetricEigenvalues(turn)(2) < kLeastCertain_rad * kLeastCertain_rad;
 }
 
 struct StepError {
