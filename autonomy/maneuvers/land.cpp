@@ -1,5 +1,7 @@
 #include "autonomy/maneuvers/land.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "planning/costs/landing_place.hpp"
@@ -14,6 +16,16 @@ constexpr double kTolerance_m = 0.08;
 constexpr double kTakeOffPlace_m = 0.5;
 /// Time for the flight of at most LandingNeeds::reach_m at careful speed, a plan and an arrival.
 constexpr double kApproach_s = 15.0;
+
+bool isLethal(const planning::CostMap& map, const Eigen::Vector2d& place_map_m) {
+  return map.costAt(map.cellAt(place_map_m)) == planning::CostMap::kLethal;
+}
+
+planning::LandingNeeds needsOf(const planning::CostMap& map) {
+  planning::LandingNeeds needs;
+  needs.hull_radius_m = map.footprint().hull_radius_m;
+  return needs;
+}
 
 }  // namespace
 
@@ -31,31 +43,43 @@ Progress Land::step(const ManeuverInput& input) {
     if (!descends_) descend(input.now, {});
     return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
   }
-  if (!place_map_m_ && !descends_) choose(input);
-  if (place_map_m_ && !descends_ && !approaches(input)) descend(input.now, {});
+  if (!here_map_m_ && !descends_) begin(input);
+  if (place_map_m_ && !descends_ && !approaches(input)) {
+    if (std::exchange(looks_, false))
+      choose(input);
+    else
+      descend(input.now, {});
+  }
   return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
 }
 
-/// A place is chosen where the vehicle stops. Without a position it is where the vehicle is.
-void Land::choose(const ManeuverInput& input) {
+/// Where the vehicle stops it looks for a place. Without a position it lands where it is.
+void Land::begin(const ManeuverInput& input) {
   const auto cost_map = setup_.desk.costMap();
   const bool knows = input.state.horizontal_valid && input.surfaces && !input.surfaces->levels.empty() && cost_map;
   if (!knows || setup_.retreat.active()) return descend(input.now, {});
   if (!setup_.controller.stopped() && (input.now - *since_).seconds() < kStopping_s) return;
 
+  here_map_m_ = input.position_map_m();
   if (const auto& stood_map_m = setup_.memory.stood_map_m;
-      stood_map_m && (*stood_map_m - input.position_map_m()).norm() < kTakeOffPlace_m &&
-      cost_map->costAt(cost_map->cellAt(*stood_map_m)) != planning::CostMap::kLethal) {
+      stood_map_m && (*stood_map_m - *here_map_m_).norm() < kTakeOffPlace_m && !isLethal(*cost_map, *stood_map_m)) {
     place_map_m_ = stood_map_m;
     return;
   }
-  planning::LandingNeeds needs;
-  needs.hull_radius_m = cost_map->footprint().hull_radius_m;
-  const Eigen::Vector2d here_map_m = input.position_map_m();
-  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, here_map_m, needs);
+  place_map_m_ = planning::placeToLookFrom(*cost_map, *input.surfaces, *here_map_m_, needsOf(*cost_map));
+  looks_ = place_map_m_.has_value();
+  if (!looks_) choose(input);
+}
+
+void Land::choose(const ManeuverInput& input) {
+  const auto cost_map = setup_.desk.costMap();
+  if (!cost_map || !input.surfaces) return descend(input.now, {});
+  const planning::LandingNeeds needs = needsOf(*cost_map);
+  no_path_.clear();
+  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, *here_map_m_, needs);
   if (!place_map_m_)
     return descend(input.now, fmt::format("no level place for the hull is known within {:.0f} m", needs.reach_m));
-  const double distance_m = (*place_map_m_ - here_map_m).norm();
+  const double distance_m = (*place_map_m_ - *here_map_m_).norm();
   if (distance_m > kTolerance_m)
     setup_.memory.say(input.now, Severity::kInfo, "landing at " + input.names.of(*place_map_m_),
                       fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
@@ -65,6 +89,7 @@ void Land::choose(const ManeuverInput& input) {
 bool Land::approaches(const ManeuverInput& input) {
   if ((*place_map_m_ - input.position_map_m()).norm() < kTolerance_m && setup_.controller.stopped()) return false;
   const bool late = (input.now - *since_).seconds() > kApproach_s;
+  if (looks_ && (late || !no_path_.empty())) return false;
   if (late || !input.state.horizontal_valid || !no_path_.empty()) {
     descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));
     return true;

@@ -1,11 +1,12 @@
 // Land: done when the vehicle stands on the ground. In the air it cannot fail.
 //
-//   stop --> choose a place --> fly there --> descend
-//             |  none, or no position      ^ or where it is, if it does not get there
-//             +----------------------------+
+//   stop --> look beyond --> choose a place --> fly there --> descend
+//                             |  none, or no position      ^ or where it is, if it does not get there
+//                             +----------------------------+
 //
 // The place is the nearest one where the hull stands on one level, clear of the edges of tables and steps
-// (planning/costs/landing_place.hpp).
+// (planning/costs/landing_place.hpp). The beams that look down have seen only the trail: where it ends, the vehicle
+// first flies a hull's width on to see whether the floor goes on there too.
 #pragma once
 
 #include <optional>
@@ -29,6 +30,7 @@ class Land final : public Maneuver {
   }
 
  private:
+  void begin(const ManeuverInput& input);
   void choose(const ManeuverInput& input);
   bool approaches(const ManeuverInput& input);
   void descend(common::Time now, const std::string& reason);
@@ -37,7 +39,8 @@ class Land final : public Maneuver {
   PathFlight flight_;
   tl::expected<void, std::string> commanded_;
   std::optional<common::Time> since_;  ///< When the landing began.
-  bool descends_ = false;
+  bool looks_ = false, descends_ = false;
+  std::optional<Eigen::Vector2d> here_map_m_;   ///< Where it stopped to land.
   std::optional<Eigen::Vector2d> place_map_m_;  ///< Where it flies to; none before it is chosen.
   std::string no_path_;                         ///< Why there is no path to the place; empty if there is one.
 };

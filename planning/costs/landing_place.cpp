@@ -51,19 +51,24 @@ class SurfaceWindow {
     return level;
   }
 
-  /// How far to both sides of the center that surface was seen: to its farthest cell within the radius, and opposite.
-  double seenToBothSides_m(const Vector2d& center_map_m, double radius_m, double height_m, double step_m) const {
+  /// How far from the center that surface was seen.
+  struct Extent {
+    Vector2d farthest_m = Vector2d::Zero();  ///< To its farthest cell within the radius.
+    double opposite_m = 0.0;                 ///< In the opposite direction.
+    double toBothSides_m() const { return std::min(farthest_m.norm(), opposite_m); }
+  };
+  Extent extentOf(const Vector2d& center_map_m, double radius_m, double height_m, double step_m) const {
     std::vector<Vector2d> cells_m;
-    Vector2d farthest_m = Vector2d::Zero();
+    Extent extent;
     eachSeen(center_map_m, radius_m, [&](const Vector2d& low, double seen_m) {
       const Vector2d at_m = low.array() + 0.5 * resolution_m_ - center_map_m.array();
       if (std::abs(seen_m - height_m) > step_m || at_m.norm() > radius_m) return;
       cells_m.push_back(at_m);
-      if (at_m.norm() > farthest_m.norm()) farthest_m = at_m;
+      if (at_m.norm() > extent.farthest_m.norm()) extent.farthest_m = at_m;
     });
-    double opposite_m = 0.0;
-    for (const Vector2d& at_m : cells_m) opposite_m = std::max(opposite_m, -at_m.dot(farthest_m.normalized()));
-    return std::min(farthest_m.norm(), opposite_m);
+    const Vector2d back = -extent.farthest_m.normalized();
+    for (const Vector2d& at_m : cells_m) extent.opposite_m = std::max(extent.opposite_m, at_m.dot(back));
+    return extent;
   }
 
  private:
@@ -99,11 +104,10 @@ std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& plac
                              const LandingNeeds& needs) {
   const double height_m = surfaces.heightAt(place_map_m);
   if (std::isnan(height_m)) return std::nullopt;
-  const double needed_m = needs.hull_radius_m + needs.margin_m;
-  if (!surfaces.isLevel(place_map_m, needed_m, height_m, needs.step_m)) return std::nullopt;
-  // The last cell that was seen may hold the edge.
-  const double seen_to_m = surfaces.seenToBothSides_m(place_map_m, needed_m + kBeyond_m, height_m, needs.step_m);
-  const bool raised = height_m >= needs.step_m, unseen = seen_to_m < needed_m;
+  if (!surfaces.isLevel(place_map_m, needs.aside_m(), height_m, needs.step_m)) return std::nullopt;
+  const double seen_to_m =
+      surfaces.extentOf(place_map_m, needs.aside_m() + kBeyond_m, height_m, needs.step_m).toBothSides_m();
+  const bool raised = height_m >= needs.step_m, unseen = seen_to_m < needs.aside_m();
   if (raised && seen_to_m < needs.hull_radius_m) return std::nullopt;
   return length_m + (raised ? needs.upper_cost_m : 0.0) + (unseen ? needs.unseen_cost_m : 0.0);
 }
@@ -114,7 +118,7 @@ std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap&
                                      const LandingNeeds& needs) {
   const CellIndex start = map.cellAt(from_map_m);
   if (!map.contains(start) || levels.levels.empty()) return std::nullopt;
-  const SurfaceWindow surfaces(levels, from_map_m, needs.reach_m + needs.hull_radius_m + needs.margin_m);
+  const SurfaceWindow surfaces(levels, from_map_m, needs.reach_m + needs.aside_m() + kBeyond_m);
 
   // Dijkstra by length. Where the vehicle is already it may be nearer to an obstacle than a plan would go.
   using Entry = std::pair<double, int>;
@@ -152,6 +156,21 @@ std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap&
         if (dx != 0 || dy != 0) reach({cell.x + dx, cell.y + dy}, here_m + std::hypot(dx, dy) * map.resolution_m());
   }
   return best;
+}
+
+std::optional<Vector2d> placeToLookFrom(const CostMap& map, const common::LevelMap& levels, const Vector2d& from_map_m,
+                                        const LandingNeeds& needs) {
+  const SurfaceWindow surfaces(levels, from_map_m, needs.aside_m() + kBeyond_m);
+  const double height_m = surfaces.heightAt(from_map_m);
+  if (std::isnan(height_m) || !surfaces.isLevel(from_map_m, needs.aside_m(), height_m, needs.step_m))
+    return std::nullopt;
+  const auto extent = surfaces.extentOf(from_map_m, needs.aside_m() + kBeyond_m, height_m, needs.step_m);
+  if (extent.toBothSides_m() >= needs.aside_m() || extent.farthest_m.isZero()) return std::nullopt;
+  const Vector2d ahead = -extent.farthest_m.normalized();
+  const double reach_m = needs.aside_m() + kBeyond_m;
+  for (double at_m = map.resolution_m(); at_m < reach_m; at_m += map.resolution_m())
+    if (map.costAt(map.cellAt(from_map_m + at_m * ahead)) == CostMap::kLethal) return std::nullopt;
+  return from_map_m + reach_m * ahead;
 }
 
 }  // namespace swiftlet::planning

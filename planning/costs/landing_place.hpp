@@ -20,6 +20,8 @@ struct LandingNeeds {
   /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen to both sides of
   /// the hull is farther away by this path length.
   double unseen_cost_m = 1.0;
+
+  double aside_m() const { return hull_radius_m + margin_m; }
 };
 
 /// `levels` are the surfaces that were seen; a cell may be in several of them.
@@ -28,5 +30,11 @@ struct LandingNeeds {
 /// floor must have been seen across the whole hull. nullopt without such a place within reach.
 std::optional<Eigen::Vector2d> landingPlace(const CostMap& map, const common::LevelMap& levels,
                                             const Eigen::Vector2d& from_map_m, const LandingNeeds& needs);
+
+/// Where the floor at `from_map_m` was seen to one side only, as at the end of the trail: the place beyond from which
+/// the beams that look down see it to the other side too. nullopt if it was seen to both sides, if a surface of another
+/// height was seen, or if the straight line to that place is not free.
+std::optional<Eigen::Vector2d> placeToLookFrom(const CostMap& map, const common::LevelMap& levels,
+                                               const Eigen::Vector2d& from_map_m, const LandingNeeds& needs);
 
 }  // namespace swiftlet::planning

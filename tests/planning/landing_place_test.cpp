@@ -52,6 +52,21 @@ TEST_F(LandingPlaceStory, TheEndOfTheTrailIsLeftForFloorThatWasSeenToBothSidesOf
   EXPECT_EQ(*from(3.95, 2.0), Vector2d(3.95, 2.0)) << "better than none";
 }
 
+TEST_F(LandingPlaceStory, AtTheEndOfTheTrailTheVehicleLooksBeyondIt) {
+  const auto look = [&](double x_m) { return placeToLookFrom(test::mapOf(grid_), levels_, {x_m, 2.0}, needs_); };
+  see(0.0, {1, 1.9}, {4, 2.1});
+  EXPECT_FALSE(look(2.5)) << "seen to both sides";
+  ASSERT_TRUE(look(3.9));
+  EXPECT_GT(look(3.9)->x(), 3.9 + needs_.aside_m());
+  EXPECT_NEAR(look(3.9)->y(), 2.0, 0.1);
+  test::fill(grid_, {{88, 30}, {90, 50}}, test::kWallCell);
+  EXPECT_FALSE(look(3.9)) << "a wall is there";
+  levels_.levels.clear();
+  see(0.0, {1, 1.9}, {4, 2.1});
+  see(0.3, {4, 1.9}, {4.2, 2.1});
+  EXPECT_FALSE(look(3.9)) << "the edge is known";
+}
+
 TEST_F(LandingPlaceStory, AnEdgeIsLeftByTheHullAndItsMargin) {
   see(0.0, {1, 1.9}, {4, 2.1});
   see(0.3, {4, 1.9}, {4.5, 2.1});

@@ -1,4 +1,5 @@
 // Land, from the air to the ground, with interruptions.
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -44,6 +45,31 @@ TEST_F(LandManeuver, FliesAwayFromAnEdgeBeforeItDescends) {
   EXPECT_GT(position_m().x(), 1.2);
   EXPECT_EQ(timesSaid("landing at"), 1);
   EXPECT_EQ(timesSaid("landing where it is"), 0);
+}
+
+/// The beams that look down have seen the floor along the trail, up to the goal.
+TEST_F(LandManeuver, LooksBeyondTheEndOfTheTrailAndLandsAtTheGoal) {
+  want(to(3.0, 2.0));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  const auto trail = [](int end) {
+    auto levels = std::make_shared<common::LevelMap>();
+    levels->levels = {{0, 0.0, 1e-4, {}}};
+    for (int x = 15; x < end; ++x)
+      for (int y = 18; y < 22; ++y) levels->levels[0].cells.push_back({x, y});
+    return levels;
+  };
+  surfaces_ = trail(31);
+  want(common::LandIntent{});
+  double farthest_m = 0.0;
+  for (int i = 0; i < 250 && controller_.state() == FlightState::kFlying; ++i) {
+    run(0.1);
+    farthest_m = std::max(farthest_m, position_m().x());
+    surfaces_ = trail(static_cast<int>(10.0 * farthest_m) + 1);
+  }
+  ASSERT_EQ(runToTheEnd(15.0), IntentState::kSucceeded);
+  EXPECT_GT(farthest_m, 3.4);
+  EXPECT_LT(distanceTo_m({3.0, 2.0}), 0.1);
+  EXPECT_EQ(timesSaid("landing at"), 0);
 }
 
 /// What it stood on carries it, also if beams that look down say that it is not level: it took off at x = 1.5 m.
