@@ -178,6 +178,8 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
   for (int i = 0; i < static_cast<int>(map_.size()); ++i) {
     if (!field.reached(i)) continue;
     const common::CellIndex cell = map_.cellOf(i);
+    // The cost of a path into a corner is high, and would count as far away.
+    if (map_.obstacleDistance_m(cell) < map_.footprint().stopRadius_m()) continue;
     const double away_m = std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
     const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(cell);
     if (score > best.first) best = {score, i};

@@ -205,24 +205,25 @@ void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Lineari
   gate.innovations.sum += innovation2;
   gate.innovations.degrees += static_cast<std::uint64_t>(K);
   if (innovation2 > limit2) {
+    const double recovery_s = K == 1 ? config_.recovery_s : config_.pose_recovery_s;
     if (!gate.closed) {
       gate.closed = true;
       gate.closed_since = state.stamp;
     }
     ++gate.rejected;
-    if ((state.stamp - gate.closed_since).seconds() < config_.recovery_s) return;
+    if ((state.stamp - gate.closed_since).seconds() < recovery_s) return;
     // The measurement has disagreed for too long to be an outlier: the estimate is wrong by about the residual.
     const double jump2 = m.residual.template head<std::max(1, K - 1)>().squaredNorm();
     auto diagonal = state.covariance.diagonal();
     if constexpr (K == 1) {
       diagonal(kPosition + 2) += jump2;
-      diagonal(kVelocity + 2) += jump2 / square(config_.recovery_s);
+      diagonal(kVelocity + 2) += jump2 / square(recovery_s);
     } else {
       diagonal.segment<2>(kPosition).array() += jump2;
-      diagonal.segment<2>(kVelocity).array() += jump2 / square(config_.recovery_s);
+      diagonal.segment<2>(kVelocity).array() += jump2 / square(recovery_s);
       diagonal(kAttitude + 2) += square(m.residual(K - 1));
       // The usual cause of a wrong velocity is a wrong roll or pitch.
-      diagonal.segment<2>(kAttitude).array() += jump2 / square(square(config_.recovery_s) * config_.gravity_m_s2);
+      diagonal.segment<2>(kAttitude).array() += jump2 / square(square(recovery_s) * config_.gravity_m_s2);
     }
     recover(state);
   }

@@ -46,6 +46,7 @@ struct FusionConfig {
   double zero_rotation_sigma_rad_s = 0.01;
   double gate_sigma = 4.0;
   double recovery_s = 0.4;
+  double pose_recovery_s = 1.5;
   int max_recoveries = 3;
   double recovery_window_s = 5.0;
   double max_speed_m_s = 8.0;

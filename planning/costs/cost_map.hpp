@@ -28,6 +28,8 @@ struct Footprint {
   double hull_radius_m = 0.275;
   double clearance_m = 0.10;
   double radius_m() const { return hull_radius_m + clearance_m; }
+  /// From an obstacle to the middle of a hull that stops there: gusts move it by about as much as it is clear.
+  double stopRadius_m() const { return radius_m() + 0.10; }
 };
 
 /// The layers over the grid. Pointers may be null and are read during the call only.

@@ -19,6 +19,8 @@ using common::CellIndex;
 constexpr int kCoarse = 72, kFine = 144, kGainRays = 120, kWallRays = 90;
 /// Outer radii of the rings of lookouts around a frontier: each doubles, so that near and far views compete.
 constexpr std::array<double, 5> kRings_m{0.6, 1.2, 2.4, 4.8, std::numeric_limits<double>::infinity()};
+/// A place that is nearer to an obstacle than the hull should stop counts as this much farther away.
+constexpr double kTight_m = 0.5;
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
 /// The heading whose field of view covers the most gain. Of nearly equal headings the smaller turn decides.
@@ -78,7 +80,8 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
       const double distance_m = step * ray.step_cells * resolution_m;
       std::size_t ring = 0;
       while (distance_m > kRings_m[ring]) ++ring;
-      const double path_m = field_.cost_m(index, resolution_m);
+      const bool tight = map_.obstacleDistance_m(map_.cellOf(index)) < map_.footprint().stopRadius_m();
+      const double path_m = field_.cost_m(index, resolution_m) + (tight ? kTight_m : 0.0);
       if (path_m < rings[ring].path_m) rings[ring] = {map_.cellOf(index), unknown, path_m};
       return true;
     });

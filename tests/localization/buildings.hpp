@@ -46,7 +46,9 @@ inline void addFurniture(PlanarWorld& world, const Area& room, int boxes, common
   for (int i = 0; i < boxes; ++i) {
     const double x = random.uniform(room.low_m.x() + 0.5, room.high_m.x() - 0.5);
     const double y = random.uniform(room.low_m.y() + 0.5, room.high_m.y() - 0.5);
-    world.addBox(x, y, random.uniform(0.3, 1.0), random.uniform(0.3, 0.8), random.uniform(-1.5, 1.5));
+    // Drawn one by one: compilers differ in the order of the arguments of a call.
+    const double turn_rad = random.uniform(-1.5, 1.5), depth_m = random.uniform(0.3, 0.8);
+    world.addBox(x, y, random.uniform(0.3, 1.0), depth_m, turn_rad);
   }
 }
 
@@ -94,9 +96,10 @@ inline Building hall(std::uint64_t seed) {
   const double width = random.uniform(10.0, 16.0), depth = random.uniform(8.0, 12.0);
   building.inside_m = {0.5 * width, 0.5 * depth};
   building.world.addPolyline({{0.0, depth}, {0.0, 0.0}, {width, 0.0}, {width, depth}}, false);
-  for (int i = 0; i < 5; ++i)
-    building.world.addBox(random.uniform(1.5, width - 1.5), random.uniform(1.5, depth - 1.5), 0.5, 0.5,
-                          random.uniform(-0.7, 0.7));
+  for (int i = 0; i < 5; ++i) {
+    const double turn_rad = random.uniform(-0.7, 0.7), y_m = random.uniform(1.5, depth - 1.5);
+    building.world.addBox(random.uniform(1.5, width - 1.5), y_m, 0.5, 0.5, turn_rad);
+  }
   building.rooms.push_back({{0.5, 0.5}, {width - 0.5, depth - 0.5}});
   std::vector<double> doors;
   const double room_depth = random.uniform(3.0, 5.0);
