@@ -10,6 +10,17 @@
 #include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// The covariance without the variance along the direction that the scan does not fix.
+Eigen::Matrix3d observedPart(const perception::RelativePose& relative) {
+  if (!relative.unobservable_direction) return relative.covariance;
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= *relative.unobservable_direction * relative.unobservable_direction->transpose();
+  return across * relative.covariance * across;
+}
+
+}  // namespace
 
 using common::Pose2;
 
@@ -27,18 +38,6 @@ void LaserPipelineConfig::describe(common::config::Fields& fields) {
   fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, {0, 100},
          "Yaw error of a match for each radian of tilt, since the attitude is not exact.");
 }
-
-namespace {
-
-/// The covariance without the variance along the direction that the scan does not fix.
-Eigen::Matrix3d observedPart(const perception::RelativePose& relative) {
-  if (!relative.unobservable_direction) return relative.covariance;
-  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
-  across.topLeftCorner<2, 2>() -= *relative.unobservable_direction * relative.unobservable_direction->transpose();
-  return across * relative.covariance * across;
-}
-
-}  // namespace
 
 LaserPipeline::LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser)
     : config_(config), laser_(laser), odometry_(config.odometry) {}

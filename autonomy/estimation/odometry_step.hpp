@@ -41,7 +41,7 @@ struct OdometryStep {
   bool matched = false;
   bool interrupted = false;  ///< The odometry was lost and restarts with this scan.
   /// Covariance that this step adds to the drift, (x_m, y_m, yaw_rad) with the axes of the body. Zero while the
-  /// reference scan does not change. Nothing along a direction that the scan does not fix: see UnobservedStep.
+  /// reference scan does not change. Nothing along a direction that the scan does not fix: see StepUncertainty.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   std::optional<common::Time> clone_before;  ///< Time of the pose that the measurement starts from.

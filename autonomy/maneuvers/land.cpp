@@ -17,10 +17,6 @@ constexpr double kTakeOffPlace_m = 0.5;
 /// Time for the flight of at most LandingNeeds::reach_m at careful speed, a plan and an arrival.
 constexpr double kApproach_s = 15.0;
 
-bool isLethal(const planning::CostMap& map, const Eigen::Vector2d& place_map_m) {
-  return map.costAt(map.cellAt(place_map_m)) == planning::CostMap::kLethal;
-}
-
 planning::LandingNeeds needsOf(const planning::CostMap& map) {
   planning::LandingNeeds needs;
   needs.hull_radius_m = map.footprint().hull_radius_m;
@@ -62,7 +58,7 @@ void Land::begin(const ManeuverInput& input) {
 
   here_map_m_ = input.position_map_m();
   if (const auto& stood_map_m = setup_.memory.stood_map_m;
-      stood_map_m && (*stood_map_m - *here_map_m_).norm() < kTakeOffPlace_m && !isLethal(*cost_map, *stood_map_m)) {
+      stood_map_m && (*stood_map_m - *here_map_m_).norm() < kTakeOffPlace_m && !cost_map->isLethalAt(*stood_map_m)) {
     place_map_m_ = stood_map_m;
     return;
   }

@@ -68,7 +68,7 @@ Progress Tour::fly(const ManeuverInput& input) {
 void Tour::open(const planning::CostMap& map) {
   for (Station& station : stations_) {
     if (station.state == State::kPassed) continue;
-    const bool free = map.costAt(map.cellAt(station.wanted_map_m)) != planning::CostMap::kLethal;
+    const bool free = !map.isLethalAt(station.wanted_map_m);
     const auto place = free ? std::optional(station.wanted_map_m) : instead(map, station.wanted_map_m);
     station.state = place ? State::kOpen : State::kLeft;
     station.tries = 0;
@@ -86,8 +86,7 @@ void Tour::pass(const Eigen::Vector2d& here_map_m) {
 
 void Tour::leaveBlocked(const planning::CostMap& map) {
   for (Station& station : stations_)
-    if (station.state == State::kOpen && map.costAt(map.cellAt(station.place_map_m)) == planning::CostMap::kLethal)
-      station.state = State::kLeft;
+    if (station.state == State::kOpen && map.isLethalAt(station.place_map_m)) station.state = State::kLeft;
 }
 
 void Tour::flyOn(const planning::CostMap& map, const ManeuverInput& input, std::size_t station) {

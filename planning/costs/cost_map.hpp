@@ -99,6 +99,8 @@ class CostMap {
   Cost cost(int index) const { return cost_[static_cast<std::size_t>(index)]; }
   Cost costAt(common::CellIndex c) const { return contains(c) ? cost(indexOf(c)) : kLethal; }
   bool isLethal(int index) const { return cost(index) == kLethal; }
+  /// Also outside of the map.
+  bool isLethalAt(const Eigen::Vector2d& point_map_m) const { return costAt(cellAt(point_map_m)) == kLethal; }
   CellState state(int index) const { return state_[static_cast<std::size_t>(index)]; }
   CellState stateAt(common::CellIndex c) const { return contains(c) ? state(indexOf(c)) : CellState::kUnknown; }
   /// The hull with its clearance would reach into a keep-out zone there.

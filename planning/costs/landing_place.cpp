@@ -160,16 +160,16 @@ std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap&
 
 std::optional<Vector2d> placeToLookFrom(const CostMap& map, const common::LevelMap& levels, const Vector2d& from_map_m,
                                         const LandingNeeds& needs) {
-  const SurfaceWindow surfaces(levels, from_map_m, needs.aside_m() + kBeyond_m);
+  const double reach_m = needs.aside_m() + kBeyond_m;
+  const SurfaceWindow surfaces(levels, from_map_m, reach_m);
   const double height_m = surfaces.heightAt(from_map_m);
   if (std::isnan(height_m) || !surfaces.isLevel(from_map_m, needs.aside_m(), height_m, needs.step_m))
     return std::nullopt;
-  const auto extent = surfaces.extentOf(from_map_m, needs.aside_m() + kBeyond_m, height_m, needs.step_m);
+  const auto extent = surfaces.extentOf(from_map_m, reach_m, height_m, needs.step_m);
   if (extent.toBothSides_m() >= needs.aside_m() || extent.farthest_m.isZero()) return std::nullopt;
   const Vector2d ahead = -extent.farthest_m.normalized();
-  const double reach_m = needs.aside_m() + kBeyond_m;
   for (double at_m = map.resolution_m(); at_m < reach_m; at_m += map.resolution_m())
-    if (map.costAt(map.cellAt(from_map_m + at_m * ahead)) == CostMap::kLethal) return std::nullopt;
+    if (map.isLethalAt(from_map_m + at_m * ahead)) return std::nullopt;
   return from_map_m + reach_m * ahead;
 }
 
