@@ -75,6 +75,12 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
   return rotation * covariance * rotation.transpose();
 }
 
+Eigen::Matrix3d withoutVarianceAlong(const Eigen::Vector2d& direction, const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= direction * direction.transpose();
+  return across * covariance * across;
+}
+
 Eigen::Matrix3d planarCovariance(double position_sigma_m, double yaw_sigma_rad) {
   const double position_m2 = position_sigma_m * position_sigma_m;
   return Eigen::Vector3d(position_m2, position_m2, yaw_sigma_rad * yaw_sigma_rad).asDiagonal();

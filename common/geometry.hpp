@@ -60,6 +60,9 @@ Pose3 lifted(const Pose2& pose, double z_m);
 /// Converts the covariance of an error (x_m, y_m, yaw_rad) from frame b to frame a; `yaw_rad` is the yaw of b in a.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
 
+/// The covariance of (x_m, y_m, yaw_rad) without the variance of the position along a unit vector of the same frame.
+Eigen::Matrix3d withoutVarianceAlong(const Eigen::Vector2d& direction, const Eigen::Matrix3d& covariance);
+
 /// Covariance of the additive errors (x_m, y_m, yaw_rad), independent of each other, of these standard deviations.
 Eigen::Matrix3d planarCovariance(double position_sigma_m, double yaw_sigma_rad);
 

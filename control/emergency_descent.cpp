@@ -54,15 +54,16 @@ void AlphaBetaFilter::update(const RawHeight& raw) {
   if (std::abs(residual_m) > jump_m_) {
     height_m_ = raw.height_m;
   } else {
-    height_m_ = predicted_m + alpha_ * residual_m;
-    velocity_m_s_ += beta_ / dt_s * residual_m;
+    const double theta = std::exp(-dt_s / time_constant_s_);
+    height_m_ = predicted_m + (1.0 - theta * theta) * residual_m;
+    velocity_m_s_ += (1.0 - theta) * (1.0 - theta) / dt_s * residual_m;
   }
   stamp_ = raw.stamp;
   ++samples_;
 }
 
 EmergencyDescent::EmergencyDescent(const Config& config)
-    : config_(config), filter_(config.alpha, config.beta, config.jump_m) {}
+    : config_(config), filter_(config.filter_time_s, config.jump_m) {}
 
 void EmergencyDescent::start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s,
                              const Eigen::Vector2d& trim_level_m_s2) {
@@ -152,9 +153,8 @@ void EmergencyDescent::Config::describe(common::config::Fields& fields) {
          "Height above where it stood at which the ground counts as near.");
   fields("gain_1_s", gain_1_s, {0, 20}, "Vertical acceleration per error of the vertical speed.");
   fields("integral_1_s2", integral_1_s2, {0, 20}, "Vertical acceleration per integrated error of the vertical speed.");
-  fields("alpha", alpha, {0.01, 1}, "Share of the residual that corrects the height (alpha-beta filter, Tomic 2012).");
-  fields("beta", beta, {0.001, 1},
-         "Share of the residual that corrects the vertical speed (alpha-beta filter, Tomic 2012).");
+  fields("filter_time_s", filter_time_s, {0.01, 2},
+         "Time constant of the alpha-beta filter of raw heights (Tomic 2012).");
   fields("jump_m", jump_m, kPositive, "A residual larger than this is a step of the ground.");
   fields("blind_after_s", blind_after_s, kPositive,
          "Without a raw height for this long the last height and speed are carried on.");

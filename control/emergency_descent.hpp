@@ -22,11 +22,13 @@ struct RawHeight {
   double height_m = 0.0;
 };
 
-/// Height and vertical speed from raw heights, by an alpha-beta filter. A jump of the ground below (the edge of a
-/// table) moves the height but not the speed.
+/// Height and vertical speed from raw heights, by an alpha-beta filter. Its gains are those of the critically damped
+/// filter, which forgets with one time constant at any rate of the heights:
+///   alpha = 1 - theta^2,  beta = (1 - theta)^2,  theta = exp(-dt / tau).
+/// A jump of the ground below (the edge of a table) moves the height but not the speed.
 class AlphaBetaFilter {
  public:
-  AlphaBetaFilter(double alpha, double beta, double jump_m) : alpha_(alpha), beta_(beta), jump_m_(jump_m) {}
+  AlphaBetaFilter(double time_constant_s, double jump_m) : time_constant_s_(time_constant_s), jump_m_(jump_m) {}
   void reset();
   /// Ignores heights that are not finite and those older than the last one.
   void update(const RawHeight& raw);
@@ -36,7 +38,7 @@ class AlphaBetaFilter {
   double velocity_m_s() const { return velocity_m_s_; }
 
  private:
-  double alpha_, beta_, jump_m_;
+  double time_constant_s_, jump_m_;
   common::Time stamp_;
   double height_m_ = 0.0;
   double velocity_m_s_ = 0.0;
@@ -61,8 +63,7 @@ class EmergencyDescent {
     double touchdown_height_m = 0.25;
     double gain_1_s = 2.5;
     double integral_1_s2 = 0.8;
-    double alpha = 0.4;
-    double beta = 0.08;
+    double filter_time_s = 0.09;
     double jump_m = 0.15;
     double blind_after_s = 0.5;
     double blind_push_m_s3 = 1.0;

@@ -10,18 +10,6 @@
 #include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
-namespace {
-
-/// The covariance without the variance along the direction that the scan does not fix.
-Eigen::Matrix3d observedPart(const perception::RelativePose& relative) {
-  if (!relative.unobservable_direction) return relative.covariance;
-  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
-  across.topLeftCorner<2, 2>() -= *relative.unobservable_direction * relative.unobservable_direction->transpose();
-  return across * relative.covariance * across;
-}
-
-}  // namespace
-
 using common::Pose2;
 
 void LaserPipelineConfig::describe(common::config::Fields& fields) {
@@ -75,9 +63,10 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
     step.clone_after = relative->to;
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
-  step.covariance =
-      common::turned(observedPart(*relative) + tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg),
-                     -relative->T_from_to.yaw_rad);
+  step.covariance = common::turned(relative->covariance, -relative->T_from_to.yaw_rad);
+  if (relative->unobservable_direction)
+    step.covariance = common::withoutVarianceAlong(*relative->unobservable_direction, step.covariance);
+  step.covariance += tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg);
   return step;
 }
 

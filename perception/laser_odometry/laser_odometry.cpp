@@ -21,9 +21,7 @@ namespace {
 /// are not affected.
 Eigen::Matrix3d seenPart(const MatchResult& match) {
   if (!match.unobservable_direction) return match.covariance;
-  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
-  across.topLeftCorner<2, 2>() -= *match.unobservable_direction * match.unobservable_direction->transpose();
-  return across * match.covariance * across.transpose();
+  return common::withoutVarianceAlong(*match.unobservable_direction, match.covariance);
 }
 
 void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {

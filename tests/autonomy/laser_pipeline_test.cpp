@@ -95,6 +95,26 @@ TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
   EXPECT_GT(clones, 1) << "the direction must be carried to another clone";
 }
 
+/// The covariance is given at the reference scan, the direction along the corridor at the new one; between the two the
+/// vehicle has turned.
+TEST_F(LaserStory, NothingIsAddedToTheDriftAlongACorridor) {
+  const test::PlanarWorld corridor = test::corridor();
+  const double floor_m2 = LaserPipelineConfig{}.drift_floor_m * LaserPipelineConfig{}.drift_floor_m;
+  filter.has_clone = true;
+  int references = 0;
+  for (int i = 0; i < 80; ++i) {
+    const double yaw_rad = 0.02 * i;
+    const OdometryStep step = see(corridor, {0.0, 0.0, yaw_rad});
+    ASSERT_TRUE(step.matched) << i;
+    if (!step.measurement || step.covariance.isZero()) continue;
+    ASSERT_TRUE(step.measurement->unobservable_direction) << i;
+    ++references;
+    const Eigen::Vector2d along_body(std::cos(yaw_rad), -std::sin(yaw_rad));
+    EXPECT_LT(along_body.dot(step.covariance.topLeftCorner<2, 2>() * along_body), 1.1 * floor_m2) << i;
+  }
+  EXPECT_GT(references, 1);
+}
+
 TEST_F(LaserStory, AnInterruptionHasTheUncertaintyOfTheWidestWindow) {
   const LaserPipelineConfig config;
   (void)see(flat, {0, 0, 0});

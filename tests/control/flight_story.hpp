@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ struct Flight {
   double carried_bias_m_s2 = 0.0;
   double carried_s = 0.0;
   bool accelerometer = true;
+  /// The raw heights arrive with this period, and this late.
+  common::Duration height_period = common::Duration::fromSeconds(0.03), height_delay;
+  std::deque<RawHeight> heights_under_way;
   std::optional<double> pilot_climbs_m_s;  ///< While it is set a pilot flies, level and with this climb.
   common::RandomStream accelerometer_noise{1, "accelerometer"};
 
@@ -55,9 +59,12 @@ struct Flight {
     tick.fusion_diverged = diverged;
     tick.inertial_fault = inertial_fault;
     if (diverged) tick.state.velocity_odom_m_s.setConstant(std::numeric_limits<double>::quiet_NaN());
-    const bool scan = (model.now.nanoseconds() / 10'000'000) % 3 == 0;
-    if (scan && mirror)
-      tick.raw_height = RawHeight{model.now, model.position_m.z() - model.floor_m + model.random.gaussian(0.01)};
+    if (model.now.nanoseconds() % height_period.nanoseconds() == 0 && mirror)
+      heights_under_way.push_back({model.now, model.position_m.z() - model.floor_m + model.random.gaussian(0.01)});
+    if (!heights_under_way.empty() && model.now - heights_under_way.front().stamp >= height_delay) {
+      tick.raw_height = heights_under_way.front();
+      heights_under_way.pop_front();
+    }
     tick.battery_v = model.voltage_v;
     if (accelerometer) {
       tick.acceleration_odom_m_s2 = model.acceleration_m_s2;

@@ -188,6 +188,27 @@ TEST(Flight, EmergencyLandingOverATableEdgeStaysSoft) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
 }
 
+/// A laser of 10 Hz behind a slow link, which is noticed as lost while the vehicle climbs.
+TEST(Flight, EmergencyLandingIsSoftWithFewAndLateHeights) {
+  Flight flight;
+  flight.height_period = common::Duration::fromMilliseconds(100);
+  flight.height_delay = common::Duration::fromMilliseconds(100);
+  flight.tick();
+  ASSERT_TRUE(flight.controller.command(Prepared{}));
+  ASSERT_TRUE(flight.controller.command(TakeOff{2.0}));
+  ASSERT_TRUE(flight.until([&] { return flight.model.position_m.z() > 1.2; }, 12.0));
+  flight.diverged = true;
+  double fastest_m_s = 0.0;
+  EXPECT_TRUE(flight.until(
+      [&] {
+        fastest_m_s = std::max(fastest_m_s, -flight.model.velocity_m_s.z());
+        return flight.controller.state() == FlightState::kPoweredOff;
+      },
+      15.0));
+  EXPECT_LT(fastest_m_s, 1.1);
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.7);
+}
+
 TEST(Flight, WithoutAHeightItComesDownOverThePlaceThatItStillKnows) {
   Flight flight;
   flight.hover(1.5);
