@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
+#include "perception/localization/block_queue.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -138,17 +138,6 @@ class GlobalSearch::Descent {
   double step_rad() const { return step_rad_; }
 
  private:
-  struct Block {
-    std::uint16_t bound = 0, direction = 0;
-    std::int32_t level = 0, x = 0, y = 0;
-
-    /// Among equal bounds the coarser block comes first, because it may contain a pose that precedes the finer one.
-    bool operator<(const Block& other) const {
-      if (bound != other.bound) return bound < other.bound;
-      if (level != other.level) return level < other.level;
-      return std::tie(other.direction, other.y, other.x) < std::tie(direction, y, x);
-    }
-  };
   struct Direction {
     std::vector<std::int32_t> x_cells, y_cells;
     std::array<std::vector<std::int32_t>, kLevels> offsets;
@@ -157,10 +146,10 @@ class GlobalSearch::Descent {
   const std::vector<std::int32_t>& offsetsAt(int direction, int level);
   void boundTopBlocks();
   void keepTheBest();
-  std::array<Block, 4> childrenOf(const Block& block);
-  std::int32_t scoreWithin(Block block);
-  void divide(const Block& block);
-  bool covered(const Block& block) const;
+  std::array<PoseBlock, 4> childrenOf(const PoseBlock& block);
+  std::int32_t scoreWithin(PoseBlock block);
+  void divide(const PoseBlock& block, BlockQueue& queue);
+  bool covered(const PoseBlock& block) const;
   int apart(int a, int b) const;
   /// Poses that score no more than this are ignored.
   std::int32_t floor() const { return std::max(least_, best_ - margin_); }
@@ -171,8 +160,8 @@ class GlobalSearch::Descent {
   double step_rad_ = 0.0;
   int distinct_cells_ = 0, distinct_directions_ = 0;
   std::vector<Direction> directions_;
-  std::vector<Block> blocks_;   // A heap; its first element is the next block to examine.
-  std::int32_t forgotten_ = 0;  // Highest bound among the blocks dropped for lack of memory.
+  std::vector<PoseBlock> blocks_;  // The coarsest, in no order.
+  std::int32_t forgotten_ = 0;     // Highest bound among the blocks dropped for lack of memory.
   std::vector<Place> places_;
   bool complete_ = true;
 };
@@ -210,19 +199,17 @@ const std::vector<std::int32_t>& GlobalSearch::Descent::offsetsAt(int direction,
 
 void GlobalSearch::Descent::run() {
   boundTopBlocks();
-  std::make_heap(blocks_.begin(), blocks_.end());
+  BlockQueue queue(blocks_);
   int divided = 0;
-  while (!blocks_.empty()) {
-    const Block block = blocks_.front();
+  while (!queue.empty()) {
     // A dropped block may contain a better pose than all that remain.
-    if (block.bound <= std::max(floor(), forgotten_)) break;
-    std::pop_heap(blocks_.begin(), blocks_.end());
-    blocks_.pop_back();
+    if (queue.bound() <= std::max(floor(), forgotten_)) break;
+    const PoseBlock block = queue.take();
     if (covered(block)) continue;
     if (block.level > 0) {
       complete_ = ++divided <= search_.config_.max_blocks;
       if (!complete_) return;
-      divide(block);
+      divide(block, queue);
       continue;
     }
     best_ = std::max<std::int32_t>(best_, block.bound);
@@ -260,18 +247,18 @@ void GlobalSearch::Descent::boundTopBlocks() {
       }
     }
   }
-  std::erase_if(blocks_, [&](const Block& block) { return block.bound <= least; });
+  std::erase_if(blocks_, [&](const PoseBlock& block) { return block.bound <= least; });
 }
 
 /// Keeps as many blocks as can ever be divided: a large map has hundreds of millions of blocks.
 void GlobalSearch::Descent::keepTheBest() {
   std::vector<std::size_t> counts(std::numeric_limits<std::uint16_t>::max() + 1);
-  for (const Block& block : blocks_) ++counts[block.bound];
+  for (const PoseBlock& block : blocks_) ++counts[block.bound];
   auto bound = static_cast<std::int32_t>(counts.size());
   for (std::size_t kept = 0; kept <= static_cast<std::size_t>(search_.config_.max_blocks);)
     kept += counts[static_cast<std::size_t>(--bound)];
   forgotten_ = bound;
-  std::erase_if(blocks_, [&](const Block& block) { return block.bound <= forgotten_; });
+  std::erase_if(blocks_, [&](const PoseBlock& block) { return block.bound <= forgotten_; });
 }
 
 int GlobalSearch::Descent::apart(int a, int b) const {
@@ -281,23 +268,22 @@ int GlobalSearch::Descent::apart(int a, int b) const {
 
 /// Non-maximum suppression: whether all poses of the block are too near to a place already found to be distinct from
 /// it. Places found earlier score at least as high.
-bool GlobalSearch::Descent::covered(const Block& block) const {
+bool GlobalSearch::Descent::covered(const PoseBlock& block) const {
   const int last = (1 << block.level) - 1, x = block.x << block.level, y = block.y << block.level;
   return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
-    return apart(place.direction, block.direction) <= distinct_directions_ && x >= place.x - distinct_cells_ &&
-           x + last <= place.x + distinct_cells_ && y >= place.y - distinct_cells_ &&
-           y + last <= place.y + distinct_cells_;
+    return x >= place.x - distinct_cells_ && x + last <= place.x + distinct_cells_ && y >= place.y - distinct_cells_ &&
+           y + last <= place.y + distinct_cells_ && apart(place.direction, block.direction) <= distinct_directions_;
   });
 }
 
 /// Children without a free position get the bound 0.
-std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(const Block& block) {
+std::array<PoseBlock, 4> GlobalSearch::Descent::childrenOf(const PoseBlock& block) {
   const int finer = block.level - 1, stride = search_.width_ >> finer;
   std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
   sumWindows(search_.instructions_,
              search_.fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * block.x, 2 * block.y, stride),
              stride, offsetsAt(block.direction, finer), 2, sums.data());
-  std::array<Block, 4> children;
+  std::array<PoseBlock, 4> children;
   for (int i = 0; i < 4; ++i) {
     const int dx = i % 2, dy = i / 2, x = 2 * block.x + dx, y = 2 * block.y + dy;
     const std::uint16_t bound = search_.isFree(finer, x, y) ? sums[windowIndex(dx, dy)] : std::uint16_t{0};
@@ -307,20 +293,17 @@ std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(co
 }
 
 /// Greedy descent: the score of a good pose of the block, which need not be its best.
-std::int32_t GlobalSearch::Descent::scoreWithin(Block block) {
+std::int32_t GlobalSearch::Descent::scoreWithin(PoseBlock block) {
   while (block.level > 0) {
-    const std::array<Block, 4> children = childrenOf(block);
+    const std::array<PoseBlock, 4> children = childrenOf(block);
     block = *std::max_element(children.begin(), children.end());
   }
   return block.bound;
 }
 
-void GlobalSearch::Descent::divide(const Block& block) {
-  for (const Block& child : childrenOf(block)) {
-    if (child.bound <= floor()) continue;
-    blocks_.push_back(child);
-    std::push_heap(blocks_.begin(), blocks_.end());
-  }
+void GlobalSearch::Descent::divide(const PoseBlock& block, BlockQueue& queue) {
+  for (const PoseBlock& child : childrenOf(block))
+    if (child.bound > floor()) queue.push(child);
 }
 
 GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& points_m, double margin) const {
