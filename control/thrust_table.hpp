@@ -52,7 +52,7 @@ class ThrustTable {
   double learn(double voltage_v, double log_step, double dt_s);
 
   double hoverCommand(double voltage_v) const;
-  /// That of the data sheet.
+  /// The hover command of the data sheet.
   double sheetCommand(double voltage_v) const;
 
  private:
