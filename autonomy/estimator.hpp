@@ -111,7 +111,7 @@ class Estimator {
   bool ready() const { return filter_.initialized(); }
   /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
-  /// So much lower than the height of the map the vehicle flies, below something that hangs over its way.
+  /// So much lower than the height of the map the vehicle flies, below something that hangs over its path.
   void setBelowMap(double below_m) { below_map_m_ = below_m; }
   /// While true, the filter assumes that the vehicle stands still.
   void setAtRest(bool at_rest);

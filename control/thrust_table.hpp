@@ -59,7 +59,7 @@ class ThrustTable {
   static constexpr std::size_t kKnots = 9;
   struct Place {
     std::size_t below;  ///< The knot below the voltage.
-    double share;       ///< Of the way from it to the next one, in [0, 1].
+    double share;       ///< How far the voltage is from that knot to the next one, in [0, 1].
   };
   Place placeOf(double voltage_v) const;
   double logAt(double voltage_v) const;

@@ -26,7 +26,7 @@ class GoTo final : public PathManeuver {
   std::string reached(const common::PlaceNames& names) const;
   bool looksAsAsked(const common::VehicleState& state) const;
   Progress fly(const ManeuverInput& input) override;
-  void watchTheWay();
+  void lookAlongBlockedPath();
   void tellLaserAlone(common::Time now, const planning::PlanFailure& failure);
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
 

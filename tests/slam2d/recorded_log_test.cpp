@@ -44,15 +44,15 @@ std::vector<KnownScan> scansOf(const fs::path& file, bool odometry) {
 
 /// The trajectory of the last `of_last` scans, from the map of all.
 common::Trajectory trackOf(LaserSlam& slam, const std::vector<KnownScan>& scans, std::size_t of_last) {
-  test::TrackedPath way(slam);
+  test::TrackedPath tracked(slam);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const LaserSlamInput input{scans[i].scan, scans[i].T_robot_laser, scans[i].T_odom_robot};
     if (i + of_last >= scans.size())
-      way.add(scans[i].known_as, input);
+      tracked.add(scans[i].known_as, input);
     else
       (void)slam.add(input);
   }
-  return way.finish();
+  return tracked.finish();
 }
 
 void expectErrors(const evaluation::RelationErrors& errors, const std::string& what, double translation_m,
