@@ -10,7 +10,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// Grzonka 2009, IV-F: programs perturb the commands of the user by 20 %.
+/// Grzonka 2009, V-F: programs perturb the commands of the user by 20 %.
 constexpr double kProgramShare = 0.20;
 /// Where the stick of the thrust is taken to hover until the pilot takes over.
 constexpr double kHoverStick = 0.5;
