@@ -137,6 +137,7 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const WayHome& home, 
 
 /// Without a path the vehicle would fly along its trail.
 void EnergyMonitor::tellHome(const WayHome& home, common::EnergyLayer& layer) const {
+  // The learned speed falls to zero while the vehicle hovers, which tells nothing of how fast it would fly home.
   constexpr double kLeast_m_s = 0.1;
   layer.home_planned = home.planned_m.has_value();
   layer.home_m = home.planned_m.value_or(home.trail_m);

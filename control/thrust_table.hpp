@@ -56,7 +56,7 @@ class ThrustTable {
   double sheetCommand(double voltage_v) const;
 
  private:
-  static constexpr std::size_t kKnots = 9;
+  static constexpr std::size_t kKnots = 9;  ///< Evenly over the voltages of the battery.
   struct Place {
     std::size_t below;  ///< The knot below the voltage.
     double share;       ///< How far the voltage is from that knot to the next one, in [0, 1].
