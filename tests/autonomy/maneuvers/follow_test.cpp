@@ -196,7 +196,7 @@ TEST_F(FollowInFlight, StaysBehindHimAtItsDistance) {
   EXPECT_NEAR(state_.T_map_body_planar().yaw_rad, std::atan2(look.y(), look.x()), 0.1);
 }
 
-TEST_F(FollowInFlight, GivesWayWhenHeComesBack) {
+TEST_F(FollowInFlight, GivesWayWhenThePersonComesBack) {
   want(common::FollowIntent{});
   walk(6.5, 2.0, 0.5);
   nearest_m_ = 1e9;
