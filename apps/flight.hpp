@@ -13,7 +13,7 @@
 namespace swiftlet::apps {
 
 struct FlightResult {
-  std::filesystem::path folder;         ///< That of the only vehicle, or the one that holds a folder for each.
+  std::filesystem::path folder;         ///< The folder of the only vehicle, or the one that holds a folder for each.
   std::vector<VehicleResult> vehicles;  ///< In the order of the scenario.
 
   bool done() const;  ///< Every vehicle's mission succeeded.

@@ -46,7 +46,7 @@ struct FlightSetup {
 struct FlightMission {
   std::string file;  ///< For the run's records; what is flown is the mission read from it.
   behaviors::Mission mission;
-  std::vector<autonomy::OfferedMap> maps = {};  ///< Those that it may load.
+  std::vector<autonomy::OfferedMap> maps = {};  ///< Maps that the mission may load.
 };
 
 struct FlightProgress {

@@ -69,7 +69,7 @@ void PaperExperiment::describe(common::config::Fields& fields) {
          "The paper's value as the figure has it, if it is one of which less is better; 0: none.");
   fields("trial", trial, "The trial that repeats it; empty for none.");
   fields("figure", figure,
-         "Its figure in results.json; that of a phase as phases.NAME.FIGURE, the median of the flights' as "
+         "Figure of the trial in results.json; that of a phase as phases.NAME.FIGURE, the median of the flights' as "
          "flights.FIGURE.");
   fields("profile", profile, "The paper's profile among those that fly the trial; empty if only ours does.");
   fields("own", own, "Our profile.");

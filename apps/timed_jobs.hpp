@@ -29,7 +29,7 @@ class JobMeter {
   std::map<std::string, std::vector<double>> took_ms_;
 };
 
-/// The same runner, which adds each job's processor time to the meter when its work is done.
+/// A runner that runs the jobs by `jobs` and adds each job's processor time to the meter when its work is done.
 std::unique_ptr<common::JobRunner> timed(std::unique_ptr<common::JobRunner> jobs, std::shared_ptr<JobMeter> meter);
 
 }  // namespace swiftlet::apps

@@ -78,7 +78,7 @@ void Autonomy::answer(const common::OperatorCommand& command, common::CommandRes
   results_.push_back(std::move(result));
 }
 
-/// The pilot flies, and the program with him: it has the controller, but not the last word.
+/// The pilot flies, and the program with the pilot: it has the controller, but not the last word.
 void Autonomy::assistPilot(control::FlightTick& flight) {
   const bool before = std::exchange(assisted_, assist_.assists(flight.pilot_flies, controller_.state(), flight.state));
   if (before && !assisted_) controller_.hold();

@@ -36,6 +36,7 @@ double BatteryCurve::openCircuit_v(double remaining) const {
 }
 
 double BatteryCurve::chargeAtMargin(const Now& now, double least_margin, double exponent) const {
+  // The charge that is found is too low by at most a step. The least voltage only keeps the division defined.
   constexpr double kStep = 0.005, kLeast_v = 1.0;
   if (now.thrust_margin <= least_margin) return now.remaining;
   const double sag_v = std::max(0.0, openCircuit_v(now.remaining) - now.voltage_v);

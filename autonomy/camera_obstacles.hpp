@@ -31,17 +31,17 @@ class CameraObstacles {
   std::shared_ptr<const common::OccupancyGrid> grid() const { return grid_; }
   /// The centres of the cells that were added to it.
   const std::vector<Eigen::Vector2d>& cells_map_m() const { return cells_map_m_; }
-  /// Those up to `range_m` away, in the level frame of the body.
+  /// The centres of added cells up to `range_m` away, in the level frame of the body.
   std::vector<Eigen::Vector2f> pointsNear_level_m(const common::Pose2& T_map_body, double range_m) const;
 
  private:
   /// Where a submap has something at the height of the hull.
   struct Columns {
     std::shared_ptr<const common::VoxelMap> voxels;
-    std::map<int, std::vector<common::VoxelIndex>> layers;  ///< Its blocks by their z.
-    std::optional<double> height_m;                         ///< Of the body, for which they were read; none before.
+    std::map<int, std::vector<common::VoxelIndex>> layers;  ///< The blocks of `voxels` by their z.
+    std::optional<double> height_m;  ///< Of the body, for which the columns were read; none before.
     std::vector<Eigen::Vector2d> centers_submap_m;
-    /// Those that the laser does not see, and of what they were made; null before the first time.
+    /// Cells of columns that the laser does not see, and the grid they were made of; null before the first time.
     std::vector<common::CellIndex> cells;
     std::shared_ptr<const common::OccupancyGrid> laser_grid;
     common::Pose2 T_map_submap;

@@ -117,8 +117,8 @@ double EnergyMonitor::remaining(common::Time now) const {
   return std::max(0.0, moved_to_ - (drawn_since_move_as_ + unheard_s(now) * current_a_) / capacity_as());
 }
 
-common::EnergyLayer EnergyMonitor::layer(common::Time now, const WayHome& home, double thrust_margin, double land_share,
-                                         double least_margin) const {
+common::EnergyLayer EnergyMonitor::layer(common::Time now, const LengthHome& home, double thrust_margin,
+                                         double land_share, double least_margin) const {
   common::EnergyLayer layer;
   if (!last_) return layer;
   layer.battery_voltage_v = last_->voltage_v;
@@ -136,7 +136,8 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const WayHome& home, 
 }
 
 /// Without a path the vehicle would fly along its trail.
-void EnergyMonitor::tellHome(const WayHome& home, common::EnergyLayer& layer) const {
+void EnergyMonitor::tellHome(const LengthHome& home, common::EnergyLayer& layer) const {
+  // The learned speed falls to zero while the vehicle hovers, which tells nothing of how fast it would fly home.
   constexpr double kLeast_m_s = 0.1;
   layer.home_planned = home.planned_m.has_value();
   layer.home_m = home.planned_m.value_or(home.trail_m);

@@ -63,10 +63,10 @@ struct EstimatorConfig {
 /// The results of one scan.
 struct ScanOutcome {
   perception::ProjectedScan scan;
-  bool matched = false;                           ///< It matched and the filter accepted it.
+  bool matched = false;                           ///< The scan matched and the filter accepted the match.
   bool interrupted = false;                       ///< The odometry was lost and restarts with this scan.
   common::Pose2 T_map_body;                       ///< At the scan's stamp.
-  std::optional<common::KeyRelativePose> at_key;  ///< The same pose relative to a key scan of the map.
+  std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body relative to a key scan of the map.
   /// None if the scan did not measure the surface below.
   std::optional<control::RawHeight> raw_height;
   double drift_m = 0.0;  ///< See DriftMonitor.
@@ -90,7 +90,7 @@ class Estimator {
   /// return nothing.
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
 
-  /// That map is the given one from now on, and nothing is known of the vehicle's place in it.
+  /// Makes `given` the given map from now on; nothing is known of the vehicle's place in it.
   void loadMap(const GivenMap& given);
   /// The place in the given map is looked for anew; false if there is none.
   bool forgetPlace();
@@ -111,7 +111,7 @@ class Estimator {
   bool ready() const { return filter_.initialized(); }
   /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
-  /// So much lower than the height of the map the vehicle flies, below something that hangs over its way.
+  /// So much lower than the height of the map the vehicle flies, below something that hangs over its path.
   void setBelowMap(double below_m) { below_map_m_ = below_m; }
   /// While true, the filter assumes that the vehicle stands still.
   void setAtRest(bool at_rest);

@@ -32,7 +32,7 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("detour_s", detour_s, kPositive, "Longest time of going nearer or aside; a path is asked for meanwhile.");
   fields("give_up_s", give_up_s, kPositive, "Without a path to the goal for this long the intent fails.");
   fields.section("follow", follow, "Following a person.");
-  fields.section("lower", lower, "Flying below what hangs over the way.");
+  fields.section("lower", lower, "Flying below what hangs over the path.");
 }
 
 }  // namespace swiftlet::autonomy

@@ -15,7 +15,8 @@ std::string KeepOutZones::add(const common::Polygon& zone, Owner owner, const Ei
                               const common::PlaceNames& names) {
   if (std::string problem = problemOf(zone); !problem.empty()) return problem;
   if (zone.signedDistance_m(home_map_m) < hull_radius_m_)
-    return "the take-off place " + names.of(home_map_m) + " would be in it, expected one that leaves the way home free";
+    return "the take-off place " + names.of(home_map_m) +
+           " would be in it, expected one that leaves the path home free";
   std::vector<common::Polygon>& own = owner == Owner::kMission ? missions_ : operators_;
   if (std::find(own.begin(), own.end(), zone) != own.end()) return {};
   own.push_back(zone);

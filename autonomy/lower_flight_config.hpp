@@ -1,4 +1,4 @@
-// How the vehicle flies below what hangs over its way.
+// How the vehicle flies below what hangs over its path.
 #pragma once
 
 #include "common/config_fwd.hpp"

@@ -61,7 +61,8 @@ TwoGrids gridsOf(const OccupancyGrid& grid, const VoxelColumns& upper_columns, c
 void LowerFlightConfig::describe(common::config::Fields& fields) {
   using common::config::kPositive;
   fields("enabled", enabled, "Whether paths may lead below things that the camera sees at the height of flight.");
-  fields("least_height_m", least_height_m, {common::kLeastFlightHeight_m, 10}, "Least height of such a path.");
+  fields("least_height_m", least_height_m, {common::kLeastFlightHeight_m, 10},
+         "Least height of a path that leads below what the camera sees.");
   fields("air_below_m", air_below_m, {0.2, 5},
          "Below the middle of the hull so much must be free; more than what lifts the path over a surface "
          "(control.clearance.least_m).");

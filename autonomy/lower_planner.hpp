@@ -49,7 +49,7 @@ class LowerPlanner {
                double hull_height_m);
 
   tl::expected<planning::Path, planning::PlanFailure> plan(const LowerQuestion& question);
-  /// Those of the last call; null before the first.
+  /// The cost maps of the last call of plan(); null before the first.
   std::shared_ptr<const planning::TwoHeights> maps() const { return maps_; }
 
  private:

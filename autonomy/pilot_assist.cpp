@@ -10,7 +10,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// Grzonka 2009, IV-F: programs perturb the commands of the user by 20 %.
+/// Grzonka 2009, V-F: programs perturb the commands of the user by 20 %.
 constexpr double kProgramShare = 0.20;
 /// Where the stick of the thrust is taken to hover until the pilot takes over.
 constexpr double kHoverStick = 0.5;
@@ -36,11 +36,12 @@ void PilotAssistConfig::describe(common::config::Fields& fields) {
          "Whether a pilot who takes over is assisted; the remote control must mix the setpoints into the sticks.");
   fields("speed_m_s", speed_m_s, {0.1, 10}, "Horizontal speed that a stick at its end wishes.");
   fields("climb_m_s", climb_m_s, {0.05, 5}, "Climb that the stick of the thrust at its end wishes.");
-  fields("yaw_rate_deg_s", yaw_rate_deg_s, {1, 360}, "Yaw rate that its stick at its end wishes.");
-  fields("acceleration_m_s2", acceleration_m_s2, {0.1, 10}, "With which the wish is followed.");
+  fields("yaw_rate_deg_s", yaw_rate_deg_s, {1, 360}, "Yaw rate that the stick of the yaw at its end wishes.");
+  fields("acceleration_m_s2", acceleration_m_s2, {0.1, 10}, "Acceleration with which the pilot's wish is followed.");
   fields("dead_band", dead_band, {0, 0.5}, "Share of a stick's range within which it counts as centred.");
   fields("climb_dead_band", climb_dead_band, {0, 0.9},
-         "The same for the stick of the thrust: where it hovers differs with vehicle and battery.");
+         "Share of the range of the thrust's stick within which it counts as centred: where it hovers differs with "
+         "vehicle and battery.");
 }
 
 PilotAssist::PilotAssist(const PilotAssistConfig& config, double max_tilt_deg,

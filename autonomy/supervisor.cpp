@@ -75,8 +75,8 @@ void Supervisor::pilotArrived(Time now, bool takes_over) {
       takes_over ? "the pilot took over" : "the pilot gave control back");
 }
 
-/// Who flies is then unknown. A hold is right for both: a pilot's sticks overrule it, and without him the vehicle stays
-/// where it is, instead of going on with the mission that he took it from.
+/// Who flies is unknown after the pilot's last sample. A hold is right for both: a pilot's sticks overrule it, and
+/// without a pilot the vehicle stays where it is, instead of going on with the mission that the pilot took it from.
 void Supervisor::watchPilot(Time now) {
   if (!pilot_flies_ || (now - pilot_heard_).seconds() <= pilot_silent_s_) return;
   pilot_flies_ = false;

@@ -99,7 +99,7 @@ class Supervisor {
   common::FlightState flight_ = common::FlightState::kPreparation;
   bool operator_holds_ = false;
   bool pilot_flies_ = false;
-  common::Time pilot_heard_;  ///< When the last of his samples arrived.
+  common::Time pilot_heard_;  ///< When the last of the pilot's samples arrived.
   FlightHome home_;
   unsigned back_ = 0;  ///< The flight back that the PositionWatch asks for.
   std::string blind_;  ///< Why the SightWatch holds; empty if it does not.

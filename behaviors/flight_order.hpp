@@ -17,7 +17,7 @@ std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree);
 /// A leaf that runs until something ends it, or fails: an OperatorCommand, a FollowMe, a Patrol without end.
 bool neverSucceeds(const tree::Tree& tree, const tree::NodeRecord& leaf);
 
-/// Whether some way through the tree ends with SUCCESS while the vehicle flies. A mission that fails is another matter:
+/// Whether some run of the tree ends with SUCCESS while the vehicle flies. A mission that fails is another matter:
 /// the autonomy brings the vehicle down.
 bool mayEndInTheAir(const tree::Tree& tree);
 

@@ -41,7 +41,7 @@ class LocateTarget final : public FlightLeaf {
   tree::Input<std::string> mode_;
   tree::Output place_, file_;
 
-  int target_ = 0;                 ///< Its id; 0 while none is chosen.
+  int target_ = 0;                 ///< Id of the target; 0 while none is chosen.
   std::vector<double> sides_rad_;  ///< Bearings from the target of the places that were flown to.
   std::optional<common::GoToIntent> view_;
   std::optional<common::Time> looks_since_;  ///< When it was there.

@@ -14,7 +14,7 @@ namespace swiftlet::behaviors {
 /// The problems in the type of common; the path of the node ends the text.
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems);
 
-/// Those of flight_order.hpp and limits_check.hpp.
+/// The problems that flight_order.hpp and limits_check.hpp find.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);
 
 /// The maps that its LoadMaps name, as they name them; each once.

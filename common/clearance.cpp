@@ -19,8 +19,8 @@ struct Stretch {
 
 double ClearanceQuery::sweptClearance_m(const Eigen::Vector3d& from_map_m, const Eigen::Vector3d& to_map_m,
                                         const UprightHull& hull, UnknownSpace unknown, double tolerance_m) {
-  const Eigen::Vector3d way_m = to_map_m - from_map_m;
-  const double length_m = way_m.norm();
+  const Eigen::Vector3d displacement_map_m = to_map_m - from_map_m;
+  const double length_m = displacement_map_m.norm();
   const double at_first_m = clearance_m(from_map_m, hull, unknown), at_last_m = clearance_m(to_map_m, hull, unknown);
   double least_asked_m = std::min(at_first_m, at_last_m);
   double least_m = least_asked_m;
@@ -33,7 +33,7 @@ double ClearanceQuery::sweptClearance_m(const Eigen::Vector3d& from_map_m, const
       continue;
     }
     const double middle = 0.5 * (stretch.first + stretch.last);
-    const double at_middle_m = clearance_m(from_map_m + middle * way_m, hull, unknown);
+    const double at_middle_m = clearance_m(from_map_m + middle * displacement_map_m, hull, unknown);
     least_asked_m = std::min(least_asked_m, at_middle_m);
     open.push_back({middle, stretch.last, at_middle_m, stretch.at_last_m});
     open.push_back({stretch.first, middle, stretch.at_first_m, at_middle_m});

@@ -31,7 +31,7 @@ struct GoalCommand {
 struct StartMissionCommand {
   std::string name;  ///< The file, for messages.
   std::string xml;
-  std::vector<OfferedMap> maps = {};  ///< Those that it may load, with the names that it gives them.
+  std::vector<OfferedMap> maps = {};  ///< Maps that the mission may load, with the names that it gives them.
 };
 /// The vehicle holds until another mission is started, or it lands.
 struct StopMissionCommand {};

@@ -11,7 +11,7 @@ namespace swiftlet::common {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-/// The same angle in (-pi, pi]. NaN for NaN and infinity.
+/// The equal angle in (-pi, pi]. NaN for NaN and infinity.
 double wrapAngle(double angle_rad);
 
 /// A pose in the plane, an element of SE(2).

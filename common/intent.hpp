@@ -44,7 +44,7 @@ struct ExploreIntent {
 };
 struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  /// The same place in the frame of the given map, where the mission names it there.
+  /// The goal in the frame of the given map, where the mission names it there.
   std::optional<Eigen::Vector2d> goal_given_m;
   std::optional<double> height_m;  ///< Above the take-off floor; none: stay at the present height.
   std::optional<double> yaw_map_rad;

@@ -23,8 +23,8 @@ using Trajectory = std::vector<StampedPose>;
 /// The pose between two others: the position linearly, the rotation along the shortest arc at an even rate (slerp).
 /// `share` is 0 at the first and 1 at the second.
 Pose3 interpolated(const Pose3& first, const Pose3& second, double share);
-/// The same for poses that a few hundredths of a radian are between: the rotation is blended linearly and normalized,
-/// which differs from slerp by less than 1e-6 rad there and is four times as fast.
+/// The pose between two others that differ by a few hundredths of a radian: the rotation is blended linearly and
+/// normalized, which differs from slerp by less than 1e-6 rad there and is four times as fast.
 Pose3 blended(const Pose3& first, const Pose3& second, double share);
 
 /// The pose at a time between two poses of a sequence (a vector or deque of StampedPose, ordered like a Trajectory), or

@@ -150,7 +150,7 @@ void EmergencyDescent::Config::describe(common::config::Fields& fields) {
   fields("descent_m_s", descent_m_s, {0.05, 2}, "Speed of descent.");
   fields("touchdown_descent_m_s", touchdown_descent_m_s, {0.05, 2}, "Speed of descent near the ground.");
   fields("touchdown_height_m", touchdown_height_m, {0, 5},
-         "Height above where it stood at which the ground counts as near.");
+         "Height above where the vehicle stood at which the ground counts as near.");
   fields("gain_1_s", gain_1_s, {0, 20}, "Vertical acceleration per error of the vertical speed.");
   fields("integral_1_s2", integral_1_s2, {0, 20}, "Vertical acceleration per integrated error of the vertical speed.");
   fields("filter_time_s", filter_time_s, {0.01, 2},
@@ -160,7 +160,8 @@ void EmergencyDescent::Config::describe(common::config::Fields& fields) {
          "Without a raw height for this long the last height and speed are carried on.");
   fields("blind_push_m_s3", blind_push_m_s3, kPositive,
          "Rate at which thrust is taken away while a descent without a height does not sink.");
-  fields("rest_margin_m", rest_margin_m, {0, 1}, "Less than this above where it stood the vehicle may be standing.");
+  fields("rest_margin_m", rest_margin_m, {0, 1},
+         "Less than this above where it stood before its flight the vehicle may be standing.");
   fields("rest_s", rest_s, kPositive, "Low and still for this long the vehicle is on the ground.");
   fields("blind_rest_s", blind_rest_s, kPositive, "After a descent without a height for this long the motors stop.");
   fields("brake_1_s", brake_1_s, {0, 10}, "Deceleration per last known velocity when no horizontal estimate is left.");

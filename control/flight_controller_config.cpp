@@ -28,9 +28,10 @@ void FlightController::Config::describe(common::config::Fields& fields) {
          "Without a horizontal estimate for this long the vehicle lands level.");
   fields("blind_speed_m_s", blind_speed_m_s, {0.05, 1.0},
          "Speed at which a vehicle that has lost its horizontal estimate leaves the walls, by its velocity alone.");
-  fields("blind_acceleration_m_s2", blind_acceleration_m_s2, {0.1, 3.0}, "Acceleration to that speed.");
+  fields("blind_acceleration_m_s2", blind_acceleration_m_s2, {0.1, 3.0}, "Acceleration to blind_speed_m_s.");
   fields("blind_s", blind_s, {0, 10},
-         "Longest time of that: a carried velocity that is off by 0.1 m/s leads 0.2 m astray in 2 s.");
+         "Longest flight by the velocity alone after the horizontal estimate was lost: a carried velocity that is off "
+         "by 0.1 m/s leads 0.2 m astray in 2 s.");
   fields("vertical_loss_s", vertical_loss_s, kPositive,
          "Without a vertical estimate for this long the emergency descent begins.");
   fields("inertial_age_s", inertial_age_s, kPositive,

@@ -27,10 +27,11 @@ double MarginLimits::speed() const { return std::sqrt(share_); }
 
 void MarginLimits::Config::describe(common::config::Fields& fields) {
   fields("full_margin", full_margin, {1, 5},
-         "From this greatest thrust over the weight on, speeds and accelerations are not limited by it.");
-  fields("least_margin", least_margin, {1, 5}, "At this thrust over the weight, and below, the least share is flown.");
+         "Greatest thrust over the weight from which on it does not limit speeds and accelerations.");
+  fields("least_margin", least_margin, {1, 5},
+         "Greatest thrust over the weight at which, and below which, least_share of the accelerations is flown.");
   fields("least_share", least_share, {0.05, 1},
-         "Share of the accelerations at that margin; of the speeds, the root of it.");
+         "Share of the accelerations that is flown at least_margin; the share of the speeds is its root.");
   fields("filter_s", filter_s, kPositive, "Time constant by which the limits follow the margin.");
 }
 

@@ -52,14 +52,14 @@ class ThrustTable {
   double learn(double voltage_v, double log_step, double dt_s);
 
   double hoverCommand(double voltage_v) const;
-  /// That of the data sheet.
+  /// The hover command of the data sheet.
   double sheetCommand(double voltage_v) const;
 
  private:
-  static constexpr std::size_t kKnots = 9;
+  static constexpr std::size_t kKnots = 9;  ///< Evenly over the voltages of the battery.
   struct Place {
     std::size_t below;  ///< The knot below the voltage.
-    double share;       ///< Of the way from it to the next one, in [0, 1].
+    double share;       ///< How far the voltage is from that knot to the next one, in [0, 1].
   };
   Place placeOf(double voltage_v) const;
   double logAt(double voltage_v) const;

@@ -94,9 +94,9 @@ bool sees(const common::PinholeCamera& camera, const common::RgbdCameraConfig& s
   const bool in_picture =
       (pixel.array() >= 0.0).all() && pixel.x() <= camera.width_px - 1 && pixel.y() <= camera.height_px - 1;
   if (!in_picture) return false;
-  const Eigen::Vector3d way = place_world_m - T_world_camera.position_m;
-  return world.rays->cast(T_world_camera.position_m, way.normalized(), way.norm() + 1.0).distance_m >
-         way.norm() - kMet_m;
+  const Eigen::Vector3d to_place_world_m = place_world_m - T_world_camera.position_m;
+  return world.rays->cast(T_world_camera.position_m, to_place_world_m.normalized(), to_place_world_m.norm() + 1.0)
+             .distance_m > to_place_world_m.norm() - kMet_m;
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ std::vector<std::string> keysWithFractions() {
 void EnvelopeQuantity::describe(common::config::Fields& fields) {
   fields("key", key, "A number of the scenario's plant: battery_remaining, quadrotor.motor_lag_s.");
   fields("to", to, common::config::kFinite,
-         "Value up to which it is turned from that of the base; it must be given, and may be the lower one.");
-  fields("name", name, "For people; the key if none is given.");
+         "Value up to which the quantity is turned from that of the base; it must be given, and may be the lower one.");
+  fields("name", name, "Name of the quantity, for people; the key if none is given.");
 }
 
 std::vector<std::string> EnvelopeQuantity::validate() const {

@@ -1,5 +1,5 @@
 // The envelope of a trial: each quantity of the plant turned up alone, from its value in a base, until flights fail.
-// This is what is turned up, and the search; flights are flown by the caller.
+// This file has what is turned up, and the search; flights are flown by the caller.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ struct ReachedGoal {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   double error_m = 0.0;       ///< Horizontal distance from the goal to the true position.
   ComparedEstimate estimate;  ///< The newest estimate at that tick.
-  double error_raw_m = 0.0;   ///< The same with the goal in FlightRecord::T_world_start.
+  double error_raw_m = 0.0;   ///< As error_m, with the goal in FlightRecord::T_world_start.
 };
 
 /// How the flight localized in the map it was given. Times are those of snapshots.

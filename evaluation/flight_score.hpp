@@ -46,7 +46,7 @@ struct ConductScore {
 /// An optional figure is none if it could not be measured, for example if no goal was reached.
 struct FlightScore {
   std::int64_t seed = 0;
-  std::string vehicle;         ///< Its name among several that flew together; empty: it flew alone.
+  std::string vehicle;         ///< Name of the vehicle among several that flew together; empty: it flew alone.
   std::string folder;          ///< Of the run, relative to the trial's; set by the caller.
   std::string outcome;         ///< "done", or why not.
   bool mission_begun = false;  ///< Otherwise there is no mission_time_s.
@@ -69,8 +69,7 @@ struct FlightScore {
   std::optional<double> estimate_yaw_rms_rad;
   std::optional<double> map_wall_error_median_m;
   std::optional<double> map_wall_error_p95_m;
-  /// The same figures in the frame of the take-off with the true heading of the body: the mount's yaw counts as an
-  /// error.
+  /// Errors in the frame of the take-off with the true heading of the body: the mount's yaw counts as an error.
   std::optional<double> goal_error_raw_m;
   std::optional<double> home_error_raw_m;
   std::optional<double> estimate_rms_raw_m;
@@ -82,8 +81,8 @@ struct FlightScore {
   std::optional<VisualOdometryScore> visual_odometry;  ///< None unless the trial asks for it.
 
   int collisions = 0;
-  /// Those that the verdict does not excuse: forced ones, glass that no beam had seen, and walkers that ran into a
-  /// vehicle that stood still or moved away.
+  /// Collisions that the verdict does not excuse, as it does forced ones, glass that no beam had seen, and walkers that
+  /// ran into a vehicle that stood still or moved away.
   int avoidable_collisions = 0;
   int glass_contacts = 0;        ///< Collisions with glass that had never returned a beam.
   std::string collision;         ///< What was touched; empty if nothing was.

@@ -15,7 +15,7 @@ struct Map3dScore {
   /// Distance of the cloud's points to the nearest surface, the map where the vehicle can know it to be.
   double error_median_m = 0.0;
   double error_p95_m = 0.0;
-  /// The same after one rigid motion of the whole cloud.
+  /// Distance of the cloud's points to the nearest surface after one rigid motion of the whole cloud.
   double aligned_median_m = 0.0;
   double aligned_p95_m = 0.0;
   /// Share of the surfaces in view of the camera that are in the aligned cloud.
@@ -24,7 +24,7 @@ struct Map3dScore {
   /// as in knowableFrame().
   struct CameraErrors {
     double mount_rad = 0.0;  ///< Angle between the attitude of the mount as estimated and as it is.
-    double sheet_rad = 0.0;  ///< The same of the data sheet.
+    double sheet_rad = 0.0;  ///< Angle between the attitude of the mount on the data sheet and as it is.
     double clock_s = 0.0;    ///< Of the clock as estimated, without its sign.
   };
   std::optional<CameraErrors> camera = {};

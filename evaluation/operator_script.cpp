@@ -59,15 +59,16 @@ void OperatorStep::describe(common::config::Fields& fields) {
   fields("controller", controller, "For command controller: the kind that takes over in flight.");
   fields("at_s", at_s, {0, 1e6}, "Time before which the command is not given.");
   fields("after_phase", after_phase,
-         "It is given when the flight's state, the mission's phase or reason, or a running behaviour begins with this "
-         "text: `taking "
-         "off`, `explore`, `GoHome`; empty for any.");
+         "The command is given when the flight's state, the mission's phase or reason, or a running behaviour begins "
+         "with this text: `taking off`, `explore`, `GoHome`; empty for any.");
   fields("after_event", after_event,
-         "It is given when an event holds this text, in itself or its reason; empty for none.");
-  fields("after_goals", after_goals, {0, 10'000}, "It is given when that many goals have been reached in all.");
-  fields("delay_s", delay_s, {0, 1e6}, "Time from then until the command.");
-  fields.choice("expect", expect, {"accepted", "refused", "any"}, "The answer without which the flight fails.");
-  fields("vehicle", vehicle, "Name of the vehicle; empty for every vehicle.");
+         "The command is given when an event holds this text, in itself or its reason; empty for none.");
+  fields("after_goals", after_goals, {0, 10'000},
+         "The command is given when this many goals have been reached in all.");
+  fields("delay_s", delay_s, {0, 1e6}, "Time from when the command could be given until it is.");
+  fields.choice("expect", expect, {"accepted", "refused", "any"},
+                "Answer to the command without which the flight fails.");
+  fields("vehicle", vehicle, "Name of the vehicle that is commanded; empty for every vehicle.");
 }
 
 std::vector<std::string> OperatorStep::validate() const {

@@ -44,9 +44,8 @@ void PhaseConfig::describe(common::config::Fields& fields) {
   fields("from_s", from_s, {0, 1e6}, "Time of the flight before which nothing counts.");
   fields("to_s", to_s, {0, 1e6}, "Time of the flight from which nothing counts.");
   fields("phase", phase,
-         "Only while the flight's state, the mission's phase or reason, or a running behaviour begins with this text: "
-         "`flying`, "
-         "`hold`, `GoHome`; empty for the whole flight.");
+         "The phase counts only while the flight's state, the mission's phase or reason, or a running behaviour begins "
+         "with this text: `flying`, `hold`, `GoHome`; empty for the whole flight.");
   fields("settle_s", settle_s, {0, 1e6}, "Time after each beginning of the phase that does not count.");
   fields("place_map_m", place_map_m, {-1e4, 1e4},
          "Place x, y in the vehicle's frame `map` from which the RMS of the position is taken; empty for no RMS.");

@@ -12,7 +12,8 @@ namespace swiftlet::evaluation {
 
 void PhaseBounds::describe(common::config::Fields& fields) {
   fields("phase", phase, "Name of a phase of the trial.");
-  fields.list("criteria", criteria, "Bounds of its figures; they take the place of those that it has for all systems.");
+  fields.list("criteria", criteria,
+              "Bounds of the phase's figures for this system; they take the place of those for all systems.");
 }
 
 std::vector<std::string> PhaseBounds::validate() const {

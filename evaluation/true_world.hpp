@@ -24,9 +24,9 @@ struct TrueWorld {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
   std::optional<common::RgbdCameraConfig> rgbd_camera;  ///< Of a vehicle that carries one.
-  common::Pose3 T_body_camera;                          ///< Its true mount.
-  double camera_clock_offset_s = 0.0;                   ///< How late its clock is at the end.
-  std::vector<TrueTarget> targets;                      ///< That the trial asks for.
+  common::Pose3 T_body_camera;                          ///< True mount of the RGB-D camera.
+  double camera_clock_offset_s = 0.0;                   ///< How late the camera's clock is at the end.
+  std::vector<TrueTarget> targets;                      ///< Targets that the trial asks for.
   simulation::QuadrotorConfig quadrotor;
   double clearance_m = kClearance_m;  ///< Clearance of the mission. Places where the hull does not fit with it are not
                                       ///< expected to be reached.

@@ -42,7 +42,8 @@ struct VerdictFacts {
   bool unseen_glass = false;     ///< It touched glass that had never returned a beam.
   bool room_to_take_off = true;  ///< The hull fits above the take-off place.
   double contact_margin = 10.0;  ///< Greatest thrust over the weight at the contact.
-  double landing_margin = 10.0;  ///< The same at the last time at which a landing could still have been begun.
+  /// Greatest thrust over the weight at the last time at which a landing could still have been begun.
+  double landing_margin = 10.0;
 
   std::string order;                 ///< The last order of operator or pilot to end the flight; empty: there was none.
   std::string faulty_sensor;         ///< A sensor that the vehicle needs and that failed then; empty: there was none.

@@ -35,7 +35,7 @@ struct RunInfo {
   std::string version;
   std::string started;                   ///< Local date and time; the caller's clock.
   std::string given_map = {};            ///< The map to localize in; empty: none.
-  std::string vehicle = {};              ///< Its name among several; empty: it flew alone.
+  std::string vehicle = {};              ///< Name of the vehicle among several; empty: it flew alone.
   std::string nature = {};               ///< Name of the simulator's nature; empty: it flew in no simulator.
   std::string nature_yaml = {};          ///< The values drawn from that nature; empty: nothing is drawn.
   std::string vehicle_memory_yaml = {};  ///< What earlier flights have learned of the vehicle; empty: nothing.

@@ -22,8 +22,8 @@ struct PoseEdge2D {
 struct PoseGraph2D {
   std::vector<common::Pose2> poses;  ///< The initial guess.
   std::vector<PoseEdge2D> edges;
-  int fixed = 0;                     ///< This pose does not move.
-  std::vector<int> also_fixed = {};  ///< Further poses that do not move.
+  int fixed = 0;                     ///< Index of a pose that does not move.
+  std::vector<int> also_fixed = {};  ///< Indices of further poses that do not move.
 };
 
 }  // namespace swiftlet::optimization

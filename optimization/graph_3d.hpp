@@ -25,7 +25,7 @@ struct PoseEdge3D {
 struct PoseGraph3D {
   std::vector<common::Pose3> poses;  ///< The initial guess; unit quaternions.
   std::vector<PoseEdge3D> edges;
-  std::vector<int> fixed = {0};  ///< These poses do not move.
+  std::vector<int> fixed = {0};  ///< Indices of the poses that do not move.
 };
 
 }  // namespace swiftlet::optimization

@@ -22,9 +22,9 @@ class Overlay3d {
   /// Lines on whole metres at height 0 around `extent`; only where no surface hides them. Nothing for an empty box.
   void drawFloor(const Eigen::AlignedBox3d& extent, const common::Pose2& T_map_shown);
   void drawLine(const Line3d& line);
-  /// Its hull, its heading, and a line down to the take-off floor.
+  /// The vehicle's hull, its heading, and a line down to the take-off floor.
   void drawVehicle(const PlacedVehicle& vehicle);
-  /// Its field of view as a pyramid.
+  /// The camera's field of view as a pyramid.
   void drawCamera(const PlacedCamera& camera);
 
  private:

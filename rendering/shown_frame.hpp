@@ -10,11 +10,11 @@ struct World;
 namespace swiftlet::rendering {
 
 struct ShownFrame {
-  bool given = false;         ///< That of the given map; otherwise `map`.
+  bool given = false;         ///< The frame is that of the given map; otherwise `map`.
   common::Pose2 T_map_shown;  ///< The identity for `map`.
 };
 
-/// That of the given map while the vehicle knows its place in it, else `map` (decision 060). The page has the same
+/// The frame of the given map while the vehicle knows its place in it, else `map` (decision 060). The page has the same
 /// rule, in MapStore.shown().
 ShownFrame shownFrame(const common::World& world);
 

@@ -32,7 +32,8 @@ void AutopilotConfig::describe(common::config::Fields& fields) {
          "Angular acceleration per integrated rate error, which removes a constant lean.");
   fields("link_timeout_s", link_timeout_s, {0.05, 10},
          "Without a new setpoint for this long the vehicle levels and descends.");
-  fields("failsafe_thrust_share", failsafe_thrust_share, {0.5, 1}, "Thrust of that descent, as a share of the weight.");
+  fields("failsafe_thrust_share", failsafe_thrust_share, {0.5, 1},
+         "Thrust of the descent without setpoints, as a share of the weight.");
   fields("tilt_share", tilt_share, {0.5, 1.5}, "Angle that the autopilot takes, over the commanded one.");
   fields("tilt_expo", tilt_expo, {0, 0.9}, "Share of the third power in the curve from command to angle.");
   fields.choice("mixing", mixing, {"clamp_each", "attitude_first"},

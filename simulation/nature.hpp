@@ -28,7 +28,7 @@ class Nature {
 
   const std::string& name() const { return name_; }
 
-  /// The same with another range of the charge at the start, if this nature draws it.
+  /// This nature with another range of the charge at the start, if the charge is drawn.
   Nature withCharge(double low, double high) const;
 
   /// What the number of a key ("quadrotor.mass_share") is drawn from; both ends are equal if it is fixed. None if this

@@ -51,7 +51,7 @@ void QuadrotorConfig::describe(common::config::Fields& fields) {
   fields("wall_effect_share", wall_effect_share, {0, 0.5},
          "Pull towards a wall that touches the hull, over the thrust; 0 without it.");
   fields("wall_effect_range_m", wall_effect_range_m, {0.01, 2},
-         "Distance from the hull to a wall at which that pull has fallen to 1 / e.");
+         "Distance from the hull to a wall at which the wall's pull has fallen to 1 / e.");
   fields.section("battery", battery, "The battery.");
 }
 

@@ -85,9 +85,10 @@ void Variation::describe(common::config::Fields& fields) {
          "Two corners x, y, x, y: the start is anywhere between them, on the floor of the given start, from where the "
          "vehicle can fly to that start; empty for near the given start.");
   fields("obstacles", obstacles, "Models that are shifted.");
-  fields("obstacle_m", obstacle_m, {0, 100}, "Greatest shift of each of these models, in x and in y.");
+  fields("obstacle_m", obstacle_m, {0, 100}, "Greatest shift of each model of obstacles, in x and in y.");
   fields("tinted", tinted, "Models whose colour is changed.");
-  fields("tint", tint, {0, 1}, "Greatest change of each channel of the colour of these models, as a share of it.");
+  fields("tint", tint, {0, 1},
+         "Greatest change of each channel of the colour of the models of tinted, as a share of it.");
   fields("light_tint", light_tint, {0, 1},
          "Greatest change of the red and of the blue of the light, as a share of it.");
   fields("light_dimmed", light_dimmed, {0, 1}, "Greatest loss of the light, as a share of it.");
@@ -110,21 +111,22 @@ std::vector<std::string> Variation::validate() const {
 
 void WalkerConfig::describe(common::config::Fields& fields) {
   fields.choice("mode", mode, {"path", "cross_path", "follow"},
-                "Whether it walks its path, crosses the vehicle's, or follows the vehicle.");
-  fields("path_world_m", path_world_m, {-kAnywhere_m, kAnywhere_m}, "Points x, y, x, y of its path, for mode path.");
-  fields.choice("at_end", at_end, {"stay", "leave", "return", "loop"}, "What it does at the end of its path.");
+                "Whether the person walks a path, crosses the vehicle's, or follows the vehicle.");
+  fields("path_world_m", path_world_m, {-kAnywhere_m, kAnywhere_m},
+         "Points x, y, x, y of the person's path, for mode path.");
+  fields.choice("at_end", at_end, {"stay", "leave", "return", "loop"}, "What the person does at the end of the path.");
   fields("speed_m_s", speed_m_s, {0, 20}, "Walking speed.");
-  fields(
-      "speeds_m_s", speeds_m_s, {0.01, 20},
-      "For mode path, the speeds from point to point, again from the first one after the last; empty for speed_m_s.");
-  fields("pause_s", pause_s, {0, 1e4}, "For mode path, how long it stands at each point.");
+  fields("speeds_m_s", speeds_m_s, {0.01, 20},
+         "For mode path, the person's speeds from point to point, again from the first one after the last; empty for "
+         "speed_m_s.");
+  fields("pause_s", pause_s, {0, 1e4}, "For mode path, how long the person stands at each point.");
   fields("radius_m", radius_m, {0.05, 2}, "Radius of the person.");
   fields("height_m", height_m, {0.1, 5}, "Height of the person.");
-  fields("start_s", start_s, {0, 1e6}, "Time at which it appears.");
+  fields("start_s", start_s, {0, 1e6}, "Time at which the person appears.");
   fields("distance_m", distance_m, {0.1, 100},
-         "For cross_path, how far ahead it crosses; for follow, how near it comes, hull to person.");
-  fields("repeat_s", repeat_s, {0, 1e6}, "For cross_path, it crosses again after this long; 0 for once.");
-  fields("vehicle", vehicle, "Name of the vehicle that it crosses or follows; empty for the first.");
+         "For cross_path, how far ahead the person crosses; for follow, how near the person comes, hull to person.");
+  fields("repeat_s", repeat_s, {0, 1e6}, "For cross_path, the person crosses again after this long; 0 for once.");
+  fields("vehicle", vehicle, "Name of the vehicle that the person crosses or follows; empty for the first.");
 }
 
 std::vector<std::string> WalkerConfig::validate() const {

@@ -164,7 +164,7 @@ struct Scenario {
   std::size_t vehicleCount() const { return vehicles.empty() ? 1 : vehicles.size(); }
   /// The number of the vehicle with that name, which must exist; 0 for an empty name.
   std::size_t vehicleNumber(const std::string& name) const;
-  /// The same scenario with that vehicle alone: its start, charge, pushes, faults and pilot, and no `vehicles`.
+  /// This scenario with that vehicle alone: its start, charge, pushes, faults and pilot, and no `vehicles`.
   Scenario withVehicleAlone(std::size_t number) const;
 };
 

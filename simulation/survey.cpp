@@ -14,14 +14,16 @@ using common::Pose2;
 using common::Time;
 
 void SurveyConfig::describe(common::config::Fields& fields) {
-  fields("path_world_m", path_world_m, {-1e4, 1e4},
-         "Points x, y, x, y of the path it drives, turning on the spot at each; empty when no map is made.");
+  fields(
+      "path_world_m", path_world_m, {-1e4, 1e4},
+      "Points x, y, x, y of the path that the robot drives, turning on the spot at each; empty when no map is made.");
   fields("world", world, "World of the drive, such as another day's of the same place; empty: that of the flights.");
-  fields("laser", laser, "A file of config/sensors, without .yaml.");
-  fields("laser_height_world_m", laser_height_world_m, {-100, 100}, "Height of its beams in the world's frame.");
+  fields("laser", laser, "Laser of the robot: a file of config/sensors, without .yaml.");
+  fields("laser_height_world_m", laser_height_world_m, {-100, 100},
+         "Height of the robot's laser beams in the world's frame.");
   fields("speed_m_s", speed_m_s, {0.05, 5}, "Speed between the points.");
   fields("turn_deg_s", turn_deg_s, {1, 360}, "Speed of the turns on the spot.");
-  fields("seed", seed, {0, 1'000'000'000}, "Seed of its noise; that of the flights changes nothing here.");
+  fields("seed", seed, {0, 1'000'000'000}, "Seed of the drive's noise; the flights' seed changes nothing here.");
 }
 
 std::vector<std::string> SurveyConfig::validate() const {

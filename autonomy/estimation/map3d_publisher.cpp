@@ -20,9 +20,9 @@ constexpr double kSubmapReach_m = 5.0;
 
 void Map3dPublisherConfig::describe(common::config::Fields& fields) {
   fields("publish_period_s", publish_period_s, {0, 10},
-         "So often the submap that grows is copied for those who show the map.");
+         "Time between copies of the growing submap for those who show the map.");
   fields("fusion_period_s", fusion_period_s, {0.5, 1000},
-         "So often all submaps are fused to one map; after a loop closure it is done at once.");
+         "Time between fusions of all submaps to one map; after a loop closure they are fused at once.");
   fields("fusion_latency_s", fusion_latency_s, {0.01, 60}, "Declared time for fusing all submaps.");
 }
 

@@ -38,8 +38,8 @@ struct BodyAtFrame {
 
 /// What the estimator knows at the time of a frame.
 struct FrameSituation {
-  std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body; none if it is not known.
-  std::optional<BodyAtFrame> body;                ///< Its motion; none if that is not known.
+  std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body; none if that is not known.
+  std::optional<BodyAtFrame> body;                ///< Motion of the body; none if that is not known.
   /// Whether a measurement has just supported the position, so that it is a pose in the map and not only predicted.
   bool supported = false;
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
@@ -47,11 +47,12 @@ struct FrameSituation {
 };
 
 struct RgbdCounts {
-  std::uint64_t frames = 0;   ///< That arrived and could be used.
-  std::uint64_t skipped = 0;  ///< Repeated, late, of the future, without images of the camera's size, or blank.
-  std::uint64_t blank = 0;    ///< Of those skipped, the ones with a black or a white picture.
-  std::uint64_t mapped = 0;   ///< That were aligned to the map and drawn.
-  std::uint64_t lost = 0;     ///< That did not fit and were left out.
+  std::uint64_t frames = 0;  ///< Frames that arrived and could be used.
+  /// Frames that are repeated, late, of the future, without images of the camera's size, or blank.
+  std::uint64_t skipped = 0;
+  std::uint64_t blank = 0;   ///< Skipped frames with a black or a white picture.
+  std::uint64_t mapped = 0;  ///< Frames that were aligned to the map and drawn.
+  std::uint64_t lost = 0;    ///< Frames that did not fit and were left out.
 };
 
 /// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
@@ -95,7 +96,7 @@ class RgbdPipeline {
   /// The outcome of the job of a frame.
   struct Outcome {
     std::shared_ptr<const common::RgbdFrame> frame;
-    common::Time time;                              ///< That of its pose.
+    common::Time time;                              ///< Time of the frame's pose.
     std::optional<common::KeyRelativePose> at_key;  ///< FrameSituation::at_key.
     std::optional<BodyAtFrame> body;                ///< FrameSituation::body.
     std::shared_ptr<const common::KeyPoses> scans;
@@ -126,8 +127,8 @@ class RgbdPipeline {
   bool silent_ = false, lost_said_ = false;
   std::set<std::string> faults_said_;
   std::optional<common::Time> through_at_;  ///< When a frame last came through the radio.
-  bool stuck_said_ = false;                 ///< That none comes through.
-  int most_halvings_ = 0;                   ///< That was said.
+  bool stuck_said_ = false;                 ///< An event has said that no frame comes through the radio.
+  int most_halvings_ = 0;                   ///< Most halvings of frames that an event has told.
   std::optional<common::Time> lost_since_;
 
   Map3dPublisher publisher_;

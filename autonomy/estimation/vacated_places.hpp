@@ -60,7 +60,7 @@ class VacatedPlaces {
   void forget(common::Time now);
 
   std::unordered_map<Cell, Met, CellHash> met_;
-  std::set<Cell> vacated_;  ///< Those of `met_` that something has left.
+  std::set<Cell> vacated_;  ///< Cells of `met_` that something has left.
   std::optional<common::Time> last_, forgot_;
   common::Pose2 last_pose_;
 };

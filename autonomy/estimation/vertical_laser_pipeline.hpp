@@ -49,9 +49,9 @@ struct SweepSituation {
 };
 
 struct VerticalLaserCounts {
-  std::uint64_t sweeps = 0;    ///< That arrived and were newer than those before.
-  std::uint64_t skipped = 0;   ///< Repeated or late, or too many at once.
-  std::uint64_t unplaced = 0;  ///< Of times at which no measurement supported the pose; they are left out.
+  std::uint64_t sweeps = 0;    ///< Sweeps that arrived and were newer than those before.
+  std::uint64_t skipped = 0;   ///< Sweeps that are repeated or late, or too many at once.
+  std::uint64_t unplaced = 0;  ///< Sweeps at whose time no measurement supported the pose; they are left out.
   std::uint64_t drawn = 0;
 };
 

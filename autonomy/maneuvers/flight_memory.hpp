@@ -40,7 +40,7 @@ struct FlightMemory {
   std::vector<Eigen::Vector3d> lowered_map_m;
   /// Where the vehicle stood before it last took off: there it can stand again. None where the position was unknown.
   std::optional<Eigen::Vector2d> stood_map_m;
-  bool told_laser_alone = false;  ///< That a laser cannot know whether there is room below.
+  bool told_laser_alone = false;  ///< An event has said that a laser cannot know whether there is room below.
   ExplorationMemory exploration;
   FollowMemory follow;
   std::optional<Eigen::Vector2d> person_map_m;  ///< Where the person who is, or was, followed was last believed.

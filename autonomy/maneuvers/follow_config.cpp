@@ -14,7 +14,7 @@ void WalkingConfig::describe(Fields& fields) {
   fields("sets_off_m_s", sets_off_m_s, {0, 3}, "Speed at which a person who stands is expected to set off.");
   fields("turns_1_s", turns_1_s, {0, 10},
          "Turns and stops of a walking person, per second, where nothing forces them.");
-  fields("stop_share", stop_share, {0, 1}, "Share of these that are stops.");
+  fields("stop_share", stop_share, {0, 1}, "Share of stops among the turns and stops of a walking person.");
   fields("goes_on_share", goes_on_share, {0.01, 0.99},
          "Probability that a person in sight goes on as before in the next seconds: straight on, or standing.");
   fields("half_width_m", half_width_m, {0, 1}, "Half the breadth of a person's shoulders.");
@@ -47,11 +47,13 @@ void PersonWatchConfig::describe(Fields& fields) {
   fields("least_share", least_share, {0, 1},
          "Least probability that a hidden person is near a track that is taken for the person's.");
   fields("least_share_in_sight", least_share_in_sight, {0, 1},
-         "The same for a person without a track who is seen by what the map did not show before.");
+         "Least probability that a hidden person is near a track that is taken for the person's, while the vehicle "
+         "sees something new where the person probably stands.");
   fields("remembered_gate_m", remembered_gate_m, {0.05, 20},
          "Distance that a person who was followed earlier may have walked meanwhile.");
-  fields("per_speed_s", per_speed_s, {0, 10},
-         "Of two tracks, a difference of velocity in m/s counts as this many metres of distance.");
+  fields(
+      "per_speed_s", per_speed_s, {0, 10},
+      "Metres of distance that a difference of 1 m/s between the velocities of a track and of the person counts as.");
   fields.section("walking", walking, "How people walk.");
   fields.section("hidden", hidden, "Where a person who is not seen may be.");
 }
@@ -91,7 +93,7 @@ void FollowConfig::describe(Fields& fields) {
   fields("near_s", near_s, {0, 60}, "The vehicle has returned to a person when it was near for this long.");
   fields("looks_ahead_s", looks_ahead_s, {0, 3600},
          "Somebody to be followed is waited for ahead for this long; then the vehicle turns around.");
-  fields("looks_around_deg_s", looks_around_deg_s, {1, 180}, "Rate of turning around meanwhile.");
+  fields("looks_around_deg_s", looks_around_deg_s, {1, 180}, "Yaw rate of turning around to look for the person.");
   fields.section("watch", watch, "Which track is the person's.");
   fields.section("pace", pace, "Path and speed along the person's trail.");
   fields.section("pursuit", pursuit, "What a path behind the person costs.");

@@ -71,7 +71,7 @@ Progress GoTo::fly(const ManeuverInput& input) {
     if ((input.now - no_path_->since).seconds() > patience_s) return Progress::failed(no_path_->failure.text);
   }
   detour_.endWhenOver(input);
-  watchTheWay();
+  lookAlongBlockedPath();
   if (!flight_.mayAsk()) return Progress::running();
   if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now)) {
     detour_.ask(input, intent_.goal_map_m);
@@ -82,18 +82,18 @@ Progress GoTo::fly(const ManeuverInput& input) {
   return Progress::running();
 }
 
-/// A laser sees one plane: what blocks the way there may be a beam with room for the hull below.
+/// A laser sees one plane: what blocks the path in it may be a beam with room for the hull below.
 void GoTo::tellLaserAlone(Time now, const planning::PlanFailure& failure) {
   using Reason = planning::PlanFailure::Reason;
   const bool may_hang = failure.reason == Reason::kUnreachable || failure.reason == Reason::kGoalUnseen;
   if (sees_heights_ || !may_hang || std::exchange(setup_.memory.told_laser_alone, true)) return;
-  setup_.memory.say(now, common::Severity::kInfo, "whether there is room below what blocks the way is not known",
+  setup_.memory.say(now, common::Severity::kInfo, "whether there is room below what blocks the path is not known",
                     "no camera makes a 3D map");
 }
 
 /// The laser does not see behind the vehicle: one that has gone aside and waits there with its back to the blockage
-/// would never learn that the way is open.
-void GoTo::watchTheWay() {
+/// would never learn that the path is free.
+void GoTo::lookAlongBlockedPath() {
   const bool waits = no_path_ && !flight_.plan();
   setup_.controller.lookAt(waits ? ahead_map_m_ : std::nullopt);
 }

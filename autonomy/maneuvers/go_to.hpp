@@ -26,14 +26,14 @@ class GoTo final : public PathManeuver {
   std::string reached(const common::PlaceNames& names) const;
   bool looksAsAsked(const common::VehicleState& state) const;
   Progress fly(const ManeuverInput& input) override;
-  void watchTheWay();
+  void lookAlongBlockedPath();
   void tellLaserAlone(common::Time now, const planning::PlanFailure& failure);
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
 
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
-  bool sees_heights_ = false;                   ///< There is a 3D map.
+  bool sees_heights_ = false;                   ///< Whether there is a 3D map.
   Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
   std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.
   common::Time asked_;                          ///< When the path to the goal was last requested.

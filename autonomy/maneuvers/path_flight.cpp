@@ -53,7 +53,7 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   if (path.anyLowered()) {
     if (!memory_.lowered_m)
       memory_.say(now, common::Severity::kInfo, fmt::format("flies at {:.2f} m for a while", path.lower_height_m),
-                  fmt::format("something hangs over the way at {:.2f} m", memory_.cruise_height_m));
+                  fmt::format("something hangs over the path at {:.2f} m", memory_.cruise_height_m));
     memory_.lowered_m = path.lower_height_m;
   }
   control::FlightPath flown;

@@ -1,5 +1,6 @@
 // Keeps one person among the tracked obstacles, also while that person is not seen: hidden, or standing so long that
-// the map explains the place. [Grzonka 2012, section IV-E tracks obstacles; which of them is the one is decided here]
+// the map explains the place. [Grzonka 2012, section IV-E detects obstacles that the map does not explain; which of
+// them is the person is decided here]
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// Tour: flies through a series of stations in their order, for maneuvers whose way is given by a pattern. Stations in
-// reach along straight lines are flown in one go; to others the planner finds a path. What cannot be reached is left
-// out.
+// Tour: flies through a series of stations in their order, for maneuvers whose stations are given by a pattern.
+// Stations in reach along straight lines are flown in one go; to others the planner finds a path. What cannot be
+// reached is left out.
 #pragma once
 
 #include <cstddef>

@@ -71,7 +71,7 @@ void EnergyWatch::watchHome(Time now, const common::EnergyLayer& energy, WatchRe
   request.say(now, Severity::kWarning, "turn back", request.home);
 }
 
-/// On the way home: the vehicle flies as far as the charge goes, and lands there.
+/// During the flight home: the vehicle flies as far as the charge goes, and lands there.
 void EnergyWatch::watchReach(Time now, const common::EnergyLayer& energy, WatchRequest& request) {
   // Predictions differ from the truth by some percent, and so do two of them from each other.
   constexpr double kClearly = 0.8;

@@ -24,7 +24,7 @@ struct VehicleCondition {
   bool position_measured = false;
   /// Why the vehicle must land while its other sensors hold it, for people; empty if it need not.
   std::string sensor_lies;
-  bool lands = false;  ///< It is about to land where it is, and needs no way home.
+  bool lands = false;  ///< The vehicle is about to land where it is, and needs no path home.
 };
 
 /// The answer of a watch to one tick. Each reason is for people; it is empty if the watch does not ask for that.

@@ -6,8 +6,8 @@
 //   _post                           run when it ended, after those two
 //   _onHalted                       run when it was halted, once everything below has let go
 //
-// Those that are asked assign nothing, so that asking changes nothing. A script that cannot be evaluated makes the node
-// fail with the reason.
+// Conditions that are asked assign nothing, so that asking changes nothing. A script that cannot be evaluated makes the
+// node fail with the reason.
 #pragma once
 
 #include <array>
@@ -56,7 +56,7 @@ struct Conditions {
   std::optional<bool> goesOn();
   /// Runs the scripts for the end of the node, if `status` is one. False if one cannot be evaluated.
   bool afterwards(Status status);
-  /// The same for a node that was halted.
+  /// Runs the script for the halt of the node. False if it cannot be evaluated.
   bool afterHalt();
   /// "_skipIf: the entry {x} is not set".
   const std::string& problem() const { return problem_; }

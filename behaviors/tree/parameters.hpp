@@ -12,7 +12,7 @@ namespace swiftlet::tree {
 
 struct Parameter {
   std::string key;    ///< "Main/Sequence/TakeOff.height_m": the path of the node in the file, and the port.
-  std::string node;   ///< Its name.
+  std::string node;   ///< Name of the node.
   std::string value;  ///< As in the file, else the default, else empty.
   const PortManifest* port = nullptr;  ///< Of the registry.
 };

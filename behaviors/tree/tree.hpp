@@ -25,7 +25,7 @@ struct NodeView {
 /// A bound port of a node, for display.
 struct PortView {
   std::string name;
-  std::string entry;                 ///< That it is bound to; empty for a literal or a script.
+  std::string entry;                 ///< The entry that the port is bound to; empty for a literal or a script.
   std::optional<std::string> value;  ///< The literal, the text of the script, or the entry's value, if that is set.
 };
 

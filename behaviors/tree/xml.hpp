@@ -17,7 +17,8 @@ class Script;
 struct XmlAttribute {
   std::string name;
   std::string value;
-  /// That the value is: noted by the checker, taken by the builder. Reading the file leaves it null.
+  /// The script that the value is, if it is one: noted by the checker, taken by the builder. Reading the file leaves it
+  /// null.
   mutable Script* script = nullptr;
 };
 
@@ -31,7 +32,7 @@ struct XmlElement {
 
   /// Null if it has no such attribute.
   const XmlAttribute* find(std::string_view attribute_name) const;
-  /// Its value.
+  /// Value of the attribute; null if there is no such attribute.
   const std::string* attribute(std::string_view attribute_name) const;
 };
 

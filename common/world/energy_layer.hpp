@@ -16,8 +16,8 @@ struct EnergyLayer {
   double land_share = 0.0;
   /// Time until that charge, at the present consumption; none before the take-off.
   std::optional<double> seconds_left;
-  std::optional<double> home_m;      ///< Length of the path home; none before it is known or assumed.
-  bool home_planned = false;         ///< It is that of a path; else a conservative length, as no path is known.
+  std::optional<double> home_m;  ///< Length of the path home; none before it is known or assumed.
+  bool home_planned = false;     ///< The length home is that of a path; else a conservative one, as no path is known.
   std::optional<double> home_share;  ///< Charge, as a share of the full battery, that it takes to fly home and land.
 
   bool operator==(const EnergyLayer&) const = default;

@@ -16,7 +16,7 @@ namespace swiftlet::common {
 /// Mount and clock of the camera, as the flight has estimated them.
 struct CameraEstimate {
   Pose3 T_body_camera;                                        ///< Of the data sheet, except for what is known better.
-  Eigen::Vector3d mount_sigma_rad = Eigen::Vector3d::Zero();  ///< Of its attitude, about the axes of the body.
+  Eigen::Vector3d mount_sigma_rad = Eigen::Vector3d::Zero();  ///< Of the camera's attitude, about the axes of the body.
   double clock_offset_s = 0.0;                                ///< How late its stamps are by the flight's clock.
   double clock_sigma_s = 0.0;
 };

@@ -20,7 +20,7 @@ struct Target {
   int id = 0;        ///< Unique in the flight; a target keeps it.
   std::string name;  ///< Of its class, as the profile names it.
   int number = 0;    ///< Among the found ones of its name, from 1; 0 for a candidate.
-  /// Its middle; z above the take-off floor.
+  /// Middle of the target; z above the take-off floor.
   Eigen::Vector3d position_map_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Of the position.
   double diameter_m = 0.0;                                  ///< As it appears.

@@ -22,7 +22,7 @@ struct TreeNodeView {
   std::string name;
   std::string status;                     ///< IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED, SUSPENDED.
   std::string type = {};                  ///< "Sequence", "MoveToGoal", "SubTree" ...
-  std::vector<TreePortView> ports = {};   ///< Those that are bound.
+  std::vector<TreePortView> ports = {};   ///< Ports that are bound.
   std::string reason = {};                ///< Why it failed, or why it has the vehicle; the last one that was told.
   std::optional<double> began_s = {};     ///< When its present or last run began, in the time of the snapshots.
   std::optional<double> duration_s = {};  ///< Of its last run; none while it is under way, or before it.

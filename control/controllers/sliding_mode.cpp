@@ -103,9 +103,11 @@ void SlidingMode::Config::describe(common::config::Fields& fields) {
   fields("horizontal_d_1_s", horizontal_d_1_s, {0, 20}, "Horizontal acceleration per velocity error.");
   fields("vertical_p_1_s2", vertical_p_1_s2, {0, 40}, "Vertical acceleration per height error.");
   fields("vertical_d_1_s", vertical_d_1_s, {0, 20}, "Vertical acceleration per climb speed error.");
-  fields("switching_m_s2", switching_m_s2, {0, 9}, "Greatest acceleration that brings the vehicle to the surface.");
+  fields("switching_m_s2", switching_m_s2, {0, 9},
+         "Greatest acceleration that brings the vehicle to the sliding surface.");
   fields("boundary_m_s", boundary_m_s, kPositive,
-         "Distance from the surface within which that acceleration is in proportion to it, against chattering.");
+         "Distance from the sliding surface within which the switching acceleration is in proportion to the distance, "
+         "against chattering.");
   fields("disturbance_filter_s", disturbance_filter_s, {0.02, 100}, "Time constant of the estimated disturbance.");
   fields("attitude_lag_s", attitude_lag_s, {0.01, 0.5}, "Time the attitude takes to follow a command.");
   fields("thrust_lag_s", thrust_lag_s, {0.01, 0.5}, "Time the thrust takes to follow a command.");

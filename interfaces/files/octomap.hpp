@@ -33,7 +33,7 @@ std::string toOctree(const common::VoxelMap& map, OctreeFormat format);
 /// OctoMap's sensor model, those of a .ot file theirs, rounded to steps of common::VoxelMap::kLogOddsStep. Throws
 /// InputError, also for a tree that fills more than `most_blocks` blocks of the map.
 common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_blocks = 2'000'000);
-/// The same for bytes. Messages use `name` as the file.
+/// Reads the bytes of a file as readOctree() does. Messages use `name` as the file.
 common::VoxelMap parseOctree(std::string_view bytes, const std::string& name, std::size_t most_blocks = 2'000'000);
 
 }  // namespace swiftlet::interfaces

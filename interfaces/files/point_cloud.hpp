@@ -31,14 +31,14 @@ std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat fo
 /// Writes the file in one step, in the format of the name's ending, which must be one of the two.
 [[nodiscard]] Written writeCloud(const std::filesystem::path& file, std::span<const common::SurfacePoint> points);
 
-/// The same for triangles, as .ply whatever the name's ending is.
+/// Writes triangles in one step, as .ply whatever the name's ending is.
 [[nodiscard]] Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh);
 
 /// Reads text and binary files of either format, those of PCL compressed too. Points whose position is not finite are
 /// left out, which PCL writes where nothing was measured. Colours and normals that a file does not have are grey and
 /// unknown; faces are left out. Throws InputError for anything that is not such a file.
 std::vector<common::SurfacePoint> readCloud(const std::filesystem::path& file);
-/// The same for bytes. Messages use `name` as the file.
+/// Reads the bytes of a file as readCloud() does. Messages use `name` as the file.
 std::vector<common::SurfacePoint> parseCloud(std::string_view bytes, const std::string& name, CloudFormat format);
 
 }  // namespace swiftlet::interfaces

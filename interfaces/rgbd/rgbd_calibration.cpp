@@ -127,7 +127,8 @@ DepthImage registered(const DepthImage& depth, const PinholeCamera& depth_camera
 
 void LensCalibration::describe(common::config::Fields& fields) {
   fields("width_px", width_px, {16, common::kMostImageSide_px}, "Width of the images that the other numbers are for.");
-  fields("height_px", height_px, {16, common::kMostImageSide_px}, "Height of those images.");
+  fields("height_px", height_px, {16, common::kMostImageSide_px},
+         "Height of the images that the other numbers are for.");
   fields("fx_px", fx_px, {1, 1e5}, "Focal length across.");
   fields("fy_px", fy_px, {1, 1e5}, "Focal length down.");
   fields("cx_px", cx_px, {-1e4, 1e4}, "Principal point across; the centre of the top left pixel is 0.");
@@ -140,12 +141,15 @@ void LensCalibration::describe(common::config::Fields& fields) {
 }
 
 void DepthCameraPose::describe(common::config::Fields& fields) {
-  fields("x_m", x_m, {-1, 1}, "The depth camera's place in the colour camera: to the right.");
-  fields("y_m", y_m, {-1, 1}, "Downwards.");
-  fields("z_m", z_m, {-1, 1}, "Along the view.");
-  fields("rotation_x_rad", rotation_x_rad, {-1, 1}, "Its rotation vector, along x.");
-  fields("rotation_y_rad", rotation_y_rad, {-1, 1}, "Its rotation vector, along y.");
-  fields("rotation_z_rad", rotation_z_rad, {-1, 1}, "Its rotation vector, along z.");
+  fields("x_m", x_m, {-1, 1}, "Position of the depth camera in the colour camera, to the right.");
+  fields("y_m", y_m, {-1, 1}, "Position of the depth camera in the colour camera, downwards.");
+  fields("z_m", z_m, {-1, 1}, "Position of the depth camera in the colour camera, along the view.");
+  fields("rotation_x_rad", rotation_x_rad, {-1, 1},
+         "Rotation vector of the depth camera in the colour camera, along x.");
+  fields("rotation_y_rad", rotation_y_rad, {-1, 1},
+         "Rotation vector of the depth camera in the colour camera, along y.");
+  fields("rotation_z_rad", rotation_z_rad, {-1, 1},
+         "Rotation vector of the depth camera in the colour camera, along z.");
 }
 
 void RgbdCalibration::describe(common::config::Fields& fields) {

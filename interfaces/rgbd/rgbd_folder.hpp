@@ -23,7 +23,7 @@ enum class FrameFault {
   kOtherScale,  ///< Depths that no camera measures: the scale is another one.
   kBlack,
   kWhite,
-  kRepeated,       ///< The same pictures as the frame before.
+  kRepeated,       ///< Pictures that equal those of the frame before.
   kStampRepeated,  ///< Not later than the frame before.
 };
 inline constexpr std::size_t kFrameFaults = 9;

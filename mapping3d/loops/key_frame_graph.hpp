@@ -2,8 +2,8 @@
 //
 // A loop closure is checked twice before it may bend the map. First, it must agree with the path between its key frames
 // as far as that path can have drifted; two places that look alike in all they show are told apart by nothing else.
-// Then, when the graph has been optimized with all its edges, a loop closure that the others do not confirm has a large
-// error, is taken out, and the graph is optimized again.
+// Second, when the graph has been optimized with all its edges, a loop closure that the others do not confirm has a
+// large error, is taken out, and the graph is optimized again.
 #pragma once
 
 #include <memory>

@@ -48,7 +48,7 @@ class PointGrid {
   std::vector<Sums> sums_;
 };
 
-/// The same points, one for each cube of that size.
+/// The points reduced to one for each cube of that size.
 WeightedPoints thinned(const WeightedPoints& points, double cube_m);
 
 }  // namespace swiftlet::mapping3d

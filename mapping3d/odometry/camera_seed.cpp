@@ -36,7 +36,8 @@ void CameraSeedConfig::describe(common::config::Fields& fields) {
   fields("gate_rad", gate_rad, {0.01, 3.2}, "An alignment that is turned by more against its seed is rejected.");
   fields("speed_sigma_m_s", speed_sigma_m_s, {0.0001, 10},
          "Standard deviation of the speed that a step from seed to seed has.");
-  fields("rate_sigma_rad_s", rate_sigma_rad_s, {0.0001, 10}, "Standard deviation of its angular rate.");
+  fields("rate_sigma_rad_s", rate_sigma_rad_s, {0.0001, 10},
+         "Standard deviation of the angular rate that a step from seed to seed has.");
   fields("step_sigma_m", step_sigma_m, {0.0001, 1},
          "Error of the position that an alignment adds from key frame to key frame, at least.");
   fields("step_sigma_rad", step_sigma_rad, {0.00001, 1},

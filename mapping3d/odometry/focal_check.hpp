@@ -27,6 +27,7 @@ class FocalCheck {
   std::optional<double> betterFactor() const;
 
  private:
+  /// A focal length does not change, so that later pairs would only cost four more alignments each.
   static constexpr int kMostAdded = 40;
   static constexpr std::array kFactors{1.0, 0.8, 0.9, 1.1, 1.25};
 

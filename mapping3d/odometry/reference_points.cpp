@@ -10,6 +10,7 @@
 namespace swiftlet::mapping3d {
 namespace {
 
+/// What is beside a pixel is read: one pixel for its gradient and depth, at least two for its plane.
 constexpr int kBorder_px = 2;
 /// Neighbours of a textured point without a plane have its depth within kNeighbourSigmas standard deviations and the
 /// share kNeighbourSlope of it.

@@ -29,7 +29,7 @@ class DepthPyramid {
     int side;
     float at(int u, int v) const { return values[v * width + u]; }
   };
-  /// Those of the greatest side that is not above this one, which must be at least 1.
+  /// The squares of the greatest side that is not above this one, which must be at least 1.
   Squares squaresOf(int side) const {
     const int level = levelOf(side);
     return {levels_[static_cast<std::size_t>(level)].data(), width_px_, 1 << level};

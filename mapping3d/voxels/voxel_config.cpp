@@ -7,8 +7,8 @@ namespace swiftlet::mapping3d {
 void VoxelConfig::describe(common::config::Fields& fields) {
   fields("resolution_m", resolution_m, {0.01, 1.0}, "Side of a voxel.");
   fields("range_max_m", range_max_m, {0.5, 50.0}, "Farther surfaces are not drawn; the ray is free up to here.");
-  fields("hit_log_odds", hit_log_odds, {0.05, 3.5}, "Added to a voxel in which rays of a frame end.");
-  fields("miss_log_odds", miss_log_odds, {-3.5, -0.05}, "Added to a voxel that rays of a frame only cross.");
+  fields("hit_log_odds", hit_log_odds, {0.05, 3.5}, "Log-odds added to a voxel in which rays of a frame end.");
+  fields("miss_log_odds", miss_log_odds, {-3.5, -0.05}, "Log-odds added to a voxel that rays of a frame only cross.");
   fields("least_log_odds", least_log_odds, {-6.0, 0.0}, "Log odds of a voxel are not below this.");
   fields("greatest_log_odds", greatest_log_odds, {0.05, 6.0}, "Log odds of a voxel are not above this.");
   fields("blocks_max", blocks_max, {100, 10'000'000},

@@ -11,6 +11,7 @@
 namespace swiftlet::perception {
 namespace {
 
+/// Three points make a plane; so many average their noise. Whether they tell its gradient is decided by kSpread_m.
 constexpr int kLeastPoints = 20;
 /// Least spread of the points in each direction, and greatest of their distances from the plane.
 constexpr double kSpread_m = 0.07, kFlat_m = 0.03;

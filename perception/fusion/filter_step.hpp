@@ -42,7 +42,7 @@ class FilterStep {
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
   void accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const;
   void updateByGravity(FilterState& state, const Slot& s) const;
-  /// The same force is not taken for gravity and for drag.
+  /// Whether the specific force is taken for drag: not where it is taken for gravity.
   bool usesDrag() const { return config_.use_drag && !config_.use_gravity; }
   void updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const;
   template <int K>

@@ -15,8 +15,8 @@ void describeValidity(FusionConfig& config, common::config::Fields& fields) {
   fields("recovery_s", config.recovery_s, {0.05, 10},
          "The gate of heights, or of a camera's poses, that was closed for this long is opened by force.");
   fields("pose_recovery_s", config.pose_recovery_s, {0.05, 10},
-         "The same of the laser's relative poses: inertia knows better for a second what a slope ahead makes them "
-         "follow.");
+         "A gate of the laser's relative poses that was closed for this long is opened by force; until then inertia is "
+         "believed, which a slope ahead does not mislead.");
   fields("max_recoveries", config.max_recoveries, {0, 1000},
          "More forced openings than this within recovery_window_s are a divergence.");
   fields("recovery_window_s", config.recovery_window_s, kPositive, "Time within which forced openings are counted.");

@@ -32,12 +32,13 @@ void MotionPredictionConfig::describe(common::config::Fields& fields) {
   fields("first_error_deg", first_error_deg, {0.01, 180},
          "Error of heading that is expected of the first predictions.");
   fields("least_error_m", least_error_m, {0.0001, 10},
-         "No prediction of the position is taken for better, however good it was.");
+         "Least error of position that is expected of a prediction, however good the last ones were.");
   fields("least_error_deg", least_error_deg, {0.001, 180},
-         "No prediction of the heading is taken for better, however good it was.");
+         "Least error of heading that is expected of a prediction, however good the last ones were.");
   fields("acceleration_m_s2", acceleration_m_s2, {0.01, 100},
-         "Of a robot that starts or stops: no speed is more certain than this lets it be.");
-  fields("max_speed_m_s", max_speed_m_s, {0.1, 100}, "Odometry that claims more is not believed in that step.");
+         "Acceleration of a robot that starts or stops: no speed is more certain than this lets it be.");
+  fields("max_speed_m_s", max_speed_m_s, {0.1, 100},
+         "Odometry that claims a greater speed is not believed in that step.");
 }
 
 MotionPrediction::MotionPrediction(const MotionPredictionConfig& config) : config_(config) {

@@ -23,6 +23,7 @@ class ScanClock {
   bool isEarly(common::Duration interval) const;
   common::Duration usualInterval() const;
 
+  /// Three seconds at 40 Hz. The trimmed mean cuts six of them off at either end.
   static constexpr std::size_t kRemembered = 128;
   std::array<common::Duration, kRemembered> intervals_;  ///< The last intervals as stamped, in no order.
   std::uint64_t ticks_ = 0, unreliable_ = 0;

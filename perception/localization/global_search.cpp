@@ -32,8 +32,8 @@ void GlobalSearchConfig::describe(common::config::Fields& fields) {
   fields("lever_m", lever_m, {0.5, 100},
          "From one direction searched to the next, points at this distance move by twice sigma_m.");
   fields("least_fit", least_fit, {0, 1},
-         "Mean value, of that on a wall, below which a place does not fit: two thirds of the points within sigma_m of "
-         "a wall give 0.55.");
+         "Mean value of the likelihood field, relative to that on a wall, below which a place does not fit: two thirds "
+         "of the points within sigma_m of a wall give 0.55.");
   fields("distinct_m", distinct_m, {0.05, 10},
          "Places nearer than this are one, if they are also turned less than distinct_deg.");
   fields("distinct_deg", distinct_deg, {1, 180},

@@ -42,8 +42,8 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
   fields("fitting", fitting, {0, 1},
          "Mean value of the likelihood field at the local map from which on a place fits it, however many others do.");
   fields("misfitting", misfitting, {0, 1},
-         "That mean value below which no place fits, however probable it is among those that were found; at most "
-         "fitting.");
+         "Mean value of the likelihood field at the local map below which no place fits, however probable it is among "
+         "those that were found; at most fitting.");
   fields("convincing_probability", convincing_probability, {0, 1},
          "A place that is this probable, and fits by more than misfitting, is convincing.");
   fields("distrust_search_s", distrust_search_s, {0, 100},

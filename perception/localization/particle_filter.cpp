@@ -51,7 +51,8 @@ void ParticleFilterConfig::describe(common::config::Fields& fields) {
   fields("kld_quantile", kld_quantile, {0, 6},
          "Standard normal quantile of the probability that kld_error is kept; 2.33 for 99 %.");
   fields("kld_bin_m", kld_bin_m, {0.01, 10}, "Width of the bins in which belief and samples are compared.");
-  fields("kld_bin_deg", kld_bin_deg, {0.1, 180}, "Width of these bins in the heading.");
+  fields("kld_bin_deg", kld_bin_deg, {0.1, 180},
+         "Width in the heading of the bins in which belief and samples are compared.");
   fields("beams", beams, {5, 10'000}, "Beams of a scan, evenly spread, that weigh the particles.");
   fields("beam_weight", beam_weight, {0.001, 1},
          "Weight of one beam in the likelihood; 1 if all were independent, but neighbours are wrong about the map "

@@ -11,7 +11,7 @@ void ScanSupportConfig::describe(common::config::Fields& fields) {
   fields("beams", beams, {5, 10'000}, "Beams of a scan, evenly spread, that are judged.");
   fields("tolerance_m", tolerance_m, {0.01, 1}, "A beam is explained when a wall is this near to its end.");
   fields("tolerance_rad", tolerance_rad, {0, 0.5},
-         "Growth of that tolerance with the range, for the error of the heading.");
+         "Growth of tolerance_m with the range, for the error of the heading.");
 }
 
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,

@@ -105,7 +105,7 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
   fields("max_speed_m_s", max_speed_m_s, {0.1, 20}, "Nothing is assumed to move faster than this.");
   fields("moved_m", moved_m, {0.01, 5}, "An obstacle that has come this far is moving.");
   fields("moved_within_s", moved_within_s, {0.1, 60},
-         "An obstacle that has not come that far in this time is standing.");
+         "An obstacle that has not come as far as moved_m in this time is standing.");
   fields("followed_s", followed_s, {0, 5}, "An obstacle that was followed for a shorter time is not said to move.");
   fields("followed_share", followed_share, {0, 1},
          "An obstacle that was in a smaller share of the scans is not said to move: furniture that a tilting laser "

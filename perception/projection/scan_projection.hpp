@@ -56,8 +56,8 @@ struct ProjectedScan {
   /// for the body, or else its end. Everything from the body to there is free. The third coordinate is the height
   /// relative to the body.
   std::vector<Eigen::Vector3f> misses_level_m;
-  /// The same points for beams without return, at most at the laser's greatest range. These beams say less, because a
-  /// dark or slanted wall gives no return either.
+  /// The points of misses_level_m for beams without return, at most at the laser's greatest range. These beams say
+  /// less, because a dark or slanted wall gives no return either.
   std::vector<Eigen::Vector3f> no_returns_level_m;
   std::vector<MirrorPoint> mirror;
   BeamCounts counts;

@@ -25,11 +25,14 @@ void GridDrawingConfig::describe(common::config::Fields& fields) {
          "Log-odds steps that a slice loses where one near it is seen free.");
   fields("fade_height_m", fade_height_m, {0, 10},
          "Height difference up to which a slice that is seen free makes another one fade.");
-  fields("slow_fade_height_m", slow_fade_height_m, {0, 10},
-         "Height difference up to which it makes it fade slowly; at least fade_height_m.");
-  fields("slow_fade_scans", slow_fade_scans, {1, 1000}, "Scans of which one lets slices fade slowly.");
-  fields("glass_fade_scans", glass_fade_scans, {1, 100'000},
-         "Scans of which one clears what may be glass at angles at which beams go through it; 1: it is never kept.");
+  fields(
+      "slow_fade_height_m", slow_fade_height_m, {0, 10},
+      "Height difference up to which a slice that is seen free makes another one fade slowly; at least fade_height_m.");
+  fields("slow_fade_scans", slow_fade_scans, {1, 1000},
+         "Scans of which one lets slices up to slow_fade_height_m away fade.");
+  fields(
+      "glass_fade_scans", glass_fade_scans, {1, 100'000},
+      "Scans of which one clears what may be glass at angles at which beams go through glass; 1: glass is never kept.");
 }
 
 std::vector<std::string> GridDrawingConfig::validate() const {

@@ -5,6 +5,8 @@
 namespace swiftlet::perception {
 namespace {
 
+/// Furniture is met, passed above, and met again; people are met at the height of the laser as well. With three
+/// sightings a flight touched a table again (decision 084).
 constexpr int kSightings = 2;
 /// What beams pass, and none meets for so long times its sightings, is no longer certain.
 constexpr double kKept_s = 30.0;

@@ -50,10 +50,10 @@ void Slam2dConfig::describe(common::config::Fields& fields) {
   fields("level_tilt_deg", level_tilt_deg, {0, 90},
          "A scan tilted more than this waits half as long again, for a level one.");
   fields("reuse_distance_m", reuse_distance_m, {0, 10},
-         "There is no new key scan within this distance and reuse_rotation_deg of one, so that the graph does not grow "
-         "in known area.");
+         "A scan within this distance and reuse_rotation_deg of a key scan does not become one, so that the graph does "
+         "not grow in known area.");
   fields("reuse_rotation_deg", reuse_rotation_deg, {0, 180},
-         "There is no new key scan within this rotation and reuse_distance_m of one.");
+         "A scan within this rotation and reuse_distance_m of a key scan does not become one.");
   fields("draw_distance_m", draw_distance_m, {0.01, 10}, "Between key scans, a scan is drawn after this distance.");
   fields("draw_rotation_deg", draw_rotation_deg, {0.5, 180}, "Between key scans, a scan is drawn after this rotation.");
   fields("draw_time_s", draw_time_s, {0.001, 1e6}, "Between key scans, a scan is drawn after this time.");

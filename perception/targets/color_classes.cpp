@@ -6,7 +6,7 @@
 namespace swiftlet::perception {
 namespace {
 
-constexpr int kSteps = 64;
+constexpr int kSteps = 64;  ///< Of each channel in the table, which has a byte for each colour: 256 kB.
 
 }  // namespace
 

@@ -13,12 +13,12 @@ namespace swiftlet::perception {
 struct ColoredBlob {
   std::uint8_t color = 0;   ///< Index of its class.
   std::vector<int> pixels;  ///< Row by row from the top left; each has a measured depth.
-  int left = 0, right = 0;  ///< The columns of the rectangle around it, both included.
-  int top = 0, bottom = 0;  ///< Its rows.
+  int left = 0, right = 0;  ///< Columns of the rectangle around the blob, both included.
+  int top = 0, bottom = 0;  ///< Rows of the rectangle around the blob.
 };
 
-/// Those of at least `pixels_min` pixels, in the order of their first pixels. Two targets of one colour, one of them
-/// behind the other in the picture, are two blobs. The frame's images must have the size of its camera.
+/// The blobs of at least `pixels_min` pixels, in the order of their first pixels. Two targets of one colour, one of
+/// them behind the other in the picture, are two blobs. The frame's images must have the size of its camera.
 std::vector<ColoredBlob> coloredBlobs(const common::RgbdFrame& frame, const ColorClasses& classes, int pixels_min);
 
 }  // namespace swiftlet::perception

@@ -7,13 +7,14 @@ namespace swiftlet::perception {
 
 void TargetClassConfig::describe(common::config::Fields& fields) {
   fields("name", name, "Name of these targets, by which missions ask for them.");
-  fields("hue_deg", hue_deg, {0, 360}, "Their hue: 0 is red, 120 green, 240 blue.");
+  fields("hue_deg", hue_deg, {0, 360}, "Hue of these targets: 0 is red, 120 green, 240 blue.");
   fields("hue_tolerance_deg", hue_tolerance_deg, {1, 60},
          "Greatest difference in hue. The colour of the light and the camera's white balance change the hue.");
   fields("saturation_min", saturation_min, {0, 1},
          "Least saturation, 1 - least channel / greatest channel; the brightness of the light does not change it.");
-  fields("value_min", value_min, {0, 1}, "Least greatest channel: darker pixels have no reliable hue.");
-  fields("diameter_m", diameter_m, {0, 5}, "Their diameter; 0 if it is not known.");
+  fields("value_min", value_min, {0, 1},
+         "Least greatest channel of a target's pixels: darker ones have no reliable hue.");
+  fields("diameter_m", diameter_m, {0, 5}, "Diameter of these targets; 0 if it is not known.");
 }
 
 std::vector<std::string> TargetClassConfig::validate() const {
@@ -33,7 +34,7 @@ void TargetDetectorConfig::describe(common::config::Fields& fields) {
          "surface continued. On a picture of a target, nothing is.");
   fields("outline_share_min", outline_share_min, {0, 1}, "Least share of a target's outline with something behind it.");
   fields("hidden_share_max", hidden_share_max, {0, 1},
-         "Greatest share of a target's outline with something in front of it. The floor before it is one.");
+         "Greatest share of a target's outline with something in front of it, as the floor before a target is.");
 }
 
 std::vector<std::string> TargetDetectorConfig::validate() const {
@@ -43,7 +44,8 @@ std::vector<std::string> TargetDetectorConfig::validate() const {
 void TargetTrackerConfig::describe(common::config::Fields& fields) {
   fields("confirm_views", confirm_views, {1, 100}, "Places from which a target must be seen to count as found.");
   fields("view_distance_m", view_distance_m, {0.01, 10},
-         "Least distance between two such places; a picture from a place before is no new measurement.");
+         "Least distance between two places from which a target is seen; a picture from a place before is no new "
+         "measurement.");
   fields("position_sigma_m", position_sigma_m, {0.001, 1},
          "Standard deviation of the vehicle's place in its map, beside its drift.");
   fields("attitude_sigma_deg", attitude_sigma_deg, {0.01, 10}, "Standard deviation of the vehicle's attitude.");

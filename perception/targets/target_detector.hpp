@@ -20,9 +20,9 @@ namespace swiftlet::perception {
 /// A target as one frame shows it.
 struct TargetSighting {
   std::uint8_t color = 0;  ///< Index of its class.
-  /// Its middle, behind the surface that is seen.
+  /// Middle of the target, behind the surface that is seen.
   Eigen::Vector3d point_camera_m = Eigen::Vector3d::Zero();
-  /// Of the error of that point that differs from frame to frame, in the axes of the camera.
+  /// Of the error of the middle that differs from frame to frame, in the axes of the camera.
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
   double diameter_m = 0.0;  ///< Of a disc with the same area.
 };

@@ -23,10 +23,11 @@ void ExplorationConfig::describe(common::config::Fields& fields) {
   fields("least_wall_share", least_wall_share, {0, 1},
          "A frontier around which a smaller share of the directions ends at walls is not explored, as outside an open "
          "door. One endless wall, which fixes one direction only, is half of them.");
-  fields("wall_range_m", wall_range_m, {0.5, 100}, "Range within which such walls count.");
+  fields("wall_range_m", wall_range_m, {0.5, 100}, "Range within which walls count for least_wall_share.");
   fields("open_m", open_m, {0.5, 100}, "A direction that is free as far as this without a wall counts as open.");
   fields("max_unheld_m", max_unheld_m, {0.5, 1000},
-         "Longest stretch of a path with too few such walls around it; a viewpoint behind a longer one is not chosen.");
+         "Longest stretch of a path around which less than least_wall_share ends at walls; a viewpoint behind a longer "
+         "one is not chosen.");
   fields("lost_radius_m", lost_radius_m, {0, 100},
          "Frontiers this near to a target during whose approach the position became uncertain are not explored.");
   fields("max_attempts", max_attempts, {1, 100}, "A frontier that remains after this many views is not tried again.");

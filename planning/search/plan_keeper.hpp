@@ -22,7 +22,7 @@ struct PlanMaps {
   const TwoHeights* heights = nullptr;  ///< By which plans with lowered lines are judged; null: none are offered.
 
   // Implicit, as most plans are flown at one height.
-  PlanMaps(const CostMap& map, const TwoHeights* two = nullptr) : costs(map), heights(two) {}  // NOLINT
+  PlanMaps(const CostMap& map, const TwoHeights* two = nullptr) : costs(map), heights(two) {}
 };
 
 /// Not thread-safe. Usage in each tick:

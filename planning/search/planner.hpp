@@ -61,7 +61,8 @@ using CellPath = std::vector<common::CellIndex>;
 /// vehicle's own trail makes passable, may touch no others. The escape is the start alone when that is not lethal, and
 /// none when there is no such chain.
 std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, double reach_m = 1.0);
-/// The same as points: the start itself and the centres of the cells after it. The start alone when there is no escape.
+/// The path of escapeFrom() as points: the start itself and the centres of the cells after it. The start alone when
+/// there is no escape.
 std::vector<Eigen::Vector2d> escapePoints_map_m(const CostMap& map, const Eigen::Vector2d& start_map_m);
 
 /// Where the path to a goal is blocked. Of the path that would be taken without the obstruction, this is the last cell

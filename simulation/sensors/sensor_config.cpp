@@ -54,7 +54,8 @@ void ImuConfig::describe(common::config::Fields& fields) {
   fields("tilt_noise_deg", tilt_noise_deg, {0, 20}, "Standard deviation of the fast error of roll and of pitch.");
   fields("tilt_per_accel_deg", tilt_per_accel_deg, {0, 10},
          "Lean of roll and pitch under a lasting acceleration of 1 m/s^2.");
-  fields("tilt_accel_time_s", tilt_accel_time_s, kPositive, "Time constant of that lean.");
+  fields("tilt_accel_time_s", tilt_accel_time_s, kPositive,
+         "Time constant of the lean of roll and pitch under a lasting acceleration.");
   fields("yaw_drift_deg_s", yaw_drift_deg_s, {0, 20}, "Standard deviation of the constant drift of yaw.");
   fields("yaw_walk_deg", yaw_walk_deg, {0, 20}, "Growth of yaw's standard deviation in one second.");
   fields("vibration_m_s2", vibration_m_s2, {0, 50},

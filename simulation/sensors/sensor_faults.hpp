@@ -9,7 +9,7 @@
 
 namespace swiftlet::simulation {
 
-/// The same measurement with other stamps.
+/// The measurement with other stamps.
 common::SensorEvent restamped(common::SensorEvent event, const common::Stamps& stamps);
 
 /// The measurement as it arrives, none if it does not. The event's kind belongs to the fault's sensor, and its stamps

@@ -43,7 +43,7 @@ class SurfaceShader {
     Eigen::Vector3f origin_world_m;
     std::array<const Texture*, 3> patterns{};  ///< Of what faces down, sideways, up in its own frame; null if blank.
     const Texture* image = nullptr;            ///< Stretched over each side; null if there is none.
-    Eigen::Vector3f low_m, size_m;             ///< Of the box around it, in its own frame.
+    Eigen::Vector3f low_m, size_m;             ///< Of the box around the shape, in its own frame.
     std::vector<const Texture*> images;        ///< Of the materials; null without a picture.
   };
   const Texture* patternTexture(Pattern pattern, std::uint64_t variant);

@@ -82,17 +82,5 @@ TEST(FlightRequests, GivesUpAPhotographWithoutFramesOrCamera) {
   EXPECT_EQ(blind.takeAnswers(timeAt(3.0)).at(0).reason, "the vehicle has no RGB-D camera");
 }
 
-TEST_F(ManeuverInFlight, AnEmergencyLandingDescendsAndSwitchesOff) {
-  want(common::EmergencyLandIntent{});
-  run(0.2);
-  EXPECT_EQ(controller_.state(), FlightState::kEmergencyLanding);
-  EXPECT_EQ(executor_.status().state, IntentState::kRunning);
-}
-
-TEST_F(ManeuverStory, AnEmergencyLandingOnTheGroundIsDoneAtOnce) {
-  want(common::EmergencyLandIntent{});
-  EXPECT_EQ(runToTheEnd(0.5), IntentState::kSucceeded);
-}
-
 }  // namespace
 }  // namespace swiftlet::autonomy

@@ -179,7 +179,7 @@ struct WorkerAwayFromHome : Worker {
   }
 };
 
-TEST_F(WorkerAwayFromHome, SomebodyInTheDoorBlocksTheWayHomeOnlyForAWhile) {
+TEST_F(WorkerAwayFromHome, SomebodyInTheDoorBlocksThePathHomeOnlyForAWhile) {
   EXPECT_NEAR(ask({}).home_m.value(), 4.0, 0.1);
   const common::Disc in_the_door{{2.0, 0.0}, 0.5};
   std::optional<double> home_m;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <sstream>
 
 #include "common/config.hpp"
 #include "common/rgbd_camera_config.hpp"
@@ -22,6 +24,8 @@ using common::config::readFile;
 using test_support::describe;
 using test_support::ProgramEnd;
 using test_support::runSwiftlet;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 const fs::path kRoot = SWIFTLET_SOURCE_DIR;
 
@@ -90,6 +94,44 @@ TEST(Shipped, EachDataSheetLoads) {
 TEST(Shipped, TheReferenceOfAllSettingsIsUpToDate) {
   EXPECT_EQ(test_support::readText(kRoot / "docs/configuration.md"), runSwiftlet({"config", "--reference"}).out)
       << "update it: swiftlet config --reference > docs/configuration.md";
+}
+
+/// The sentences of a reference page that cannot be read without the line before, with their setting or section.
+std::vector<std::string> dependentSentences(const std::string& page) {
+  static const std::regex kStandsAlone(
+      "(?!(Or|And|The same|That|Those|It|Its|Their|They|Of that|Of these|There|Then)\\b)[^a-z].*\\.");
+  std::vector<std::string> dependent;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    std::string named = line, sentence;
+    if (line.starts_with("##")) {  // A section's sentence is in the paragraph below its heading.
+      std::getline(lines, sentence);
+      std::getline(lines, sentence);
+    } else if (line.starts_with("| `")) {
+      named = line.substr(2, line.find('`', 3) - 1);
+      sentence = line.substr(line.rfind(" | ") + 3);
+      sentence.erase(sentence.rfind(" |"));
+    } else {
+      continue;
+    }
+    if (!std::regex_match(sentence, kStandsAlone)) dependent.push_back(named + ": " + sentence);
+  }
+  return dependent;
+}
+
+TEST(Shipped, EachSentenceOfASettingStandsAlone) {
+  EXPECT_THAT(dependentSentences(runSwiftlet({"config", "--reference"}).out), IsEmpty());
+}
+
+TEST(Shipped, APlantedSentenceThatRunsOnIsCaught) {
+  EXPECT_THAT(dependentSentences("## `laser`\n\nThe laser.\n\n| `rate_hz` | `40` | 1 to 100 | Sweeps a second. |\n"
+                                 "| `others` | `1` | | Other lasers. |\n| `item` | `1` | | Items. |\n"),
+              IsEmpty());
+  EXPECT_THAT(
+      dependentSentences("### `laser`\n\nIts mount.\n\n| `a_m` | `1` | | The same of the mount. |\n"
+                         "| `b_m` | `1` | | and by this. |\n| `c_m` | `1` | |  |\n| `d_m` | `1` | | A side |\n"),
+      ElementsAre("### `laser`: Its mount.", "`a_m`: The same of the mount.", "`b_m`: and by this.",
+                  "`c_m`: ", "`d_m`: A side"));
 }
 
 /// A mission that asks for targets of any of these colours can be flown with any profile that has a colour camera.

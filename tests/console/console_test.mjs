@@ -203,12 +203,12 @@ const tests = {
     const page = await openWith((state) => {
       state.mission.phase = 'explore';
       state.mission.reason = mission;
-      state.intent.reason = 'waiting: no way';
+      state.intent.reason = 'waiting: no path';
       state.avoidance = { ...state.avoidance, braking, retreating: false, reason: 'at most 0.10 m/s' };
     });
-    await page.locator('#intent').getByText(/^waiting: no way$/).waitFor();
+    await page.locator('#intent').getByText(/^waiting: no path$/).waitFor();
     braking = true;
-    await page.locator('#intent').getByText(/^waiting: no way · at most 0.10 m\/s$/).waitFor();
+    await page.locator('#intent').getByText(/^waiting: no path · at most 0.10 m\/s$/).waitFor();
     mission = 'the operator holds';
     await page.locator('#intent').getByText(/^the operator holds · at most 0.10 m\/s$/).waitFor();
     return page;

@@ -1,5 +1,5 @@
 // A pilot takes over in any phase of the flight: what the program does meanwhile has no effect, and goes on from where
-// he gives the vehicle back.
+// the pilot gives the vehicle back.
 #include <gtest/gtest.h>
 
 #include "control/flight_controller.hpp"

@@ -143,7 +143,7 @@ TEST_F(VerdictsOfRecords, ALowBatteryIsAReason) {
   EXPECT_EQ(judged().verdict, Verdict::kHome);
 }
 
-// 0.1 of the battery for a minute of 0.5 m/s: the way round the wall, 4 m, and its stops take about 5 %.
+// 0.1 of the battery for a minute of 0.5 m/s: the path round the wall, 4 m, and its stops take about 5 %.
 TEST_F(VerdictsOfRecords, TheTruePathHomeCounts) {
   record_.ending.then.T_world_body.position_m = {3.2, 0.6, 1};
   record_.ending.then.battery_remaining = 0.24;

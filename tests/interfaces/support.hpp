@@ -40,7 +40,7 @@ class ScratchFolder {
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
-  operator const fs::path&() const { return path_; }  // NOLINT: it stands for its path.
+  operator const fs::path&() const { return path_; }  ///< Implicit, as the folder stands for its path.
   fs::path operator/(const std::string& name) const { return path_ / name; }
   const fs::path& path() const { return path_; }
 

@@ -132,7 +132,7 @@ TEST_F(MapDoubtStory, AProbablePlaceThatHardlyFitsIsNotConvincing) {
   EXPECT_TRUE(doubt_.refuted());
 }
 
-TEST_F(MapDoubtStory, ASingleSearchAfterALongWayDoesNotDecide) {
+TEST_F(MapDoubtStory, ASingleSearchAfterALongPathDoesNotDecide) {
   search(0.0, 0.6, 0.3);
   search(12.0, 0.6, 0.3);
   EXPECT_FALSE(doubt_.refuted());

@@ -359,7 +359,7 @@ TEST(SubmapStore, GoesOnWhereTheCameraComesBack) {
   }
 }
 
-TEST(SubmapStore, AfterALongWayANewOneBegins) {
+TEST(SubmapStore, AfterALongPathANewOneBegins) {
   const Commute commute;
   SubmapStore store = commute.store();
   commute.fly(store, -0.6, 0.6, 0);

@@ -74,8 +74,8 @@ TEST_F(MovingObjects, DetectsAWalkerWithinHalfASecondAndAfterAnOcclusion) {
   EXPECT_TRUE(tracker.anyMoves());
 }
 
-/// He stood when the map began, so the map shows him, and nothing behind him. A wall that comes into view where he
-/// stood is not a walker.
+/// The person stood when the map began, so the map shows the person, and nothing behind. A wall that comes into view
+/// where the person stood is not a walker.
 TEST_F(MovingObjects, DetectsOneWhoWalksStraightAwayFromTheLaser) {
   planning::test::fill(grid, {{138, 70}, {200, 90}}, common::occupancy::kUnknown);
   planning::test::fill(grid, {{135, 76}, {138, 84}}, planning::test::kWallCell);  // At x = 6.75 m.
@@ -111,7 +111,7 @@ TEST_F(MovingObjects, TheEndOfACorridorThatIsNotWhereTheMapHasItIsNotAPerson) {
     for (int i = 0; i < 8; ++i) tracker.update(at(0.025 * i), seen(from(first)), grid);
     EXPECT_TRUE(tracker.obstacles().empty()) << first << " points of it are out of the field of view";
   }
-  // A person who stands against the same side of the corridor ends where the beams pass him.
+  // A person who stands against the same side of the corridor ends where the beams pass the person.
   std::vector<Eigen::Vector2f> person(end.begin() + 12, end.end());
   person.insert(person.begin(), Eigen::Vector2f(1.0f, 4.6f));
   person.insert(person.end(), side.begin(), side.end());

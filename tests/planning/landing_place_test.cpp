@@ -87,7 +87,7 @@ TEST_F(LandingPlaceStory, ATableOfUnknownWidthIsNoPlaceButARaisedFloorIs) {
   EXPECT_FALSE(from(2.2, 2.0)) << "a surface smaller than the hull, as far as it was seen";
 }
 
-TEST_F(LandingPlaceStory, TheWayLeadsAroundWalls) {
+TEST_F(LandingPlaceStory, ThePathLeadsAroundWalls) {
   test::fill(grid_, {{80, 0}, {82, 80}}, test::kWallCell);
   see(0.0, {1, 1.9}, {3.9, 2.1});
   see(0.3, {4.4, 1.9}, {4.8, 2.1});

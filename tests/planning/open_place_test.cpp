@@ -15,17 +15,17 @@ using Eigen::Vector2d;
 TEST(OpenPlace, LeadsAwayFromAWallAndNoFartherThanItMust) {
   common::OccupancyGrid grid = test::room(160, 80);  // 8 m by 4 m.
   const CostMap map = test::mapOf(grid);
-  const Vector2d way_m = displacementToOpenPlace_m(map, {4.0, 0.5}, 1.0);
-  EXPECT_LT(std::abs(way_m.x()), 0.5 * way_m.y());
-  EXPECT_NEAR(way_m.y(), map.reach_m() - 0.5, 0.1) << "beyond its reach the map tells no distance";
+  const Vector2d displacement_m = displacementToOpenPlace_m(map, {4.0, 0.5}, 1.0);
+  EXPECT_LT(std::abs(displacement_m.x()), 0.5 * displacement_m.y());
+  EXPECT_NEAR(displacement_m.y(), map.reach_m() - 0.5, 0.1) << "beyond its reach the map tells no distance";
   EXPECT_LE(displacementToOpenPlace_m(map, {4.0, 0.5}, 0.2).norm(), 0.2 + 1e-9);
 }
 
 TEST(OpenPlace, LeadsOutOfACorner) {
   common::OccupancyGrid grid = test::room(160, 80);
-  const Vector2d way_m = displacementToOpenPlace_m(test::mapOf(grid), {0.45, 0.45}, 1.0);
-  EXPECT_GT(way_m.x(), 0.25);
-  EXPECT_GT(way_m.y(), 0.25);
+  const Vector2d displacement_m = displacementToOpenPlace_m(test::mapOf(grid), {0.45, 0.45}, 1.0);
+  EXPECT_GT(displacement_m.x(), 0.25);
+  EXPECT_GT(displacement_m.y(), 0.25);
 }
 
 TEST(OpenPlace, InTheMiddleTheVehicleStays) {

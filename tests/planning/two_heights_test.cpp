@@ -30,7 +30,7 @@ struct RoomAtTwoHeights : testing::Test {
   common::OccupancyGrid upper = test::room(160, 80), lower = test::room(160, 80);
 };
 
-TEST_F(RoomAtTwoHeights, WithoutAnythingOverTheWayTheHeightStays) {
+TEST_F(RoomAtTwoHeights, WithoutAnythingOverThePathTheHeightStays) {
   const auto path = plan({1.0, 2.0}, {7.0, 2.0});
   ASSERT_TRUE(path);
   EXPECT_FALSE(path->anyLowered());

@@ -93,14 +93,15 @@ void ExampleFlight::look() {
 void ExampleFlight::move(double seconds) {
   std::optional<Vector2d>& goal_map_m = layers_.mission.goal_map_m;
   const Vector2d target = goal_map_m ? *goal_map_m : Vector2d(kRoute[waypoint_][0], kRoute[waypoint_][1]);
-  const Vector2d way = target - pose_.position_m();
-  const double step_m = std::min(way.norm(), 0.8 * seconds);
-  if (way.norm() > 1e-6) {
-    const double turn = common::wrapAngle(std::atan2(way.y(), way.x()) - pose_.yaw_rad);
+  const Vector2d to_target_m = target - pose_.position_m();
+  const double step_m = std::min(to_target_m.norm(), 0.8 * seconds);
+  if (to_target_m.norm() > 1e-6) {
+    const double turn = common::wrapAngle(std::atan2(to_target_m.y(), to_target_m.x()) - pose_.yaw_rad);
     pose_.yaw_rad = common::wrapAngle(pose_.yaw_rad + std::clamp(turn, -1.5 * seconds, 1.5 * seconds));
-    pose_.x_m += step_m / way.norm() * way.x();
-    pose_.y_m += step_m / way.norm() * way.y();
-    layers_.vehicle.state.velocity_odom_m_s = {way.x() / way.norm() * 0.8, way.y() / way.norm() * 0.8, 0.0};
+    pose_.x_m += step_m / to_target_m.norm() * to_target_m.x();
+    pose_.y_m += step_m / to_target_m.norm() * to_target_m.y();
+    layers_.vehicle.state.velocity_odom_m_s = {to_target_m.x() / to_target_m.norm() * 0.8,
+                                               to_target_m.y() / to_target_m.norm() * 0.8, 0.0};
   }
   if ((target - pose_.position_m()).norm() < 0.05) {
     if (!goal_map_m) waypoint_ = (waypoint_ + 1) % kRoute.size();

@@ -1,4 +1,4 @@
-// The files that pages name exist, and so does the code that decisions name. The README types no figures.
+// The files that pages name exist, and so does the code that decisions name. README and tutorials type no figures.
 #include <fnmatch.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <regex>
 #include <set>
+#include <utility>
 
 #include "tests/repository/source_tree.hpp"
 
@@ -93,15 +94,45 @@ TEST(Pages, PlantedMistakesAreCaught) {
   EXPECT_THAT(missingNames("no such line", ""), ElementsAre("- Where it shows:"));
 }
 
-/// Figures with a unit outside of blocks: "0.014 m", "5.2 s", "90 %".
-std::vector<std::string> typedFigures(const std::string& page) {
-  static const std::regex kBlock("```[^`]*```");
-  static const std::regex kFigure(
-      "(?:^|[^A-Za-z0-9_.])([0-9]+(\\.[0-9]+)? ?(m|cm|mm|s|ms|m/s|deg|degrees|%|kB|scans)(?![A-Za-z0-9/-]))");
-  const std::string prose = std::regex_replace(page, kBlock, "");
+/// The page without its fenced blocks.
+std::string proseOf(const std::string& page) {
+  std::string prose;
+  bool in_block = false;
+  for (const std::string& line : linesOf(page)) {
+    if (line.starts_with("```"))
+      in_block = !in_block;
+    else if (!in_block)
+      prose += line + "\n";
+  }
+  return prose;
+}
+
+/// What is a number of that form with a unit behind it: "0.014 m", "5.2 s", "90 %".
+std::vector<std::string> figuresIn(const std::string& prose, const std::string& number) {
+  const std::regex figure("(?:^|[^A-Za-z0-9_.])(" + number +
+                          " ?(m|cm|mm|s|ms|m/s|deg|degrees|%|kB|scans)(?![A-Za-z0-9/-]))");
   std::vector<std::string> found;
-  for (std::sregex_iterator match(prose.begin(), prose.end(), kFigure), end; match != end; ++match)
+  for (std::sregex_iterator match(prose.begin(), prose.end(), figure), end; match != end; ++match)
     found.push_back((*match)[1]);
+  return found;
+}
+
+std::vector<std::string> typedFigures(const std::string& page) {
+  return figuresIn(proseOf(page), "[0-9]+(\\.[0-9]+)?");
+}
+
+/// Figures with two decimals or more in paragraphs that name no source such as "(Hess et al. 2016)". The sizes and
+/// settings that a tutorial names have fewer decimals.
+std::vector<std::string> typedResults(const std::string& page) {
+  static const std::regex kSource("\\([A-Z][^()]* (19|20)[0-9][0-9]\\)");
+  const std::string prose = proseOf(page);
+  std::vector<std::string> found;
+  for (std::size_t begin = 0, end = 0; begin < prose.size(); begin = end + 2) {
+    end = std::min(prose.find("\n\n", begin), prose.size());
+    const std::string paragraph = prose.substr(begin, end - begin);
+    if (std::regex_search(paragraph, kSource)) continue;
+    for (std::string& figure : figuresIn(paragraph, "[0-9]+\\.[0-9][0-9]+")) found.push_back(std::move(figure));
+  }
   return found;
 }
 
@@ -112,6 +143,22 @@ TEST(Pages, TheReadmeContainsNoTypedFigures) {
   EXPECT_THAT(
       typedFigures("0.014 m on Intel, 20 % faster\n```sh\nsleep 5 s\n```\n6-DOF, 2D, corridor_40m, Debian 12 machine"),
       ElementsAre("0.014 m", "20 %"));
+}
+
+TEST(Pages, TutorialsContainNoTypedResults) {
+  for (const auto& [path, page] : trackedFiles()) {
+    if (!path.starts_with("docs/tutorials/") || !path.ends_with(".md")) continue;
+    const auto typed = typedResults(page);
+    EXPECT_THAT(typed, IsEmpty()) << path << " has figures outside of the blocks that its test makes:\n"
+                                  << joined(typed);
+  }
+}
+
+TEST(Pages, APlantedResultInATutorialIsCaught) {
+  EXPECT_THAT(typedResults("A room of 5 m, a beam up to 0.5 m/s.\n\nIt is 0.014 m off,\nand 0.25 % of it.\n"),
+              ElementsAre("0.014 m", "0.25 %"));
+  EXPECT_THAT(typedResults("```text\nmean 0.014 m `a`\n```\n\nA mean of 0.0229 m was published (Hess et al. 2016).\n"),
+              IsEmpty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the truth says about contacts with glass, and about ways through the true free space.
+// What the truth says about contacts with glass, and about paths through the true free space.
 #include <numbers>
 
 #include <gtest/gtest.h>

@@ -43,21 +43,21 @@ TEST(LaserFrontEnd, TracksARobotThatDrivesBackwards) {
   laser.beams = 181;
   laser.field_of_view_deg = 180.0;
   laser.sweep_s = 0.0;
-  for (const double way : {1.0, -1.0}) {
+  for (const double direction : {1.0, -1.0}) {
     LaserFrontEnd front_end{test_support::laserLogFrontEnd()};
-    const double begin_m = way > 0.0 ? 0.0 : 22.0;
+    const double begin_m = direction > 0.0 ? 0.0 : 22.0;
     Pose2 at_end;
     for (int i = 0; i < 360; ++i) {
       common::RandomStream random(7, "scan", static_cast<std::uint64_t>(i));
-      const Pose2 truth{begin_m + way * 0.05 * i, 0.1 * std::sin(0.03 * i), 0.05 * std::sin(0.04 * i)};
+      const Pose2 truth{begin_m + direction * 0.05 * i, 0.1 * std::sin(0.03 * i), 0.05 * std::sin(0.04 * i)};
       const common::LaserScan scan = test::sweep(
           world, laser, [&](Time) { return common::lifted(truth, 1.0); }, Time::fromSeconds(0.1 * i), random);
       const auto followed = front_end.add({scan, Pose2{}, std::nullopt});
       ASSERT_TRUE(followed);
       at_end = between(Pose2{begin_m, 0.0, 0.0}, truth).inverse() * followed->T_odom_robot;
     }
-    EXPECT_LT(at_end.position_m().norm(), 0.3) << way;
-    EXPECT_EQ(front_end.odometryCounts().restarts, 0U) << way;
+    EXPECT_LT(at_end.position_m().norm(), 0.3) << direction;
+    EXPECT_EQ(front_end.odometryCounts().restarts, 0U) << direction;
   }
 }
 

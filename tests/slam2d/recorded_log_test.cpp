@@ -1,6 +1,7 @@
 // Classic logs of wheeled robots, with their odometry and without, one set of parameters for all, scored by the
 // relations of Kuemmerle 2009. The best published means of Cartographer, tuned for each log, and of the peers run on
-// the raw logs: 0.0229 m and 0.453 deg (intel), 0.0353 m and 0.44 deg (fr079).
+// the raw logs: 0.0229 m and 0.453 deg (intel), 0.0353 m and 0.44 deg (fr079). The bounds on the mean error of the
+// translation are ours, a little above what is measured (decision 085); those on the rotation are the published ones.
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -44,15 +45,15 @@ std::vector<KnownScan> scansOf(const fs::path& file, bool odometry) {
 
 /// The trajectory of the last `of_last` scans, from the map of all.
 common::Trajectory trackOf(LaserSlam& slam, const std::vector<KnownScan>& scans, std::size_t of_last) {
-  test::TrackedPath way(slam);
+  test::TrackedPath tracked(slam);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const LaserSlamInput input{scans[i].scan, scans[i].T_robot_laser, scans[i].T_odom_robot};
     if (i + of_last >= scans.size())
-      way.add(scans[i].known_as, input);
+      tracked.add(scans[i].known_as, input);
     else
       (void)slam.add(input);
   }
-  return way.finish();
+  return tracked.finish();
 }
 
 void expectErrors(const evaluation::RelationErrors& errors, const std::string& what, double translation_m,
@@ -79,10 +80,10 @@ void expectRelations(const std::string& name, bool odometry, double translation_
                name + (odometry ? " with odometry" : " without odometry"), translation_m, rotation_deg);
 }
 
-TEST(RecordedLog, IntelIsMappedWithOdometry) { expectRelations("intel", true, 0.0229, 0.453); }
-TEST(RecordedLog, IntelIsMappedWithoutOdometry) { expectRelations("intel", false, 0.0229, 0.453); }
-TEST(RecordedLog, Freiburg079IsMappedWithOdometry) { expectRelations("fr079", true, 0.0353, 0.44); }
-TEST(RecordedLog, Freiburg079IsMappedWithoutOdometry) { expectRelations("fr079", false, 0.0353, 0.44); }
+TEST(RecordedLog, IntelIsMappedWithOdometry) { expectRelations("intel", true, 0.0145, 0.453); }
+TEST(RecordedLog, IntelIsMappedWithoutOdometry) { expectRelations("intel", false, 0.016, 0.453); }
+TEST(RecordedLog, Freiburg079IsMappedWithOdometry) { expectRelations("fr079", true, 0.0315, 0.44); }
+TEST(RecordedLog, Freiburg079IsMappedWithoutOdometry) { expectRelations("fr079", false, 0.0315, 0.44); }
 
 /// The log, and then the log from its end: the robot drives the same path back, backwards. It has seen the area before,
 /// but not the walls that appear at its side.

@@ -34,7 +34,7 @@ class Connection {
 
   virtual void close() = 0;
   bool watches() const { return use_ == Use::kWatching; }
-  /// It has shown the operator's token.
+  /// The client has shown the operator's token.
   bool byOperator() const { return by_operator_; }
   /// Every 10 ms, after Core::watch().
   virtual void tick(common::Time /*now*/) {}

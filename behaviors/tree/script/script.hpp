@@ -52,7 +52,8 @@ class Script {
   /// The value of the last statement, valid until the next run or a write to an entry. Nothing if it cannot be
   /// evaluated; then `problem` says why. Statements before the one that fails have been carried out.
   std::optional<Operand> run();
-  /// The same as a condition; nothing also if the value is not true or false.
+  /// Runs the script as a condition: the value of the last statement. Nothing if the script cannot be evaluated or the
+  /// value is not true or false.
   std::optional<bool> holds();
   const std::string& problem() const { return problem_; }
 

@@ -212,7 +212,8 @@ void MapMatchConfig::describe(common::config::Fields& fields) {
   fields("max_range_m", max_range_m, {0.5, 100}, "Points farther than this are not used.");
   fields("reach_m", reach_m, {0.01, 10},
          "Where the motion may have slipped, a surface is looked for so far along the normal of a point.");
-  fields("support_m", support_m, {0.005, 10}, "Where it has not slipped, a surface is looked for so near a point.");
+  fields("support_m", support_m, {0.005, 10},
+         "Where the motion has not slipped, a surface is looked for so near a point.");
   fields("enough_support", enough_support, {0, 1},
          "With a greater share of points on a surface the motion has not slipped.");
   fields("iterations", iterations, {1, 100}, "Greatest number of steps.");
@@ -221,9 +222,10 @@ void MapMatchConfig::describe(common::config::Fields& fields) {
   fields("covariance_scale", covariance_scale, {0.01, 1000},
          "Factor on the covariance of independent points, which neighbouring ones are not.");
   fields("motion_freedom", motion_freedom, {0.1, 1000},
-         "Degrees of freedom of the motion's Student t: its covariance does not know of slips.");
+         "Degrees of freedom of the Student t distribution of the motion: the motion's covariance does not know of "
+         "slips.");
   fields("beam_sigma_m", beam_sigma_m, {0.001, 1},
-         "Of the likelihood: spread of end points about the surfaces of a good map.");
+         "Spread, in the likelihood, of end points about the surfaces of a good map.");
   fields("outlier_share", outlier_share, {1e-6, 0.99}, "Share of end points on what is not in the map.");
   fields("independent_beams", independent_beams, {0.1, 10'000},
          "A scan says as much as so many beams that know nothing of each other.");

@@ -44,8 +44,8 @@ struct MotionPrior {
 struct MapMatch {
   common::Pose2 T_map_body;                                  ///< The most likely pose.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< Of the pose, from motion and scan; axes of the map.
-  double log_likelihood = 0.0;                               ///< Of the scan in the map at that pose, up to a constant.
-  double log_motion = 0.0;                                   ///< Of the motion to that pose; 0: exactly as predicted.
+  double log_likelihood = 0.0;                               ///< Of the scan in the map at the pose, up to a constant.
+  double log_motion = 0.0;                                   ///< Of the motion to the pose; 0: exactly as predicted.
   double support = 0.0;                                      ///< Share of the points on a surface of the map.
 };
 

@@ -77,14 +77,14 @@ TEST_F(PersonInAHall, IsKeptThroughANewTrackAndPastAnotherPerson) {
   PersonWatch watch{PersonWatchConfig{}};
   watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.5, 0})}, {5, 5});
   stepUnseen(watch, 1.05, 1.3);
-  // His track ended; a new one is near where he would be, another person comes the other way.
+  // The track ended; a new one is near where the person would be, another person comes the other way.
   const std::vector next{person(7, 7.3, 5.1, seenAt(1.35), {0.5, 0}), person(8, 7.1, 5.3, seenAt(1.35), {-0.5, 0})};
   watch.update(next, sight(), seenAt(1.35));
   EXPECT_EQ(watch.place_map_m(seenAt(1.35)), Eigen::Vector2d(7.3, 5.1));
 }
 
 TEST_F(PersonInAHall, WalksOnBehindAWall) {
-  wall({{120, 60}, {122, 140}});  // At 6 m; he walks behind it, at 7 m, from the middle to its end and beyond.
+  wall({{120, 60}, {122, 140}});  // At 6 m; the person walks behind it, at 7 m, from the middle to its end and beyond.
   PersonWatch watch{PersonWatchConfig{}};
   watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5});
   stepUnseen(watch, 1.05, 3.0);
@@ -123,7 +123,8 @@ TEST_F(PersonInAHall, StandsWhereTheMapShowsHimUntilItDoesNot) {
   EXPECT_GT(watch.unseen_s(seenAt(12)), 2.5);
 }
 
-/// He stands until the map has him and his track ends; somebody else comes by; then he sets off without a track.
+/// The person stands until the map explains that place and the track ends; somebody else comes by; then the person sets
+/// off without a track.
 TEST_F(PersonInAHall, IsSeenWithoutATrackAndNotTakenForSomebodyElse) {
   PersonWatch watch{PersonWatchConfig{}};
   watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.3, 0})}, {5, 5});
@@ -148,13 +149,13 @@ TEST_F(PersonInAHall, IsSeenWithoutATrackAndNotTakenForSomebodyElse) {
 
 class FollowInFlight : public ManeuverInFlight {
  protected:
-  /// He walks to that place at that speed; the distances that the vehicle kept from him meanwhile.
+  /// The person walks to that place at that speed; the distances that the vehicle kept meanwhile.
   void walk(double x_m, double y_m, double speed_m_s) {
     const Eigen::Vector2d to(x_m, y_m);
     while ((to - place_).norm() > 0.02) {
-      const Eigen::Vector2d way = to - place_;
-      place_ += way.normalized() * std::min(way.norm(), 0.05 * speed_m_s);
-      show(way.normalized() * speed_m_s);
+      const Eigen::Vector2d left_m = to - place_;
+      place_ += left_m.normalized() * std::min(left_m.norm(), 0.05 * speed_m_s);
+      show(left_m.normalized() * speed_m_s);
     }
   }
   void stand(double seconds) {
@@ -195,7 +196,7 @@ TEST_F(FollowInFlight, StaysBehindHimAtItsDistance) {
   EXPECT_NEAR(state_.T_map_body_planar().yaw_rad, std::atan2(look.y(), look.x()), 0.1);
 }
 
-TEST_F(FollowInFlight, GivesWayWhenHeComesBack) {
+TEST_F(FollowInFlight, GivesWayWhenThePersonComesBack) {
   want(common::FollowIntent{});
   walk(6.5, 2.0, 0.5);
   nearest_m_ = 1e9;
@@ -259,7 +260,7 @@ TEST_F(FollowInFlight, BelievesHimWhereHeStandsInTheMap) {
   EXPECT_THAT(executor_.status().reason, StartsWith("following, "));
   planning::test::fill(grid_, {{117, 38}, {122, 43}}, planning::test::kFreeCell);
   look();
-  EXPECT_EQ(runToTheEnd(8.0), IntentState::kFailed) << "he left unseen";
+  EXPECT_EQ(runToTheEnd(8.0), IntentState::kFailed) << "the person left unseen";
 }
 
 TEST_F(FollowInFlight, LooksAroundForSomebodyAndGivesUp) {

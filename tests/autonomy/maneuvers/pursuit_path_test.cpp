@@ -41,8 +41,9 @@ TEST_F(Pursuing, FollowsOneWhoWalksAwayAndGivesWayToOneWhoComes) {
   EXPECT_GT((away.path.points_map_m.back() - Point(5.0, 5.0)).norm(), 1.6);
 }
 
-/// He walks north behind a box, at whose south side the vehicle is: to see him it must fly round a corner before.
-TEST_F(Pursuing, FliesWhereABoxWillNotHideHim) {
+/// The person walks north behind a box, at whose south side the vehicle is: to see the person it must fly round a
+/// corner before.
+TEST_F(Pursuing, FliesWhereABoxWillNotHideThePerson) {
   wall({{100, 90}, {120, 140}});
   const Point here(4.5, 4.2);
   const std::vector<PossibleWalk> walks{{{6.4, 4.2}, {0.0, 0.5}}};

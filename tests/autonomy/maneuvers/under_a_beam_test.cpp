@@ -86,10 +86,10 @@ TEST_F(UnderABeam, WhatNobodyHasSeenBelowItIsNotFlownThrough) {
 TEST_F(UnderABeam, WithALaserAloneItIsUnknownAndSaidOnce) {
   want(to(6.5, 2.0));
   EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
-  EXPECT_EQ(timesSaid("whether there is room below what blocks the way is not known"), 1);
+  EXPECT_EQ(timesSaid("whether there is room below what blocks the path is not known"), 1);
   want(to(6.5, 3.0));
   EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
-  EXPECT_EQ(timesSaid("whether there is room below what blocks the way is not known"), 1);
+  EXPECT_EQ(timesSaid("whether there is room below what blocks the path is not known"), 1);
 }
 
 TEST_F(UnderABeam, AFlightBackAlongTheTrailIsAsLow) {
