@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/executor_config.hpp"
+#include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
 #include "autonomy/maneuvers/lowered_flight.hpp"
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
-#include "autonomy/planning_desk.hpp"
+#include "autonomy/planning_jobs/planning_desk.hpp"
 #include "common/event.hpp"
 #include "common/intent.hpp"
 #include "common/jobs.hpp"

@@ -12,12 +12,12 @@
 
 #include <Eigen/Core>
 
-#include "autonomy/executor_config.hpp"
+#include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
 #include "autonomy/maneuvers/maneuver_input.hpp"
 #include "autonomy/maneuvers/progress.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
-#include "autonomy/planning_desk.hpp"
+#include "autonomy/planning_jobs/planning_desk.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "control/flight_controller.hpp"
 

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "autonomy/autonomy.hpp"
-#include "autonomy/flight_loop.hpp"
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_loop.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "common/config.hpp"
 #include "common/mailbox.hpp"
 #include "common/world.hpp"

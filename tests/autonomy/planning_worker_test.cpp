@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "autonomy/planning_worker.hpp"
+#include "autonomy/planning_jobs/planning_worker.hpp"
 #include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {

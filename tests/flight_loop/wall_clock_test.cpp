@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "autonomy/flight_loop.hpp"
-#include "autonomy/recording.hpp"
+#include "autonomy/loop/flight_loop.hpp"
+#include "autonomy/loop/recording.hpp"
 #include "common/mailbox.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "autonomy/autonomy.hpp"
-#include "autonomy/flight_loop.hpp"
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_loop.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "behaviors/mission.hpp"
 #include "common/config.hpp"
 #include "common/mailbox.hpp"
