@@ -35,7 +35,7 @@ Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& ve
     : config_(config),
       camera_(camera != nullptr ? std::optional(*camera) : std::nullopt),
       controller_(controller),
-      desk_(config, vehicle, grid_resolution_m, jobs,
+      desk_(config.planning, vehicle, grid_resolution_m, jobs,
             [this](const PlanningAnswer& answer, Time now) { receive(answer, now); }),
       retreat_(controller) {
   begin({});
@@ -52,7 +52,7 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
   lowered_.follow(path ? path->plan() : nullptr, state_);
   if (maneuver_) note(maneuver_->step(input));
-  desk_.refresh(maneuver_ ? maneuver_->planningInput(input) : input, client());
+  if (desk_.due(now_)) desk_.ask(planningRequest(maneuver_ ? maneuver_->planningInput(input) : input, client()), now_);
   status_.released = controller_.stopped() && !retreat_.active();
 }
 
@@ -120,7 +120,7 @@ std::optional<Eigen::Vector2d> Executor::followedPerson_map_m() const {
 
 bool Executor::wallsAround(const common::VehicleState& state) const {
   const auto map = desk_.costMap();
-  return !map || planning::isHeld(*map, state.T_map_body_planar().position_m(), config_.exploration);
+  return !map || planning::isHeld(*map, state.T_map_body_planar().position_m(), config_.planning.exploration);
 }
 
 Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const {

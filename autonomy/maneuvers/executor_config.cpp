@@ -8,14 +8,8 @@ namespace swiftlet::autonomy {
 using common::config::kPositive;
 
 void ExecutorConfig::describe(common::config::Fields& fields) {
-  fields.section("cost_map", cost_map, "Where the vehicle may be.");
-  fields.section("explorer", explorer, "Where to look from next.");
-  fields.section("exploration", exploration, "Frontiers and viewpoints.");
-  fields.section("planner", planner, "Paths to goals and to viewpoints.");
+  planning.describe(fields);
   fields.section("plan_keeper", plan_keeper, "How long a plan is kept.");
-  fields("planning_latency_s", planning_latency_s, {0.0, 2.0}, "Declared time of a planning job.");
-  fields("planning_period_s", planning_period_s, {0.05, 5.0},
-         "Time between updates of the cost map, which is never older than this plus the latency.");
   fields("explore_period_s", explore_period_s, {0.1, 10.0}, "Least time between choices of the next viewpoint.");
   fields("explore_period_share", explore_period_share, {0.0, 1.0},
          "Least time between choices of the next viewpoint as a share of the flight time to the present one.");
@@ -32,7 +26,6 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("detour_s", detour_s, kPositive, "Longest time of going nearer or aside; a path is asked for meanwhile.");
   fields("give_up_s", give_up_s, kPositive, "Without a path to the goal for this long the intent fails.");
   fields.section("follow", follow, "Following a person.");
-  fields.section("lower", lower, "Flying below what hangs over the way.");
 }
 
 }  // namespace swiftlet::autonomy

@@ -2,24 +2,15 @@
 #pragma once
 
 #include "autonomy/maneuvers/follow_config.hpp"
-#include "autonomy/planning_jobs/lower_flight_config.hpp"
+#include "autonomy/planning_jobs/planning_config.hpp"
 #include "common/config_fwd.hpp"
-#include "planning/costs/cost_map.hpp"
-#include "planning/exploration/exploration_config.hpp"
-#include "planning/exploration/explorer_choice.hpp"
 #include "planning/search/plan_keeper.hpp"
-#include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {
 
 struct ExecutorConfig {
-  planning::CostMap::Config cost_map;
-  planning::ExplorerConfig explorer;
-  planning::ExplorationConfig exploration;
-  planning::PlannerConfig planner;
+  PlanningConfig planning;  ///< Its keys are on the level of these.
   planning::PlanKeeper::Config plan_keeper;
-  double planning_latency_s = 0.06;
-  double planning_period_s = 0.25;
   double explore_period_s = 0.5;
   double explore_period_share = 0.15;
   double clearance_m = 0.10;
@@ -31,7 +22,6 @@ struct ExecutorConfig {
   double detour_after_s = 2.5;
   double detour_s = 15.0;
   FollowConfig follow;
-  LowerFlightConfig lower;
 
   void describe(common::config::Fields& fields);
 };

@@ -15,6 +15,7 @@
 #include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
 #include "autonomy/maneuvers/maneuver_input.hpp"
+#include "autonomy/maneuvers/planning_request.hpp"
 #include "autonomy/maneuvers/progress.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
 #include "autonomy/planning_jobs/planning_desk.hpp"

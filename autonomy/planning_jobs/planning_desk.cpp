@@ -8,38 +8,27 @@ namespace swiftlet::autonomy {
 
 using common::Time;
 
-PlanningDesk::PlanningDesk(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
+PlanningDesk::PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                            common::JobRunner& jobs, Deliver deliver)
-    : latency_s_(config.planning_latency_s),
-      period_s_(config.planning_period_s),
+    : latency_s_(config.latency_s),
+      period_s_(config.period_s),
       hull_radius_m_(vehicle.hullRadius_m()),
       jobs_(jobs),
       deliver_(std::move(deliver)),
       worker_(std::make_shared<PlanningWorker>(config, grid_resolution_m, vehicle.hull_height_m)),
       frontiers_(std::make_shared<std::vector<common::Frontier>>()) {}
 
-void PlanningDesk::ask(const ManeuverInput& input, const PlanningClient& client, PlanningQuestion question) {
-  PlanningRequest request;
-  request.intent_id = client.intent_id;
-  request.grid = input.grid;
-  request.levels = input.levels;
-  request.discs = input.discs;
-  request.keep_out = input.keep_out;
-  request.footprint = {hull_radius_m_, client.clearance_m};
-  request.map3d = input.map3d;
-  request.names = input.names;
-  request.T_map_body = input.state.T_map_body_planar();
-  request.question = std::move(question);
-  last_request_ = input.now;
-  jobs_.submit("planning", input.now, common::Duration::fromSeconds(latency_s_),
+void PlanningDesk::ask(PlanningRequest request, Time now) {
+  request.footprint.hull_radius_m = hull_radius_m_;
+  last_request_ = now;
+  jobs_.submit("planning", now, common::Duration::fromSeconds(latency_s_),
                [this, worker = worker_, request = std::move(request)]() -> common::JobRunner::Deliver {
                  return [this, answer = worker->answer(request)](Time delivered) { receive(answer, delivered); };
                });
 }
 
-void PlanningDesk::refresh(const ManeuverInput& input, const PlanningClient& client) {
-  const bool due = !last_request_ || (input.now - *last_request_).seconds() >= period_s_;
-  if (due && free()) ask(input, client, {});
+bool PlanningDesk::due(Time now) const {
+  return free() && (!last_request_ || (now - *last_request_).seconds() >= period_s_);
 }
 
 void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {

@@ -2,14 +2,12 @@
 // submits a job that only updates the cost map.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "autonomy/maneuvers/executor_config.hpp"
-#include "autonomy/maneuvers/maneuver_input.hpp"
+#include "autonomy/planning_jobs/planning_config.hpp"
 #include "autonomy/planning_jobs/planning_worker.hpp"
 #include "common/goal.hpp"
 #include "common/jobs.hpp"
@@ -18,27 +16,23 @@
 
 namespace swiftlet::autonomy {
 
-/// The intent for which a plan is requested.
-struct PlanningClient {
-  std::uint64_t intent_id = 0;
-  double clearance_m = 0.0;  ///< Between hull and obstacle; the cost map is computed for it.
-};
-
 /// One thread; outlives the jobs it submits.
 class PlanningDesk {
  public:
   /// Called with every answer when its job is delivered; costMap() is then already the new one.
   using Deliver = std::function<void(const PlanningAnswer&, common::Time now)>;
 
-  PlanningDesk(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
+  PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                common::JobRunner& jobs, Deliver deliver);
 
   double hullRadius_m() const { return hull_radius_m_; }
   /// True if no job is outstanding, so that ask() may be called.
   bool free() const { return jobs_.idle("planning"); }
-  void ask(const ManeuverInput& input, const PlanningClient& client, PlanningQuestion question);
-  /// Call it once a tick, after all calls of ask(). Updates the cost map if the last request is planning_period_s old.
-  void refresh(const ManeuverInput& input, const PlanningClient& client);
+  /// The desk knows the radius of the hull: that of the request is ignored.
+  void ask(PlanningRequest request, common::Time now);
+  /// True if no job is outstanding and the last request is planning_period_s old: a request is due, if only to update
+  /// the cost map.
+  bool due(common::Time now) const;
 
   /// The newest cost map; null before the first answer.
   std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }

@@ -10,8 +10,8 @@
 
 #include <tl/expected.hpp>
 
-#include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/planning_jobs/lower_planner.hpp"
+#include "autonomy/planning_jobs/planning_config.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/place_names.hpp"
@@ -88,7 +88,7 @@ struct PlanningAnswer {
 /// Used by one job at a time. An answer depends only on the requests so far.
 class PlanningWorker {
  public:
-  PlanningWorker(const ExecutorConfig& config, double resolution_m, double hull_height_m = 0.25)
+  PlanningWorker(const PlanningConfig& config, double resolution_m, double hull_height_m = 0.25)
       : map_(config.cost_map, resolution_m),
         lower_(config.lower, config.cost_map, resolution_m, hull_height_m),
         lower_detour_m_(config.lower.detour_m),
