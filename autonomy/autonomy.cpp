@@ -332,7 +332,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
       state.horizontal_valid && state.vertical_valid && age_s < config_.supervisor.unseen_hold_s;
   condition.sensor_lies = inertial_.mustLandFor(now);
   condition.drift_m = drift_m_;
-  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(state);
+  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.desk().wallsAround(state);
   return condition;
 }
 

@@ -2,6 +2,10 @@
 
 #include <utility>
 
+#include <Eigen/Geometry>
+
+#include "planning/costs/open_place.hpp"
+#include "planning/exploration/held_path.hpp"
 #include "planning/search/goal_map.hpp"
 
 namespace swiftlet::autonomy {
@@ -10,7 +14,8 @@ using common::Time;
 
 PlanningDesk::PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                            common::JobRunner& jobs, Deliver deliver)
-    : latency_s_(config.latency_s),
+    : exploration_(config.exploration),
+      latency_s_(config.latency_s),
       period_s_(config.period_s),
       hull_radius_m_(vehicle.hullRadius_m()),
       jobs_(jobs),
@@ -29,6 +34,28 @@ void PlanningDesk::ask(PlanningRequest request, Time now) {
 
 bool PlanningDesk::due(Time now) const {
   return free() && (!last_request_ || (now - *last_request_).seconds() >= period_s_);
+}
+
+std::shared_ptr<const planning::CostMap> PlanningDesk::costMapAt(const FlightHeights& heights) const {
+  if (heights.isLower() && heights_) return {heights_, &heights_->lower};
+  return cost_map_;
+}
+
+bool PlanningDesk::wallsAround(const common::VehicleState& state) const {
+  return !cost_map_ || planning::isHeld(*cost_map_, state.T_map_body_planar().position_m(), exploration_);
+}
+
+Eigen::Vector2d PlanningDesk::escape_map_m(const common::VehicleState& state, const FlightHeights& heights,
+                                           const control::FlightController& controller) const {
+  const auto map = costMapAt(heights);
+  if (!map) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d velocity_map_m_s =
+      Eigen::Rotation2Dd(state.T_map_odom.yaw_rad) * Eigen::Vector2d(state.velocity_odom_m_s.head<2>());
+  const double speed_m_s = velocity_map_m_s.norm();
+  Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
+  if (speed_m_s > 0.0)
+    stopped_m += controller.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
+  return planning::displacementToOpenPlace_m(*map, stopped_m, controller.escapeReach_m());
 }
 
 void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {

@@ -12,7 +12,9 @@
 #include "common/goal.hpp"
 #include "common/jobs.hpp"
 #include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
 #include "common/world.hpp"
+#include "control/flight_controller.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -36,6 +38,14 @@ class PlanningDesk {
 
   /// The newest cost map; null before the first answer.
   std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }
+  /// The newest cost map of the height at which the vehicle is; null before the first answer.
+  std::shared_ptr<const planning::CostMap> costMapAt(const FlightHeights& heights) const;
+  /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
+  bool wallsAround(const common::VehicleState& state) const;
+  /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
+  /// FlightController::setEscape.
+  Eigen::Vector2d escape_map_m(const common::VehicleState& state, const FlightHeights& heights,
+                               const control::FlightController& controller) const;
   /// The newest cost maps of paths at two heights; null before the first such path was asked for.
   std::shared_ptr<const planning::TwoHeights> heights() const { return heights_; }
   /// The newest cost map for judging goals; null before the first answer.
@@ -51,6 +61,7 @@ class PlanningDesk {
  private:
   void receive(const PlanningAnswer& answer, common::Time now);
 
+  planning::ExplorationConfig exploration_;
   double latency_s_, period_s_, hull_radius_m_;
   common::JobRunner& jobs_;
   Deliver deliver_;
