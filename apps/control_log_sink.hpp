@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "interfaces/control_log.hpp"
 #include "perception/fusion/filter_tape.hpp"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 
 namespace swiftlet::evaluation {
 class FlightRecorder;

@@ -3,7 +3,7 @@
 
 #include <thread>
 
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "common/mailbox.hpp"
 #include "interfaces/links/groot/groot_server.hpp"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/wall_clock.hpp"
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "common/jobs.hpp"
 
 namespace swiftlet::interfaces {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "interfaces/rgbd/rgbd_recorder.hpp"
 
 namespace swiftlet::simulation {

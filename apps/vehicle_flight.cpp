@@ -23,11 +23,18 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
     given = setup.map->map;
     given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
   }
-  return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
-                            timed(common::makeLockstepJobs(1), meter), given ? &*given : nullptr, name,
-                            setup.memory.read.get(), setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr,
-                            setup.system.model ? &*setup.system.model : nullptr,
-                            setup.system.vertical_laser ? &*setup.system.vertical_laser : nullptr);
+  const auto& system = setup.system;
+  return autonomy::Autonomy({.config = system.config.autonomy,
+                             .vehicle = system.vehicle,
+                             .laser = system.laser,
+                             .mission = std::move(mission),
+                             .jobs = timed(common::makeLockstepJobs(1), meter),
+                             .given = given ? &*given : nullptr,
+                             .vehicle_name = name,
+                             .memory = setup.memory.read.get(),
+                             .camera = system.rgbd_camera ? &*system.rgbd_camera : nullptr,
+                             .model = system.model ? &*system.model : nullptr,
+                             .vertical_laser = system.vertical_laser ? &*system.vertical_laser : nullptr});
 }
 
 /// Where the camera was found to be mounted and how late its clock is.

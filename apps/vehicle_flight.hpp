@@ -16,7 +16,7 @@
 #include "apps/timed_jobs.hpp"
 #include "apps/visual_odometry_sink.hpp"
 #include "autonomy/autonomy.hpp"
-#include "autonomy/flight_loop.hpp"
+#include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
 
 namespace swiftlet::simulation {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "evaluation/visual_odometry_score.hpp"
 #include "mapping3d/model/mapper3d.hpp"
 

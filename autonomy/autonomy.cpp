@@ -37,31 +37,32 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::Ve
 
 }  // namespace
 
-Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
-                   behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
-                   std::string vehicle_name, const VehicleMemory* memory, const common::RgbdCameraConfig* camera,
-                   const control::VehicleModel* model, const common::LaserConfig* vertical_laser)
-    : config_(config),
-      vehicle_(vehicle),
-      vehicle_name_(std::move(vehicle_name)),
-      estimator_(config.estimator, laser, vehicle, given, *jobs, camera, vertical_laser),
-      reactive_(config_.reactive, vehicle.hullRadius_m()),
-      controller_(config.control, vehicle, model),
-      executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs, camera),
-      supervisor_(config.supervisor),
-      supervisor_intents_(config.execution.clearance_m),
-      requests_(vehicle.hullRadius_m(), camera),
-      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr, camera != nullptr, map_shelf_)),
-      jobs_(std::move(jobs)),
-      scans_(config.scans, 1.0 / laser.rate_hz),
-      inertial_(config.inertial, config.control.position.attitude_lag_s),
-      given_map_(given),
-      camera_obstacles_(vehicle.hull_height_m),
-      lower_obstacles_(vehicle.hull_height_m),
-      assist_(config.assist, vehicle.max_tilt_deg, config_.reactive.avoidance),
-      energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
+Autonomy::Autonomy(AutonomySetup setup)
+    : config_(setup.config),
+      vehicle_(setup.vehicle),
+      vehicle_name_(std::move(setup.vehicle_name)),
+      camera_(setup.camera != nullptr ? std::optional(*setup.camera) : std::nullopt),
+      estimator_(config_.estimator, setup.laser, vehicle_, setup.given, *setup.jobs, setup.camera,
+                 setup.vertical_laser),
+      reactive_(config_.reactive, vehicle_.hullRadius_m()),
+      controller_(config_.control, vehicle_, setup.model),
+      executor_(config_.execution, vehicle_, config_.estimator.slam.grid.resolution_m, controller_, *setup.jobs,
+                camera_ ? &*camera_ : nullptr),
+      supervisor_(config_.supervisor),
+      supervisor_intents_(config_.execution.clearance_m),
+      requests_(vehicle_.hullRadius_m(), setup.camera),
+      missions_(std::move(setup.mission),
+                limitsOf(config_, vehicle_, setup.given != nullptr, setup.camera != nullptr, map_shelf_)),
+      jobs_(std::move(setup.jobs)),
+      scans_(config_.scans, 1.0 / setup.laser.rate_hz),
+      inertial_(config_.inertial, config_.control.position.attitude_lag_s),
+      given_map_(setup.given),
+      camera_obstacles_(vehicle_.hull_height_m),
+      lower_obstacles_(vehicle_.hull_height_m),
+      assist_(config_.assist, vehicle_.max_tilt_deg, config_.reactive.avoidance),
+      energy_monitor_(config_.energy, vehicle_, config_.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
-  if (memory != nullptr) controller_.recallThrust(memory->thrust);
+  if (setup.memory != nullptr) controller_.recallThrust(setup.memory->thrust);
   followMission();
   takeSnapshot(Time{});
 }
@@ -331,7 +332,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
       state.horizontal_valid && state.vertical_valid && age_s < config_.supervisor.unseen_hold_s;
   condition.sensor_lies = inertial_.mustLandFor(now);
   condition.drift_m = drift_m_;
-  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(state);
+  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.desk().wallsAround(state);
   return condition;
 }
 

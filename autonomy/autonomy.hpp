@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/arrivals/scan_queue.hpp"
+#include "autonomy/arrivals/scan_watch.hpp"
+#include "autonomy/arrivals/stamp_check.hpp"
 #include "autonomy/camera_obstacles.hpp"
-#include "autonomy/energy_monitor.hpp"
+#include "autonomy/energy/energy_monitor.hpp"
 #include "autonomy/estimator.hpp"
 #include "autonomy/executor.hpp"
-#include "autonomy/flight_requests.hpp"
-#include "autonomy/given_map_overlay.hpp"
-#include "autonomy/inertial_input.hpp"
+#include "autonomy/given_map/given_map_overlay.hpp"
+#include "autonomy/inertial/inertial_input.hpp"
 #include "autonomy/input.hpp"
 #include "autonomy/map_shelf.hpp"
 #include "autonomy/mission_desk.hpp"
 #include "autonomy/pilot_assist.hpp"
 #include "autonomy/reactive.hpp"
-#include "autonomy/scan_queue.hpp"
-#include "autonomy/scan_watch.hpp"
-#include "autonomy/stamp_check.hpp"
+#include "autonomy/requests/flight_requests.hpp"
 #include "autonomy/supervisor.hpp"
 #include "autonomy/supervisor_intents.hpp"
 #include "autonomy/vehicle_memory.hpp"
@@ -31,6 +31,7 @@
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "common/sensor_event.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
@@ -61,20 +62,29 @@ struct AutonomyConfig {
   std::vector<std::string> problemsWith(double clearance_m) const;
 };
 
+/// What an autonomy is made of. Whatever the pointers name is read only while the autonomy is made, and may go then.
+struct AutonomySetup {
+  AutonomyConfig config = {};
+  common::VehicleConfig vehicle;  ///< Data sheet of the vehicle, as its owner believes it to be.
+  common::LaserConfig laser;      ///< Data sheet of the level laser.
+  behaviors::Mission mission;     ///< The first one; the operator may start others in its place.
+  /// Never null. Who runs the jobs, and with that the clock by which they are delivered (common/jobs.hpp).
+  std::unique_ptr<common::JobRunner> jobs;
+  const GivenMap* given = nullptr;  ///< A map to localize in; null: none is given.
+  /// Appears in the snapshots and in the events of the loop; empty if there is only one vehicle.
+  std::string vehicle_name = {};
+  const VehicleMemory* memory = nullptr;  ///< What earlier flights of the vehicle have learned; null: nothing.
+  const common::RgbdCameraConfig* camera = nullptr;  ///< Data sheet of an RGB-D camera; null without one.
+  const control::VehicleModel* model = nullptr;      ///< What was identified of the vehicle; null: nothing was.
+  /// Data sheet of a second laser, whose scan plane stands upright; null without one.
+  const common::LaserConfig* vertical_laser = nullptr;
+};
+
 /// One thread. The outputs depend only on the inputs and their order. The time of an input is never before that of the
 /// previous one.
 class Autonomy {
  public:
-  /// `given` is a map to localize in, or null; it is read only in the constructor. `vehicle_name` appears in the
-  /// snapshots and in the events of its loop; it is empty if there is only one vehicle. `memory` is what earlier
-  /// flights of this vehicle have learned, or null; `camera` is the data sheet of an RGB-D camera, or null without one.
-  /// `model` is what was identified of the vehicle, or null; `vertical_laser` is the data sheet of a second laser whose
-  /// scan plane stands upright, or null without one. All four are read only in the constructor.
-  Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
-           behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
-           std::string vehicle_name = {}, const VehicleMemory* memory = nullptr,
-           const common::RgbdCameraConfig* camera = nullptr, const control::VehicleModel* model = nullptr,
-           const common::LaserConfig* vertical_laser = nullptr);
+  explicit Autonomy(AutonomySetup setup);
   ~Autonomy();
 
   /// The mission begins when the operator starts it, or another one. Call it before the first input.
@@ -163,6 +173,7 @@ class Autonomy {
   AutonomyConfig config_;
   common::VehicleConfig vehicle_;
   std::string vehicle_name_;
+  std::optional<common::RgbdCameraConfig> camera_;  ///< None without one.
   // The results of jobs refer to these members. jobs_ follows them, so that it is destroyed first.
   Estimator estimator_;
   Reactive reactive_;

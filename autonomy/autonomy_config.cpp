@@ -28,7 +28,7 @@ std::vector<std::string> AutonomyConfig::validate() const {
 
 void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
   double& avoidance_deg = reactive.avoidance.field_of_view_deg;
-  planning::ExplorationConfig& exploration = execution.exploration;
+  planning::ExplorationConfig& exploration = execution.planning.exploration;
   avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
   exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
   exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);

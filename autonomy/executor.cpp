@@ -1,13 +1,10 @@
 #include "autonomy/executor.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include "autonomy/maneuvers/path_flight.hpp"
 #include "autonomy/maneuvers/table.hpp"
-#include "planning/costs/open_place.hpp"
-#include "planning/exploration/held_path.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -33,9 +30,9 @@ Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& ve
                    control::FlightController& controller, common::JobRunner& jobs,
                    const common::RgbdCameraConfig* camera)
     : config_(config),
-      camera_(camera != nullptr ? std::optional(*camera) : std::nullopt),
+      camera_(camera),
       controller_(controller),
-      desk_(config, vehicle, grid_resolution_m, jobs,
+      desk_(config.planning, vehicle, grid_resolution_m, jobs,
             [this](const PlanningAnswer& answer, Time now) { receive(answer, now); }),
       retreat_(controller) {
   begin({});
@@ -52,13 +49,8 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
   lowered_.follow(path ? path->plan() : nullptr, state_);
   if (maneuver_) note(maneuver_->step(input));
-  desk_.refresh(maneuver_ ? maneuver_->planningInput(input) : input, client());
+  if (desk_.due(now_)) desk_.ask(planningRequest(maneuver_ ? maneuver_->planningInput(input) : input, client()), now_);
   status_.released = controller_.stopped() && !retreat_.active();
-}
-
-std::shared_ptr<const planning::CostMap> Executor::costMapHere() const {
-  if (lowered_.heights().isLower() && desk_.heights()) return {desk_.heights(), &desk_.heights()->lower};
-  return desk_.costMap();
 }
 
 void Executor::begin(const common::Intent& intent) {
@@ -67,8 +59,7 @@ void Executor::begin(const common::Intent& intent) {
   status_ = {intent.id, IntentState::kRunning, toString(intent, names_), false};
   if (controller_.state() == common::FlightState::kFlying && !retreat_.active()) controller_.hold();
   controller_.lookAt(std::nullopt);
-  maneuver_ = makeManeuver(intent.kind,
-                           {config_, controller_, desk_, retreat_, memory_, client(), camera_ ? &*camera_ : nullptr});
+  maneuver_ = makeManeuver(intent.kind, {config_, controller_, desk_, retreat_, memory_, client(), camera_});
 }
 
 void Executor::note(const Progress& progress) {
@@ -115,24 +106,7 @@ std::optional<Eigen::Vector2d> Executor::wantsToSee_map_m() const {
 }
 
 std::optional<Eigen::Vector2d> Executor::followedPerson_map_m() const {
-  return maneuver_ && std::holds_alternative<common::FollowIntent>(intent_.kind) ? memory_.person_map_m : std::nullopt;
-}
-
-bool Executor::wallsAround(const common::VehicleState& state) const {
-  const auto map = desk_.costMap();
-  return !map || planning::isHeld(*map, state.T_map_body_planar().position_m(), config_.exploration);
-}
-
-Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const {
-  const auto map = costMapHere();
-  if (!map) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d velocity_map_m_s =
-      Eigen::Rotation2Dd(state.T_map_odom.yaw_rad) * Eigen::Vector2d(state.velocity_odom_m_s.head<2>());
-  const double speed_m_s = velocity_map_m_s.norm();
-  Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
-  if (speed_m_s > 0.0)
-    stopped_m += controller_.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
-  return planning::displacementToOpenPlace_m(*map, stopped_m, controller_.escapeReach_m());
+  return maneuver_ ? maneuver_->followedPerson_map_m() : std::nullopt;
 }
 
 std::vector<common::Event> Executor::takeEvents() { return std::exchange(memory_.events, {}); }

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/executor_config.hpp"
+#include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
 #include "autonomy/maneuvers/lowered_flight.hpp"
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
-#include "autonomy/planning_desk.hpp"
+#include "autonomy/planning_jobs/planning_desk.hpp"
 #include "common/event.hpp"
 #include "common/intent.hpp"
 #include "common/jobs.hpp"
@@ -25,7 +25,7 @@ namespace swiftlet::autonomy {
 /// One thread. tick() at the behaviours' rate; react() at the laser rate. Outlives the jobs it submits.
 class Executor {
  public:
-  /// `camera` is its data sheet, or null without one; read only here.
+  /// `camera` is its data sheet, which outlives the executor, or null without one.
   Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
            control::FlightController& controller, common::JobRunner& jobs,
            const common::RgbdCameraConfig* camera = nullptr);
@@ -50,15 +50,14 @@ class Executor {
   std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
   /// Where the person is believed whom the vehicle follows, or returns to.
   std::optional<Eigen::Vector2d> followedPerson_map_m() const;
-  /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
-  bool wallsAround(const common::VehicleState& state) const;
-  /// From where the vehicle can stop to the place near it that is farthest from the walls; see
-  /// FlightController::setEscape.
-  Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
+  /// See PlanningDesk::escape_map_m.
+  Eigen::Vector2d escape_map_m(const common::VehicleState& state) const {
+    return desk_.escape_map_m(state, lowered_.heights(), controller_);
+  }
   /// How much lower than its paths' height the vehicle flies, below something; else 0.
   double dip_m() const { return lowered_.dip_m(); }
   /// The newest cost map of the height at which the vehicle is; null before the first.
-  std::shared_ptr<const planning::CostMap> costMapHere() const;
+  std::shared_ptr<const planning::CostMap> costMapHere() const { return desk_.costMapAt(lowered_.heights()); }
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 
@@ -71,7 +70,7 @@ class Executor {
   PlanningClient client() const;
 
   ExecutorConfig config_;
-  std::optional<common::RgbdCameraConfig> camera_;
+  const common::RgbdCameraConfig* camera_;
   control::FlightController& controller_;
   PlanningDesk desk_;
   RetreatFlight retreat_;

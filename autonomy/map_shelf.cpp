@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "autonomy/estimator.hpp"
-#include "autonomy/given_map_overlay.hpp"
+#include "autonomy/given_map/given_map_overlay.hpp"
 
 namespace swiftlet::autonomy {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/battery_check.hpp"
-#include "autonomy/supervisor_config.hpp"
+#include "autonomy/energy/battery_check.hpp"
 #include "autonomy/watches/energy_watch.hpp"
 #include "autonomy/watches/position_watch.hpp"
 #include "autonomy/watches/sight_watch.hpp"
+#include "autonomy/watches/supervisor_config.hpp"
 #include "autonomy/watches/watch_request.hpp"
 #include "common/command.hpp"
 #include "common/event.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "autonomy/stamp_check.hpp"
+#include "autonomy/arrivals/stamp_check.hpp"
 #include "common/blank_picture.hpp"
 #include "common/vehicle_config.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "autonomy/stamp_check.hpp"
+#include "autonomy/arrivals/stamp_check.hpp"
 #include "common/config_fields.hpp"
 #include "perception/projection/placed_returns.hpp"
 

@@ -20,6 +20,7 @@ class Follow final : public PathManeuver {
   Follow(const common::FollowIntent& intent, const ManeuverSetup& setup);
   Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
   std::optional<Eigen::Vector2d> goal_map_m() const override { return target_map_m_; }
+  std::optional<Eigen::Vector2d> followedPerson_map_m() const override { return setup_.memory.person_map_m; }
   /// Without the person.
   ManeuverInput planningInput(const ManeuverInput& input) const override;
 

@@ -1,8 +1,8 @@
 // Where the vehicle flies lower than its paths do: below something that hangs over them, and until it is back up.
 #pragma once
 
-#include "autonomy/lower_planner.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
+#include "autonomy/planning_jobs/lower_planner.hpp"
 #include "common/vehicle_state.hpp"
 #include "control/flight_controller.hpp"
 #include "planning/search/planner.hpp"

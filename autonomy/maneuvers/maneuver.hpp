@@ -12,12 +12,13 @@
 
 #include <Eigen/Core>
 
-#include "autonomy/executor_config.hpp"
+#include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
 #include "autonomy/maneuvers/maneuver_input.hpp"
+#include "autonomy/maneuvers/planning_request.hpp"
 #include "autonomy/maneuvers/progress.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
-#include "autonomy/planning_desk.hpp"
+#include "autonomy/planning_jobs/planning_desk.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "control/flight_controller.hpp"
 
@@ -60,6 +61,8 @@ class Maneuver {
   virtual std::optional<Eigen::Vector2d> goal_map_m() const { return std::nullopt; }
   /// The unknown place that it explores, in `map`.
   virtual std::optional<Eigen::Vector2d> wantsToSee_map_m() const { return std::nullopt; }
+  /// Where the person is believed whom it follows, or returns to, in `map`.
+  virtual std::optional<Eigen::Vector2d> followedPerson_map_m() const { return std::nullopt; }
   /// The path it flies; null for a maneuver without planned paths.
   virtual const PathFlight* path() const { return nullptr; }
   /// The velocity along the path it flies, in `map`; zero if there is none.

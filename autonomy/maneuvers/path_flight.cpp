@@ -29,7 +29,7 @@ PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
 
 void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question) {
   if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = lowered_.heights();
-  desk_.ask(input, client_, std::move(question));
+  desk_.ask(planningRequest(input, client_, std::move(question)), input.now);
 }
 
 bool PathFlight::keep(const ManeuverInput& input) {

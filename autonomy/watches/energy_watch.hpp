@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "autonomy/supervisor_config.hpp"
+#include "autonomy/watches/supervisor_config.hpp"
 #include "autonomy/watches/watch_request.hpp"
 #include "common/time.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "autonomy/supervisor_config.hpp"
+#include "autonomy/watches/supervisor_config.hpp"
 #include "autonomy/watches/watch_request.hpp"
 #include "common/time.hpp"
 

@@ -22,8 +22,10 @@ class CountedFlight {
  public:
   explicit CountedFlight(const std::string& leaves)
       : vehicle_(storyRoom(), storyScenario()),
-        autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, storyMission(leaves),
-                  common::makeLockstepJobs(0)) {}
+        autonomy_({.vehicle = vehicle_.scenario().vehicle,
+                   .laser = vehicle_.scenario().laser,
+                   .mission = storyMission(leaves),
+                   .jobs = common::makeLockstepJobs(0)}) {}
 
   bool inertial_samples_arrive = true;
   long by_ticks = 0, by_samples = 0;  ///< Allocations by ticks that do nothing but control; by samples.

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "autonomy/autonomy.hpp"
-#include "autonomy/flight_loop.hpp"
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_loop.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "common/config.hpp"
 #include "common/mailbox.hpp"
 #include "common/world.hpp"
@@ -84,8 +84,11 @@ class AutonomyStory {
   /// `leaves` as for storyMission.
   explicit AutonomyStory(const std::string& leaves, const GivenMap* given = nullptr)
       : vehicle_(storyRoom(), storyScenario()),
-        autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, storyMission(leaves),
-                  common::makeLockstepJobs(0), given) {}
+        autonomy_({.vehicle = vehicle_.scenario().vehicle,
+                   .laser = vehicle_.scenario().laser,
+                   .mission = storyMission(leaves),
+                   .jobs = common::makeLockstepJobs(0),
+                   .given = given}) {}
 
   double thrust_share = 1.0;  ///< Of each commanded thrust that reaches the motors.
   /// Is called with every sensor event before the autonomy gets it; false drops the event.

@@ -1,5 +1,5 @@
 // The current of flying, measured in flight.
-#include "autonomy/current_model.hpp"
+#include "autonomy/energy/current_model.hpp"
 
 #include <cmath>
 #include <limits>

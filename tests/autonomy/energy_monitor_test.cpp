@@ -1,5 +1,5 @@
 // Consumption, the time it leaves, and the charge that the path home takes.
-#include "autonomy/energy_monitor.hpp"
+#include "autonomy/energy/energy_monitor.hpp"
 
 #include <cmath>
 #include <optional>

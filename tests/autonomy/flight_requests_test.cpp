@@ -1,5 +1,5 @@
 // What missions ask for beside intents: maps, photographs, and their answers.
-#include "autonomy/flight_requests.hpp"
+#include "autonomy/requests/flight_requests.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

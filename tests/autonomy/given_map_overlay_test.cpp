@@ -1,5 +1,5 @@
 // The given map under the map of the flight.
-#include "autonomy/given_map_overlay.hpp"
+#include "autonomy/given_map/given_map_overlay.hpp"
 
 #include <cmath>
 #include <set>

@@ -1,5 +1,5 @@
 // Inertial samples that cannot be used: silent, repeated, or with a stopped AHRS.
-#include "autonomy/imu_watch.hpp"
+#include "autonomy/inertial/imu_watch.hpp"
 
 #include <cmath>
 

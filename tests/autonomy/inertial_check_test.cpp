@@ -1,5 +1,5 @@
 // Inertial samples that contradict the AHRS and the thrust.
-#include "autonomy/inertial_check.hpp"
+#include "autonomy/inertial/inertial_check.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Inertial samples that take the place of measured ones: predicted from the setpoints, only in the air, only while the
 // sensor gives nothing that can be used.
-#include "autonomy/inertial_input.hpp"
+#include "autonomy/inertial/inertial_input.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "autonomy/flight_requests.hpp"
+#include "autonomy/requests/flight_requests.hpp"
 #include "tests/autonomy/autonomy_story.hpp"
 #include "tests/autonomy/maneuver_story.hpp"
 #include "tests/support/layers.hpp"

@@ -148,8 +148,8 @@ class ManeuverStory : public testing::Test {
  private:
   static ExecutorConfig config(const Choices& choices) {
     ExecutorConfig config;
-    config.planner.kind = choices.planner;
-    config.explorer.kind = choices.explorer;
+    config.planning.planner.kind = choices.planner;
+    config.planning.explorer.kind = choices.explorer;
     config.give_up_s = 12.0;
     return config;
   }

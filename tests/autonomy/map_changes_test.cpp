@@ -1,5 +1,5 @@
 // What has changed since the given map was made, and what is only noise of two maps of one place.
-#include "autonomy/map_changes.hpp"
+#include "autonomy/given_map/map_changes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "autonomy/given_map_overlay.hpp"
+#include "autonomy/given_map/given_map_overlay.hpp"
 #include "tests/autonomy/estimator_story.hpp"
 
 namespace swiftlet::autonomy {

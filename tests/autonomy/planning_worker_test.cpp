@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "autonomy/planning_worker.hpp"
+#include "autonomy/planning_jobs/planning_worker.hpp"
 #include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {
@@ -38,7 +38,7 @@ struct Worker : testing::Test {
   }
   common::Pose2 pose{2.0, 2.0, 0.0};
   std::shared_ptr<common::OccupancyGrid> grid = room();
-  PlanningWorker worker{ExecutorConfig{}, 0.05};
+  PlanningWorker worker{PlanningConfig{}, 0.05};
 };
 
 TEST_F(Worker, FindsThePathToAGoal) {
@@ -53,7 +53,7 @@ TEST_F(Worker, TheChosenPlannerFindsThePathAndIsCounted) {
   const auto first = ask(GoalRequest{{6.0, 3.0}, 0.05});
   EXPECT_EQ(first.use.planner, "D* Lite");
   EXPECT_EQ(first.use.paths, 1);
-  ExecutorConfig by_wavefront;
+  PlanningConfig by_wavefront;
   by_wavefront.planner.kind = planning::PlannerKind::kWavefront;
   worker = PlanningWorker{by_wavefront, 0.05};
   const auto second = ask(GoalRequest{{6.0, 3.0}, 0.05});
@@ -67,7 +67,7 @@ TEST_F(Worker, TheChosenPlannerFindsThePathAndIsCounted) {
 TEST_F(Worker, TheChosenPlannerFindsThePathToTheViewpoint) {
   for (int y = 20; y < 50; ++y) grid->set({159, y}, -common::occupancy::kMaxSteps);
   for (const planning::PlannerKind kind : {planning::PlannerKind::kDStarLite, planning::PlannerKind::kWavefront}) {
-    ExecutorConfig config;
+    PlanningConfig config;
     config.planner.kind = kind;
     worker = PlanningWorker{config, 0.05};
     const auto answer = ask(ExploreRequest{});
@@ -105,7 +105,7 @@ TEST_F(Worker, AFlownDoorStaysPassableWhenItsFrameGrowsSlightly) {
   build(14);  // The door frame has grown by a cell on each side.
   const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
   ASSERT_TRUE(back.path && *back.path);
-  worker = PlanningWorker{ExecutorConfig{}, 0.05};
+  worker = PlanningWorker{PlanningConfig{}, 0.05};
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value())
       << "a worker that has not flown through the door finds it too narrow";
 }

@@ -1,4 +1,4 @@
-#include "autonomy/scan_queue.hpp"
+#include "autonomy/arrivals/scan_queue.hpp"
 
 #include <cmath>
 #include <memory>

@@ -1,5 +1,5 @@
 // A laser whose driver repeats its last scan.
-#include "autonomy/scan_watch.hpp"
+#include "autonomy/arrivals/scan_watch.hpp"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // A stamp of the future is refused, and silences no sensor.
-#include "autonomy/stamp_check.hpp"
+#include "autonomy/arrivals/stamp_check.hpp"
 
 #include <gtest/gtest.h>
 

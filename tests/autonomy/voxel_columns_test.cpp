@@ -1,5 +1,5 @@
 // A column of voxels is free only where all of it was seen to be.
-#include "autonomy/voxel_columns.hpp"
+#include "autonomy/planning_jobs/voxel_columns.hpp"
 
 #include <gtest/gtest.h>
 

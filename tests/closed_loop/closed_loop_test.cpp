@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "autonomy/estimator.hpp"
-#include "autonomy/inertial_input.hpp"
+#include "autonomy/inertial/inertial_input.hpp"
 #include "common/config.hpp"
 #include "control/flight_controller.hpp"
 #include "tests/control/controller_fixtures.hpp"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/system.hpp"
-#include "autonomy/flight_loop.hpp"
+#include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "tests/flight_loop/short_flight.hpp"

@@ -1,6 +1,6 @@
 // A flight is a function of its inputs: recorded in memory and given to another autonomy, they give the same flight
 // again.
-#include "autonomy/recording.hpp"
+#include "autonomy/loop/recording.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "autonomy/flight_loop.hpp"
+#include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/world/map3d_layer.hpp"

@@ -95,8 +95,13 @@ Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyCon
       <Land/>
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
-  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs), nullptr, "", memory,
-                  camera);
+  return Autonomy({.config = config,
+                   .vehicle = vehicleSheet(),
+                   .laser = laserSheet(),
+                   .mission = std::move(mission),
+                   .jobs = std::move(jobs),
+                   .memory = memory,
+                   .camera = camera});
 }
 
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {

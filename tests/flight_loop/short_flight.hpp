@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "autonomy/autonomy.hpp"
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
 #include "common/world.hpp"

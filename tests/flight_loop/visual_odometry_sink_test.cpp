@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "autonomy/flight_loop.hpp"
+#include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 

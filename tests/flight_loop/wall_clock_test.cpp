@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "autonomy/flight_loop.hpp"
-#include "autonomy/recording.hpp"
+#include "autonomy/loop/flight_loop.hpp"
+#include "autonomy/loop/recording.hpp"
 #include "common/mailbox.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 
@@ -66,7 +66,7 @@ TEST(WallClock, FliesTwentySecondsThroughTheSameLoop) {
   EXPECT_GE(clock.now(), Time::fromSeconds(kFlight_s));
   EXPECT_TRUE(flown.heard("flying"));
   int delivered = 0, not_at_the_declared_time = 0;
-  const auto declared_s = ExecutorConfig{}.planning_latency_s;
+  const auto declared_s = PlanningConfig{}.latency_s;
   for (const Input& input : recorder.recording()) {
     const auto* delivery = std::get_if<JobDelivery>(&input);
     if (delivery == nullptr) continue;

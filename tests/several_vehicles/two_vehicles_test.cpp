@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "autonomy/autonomy.hpp"
-#include "autonomy/flight_loop.hpp"
-#include "autonomy/flight_sink.hpp"
+#include "autonomy/loop/flight_loop.hpp"
+#include "autonomy/loop/flight_sink.hpp"
 #include "behaviors/mission.hpp"
 #include "common/config.hpp"
 #include "common/mailbox.hpp"
@@ -46,8 +46,10 @@ class Flyer : private autonomy::FlightSink {
  public:
   Flyer(const std::shared_ptr<simulation::Arena>& arena, std::size_t index, const std::string& mission)
       : vehicle_(arena, index),
-        autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser,
-                  behaviors::Mission::fromText(mission, "mission.xml"), common::makeLockstepJobs(1)) {}
+        autonomy_({.vehicle = vehicle_.scenario().vehicle,
+                   .laser = vehicle_.scenario().laser,
+                   .mission = behaviors::Mission::fromText(mission, "mission.xml"),
+                   .jobs = common::makeLockstepJobs(1)}) {}
 
   void fly(Time now) {
     if (!loop_.step(now)) return;

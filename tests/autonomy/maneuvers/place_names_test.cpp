@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "autonomy/keep_out_zones.hpp"
+#include "autonomy/requests/keep_out_zones.hpp"
 #include "tests/autonomy/maneuver_story.hpp"
 
 namespace swiftlet::autonomy {

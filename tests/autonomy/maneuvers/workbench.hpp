@@ -19,7 +19,7 @@ class ManeuverWorkbench : public ManeuverInFlight {
 
   /// The desk's cost map is that of the grid.
   void look() {
-    desk_.ask(input(), setup_.client, {});
+    desk_.ask(planningRequest(input(), setup_.client), now_);
     deliver();
   }
   void deliver() { desk_jobs_->deliverDue(now_ + common::Duration::fromSeconds(1.0)); }
@@ -33,7 +33,7 @@ class ManeuverWorkbench : public ManeuverInFlight {
   std::unique_ptr<common::JobRunner> desk_jobs_ = common::makeLockstepJobs(0);
   std::vector<PlanningAnswer> answers_;
   ExecutorConfig config_;
-  PlanningDesk desk_{config_, {}, 0.05, *desk_jobs_, [this](const PlanningAnswer& answer, common::Time) {
+  PlanningDesk desk_{config_.planning, {}, 0.05, *desk_jobs_, [this](const PlanningAnswer& answer, common::Time) {
                        answers_.push_back(answer);
                      }};
   RetreatFlight retreat_{controller_};

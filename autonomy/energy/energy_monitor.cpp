@@ -1,0 +1,150 @@
+#include "autonomy/energy/energy_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::config::kPositive;
+namespace {
+
+/// From this drop of the gauge on, it tells more about the capacity than the data sheet.
+constexpr double kTellingDrop = 0.05;
+/// A gauge has moved by more than this. Coarse ones move by 1 %.
+constexpr double kMoved = 0.002;
+/// A gauge that does not move while this share of the capacity is drawn stands still.
+constexpr double kUnmoved = 0.05;
+/// Slow links send the battery once a second.
+constexpr double kUnheard_s = 2.5;
+
+bool hasCurrent(const common::BatterySample& sample) {
+  return std::isfinite(sample.current_a) && sample.current_a > 0.0;
+}
+
+double smoothed(double value, double next, double dt_s, double filter_s) {
+  return filter_s > 0.0 ? value + std::min(1.0, dt_s / filter_s) * (next - value) : next;
+}
+
+}  // namespace
+
+void EnergyConfig::describe(common::config::Fields& fields) {
+  fields("power_filter_s", power_filter_s, kPositive, "Time constant that smooths current and power.");
+  fields("home_speed_m_s", home_speed_m_s, {0.05, 10}, "Speed along paths before one has been flown.");
+  fields("home_speed_filter_s", home_speed_filter_s, kPositive, "Time constant of the speed along paths.");
+  fields("home_stops_s", home_stops_s, {0, 120},
+         "Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.");
+}
+
+EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent)
+    : config_(config),
+      capacity_as_(3600.0 * vehicle.battery_capacity_ah),
+      home_speed_m_s_(config.home_speed_m_s),
+      curve_(vehicle),
+      voltage_exponent_(voltage_exponent) {}
+
+void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, double thrust_margin, double speed_m_s) {
+  const double dt_s = last_ ? std::max(0.0, (sample.stamps.measured - last_->stamps.measured).seconds()) : 0.0;
+  const double current_a = currentOf_a(sample);
+  if (!last_ || std::abs(sample.remaining - moved_to_) > kMoved) {
+    moved_to_ = sample.remaining;
+    drawn_at_move_as_ = drawn_as_;
+    drawn_since_move_as_ = 0.0;
+  }
+  if (airborne && !flown_) {
+    flown_ = true;
+    taken_off_ = sample.stamps.measured;
+    current_a_ = current_a;
+    power_w_ = sample.voltage_v * current_a;
+    voltage_v_ = sample.voltage_v;
+    margin_ = thrust_margin;
+    remaining_at_take_off_ = moved_to_ = sample.remaining;
+    drawn_as_ = drawn_at_move_as_ = drawn_since_move_as_ = 0.0;
+  } else if (airborne) {
+    // A plain mean at first: the motors draw little in the samples before the vehicle has lifted.
+    const double filter_s = std::min(config_.power_filter_s, (sample.stamps.measured - taken_off_).seconds());
+    current_a_ = smoothed(current_a_, current_a, dt_s, filter_s);
+    power_w_ = smoothed(power_w_, sample.voltage_v * current_a, dt_s, filter_s);
+    margin_ = smoothed(margin_, thrust_margin, dt_s, filter_s);
+    voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, filter_s);
+    if (hasCurrent(sample)) drawn_as_ += current_a * dt_s;
+    drawn_since_move_as_ += current_a * dt_s;
+  }
+  if (airborne) current_model_.add(current_a, speed_m_s, dt_s);
+  last_ = sample;
+}
+
+/// Without a measured current it is the mean one by which the gauge has fallen, or the last one while that says little.
+double EnergyMonitor::currentOf_a(const common::BatterySample& sample) const {
+  if (hasCurrent(sample)) return sample.current_a;
+  const double drop = flown_ ? remaining_at_take_off_ - sample.remaining : 0.0;
+  const double flown_s = (sample.stamps.measured - taken_off_).seconds();
+  return drop > kTellingDrop && flown_s > 0.0 ? drop * capacity_as_ / flown_s : current_a_;
+}
+
+void EnergyMonitor::followed(double speed_m_s, double dt_s) {
+  if (!std::isfinite(speed_m_s)) return;
+  // Exploring stops and turns at every viewpoint, a path home does not: a mean would be too slow. This follows the
+  // quantile: it rests where the speed is exceeded in a share of 1 - kCruise of the time.
+  constexpr double kCruise = 0.7, kRange_m_s = 0.5;
+  const double step_m_s = kRange_m_s * std::min(1.0, dt_s / config_.home_speed_filter_s);
+  home_speed_m_s_ += speed_m_s > home_speed_m_s_ ? kCruise * step_m_s : (kCruise - 1.0) * step_m_s;
+}
+
+/// As the fuel gauge has shown it in this flight; before that, as believed.
+double EnergyMonitor::capacity_as() const {
+  const double drop = remaining_at_take_off_ - moved_to_;
+  return drop > kTellingDrop && drawn_at_move_as_ > 0.0 ? drawn_at_move_as_ / drop : capacity_as_;
+}
+
+double EnergyMonitor::unheard_s(common::Time now) const {
+  const double age_s = last_ && flown_ ? (now - last_->stamps.arrived).seconds() : 0.0;
+  return age_s > kUnheard_s ? age_s : 0.0;
+}
+
+std::string EnergyMonitor::countedOn(common::Time now) const {
+  if (unheard_s(now) > 0.0) return fmt::format("no sample of the battery for {:.1f} s", kUnheard_s);
+  if (drawn_since_move_as_ > kUnmoved * capacity_as_)
+    return fmt::format("its gauge has stood still while {:.0f} % of the capacity were drawn", 100.0 * kUnmoved);
+  return {};
+}
+
+double EnergyMonitor::remaining(common::Time now) const {
+  if (countedOn(now).empty()) return last_->remaining;
+  return std::max(0.0, moved_to_ - (drawn_since_move_as_ + unheard_s(now) * current_a_) / capacity_as());
+}
+
+common::EnergyLayer EnergyMonitor::layer(common::Time now, const LengthHome& home, double thrust_margin,
+                                         double land_share, double least_margin) const {
+  common::EnergyLayer layer;
+  if (!last_) return layer;
+  layer.battery_voltage_v = last_->voltage_v;
+  layer.battery_remaining = remaining(now);
+  layer.power_w = power_w_;
+  layer.thrust_margin = thrust_margin;
+  layer.land_share = land_share;
+  if (flown_)
+    layer.land_share = std::max(
+        land_share, curve_.chargeAtMargin({last_->remaining, voltage_v_, margin_}, least_margin, voltage_exponent_));
+  if (!flown_ || !(current_a_ > 0.0)) return layer;
+  layer.seconds_left = std::max(0.0, layer.battery_remaining - layer.land_share) * capacity_as() / current_a_;
+  tellHome(home, layer);
+  return layer;
+}
+
+/// Without a path the vehicle would fly along its trail.
+void EnergyMonitor::tellHome(const LengthHome& home, common::EnergyLayer& layer) const {
+  // The learned speed falls to zero while the vehicle hovers, which tells nothing of how fast it would fly home.
+  constexpr double kLeast_m_s = 0.1;
+  layer.home_planned = home.planned_m.has_value();
+  layer.home_m = home.planned_m.value_or(home.trail_m);
+  const double fly_s = *layer.home_m / std::max(kLeast_m_s, home_speed_m_s_);
+  const double drawn_as = current_model_.drawn_as(fly_s, *layer.home_m) +
+                          current_model_.drawn_as(config_.home_stops_s + home.landing_s, 0.0);
+  layer.home_share = drawn_as / capacity_as();
+}
+
+}  // namespace swiftlet::autonomy

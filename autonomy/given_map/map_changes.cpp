@@ -1,0 +1,76 @@
+#include "autonomy/given_map/map_changes.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/occupied_near.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::CellIndex;
+using common::OccupancyGrid;
+namespace occupancy = common::occupancy;
+
+constexpr double kInterval_s = 2.0;  ///< What differs is said after 4 s: twice it is looked at.
+/// The same wall differs by as much in two maps: 1 deg at 10 m is 17 cm, and a cell on each side.
+constexpr double kSameWall_m = 0.25;
+/// Outline of the smallest thing that is said: a box of 15 cm shows one or two sides of it.
+constexpr double kLeastOutline_m = 0.30;
+/// A person who walks by is gone at the next check.
+constexpr int kChecks = 3;
+
+}  // namespace
+
+void MapChanges::update(common::Time now, const OccupancyGrid& flown, const OccupancyGrid& laid,
+                        const common::Pose2& T_map_given) {
+  if (checked_ && (now - *checked_).seconds() < kInterval_s) return;
+  checked_ = now;
+  const int same_wall = static_cast<int>(std::lround(kSameWall_m / flown.resolution_m()));
+  const common::Pose2 T_given_map = T_map_given.inverse();
+  const auto squareOf = [&](CellIndex cell) {
+    const Eigen::Vector2d at_m = T_given_map * flown.centerOf(cell);
+    return Square(static_cast<int>(std::floor(at_m.x())), static_cast<int>(std::floor(at_m.y())));
+  };
+  std::map<Square, int> appeared, gone;
+  flown.forEachCell([&](CellIndex cell, occupancy::Cell value) {
+    if (occupancy::isOccupied(value) && occupancy::isFree(laid.at(cell)) &&
+        !common::occupiedNear(laid, cell, same_wall))
+      ++appeared[squareOf(cell)];
+    if (occupancy::isFree(value) && occupancy::isOccupied(laid.at(cell)) &&
+        !common::occupiedNear(flown, cell, same_wall))
+      ++gone[squareOf(cell)];
+  });
+  const int least = static_cast<int>(std::lround(kLeastOutline_m / flown.resolution_m()));
+  for (auto* cells : {&appeared, &gone})
+    std::erase_if(*cells, [&](const auto& square) { return square.second < least; });
+  judge(now, Change::kNew, appeared);
+  judge(now, Change::kGone, gone);
+}
+
+void MapChanges::judge(common::Time now, Change change, const std::map<Square, int>& cells) {
+  std::vector<Square> to_say;
+  std::erase_if(seen_, [&](const auto& entry) {
+    return entry.first.first == change && !entry.second.said && !cells.contains(entry.first.second);
+  });
+  for (const auto& [square, count] : cells) {
+    Evidence& evidence = seen_[{change, square}];
+    if (++evidence.checks < kChecks || evidence.said) continue;
+    evidence.said = true;
+    to_say.push_back(square);
+  }
+  if (!to_say.empty()) say(now, change, to_say);
+}
+
+void MapChanges::say(common::Time now, Change change, const std::vector<Square>& squares) {
+  std::string places;
+  for (const Square& square : squares)
+    places += fmt::format("{}({:.1f}, {:.1f})", places.empty() ? "" : ", ", square.first + 0.5, square.second + 0.5);
+  events_.push_back({now, common::Severity::kInfo, "localization",
+                     change == Change::kNew ? "something stands here that the given map does not have"
+                                            : "something of the given map is not there at this height",
+                     "within half a metre of " + places + " in the given map"});
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,64 @@
+#include "autonomy/inertial/imu_watch.hpp"
+
+#include <algorithm>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::ImuSample;
+using common::Time;
+using common::config::kPositive;
+
+namespace {
+
+/// Three coarse numbers may repeat for longer by chance than those of a whole sample.
+constexpr double kAlone = 3.0;
+
+}  // namespace
+
+bool isFinite(const ImuSample& sample) {
+  return sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&
+         sample.rotation_ahrs_body.coeffs().allFinite();
+}
+
+void ImuWatchConfig::describe(common::config::Fields& fields) {
+  fields("silent_s", silent_s, kPositive, "Without a finite inertial sample for this long the sensor is silent.");
+  fields("late_s", late_s, kPositive, "Greatest age of the newest inertial sample, by its time of measurement.");
+  fields("repeats_s", repeats_s, kPositive,
+         "Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones.");
+}
+
+void ImuWatch::add(const ImuSample& sample) {
+  finite_ = isFinite(sample);
+  if (!finite_) return;
+  const bool first = !last_;
+  if (first || sample.angular_velocity_body_rad_s != last_->angular_velocity_body_rad_s)
+    rates_changed_ = sample.stamps.measured;
+  if (first || sample.specific_force_body_m_s2 != last_->specific_force_body_m_s2)
+    force_changed_ = sample.stamps.measured;
+  if (first || sample.rotation_ahrs_body.coeffs() != last_->rotation_ahrs_body.coeffs())
+    attitude_changed_ = sample.stamps.measured;
+  last_ = sample;
+}
+
+bool ImuWatch::repeats() const {
+  return last_ && (last_->stamps.measured - std::max(rates_changed_, force_changed_)).seconds() > config_.repeats_s;
+}
+
+std::string_view ImuWatch::fault(Time now) const {
+  if (!last_) return {};
+  const common::Stamps& newest = last_->stamps;
+  if ((now - newest.arrived).seconds() > config_.silent_s)
+    return finite_ ? "no inertial samples" : "the inertial samples are not finite";
+  if ((now - newest.measured).seconds() > config_.late_s) return "the inertial samples are late";
+  if (repeats()) return "the inertial samples repeat";
+  if ((newest.measured - attitude_changed_).seconds() > config_.repeats_s) return "the AHRS gives the same attitude";
+  if ((newest.measured - rates_changed_).seconds() > kAlone * config_.repeats_s)
+    return "the gyroscopes give the same rates";
+  if ((newest.measured - force_changed_).seconds() > kAlone * config_.repeats_s)
+    return "the accelerometers give the same force";
+  return {};
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,212 @@
+#include "autonomy/inertial/inertial_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "autonomy/inertial/imu_watch.hpp"
+#include "common/config_fields.hpp"
+#include "common/first_order_lag.hpp"
+#include "common/geometry.hpp"
+#include "common/gravity.hpp"
+#include "common/validation.hpp"
+#include "control/thrust_table.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::ImuSample;
+using common::Time;
+using common::config::kPositive;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kPause_s = 0.1;  ///< After a pause the windows begin anew.
+/// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
+constexpr std::size_t kUsualSamples = 320;
+
+/// The mean of `value` over the newest samples of `window` that span `span_s`; none if they do not span it yet.
+template <typename Window, typename Value>
+auto meanOver(const Window& window, double span_s, Value value) -> std::optional<decltype(value(window.back()))> {
+  auto sum = value(window.back());
+  const Time newest = window.back().sample.stamps.measured;
+  int count = 1;
+  for (auto it = std::next(window.rbegin()); it != window.rend(); ++it) {
+    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) return sum / count;
+    sum += value(*it);
+    ++count;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void InertialCheckConfig::describe(common::config::Fields& fields) {
+  fields("rate_deg_s", rate_deg_s, kPositive,
+         "Mean difference between the gyroscopes and the change of the AHRS' attitude from which they are not used.");
+  fields("rate_window_s", rate_window_s, {0.02, 1}, "Time over which rates are compared.");
+  fields("vertical_m_s2", vertical_m_s2, kPositive,
+         "Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is "
+         "not used; less force than that is a vehicle that sinks.");
+  fields("vertical_window_s", vertical_window_s, {0.02, 1}, "Time over which forces along the axis are compared.");
+  fields("horizontal_m_s2", horizontal_m_s2, kPositive,
+         "Median specific force across the rotors' axis from which the accelerometer is not used.");
+  fields("horizontal_window_s", horizontal_window_s, {0.02, 1},
+         "Time over which the median of forces across the axis is taken: more than twice that of a push of a hand.");
+  fields("implied_spread_m_s2", implied_spread_m_s2, {0, 20},
+         "What takes the place of a specific force alternates by this much from sample to sample, so that the filter "
+         "trusts laser and height more.");
+  fields("thrust_lag_s", thrust_lag_s, {0.0, 0.5}, "Lag of the thrust behind its command.");
+  fields("trusted_again_s", trusted_again_s, kPositive,
+         "Samples are used again once nothing has contradicted them for this long.");
+  fields("land_after_s", land_after_s, kPositive, "A contradiction that has lasted this long ends in a landing.");
+}
+
+InertialCheck::InertialCheck(const InertialCheckConfig& config) : config_(config) {
+  window_.reserve(kUsualSamples);
+  sorted_m_s2_.reserve(kUsualSamples);
+}
+
+std::vector<std::string> InertialCheckConfig::validate() const {
+  return common::Validation().atMost("trusted_again_s", trusted_again_s, "land_after_s", land_after_s).problems();
+}
+
+ImuSample InertialCheck::checked(const ImuSample& sample) {
+  if (!isFinite(sample)) return sample;
+  const Time now = sample.stamps.measured;
+  const bool continues = last_ && now > *last_ && (now - *last_).seconds() < kPause_s;
+  const double expected_m_s2 = expectedForce_m_s2(now);
+  last_ = now;
+  if (!continues || !context_.airborne) window_.clear();
+  if (!context_.airborne) {
+    rates_wrong_.reset(), force_wrong_.reset(), since_.reset();
+    fault_ = Fault::kNone;
+    return sample;
+  }
+  window_.push_back({sample, expected_m_s2, context_.thrust_applies && !context_.near_ground});
+  const double longest_s = std::max({config_.rate_window_s, config_.vertical_window_s, config_.horizontal_window_s});
+  const auto kept = std::find_if(window_.begin(), window_.end(), [&](const Compared& one) {
+    return (now - one.sample.stamps.measured).seconds() <= longest_s + 0.02;
+  });
+  window_.erase(window_.begin(), kept);
+  compare(now);
+  ImuSample used = sample;
+  if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
+  if (force_wrong_) {
+    // The filter measures the noise of its samples by their differences. What stands in for a measurement is off by a
+    // few percent of gravity for seconds, which is worth this much noise.
+    spread_m_s2_ = spread_m_s2_ > 0.0 ? -config_.implied_spread_m_s2 : config_.implied_spread_m_s2;
+    used.specific_force_body_m_s2 =
+        Vector3d(0.0, 0.0, impliedForce_m_s2(expected_m_s2)) + Vector3d::Constant(spread_m_s2_);
+  }
+  return used;
+}
+
+/// Near the ground so little thrust is that of a vehicle which stands, whose weight the ground carries.
+double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
+  constexpr double kStands = 0.85;  // Less lifts nothing, even where the hover command is a tenth off.
+  const bool stands = context_.near_ground && expected_m_s2 < kStands * common::kGravity_m_s2;
+  return stands || !context_.thrust_applies ? common::kGravity_m_s2 : expected_m_s2;
+}
+
+double InertialCheck::expectedForce_m_s2(Time now) {
+  const double dt_s = last_ ? std::clamp((now - *last_).seconds(), 0.0, kPause_s) : 0.0;
+  const double share = common::followedShare(dt_s, config_.thrust_lag_s);
+  thrust_over_hover_ += share * (context_.thrust_over_hover - thrust_over_hover_);
+  return common::kGravity_m_s2 * thrust_over_hover_;
+}
+
+/// Over the window of the rates, or as much of it as there is.
+Vector3d InertialCheck::ahrsRate_rad_s() const {
+  const ImuSample& newest = window_.back().sample;
+  auto oldest = window_.rbegin();
+  for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
+    oldest = it;
+    if ((newest.stamps.measured - it->sample.stamps.measured).seconds() > config_.rate_window_s - 1e-6) break;
+  }
+  const double span_s = (newest.stamps.measured - oldest->sample.stamps.measured).seconds();
+  if (span_s <= 0.0) return Vector3d::Zero();
+  const Eigen::AngleAxisd turned(oldest->sample.rotation_ahrs_body.conjugate() * newest.rotation_ahrs_body);
+  return turned.angle() / span_s * turned.axis();
+}
+
+void InertialCheck::compare(Time now) {
+  fault_ = Fault::kNone;
+  compareRates(now);
+  compareForces(now);
+  const auto forgive = [&](std::optional<Time>& wrong) {
+    if (wrong && (now - *wrong).seconds() > config_.trusted_again_s) wrong.reset();
+  };
+  forgive(rates_wrong_);
+  forgive(force_wrong_);
+  if (!contradicted())
+    since_.reset();
+  else if (!since_)
+    since_ = now;
+}
+
+std::string InertialCheck::fault() const {
+  if (!contradicted()) return {};
+  switch (fault_) {
+    case Fault::kRates:
+      return fmt::format("the gyroscopes contradict the AHRS by {:.0f} deg/s", fault_size_);
+    case Fault::kAcross:
+      return fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 across its axis", fault_size_);
+    case Fault::kAlong:
+      return fmt::format("the accelerometer contradicts the thrust by {:.1f} m/s^2 along its axis", fault_size_);
+    case Fault::kNone:
+      break;
+  }
+  return rates_wrong_ ? "the gyroscopes contradicted the AHRS a moment ago"
+                      : "the accelerometer contradicted the thrust a moment ago";
+}
+
+/// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
+/// than half of that leaves it as it is. None if they do not span it yet.
+std::optional<double> InertialCheck::medianForce_m_s2(double span_s, int component) {
+  const Time newest = window_.back().sample.stamps.measured;
+  if ((newest - window_.front().sample.stamps.measured).seconds() < span_s - 1e-6) return std::nullopt;
+  sorted_m_s2_.clear();
+  for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
+    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) break;
+    sorted_m_s2_.push_back(it->sample.specific_force_body_m_s2[component]);
+  }
+  const auto middle = sorted_m_s2_.begin() + static_cast<std::ptrdiff_t>(sorted_m_s2_.size() / 2);
+  std::nth_element(sorted_m_s2_.begin(), middle, sorted_m_s2_.end());
+  return *middle;
+}
+
+void InertialCheck::compareRates(Time now) {
+  const auto mean = meanOver(window_, config_.rate_window_s,
+                             [](const Compared& one) { return Vector3d(one.sample.angular_velocity_body_rad_s); });
+  if (!mean) return;
+  const double off_deg_s = (*mean - ahrsRate_rad_s()).norm() / common::kRadPerDeg;
+  if (off_deg_s < config_.rate_deg_s) return;
+  rates_wrong_ = now;
+  fault_ = Fault::kRates;
+  fault_size_ = off_deg_s;
+}
+
+void InertialCheck::compareForces(Time now) {
+  const auto distrust = [&](double off_m_s2, Fault fault) {
+    force_wrong_ = now;
+    fault_ = fault;
+    fault_size_ = off_m_s2;
+  };
+  const auto x = medianForce_m_s2(config_.horizontal_window_s, 0), y = medianForce_m_s2(config_.horizontal_window_s, 1);
+  if (x && y && std::hypot(*x, *y) > config_.horizontal_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
+  const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
+  if (!known) return;
+  const auto along = meanOver(window_, config_.vertical_window_s, [](const Compared& one) {
+    return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
+  });
+  // Less force than the thrust gives is a vehicle that sinks: a motor or a battery gives way. More cannot be.
+  if (along && *along > config_.vertical_m_s2) distrust(*along, Fault::kAlong);
+}
+
+bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > config_.land_after_s; }
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,48 @@
+#include "autonomy/inertial/inertial_input.hpp"
+
+#include <utility>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::ImuSample;
+using common::Severity;
+using common::Time;
+
+void InertialInputConfig::describe(common::config::Fields& fields) {
+  fields.section("imu", imu, "Inertial samples that cannot be used.");
+  fields.section("inertial_check", inertial_check,
+                 "Inertial samples that contradict the attitude or the thrust, and what takes their place.");
+}
+
+/// On the ground a faulty sample goes to the filter as it is, which starts only if it makes sense.
+std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
+  watch_.add(sample);
+  if (watch_.repeats() || (airborne_ && !watch_.fault(sample.stamps.arrived).empty())) return std::nullopt;
+  const bool before = check_.contradicted();
+  const ImuSample used = check_.checked(sample);
+  const bool contradicted = check_.contradicted();
+  if (contradicted != before)
+    events_.push_back({sample.stamps.arrived, contradicted ? Severity::kWarning : Severity::kInfo, "imu",
+                       contradicted ? "inertial samples are replaced" : "the inertial samples fit again",
+                       check_.fault()});
+  if (used.rotation_ahrs_body.coeffs().allFinite()) substitute_.measured(used);
+  return used;
+}
+
+std::optional<ImuSample> InertialInput::predicted(Time now) {
+  if (!airborne_ || !setpoints_apply_ || watch_.fault(now).empty()) return std::nullopt;
+  return substitute_.next(now);
+}
+
+void InertialInput::flown(const common::Setpoint& setpoint, const InertialContext& context) {
+  airborne_ = context.airborne;
+  setpoints_apply_ = context.thrust_applies;
+  check_.vehicleIs(context);
+  substitute_.flown(setpoint, context.thrust_over_hover);
+}
+
+std::vector<common::Event> InertialInput::takeEvents() { return std::exchange(events_, {}); }
+
+}  // namespace swiftlet::autonomy

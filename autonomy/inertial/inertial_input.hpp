@@ -1,0 +1,61 @@
+// The inertial samples that the filter gets: those that were measured, those of which a part is replaced because it
+// contradicts the rest, or, while none can be used, those that the setpoints predict.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "autonomy/inertial/imu_substitute.hpp"
+#include "autonomy/inertial/imu_watch.hpp"
+#include "autonomy/inertial/inertial_check.hpp"
+#include "common/config_fwd.hpp"
+#include "common/event.hpp"
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+#include "common/vehicle.hpp"
+
+namespace swiftlet::autonomy {
+
+struct InertialInputConfig {
+  ImuWatchConfig imu;
+  InertialCheckConfig inertial_check;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// One thread.
+class InertialInput {
+ public:
+  /// The lag of the attitude is the one that the controllers believe.
+  InertialInput(const InertialInputConfig& config, double attitude_lag_s)
+      : watch_(config.imu),
+        check_(config.inertial_check),
+        substitute_({attitude_lag_s, config.inertial_check.thrust_lag_s}) {}
+
+  /// What the filter is to be given for a sample that arrived; none if it tells nothing.
+  std::optional<common::ImuSample> take(const common::ImuSample& sample);
+  /// The next sample that takes the place of measured ones; none while those can be used, on the ground, and while
+  /// somebody else flies than the setpoints. To be called at each tick until there is none.
+  std::optional<common::ImuSample> predicted(common::Time now);
+  /// Call at each tick of the control.
+  void flown(const common::Setpoint& setpoint, const InertialContext& context);
+
+  /// Why measured samples cannot be used at `now`; empty if they can. As of ImuWatch::fault.
+  std::string_view fault(common::Time now) const { return watch_.fault(now); }
+  /// Why the vehicle must come down although samples arrive; empty if it need not.
+  std::string mustLandFor(common::Time now) const { return check_.mustLand(now) ? check_.fault() : std::string(); }
+  /// The events since the last call.
+  std::vector<common::Event> takeEvents();
+
+ private:
+  ImuWatch watch_;
+  InertialCheck check_;
+  ImuSubstitute substitute_;
+  bool airborne_ = false;
+  bool setpoints_apply_ = true;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,74 @@
+#include "autonomy/planning_jobs/planning_desk.hpp"
+
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "planning/costs/open_place.hpp"
+#include "planning/exploration/held_path.hpp"
+#include "planning/search/goal_map.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::Time;
+
+PlanningDesk::PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
+                           common::JobRunner& jobs, Deliver deliver)
+    : exploration_(config.exploration),
+      latency_s_(config.latency_s),
+      period_s_(config.period_s),
+      hull_radius_m_(vehicle.hullRadius_m()),
+      jobs_(jobs),
+      deliver_(std::move(deliver)),
+      worker_(std::make_shared<PlanningWorker>(config, grid_resolution_m, vehicle.hull_height_m)),
+      frontiers_(std::make_shared<std::vector<common::Frontier>>()) {}
+
+void PlanningDesk::ask(PlanningRequest request, Time now) {
+  request.footprint.hull_radius_m = hull_radius_m_;
+  last_request_ = now;
+  jobs_.submit("planning", now, common::Duration::fromSeconds(latency_s_),
+               [this, worker = worker_, request = std::move(request)]() -> common::JobRunner::Deliver {
+                 return [this, answer = worker->answer(request)](Time delivered) { receive(answer, delivered); };
+               });
+}
+
+bool PlanningDesk::due(Time now) const {
+  return free() && (!last_request_ || (now - *last_request_).seconds() >= period_s_);
+}
+
+std::shared_ptr<const planning::CostMap> PlanningDesk::costMapAt(const FlightHeights& heights) const {
+  if (heights.isLower() && heights_) return {heights_, &heights_->lower};
+  return cost_map_;
+}
+
+bool PlanningDesk::wallsAround(const common::VehicleState& state) const {
+  return !cost_map_ || planning::isHeld(*cost_map_, state.T_map_body_planar().position_m(), exploration_);
+}
+
+Eigen::Vector2d PlanningDesk::escape_map_m(const common::VehicleState& state, const FlightHeights& heights,
+                                           const control::FlightController& controller) const {
+  const auto map = costMapAt(heights);
+  if (!map) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d velocity_map_m_s =
+      Eigen::Rotation2Dd(state.T_map_odom.yaw_rad) * Eigen::Vector2d(state.velocity_odom_m_s.head<2>());
+  const double speed_m_s = velocity_map_m_s.norm();
+  Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
+  if (speed_m_s > 0.0)
+    stopped_m += controller.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
+  return planning::displacementToOpenPlace_m(*map, stopped_m, controller.escapeReach_m());
+}
+
+void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {
+  cost_map_ = answer.cost_map;
+  goal_map_ = planning::goalMapOf(cost_map_);
+  if (answer.heights) heights_ = answer.heights;
+  if (answer.exploration) {
+    frontiers_ = std::make_shared<std::vector<common::Frontier>>(answer.exploration->frontiers);
+    explored_area_m2_ = answer.exploration->explored_area_m2;
+  }
+  home_m_ = answer.home_m;
+  use_ = answer.use;
+  deliver_(answer, now);
+}
+
+}  // namespace swiftlet::autonomy

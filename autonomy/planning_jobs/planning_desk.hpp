@@ -1,0 +1,79 @@
+// Runs plans as jobs, one at a time. Each job also updates the cost map. If no plan is requested for a while, the desk
+// submits a job that only updates the cost map.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "autonomy/planning_jobs/planning_config.hpp"
+#include "autonomy/planning_jobs/planning_worker.hpp"
+#include "common/goal.hpp"
+#include "common/jobs.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
+#include "common/world.hpp"
+#include "control/flight_controller.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread; outlives the jobs it submits.
+class PlanningDesk {
+ public:
+  /// Called with every answer when its job is delivered; costMap() is then already the new one.
+  using Deliver = std::function<void(const PlanningAnswer&, common::Time now)>;
+
+  PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
+               common::JobRunner& jobs, Deliver deliver);
+
+  double hullRadius_m() const { return hull_radius_m_; }
+  /// True if no job is outstanding, so that ask() may be called.
+  bool free() const { return jobs_.idle("planning"); }
+  /// The desk knows the radius of the hull: that of the request is ignored.
+  void ask(PlanningRequest request, common::Time now);
+  /// True if no job is outstanding and the last request is planning_period_s old: a request is due, if only to update
+  /// the cost map.
+  bool due(common::Time now) const;
+
+  /// The newest cost map; null before the first answer.
+  std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }
+  /// The newest cost map of the height at which the vehicle is; null before the first answer.
+  std::shared_ptr<const planning::CostMap> costMapAt(const FlightHeights& heights) const;
+  /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
+  bool wallsAround(const common::VehicleState& state) const;
+  /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
+  /// FlightController::setEscape.
+  Eigen::Vector2d escape_map_m(const common::VehicleState& state, const FlightHeights& heights,
+                               const control::FlightController& controller) const;
+  /// The newest cost maps of paths at two heights; null before the first such path was asked for.
+  std::shared_ptr<const planning::TwoHeights> heights() const { return heights_; }
+  /// The newest cost map for judging goals; null before the first answer.
+  std::shared_ptr<const common::GoalMap> goalMap() const { return goal_map_; }
+  /// The frontiers found by the last exploration request; never null.
+  std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }
+  double exploredArea_m2() const { return explored_area_m2_; }
+  /// Length of the path home, as planned a few answers ago; none while there is no path.
+  const std::optional<double>& home_m() const { return home_m_; }
+  /// The planner and the explorer in use, with the number of their results so far.
+  const PlanningUse& use() const { return use_; }
+
+ private:
+  void receive(const PlanningAnswer& answer, common::Time now);
+
+  planning::ExplorationConfig exploration_;
+  double latency_s_, period_s_, hull_radius_m_;
+  common::JobRunner& jobs_;
+  Deliver deliver_;
+  std::shared_ptr<PlanningWorker> worker_;
+  std::optional<common::Time> last_request_;
+  std::shared_ptr<const planning::CostMap> cost_map_;
+  std::shared_ptr<const planning::TwoHeights> heights_;
+  std::shared_ptr<const common::GoalMap> goal_map_;
+  std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
+  double explored_area_m2_ = 0.0;
+  std::optional<double> home_m_;
+  PlanningUse use_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,131 @@
+// The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the planner's
+// search between jobs. While a job is outstanding, only that job may use the worker.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "autonomy/planning_jobs/lower_planner.hpp"
+#include "autonomy/planning_jobs/planning_config.hpp"
+#include "common/level_map.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
+#include "common/polygon.hpp"
+#include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration.hpp"
+#include "planning/exploration/explorer_choice.hpp"
+#include "planning/search/planner.hpp"
+#include "planning/search/wavefront.hpp"
+
+namespace swiftlet::autonomy {
+
+struct GoalRequest {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+  double tolerance_m = 0.0;  ///< If the goal is not free, a free place within it may replace the goal.
+  FlightHeights height = {};
+};
+struct ExploreRequest {
+  std::optional<planning::Viewpoint> current;
+  std::vector<planning::ExplorationAttempt> attempts;
+  std::optional<common::MapBounds> bounds;
+  std::vector<Eigen::Vector2d> lost_map_m = {};
+  bool leave_building = false;
+};
+/// Asks for a place to fly to while there is no path to a goal. If a person blocks the path, it is a wide place far
+/// away over free space, so that the person can pass. Otherwise it is the last free place before the blockage, to see
+/// whether the mapped obstacle is still there; if that is too near, it is a wide place, too.
+struct DetourRequest {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+};
+
+/// std::monostate requests only an update of the cost map.
+using PlanningQuestion = std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest>;
+
+struct PlanningRequest {
+  std::uint64_t intent_id = 0;
+  std::shared_ptr<const common::OccupancyGrid> grid;
+  std::shared_ptr<const common::LevelMap> levels;
+  std::vector<common::Disc> discs;
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null: none.
+  planning::Footprint footprint;
+  std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without one: paths then keep their height.
+  common::PlaceNames names;                         ///< For the texts of the answer.
+  common::Pose2 T_map_body;
+  PlanningQuestion question;
+};
+
+struct DetourPlan {
+  planning::Path path;
+  bool makes_room = false;
+};
+
+/// Names of the planner and the explorer, with the number of their results.
+struct PlanningUse {
+  std::string planner;
+  int paths = 0;  ///< Paths to goals, to viewpoints and of detours.
+  std::string explorer;
+  int viewpoints = 0;  ///< A viewpoint that was kept is not counted again.
+};
+
+struct PlanningAnswer {
+  std::uint64_t intent_id = 0;
+  std::shared_ptr<const planning::CostMap> cost_map;
+  /// For a GoalRequest the path to the goal, for an ExploreRequest the path to the viewpoint it found.
+  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
+  /// The cost maps of a path that is flown at two heights, as long as such paths are asked for; else null.
+  std::shared_ptr<const planning::TwoHeights> heights;
+  std::optional<DetourPlan> detour;                        ///< For a DetourRequest; none if no place was found.
+  std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
+  std::optional<double> home_m;                            ///< Length of the path home; none if there is none.
+  PlanningUse use;                                         ///< Totals so far, including this answer.
+};
+
+/// Used by one job at a time. An answer depends only on the requests so far.
+class PlanningWorker {
+ public:
+  PlanningWorker(const PlanningConfig& config, double resolution_m, double hull_height_m = 0.25)
+      : map_(config.cost_map, resolution_m),
+        lower_(config.lower, config.cost_map, resolution_m, hull_height_m),
+        lower_detour_m_(config.lower.detour_m),
+        explorer_(planning::makeExplorer(config.explorer, config.exploration)),
+        planner_(planning::makePlanner(config.planner)),
+        exploration_(config.exploration) {}
+
+  PlanningAnswer answer(const PlanningRequest& request);
+
+ private:
+  tl::expected<planning::Path, planning::PlanFailure> plan(const Eigen::Vector2d& from_map_m,
+                                                           const Eigen::Vector2d& to_map_m);
+  tl::expected<Eigen::Vector2d, planning::PlanFailure> goalPlace(const GoalRequest& goal) const;
+  tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
+                                                           const Eigen::Vector2d& position_map_m);
+  void goLower(const PlanningRequest& request, const GoalRequest& goal, const planning::CostLayers& layers,
+               PlanningAnswer& answer);
+  std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<common::Disc>& people,
+                                   const Eigen::Vector2d& position_map_m);
+  void explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer);
+  std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
+  std::optional<double> pathHome_m(const Eigen::Vector2d& position_map_m);
+
+  planning::CostMap map_;
+  LowerPlanner lower_;
+  double lower_detour_m_;
+  std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
+  std::unique_ptr<planning::Explorer> explorer_;
+  std::unique_ptr<planning::Planner> planner_;
+  planning::ExplorationConfig exploration_;
+  planning::Wavefront home_planner_;
+  std::optional<double> home_m_;
+  int home_failures_ = 0;  ///< Plans without a path, since the last path.
+  Eigen::Vector2d home_planned_at_m_ = Eigen::Vector2d::Zero();
+  int answers_ = 0;
+  int paths_ = 0;       ///< Number of paths that the planner found.
+  int viewpoints_ = 0;  ///< Number of viewpoints that the explorer chose.
+};
+
+}  // namespace swiftlet::autonomy

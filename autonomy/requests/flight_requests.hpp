@@ -1,0 +1,63 @@
+// Carries out what the mission and the operator ask for beside the intents.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/requests/keep_out_zones.hpp"
+#include "autonomy/requests/run_files.hpp"
+#include "common/command.hpp"
+#include "common/event.hpp"
+#include "common/mission_request.hpp"
+#include "common/rgbd_camera_config.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/time.hpp"
+#include "common/vehicle_state.hpp"
+#include "common/world.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread; called at the ticks of the behaviours.
+class FlightRequests {
+ public:
+  /// `camera` may be null: then nobody photographs.
+  explicit FlightRequests(double hull_radius_m, const common::RgbdCameraConfig* camera = nullptr)
+      : keep_out_(hull_radius_m), camera_(camera != nullptr ? std::optional(camera->mount.pose()) : std::nullopt) {}
+
+  /// Handles and answers commands about keep-out zones; every other one is for somebody else.
+  std::optional<common::CommandResult> take(const common::OperatorCommand& command, const common::World& world);
+  void take(const common::MissionRequest& request, const common::World& world);
+  /// An answer of somebody else, with its event.
+  void answered(common::MissionAnswer answer, common::Time now);
+
+  /// A photograph that is asked for is taken of it if it was measured after that.
+  void addFrame(const std::shared_ptr<const common::RgbdFrame>& frame, const common::VehicleState& state);
+
+  const KeepOutZones& keepOut() const { return keep_out_; }
+  /// Gives up photographs for which no frame came.
+  std::vector<common::MissionAnswer> takeAnswers(common::Time now);
+  std::vector<RunFile> takeFiles();
+  std::vector<common::Event> takeEvents();
+
+ private:
+  struct Pending {
+    std::uint64_t id = 0;
+    std::string name;
+    common::Time asked;
+  };
+  common::MissionAnswer answerTo(const common::MissionRequest& request, const common::World& world);
+  std::string addZone(const common::Polygon& zone, KeepOutZones::Owner owner, const common::World& world);
+  void say(common::Time now, std::string text, std::string reason);
+
+  KeepOutZones keep_out_;
+  std::optional<common::Pose3> camera_;  ///< T_body_camera by the data sheet; none without a camera.
+  std::optional<Pending> photograph_;
+  std::vector<RunFile> files_;
+  std::vector<common::MissionAnswer> answers_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy
