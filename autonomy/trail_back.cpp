@@ -10,22 +10,22 @@ namespace swiftlet::autonomy {
 namespace {
 
 /// The hull of the smallest vehicle has been at both places, so no wall stands between them.
-constexpr double kPast_m = 0.25;
+constexpr double kTrailPast_m = 0.25;
 
-/// The oldest point of the trail in each square of side kPast_m.
+/// The oldest point of the trail in each square of side kTrailPast_m.
 class OldestPoints {
  public:
   explicit OldestPoints(std::span<const Eigen::Vector2d> trail_m) : trail_m_(trail_m) {
     for (std::size_t i = 0; i < trail_m.size(); ++i) oldest_.try_emplace(squareOf(trail_m[i]), i);
   }
-  /// The oldest point, of those that are oldest in their square, within kPast_m of the point `at`.
+  /// The oldest point, of those that are oldest in their square, within kTrailPast_m of the point `at`.
   std::size_t near(std::size_t at) const {
     const auto [column, row] = squareOf(trail_m_[at]);
     std::size_t found = at;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
         if (const auto entry = oldest_.find({column + dx, row + dy});
-            entry != oldest_.end() && (trail_m_[entry->second] - trail_m_[at]).norm() <= kPast_m)
+            entry != oldest_.end() && (trail_m_[entry->second] - trail_m_[at]).norm() <= kTrailPast_m)
           found = std::min(found, entry->second);
     return found;
   }
@@ -33,7 +33,8 @@ class OldestPoints {
  private:
   using Square = std::pair<int, int>;
   static Square squareOf(const Eigen::Vector2d& point_m) {
-    return {static_cast<int>(std::floor(point_m.x() / kPast_m)), static_cast<int>(std::floor(point_m.y() / kPast_m))};
+    return {static_cast<int>(std::floor(point_m.x() / kTrailPast_m)),
+            static_cast<int>(std::floor(point_m.y() / kTrailPast_m))};
   }
 
   std::span<const Eigen::Vector2d> trail_m_;

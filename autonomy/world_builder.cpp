@@ -10,7 +10,7 @@ namespace swiftlet::autonomy {
 namespace {
 
 /// One cell of the shipped map: a denser trail shows nothing more on the page.
-constexpr double kTrailStep_m = 0.05;
+constexpr double kShownTrailStep_m = 0.05;
 
 bool same(const common::Pose2& a, const common::Pose2& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.yaw_rad == b.yaw_rad;
@@ -71,7 +71,8 @@ void WorldBuilder::follow(const common::VehicleLayer& vehicle) {
     if (last_position_odom_m_) distance_flown_m_ += (position_odom_m - *last_position_odom_m_).norm();
     const Eigen::Vector2d position_map_m = vehicle.state.T_map_body().position_m.head<2>();
     const auto flown_map_m = trail_.trail().points_map_m();
-    if (flown_map_m.empty() || (flown_map_m.back() - position_map_m).norm() > kTrailStep_m) trail_.add(position_map_m);
+    if (flown_map_m.empty() || (flown_map_m.back() - position_map_m).norm() > kShownTrailStep_m)
+      trail_.add(position_map_m);
   }
   last_position_odom_m_ = position_odom_m;
 }

@@ -15,7 +15,7 @@ namespace occupancy = common::occupancy;
 
 constexpr double kInterval_s = 2.0;  ///< What differs is said after 4 s: twice it is looked at.
 /// The same wall differs by as much in two maps: 1 deg at 10 m is 17 cm, and a cell on each side.
-constexpr double kSameWall_m = 0.25;
+constexpr double kUnchangedWithin_m = 0.25;
 /// Outline of the smallest thing that is said: a box of 15 cm shows one or two sides of it.
 constexpr double kLeastOutline_m = 0.30;
 /// A person who walks by is gone at the next check.
@@ -27,7 +27,7 @@ void MapChanges::update(common::Time now, const OccupancyGrid& flown, const Occu
                         const common::Pose2& T_map_given) {
   if (checked_ && (now - *checked_).seconds() < kInterval_s) return;
   checked_ = now;
-  const int same_wall = static_cast<int>(std::lround(kSameWall_m / flown.resolution_m()));
+  const int same_wall = static_cast<int>(std::lround(kUnchangedWithin_m / flown.resolution_m()));
   const common::Pose2 T_given_map = T_map_given.inverse();
   const auto squareOf = [&](CellIndex cell) {
     const Eigen::Vector2d at_m = T_given_map * flown.centerOf(cell);

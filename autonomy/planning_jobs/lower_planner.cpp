@@ -14,7 +14,7 @@ namespace swiftlet::autonomy {
 namespace {
 
 /// A little farther than a depth camera sees.
-constexpr double kReach_m = 6.0;
+constexpr double kLowerReach_m = 6.0;
 
 using common::CellIndex;
 using common::OccupancyGrid;
@@ -33,7 +33,7 @@ TwoGrids gridsOf(const OccupancyGrid& grid, const VoxelColumns& upper_columns, c
   TwoGrids grids{grid, common::makeOccupancyGrid(grid.resolution_m())};
   const common::CellRect extent = grid.extent();
   const CellIndex center = grid.cellAt(around_map_m);
-  const int reach = static_cast<int>(kReach_m / grid.resolution_m());
+  const int reach = static_cast<int>(kLowerReach_m / grid.resolution_m());
   const CellIndex low{center.x - reach, center.y - reach}, high{center.x + reach, center.y + reach};
   const auto allocate = [](OccupancyGrid& in, CellIndex cell) { in.set(cell, in.at(cell)); };
   for (OccupancyGrid* in : {&grids.upper, &grids.lower}) {
@@ -88,9 +88,10 @@ std::optional<double> LowerPlanner::chooseHeight(const FlightHeights& height) co
 
 void LowerPlanner::update(const LowerQuestion& question, double lower_m) {
   const double around_m = half_hull_m_ + config_.air_around_m, cruise_m = question.height.cruise_m;
-  const VoxelColumns upper(question.map3d, cruise_m - around_m, cruise_m + around_m, question.start_map_m, kReach_m);
+  const VoxelColumns upper(question.map3d, cruise_m - around_m, cruise_m + around_m, question.start_map_m,
+                           kLowerReach_m);
   const VoxelColumns lower(question.map3d, lower_m - config_.air_below_m, lower_m + around_m, question.start_map_m,
-                           kReach_m);
+                           kLowerReach_m);
   const TwoGrids grids = gridsOf(question.grid, upper, lower, question.start_map_m);
   upper_.update(grids.upper, question.footprint, question.layers);
   lower_.update(grids.lower, question.footprint, question.layers);

@@ -11,7 +11,7 @@ constexpr double kFloorNoise_m = 0.10;
 /// A voxel is occupied with the evidence of two frames, in log odds: a single one may have met a mixed pixel.
 constexpr int kOccupiedEvidence = static_cast<int>(1.5 / common::VoxelMap::kLogOddsStep);
 /// A submap reaches as far around its origin as a depth camera sees.
-constexpr double kSubmapReach_m = 6.0;
+constexpr double kColumnsReach_m = 6.0;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ VoxelColumns::VoxelColumns(const common::Map3dLayer& layer, double low_m, double
     : low_m_(std::max(low_m, kFloorNoise_m)), high_m_(high_m) {
   for (const common::Submap3d& submap : *layer.submaps) {
     const common::Pose2 T_map_submap = planar(submap.T_map_submap(*layer.keys));
-    if ((T_map_submap.position_m() - around_map_m).norm() > reach_m + kSubmapReach_m) continue;
+    if ((T_map_submap.position_m() - around_map_m).norm() > reach_m + kColumnsReach_m) continue;
     sources_.push_back({T_map_submap.inverse(), submap.voxels});
   }
 }
