@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "control/attitude_step.hpp"
 #include "control/usable_state.hpp"
 
 namespace swiftlet::control {
@@ -244,7 +245,8 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
   if (!on_ground && isFinite(tick.state)) oscillation_.observe(tick.state.T_odom_body.rotation, dt_s_);
   const ControlInput input{now_,       dt_s_,     tick.state,          target, tick.acceleration_odom_m_s2,
                            horizontal, on_ground, oscillation_.share()};
-  return position_.tick(input, tick.battery_v);
+  const common::Setpoint setpoint = position_.tick(input, tick.battery_v);
+  return on_ground || !isFinite(tick.state) ? setpoint : withinThrustLeft(setpoint, tick.state.T_odom_body.rotation);
 }
 
 tl::expected<void, std::string> FlightController::switchController(ControllerKind kind) {
