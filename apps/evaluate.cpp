@@ -65,7 +65,7 @@ void addEvaluate(Command& program) {
                           "Relative pose error over stretches (Sturm et al. 2012); alignment does not change it.");
   addReference(rpe, *options);
   rpe.option("--delta", options->delta, {1e-6, 1e9}, "From each pose to the first that is at least so far on.");
-  rpe.choice("--unit", options->unit, kUnits, "Of --delta; metres are along the reference's path.");
+  rpe.choice("--unit", options->unit, kUnits, "Unit of --delta; metres are along the reference's path.");
   rpe.footer("Example: swiftlet evaluate rpe trajectory.tum groundtruth.txt.gz --delta 1 --unit seconds");
 }
 

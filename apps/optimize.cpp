@@ -209,7 +209,8 @@ void addOptimize(Command& program) {
   command.option("--out", options->out,
                  "Folder for the optimized graph, graph.g2o, and its figures, optimized.json; new, empty or with older "
                  "ones.");
-  command.option("--max-iterations", options->max_iterations, {1, 1000}, "Of each start that is tried.");
+  command.option("--max-iterations", options->max_iterations, {1, 1000},
+                 "Iterations of each start that is tried, at most.");
   command.flag(
       "--ignore-cross-terms", options->ignore_cross_terms,
       "Where the information of an edge is not positive definite, use its diagonal alone. Without this, such a "

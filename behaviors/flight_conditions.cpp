@@ -107,7 +107,7 @@ tree::NodeManifest IsPersonNear::manifest() {
                      .default_value = "2.0",
                      .minimum = 0.0,
                      .maximum = 30.0,
-                     .description = "From the vehicle's centre to the edge of the person."}},
+                     .description = "Distance from the vehicle's centre to the edge of the person."}},
           .description = "The laser sees a moving person near the vehicle."};
 }
 

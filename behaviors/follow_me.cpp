@@ -14,7 +14,7 @@ std::vector<tree::PortManifest> personPorts() {
            .default_value = "2.0",
            .minimum = 1.5,
            .maximum = 3.0,
-           .description = "Between the vehicle's centre and the person."},
+           .description = "Distance between the vehicle's centre and the person."},
           {.name = "lost_s",
            .type = PortType::kDuration,
            .default_value = "20",

@@ -156,7 +156,7 @@ tree::NodeManifest Patrol::manifest() {
                      .default_value = "0",
                      .minimum = 0.0,
                      .maximum = 9999.0,
-                     .description = "How often all points are visited; 0: until something above it ends it."},
+                     .description = "How often all points are visited; 0: until something above the node ends it."},
                     {.name = "pause_s",
                      .type = PortType::kDuration,
                      .default_value = "2",

@@ -16,17 +16,18 @@ tree::NodeManifest Inspect::manifest() {
                      .default_value = "1.5",
                      .minimum = 0.3,
                      .maximum = 20.0,
-                     .description = "Of the circle about the point, for the vehicle's centre."},
+                     .description = "Radius of the circle about the point that the vehicle's centre flies."},
                     {.name = "turns",
                      .type = PortType::kDouble,
                      .default_value = "1",
                      .minimum = 0.1,
                      .maximum = 20.0,
-                     .description = "Of the circle, counter-clockwise."},
+                     .description = "Part of the circle that is flown, counter-clockwise."},
                     {.name = "height_m",
                      .type = PortType::kDouble,
-                     .description = "Of the vehicle above the take-off floor. Not given: where the camera's axis meets "
-                                    "the point, or the present height where the point has no z."},
+                     .description =
+                         "Height of the vehicle above the take-off floor. Not given: where the camera's axis meets "
+                         "the point, or the present height where the point has no z."},
                     clearancePort(),
                     modePort()},
           .description = "Orbits a point with the camera on it."};

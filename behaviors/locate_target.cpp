@@ -62,33 +62,34 @@ const common::Target* nearestOther(const FlightTick& tick, const std::string& na
 }  // namespace
 
 tree::NodeManifest LocateTarget::manifest() {
-  return {.id = "LocateTarget",
-          .kind = tree::NodeKind::kAction,
-          .ports = {targetNamePort(),
-                    {.name = "sigma_m",
-                     .type = PortType::kDouble,
-                     .default_value = "0.08",
-                     .minimum = 0.01,
-                     .maximum = 5.0,
-                     .description = "Greatest standard deviation of its place."},
-                    {.name = "distance_m",
-                     .type = PortType::kDouble,
-                     .default_value = "1.8",
-                     .minimum = 0.5,
-                     .maximum = 10.0,
-                     .description = "Of the vehicle's centre from the target, horizontally; more where the target is "
-                                    "so far below or above that it would leave the picture."},
-                    clearancePort(),
-                    modePort(),
-                    {.name = "place",
-                     .type = PortType::kPoint,
-                     .direction = tree::Direction::kOutput,
-                     .description = "Where it is."},
-                    {.name = "file",
-                     .type = PortType::kString,
-                     .direction = tree::Direction::kOutput,
-                     .description = "Its name and number, as a part of a file's name."}},
-          .description = "Looks at a target from several sides until its place is known well."};
+  return {
+      .id = "LocateTarget",
+      .kind = tree::NodeKind::kAction,
+      .ports = {targetNamePort(),
+                {.name = "sigma_m",
+                 .type = PortType::kDouble,
+                 .default_value = "0.08",
+                 .minimum = 0.01,
+                 .maximum = 5.0,
+                 .description = "Greatest standard deviation of the target's place."},
+                {.name = "distance_m",
+                 .type = PortType::kDouble,
+                 .default_value = "1.8",
+                 .minimum = 0.5,
+                 .maximum = 10.0,
+                 .description = "Horizontal distance of the vehicle's centre from the target; more where the target is "
+                                "so far below or above that it would leave the picture."},
+                clearancePort(),
+                modePort(),
+                {.name = "place",
+                 .type = PortType::kPoint,
+                 .direction = tree::Direction::kOutput,
+                 .description = "Position of the target."},
+                {.name = "file",
+                 .type = PortType::kString,
+                 .direction = tree::Direction::kOutput,
+                 .description = "Name and number of the target, as a part of a file's name."}},
+      .description = "Looks at a target from several sides until its place is known well."};
 }
 
 LocateTarget::LocateTarget(const tree::NodeSetup& setup)

@@ -6,18 +6,18 @@
 namespace swiftlet::behaviors {
 
 tree::NodeManifest MoveToGoal::manifest() {
-  return {
-      .id = "MoveToGoal",
-      .kind = tree::NodeKind::kAction,
-      .ports = {placePort("goal"),
-                tolerancePort(),
-                clearancePort(),
-                {.name = "height_m",
-                 .type = tree::PortType::kDouble,
-                 .description = "Above the take-off floor, where the goal has no z. Not given: the present height."},
-                headingPort(false),
-                modePort()},
-      .description = "Flies to a point of the map."};
+  return {.id = "MoveToGoal",
+          .kind = tree::NodeKind::kAction,
+          .ports = {placePort("goal"),
+                    tolerancePort(),
+                    clearancePort(),
+                    {.name = "height_m",
+                     .type = tree::PortType::kDouble,
+                     .description =
+                         "Height above the take-off floor, where the goal has no z. Not given: the present height."},
+                    headingPort(false),
+                    modePort()},
+          .description = "Flies to a point of the map."};
 }
 
 MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)

@@ -33,7 +33,7 @@ tree::NodeManifest Relocalize::manifest() {
                      .default_value = "1.5",
                      .minimum = 0.5,
                      .maximum = 10.0,
-                     .description = "How far it flies from where it began, to see more."}},
+                     .description = "Distance from where the vehicle began that it flies to see more."}},
           .description = "Looks around for its place in the given map, as if it did not know it."};
 }
 

@@ -19,7 +19,7 @@ tree::NodeManifest Survey::manifest() {
                                     "camera sees, with an overlap; 1 m without a camera."},
                     {.name = "height_m",
                      .type = PortType::kDouble,
-                     .description = "Above the take-off floor. Not given: the present height."},
+                     .description = "Height above the take-off floor. Not given: the present height."},
                     clearancePort(),
                     modePort()},
           .description = "Flies over an area in lanes."};

@@ -12,7 +12,7 @@ tree::NodeManifest TakeOff::manifest() {
                      .default_value = "1.0",
                      .minimum = common::kLeastFlightHeight_m,
                      .maximum = 100.0,
-                     .description = "Above the take-off floor."},
+                     .description = "Height above the take-off floor."},
                     {.name = "max_height_m",
                      .type = tree::PortType::kDouble,
                      .required = false,

@@ -20,7 +20,7 @@ tree::NodeManifest WaitForOperator::manifest() {
                      .default_value = "0",
                      .minimum = 0.0,
                      .maximum = 86400.0,
-                     .description = "Time after which it fails; 0: it waits for as long as it takes."}},
+                     .description = "Time after which the node fails; 0: it waits without a limit."}},
           .description = "Waits until the operator says go on."};
 }
 

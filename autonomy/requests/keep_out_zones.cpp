@@ -49,7 +49,8 @@ std::vector<Eigen::Vector2d> KeepOutZones::edgesNear_level_m(const common::Pose2
       if (length_m <= 0.0) continue;
       // Of a long edge only the part within range is walked along.
       const double nearest_m = (T_map_body.position_m() - corners[i]).dot(edge) / length_m;
-      const double from_m = std::clamp(std::floor((nearest_m - range_m) / kOutlineStep_m) * kOutlineStep_m, 0.0, length_m);
+      const double from_m =
+          std::clamp(std::floor((nearest_m - range_m) / kOutlineStep_m) * kOutlineStep_m, 0.0, length_m);
       const double to_m = std::clamp(nearest_m + range_m, 0.0, length_m);
       for (double at_m = from_m; at_m <= to_m; at_m += kOutlineStep_m) {
         const Eigen::Vector2d point = corners[i] + edge * (at_m / length_m);

@@ -9,7 +9,7 @@ NodeManifest Delay::manifest() {
                      .type = PortType::kDuration,
                      .required = true,
                      .minimum = 0,
-                     .description = "The child starts so much later."}},
+                     .description = "Time after which the child starts."}},
           .description = "Starts the child later; the time it is suspended does not count."};
 }
 

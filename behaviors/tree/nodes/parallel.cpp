@@ -12,13 +12,14 @@ NodeManifest Parallel::manifest() {
                      .default_value = "-1",
                      .minimum = -1000,
                      .maximum = 1000,
-                     .description = "So many children must succeed; negative: counted from the end, -1 is all."},
+                     .description = "Number of children that must succeed; negative: counted from the end, -1 is all."},
                     {.name = "failure_count",
                      .type = PortType::kInt,
                      .default_value = "1",
                      .minimum = -1000,
                      .maximum = 1000,
-                     .description = "So many failures make it fail; negative: counted from the end, -1 is all."}},
+                     .description =
+                         "Number of failures after which the node fails; negative: counted from the end, -1 is all."}},
           .description = "All children in the same tick, until enough of them succeeded or failed."};
 }
 

@@ -12,7 +12,8 @@ NodeManifest ParallelAll::manifest() {
                      .default_value = "1",
                      .minimum = -1000,
                      .maximum = 1000,
-                     .description = "So many failures make it fail; negative: counted from the end, -1 is all."}},
+                     .description =
+                         "Number of failures after which the node fails; negative: counted from the end, -1 is all."}},
           .description = "All children in the same tick, until each of them has ended."};
 }
 

@@ -8,11 +8,12 @@ NodeManifest Precondition::manifest() {
           .ports = {{.name = "if",
                      .type = PortType::kScript,
                      .required = true,
-                     .description = "The child runs if it is true; it assigns nothing.",
+                     .description = "Condition under which the child runs; it assigns nothing.",
                      .asked = true},
                     {.name = "else",
                      .default_value = "FAILURE",
-                     .description = "The status if it is not true: SUCCESS, FAILURE, RUNNING or SKIPPED."}},
+                     .description =
+                         "Status of the node if the condition is not true: SUCCESS, FAILURE, RUNNING or SKIPPED."}},
           .description = "The child if a script is true, else a status."};
 }
 

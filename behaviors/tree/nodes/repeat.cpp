@@ -9,7 +9,7 @@ NodeManifest Repeat::manifest() {
                      .type = PortType::kInt,
                      .required = true,
                      .minimum = -1,
-                     .description = "So many successes of the child; -1: for ever."}},
+                     .description = "Successes of the child after which the node succeeds; -1: for ever."}},
           .description = "The child again and again, until it fails."};
 }
 

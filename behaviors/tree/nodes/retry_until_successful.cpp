@@ -9,7 +9,7 @@ NodeManifest RetryUntilSuccessful::manifest() {
                      .type = PortType::kInt,
                      .required = true,
                      .minimum = -1,
-                     .description = "So many attempts in all; -1: for ever."}},
+                     .description = "Attempts in all; -1: for ever."}},
           .description = "The child again after each failure, until it succeeds."};
 }
 

@@ -3,13 +3,14 @@
 namespace swiftlet::tree {
 
 NodeManifest RunOnce::manifest() {
-  return {.id = "RunOnce",
-          .kind = NodeKind::kDecorator,
-          .ports = {{.name = "then_skip",
-                     .type = PortType::kBool,
-                     .default_value = "true",
-                     .description = "Whether it is SKIPPED afterwards, or has the status of that once."}},
-          .description = "The child until it has ended once, and never again."};
+  return {
+      .id = "RunOnce",
+      .kind = NodeKind::kDecorator,
+      .ports = {{.name = "then_skip",
+                 .type = PortType::kBool,
+                 .default_value = "true",
+                 .description = "Whether the node is SKIPPED after its child has ended, or keeps the child's status."}},
+      .description = "The child until it has ended once, and never again."};
 }
 
 bool RunOnce::onAsked(const TickContext& context) const {

@@ -13,7 +13,7 @@ NodeManifest SetBlackboard::manifest() {
                      .type = PortType::kAny,
                      .direction = Direction::kOutput,
                      .required = true,
-                     .description = "The entry it is written to."}},
+                     .description = "Entry that is written."}},
           .description = "Writes a blackboard entry."};
 }
 

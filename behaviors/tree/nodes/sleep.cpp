@@ -9,7 +9,7 @@ NodeManifest Sleep::manifest() {
                      .type = PortType::kDuration,
                      .required = true,
                      .minimum = 0,
-                     .description = "It takes so long."}},
+                     .description = "Time to wait."}},
           .description = "Waits; the time it is suspended does not count."};
 }
 

@@ -9,7 +9,7 @@ NodeManifest Timeout::manifest() {
                      .type = PortType::kDuration,
                      .required = true,
                      .minimum = 0,
-                     .description = "The child may take so long; 0: no limit."}},
+                     .description = "Longest time that the child may take; 0: no limit."}},
           .description = "Fails when the child takes too long; the time it is suspended does not count."};
 }
 
