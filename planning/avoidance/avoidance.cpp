@@ -81,7 +81,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   const Point& course = moves ? input.wanted_level_m_s : input.velocity_level_m_s;
   decision.speed_limit_m_s = config_.max_speed_m_s;
   if (course.norm() > kStill_m_s) {
-    decision.speed_limit_m_s = speedLimit(course.normalized(), points, latency_s);
+    decision.speed_limit_m_s = speedLimit(course.normalized(), points, latency_s + config_.lag_s);
     const double intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
     const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around, latency_s);
     if (yielding_m_s < intended_m_s) decision.speed_limit_m_s = yielding_m_s;
@@ -168,12 +168,12 @@ bool Avoidance::cannotStopBefore(const Point& point_level_m, const Point& veloci
   return gap_m < kInfinity && speed_m_s > stoppingSpeed(gap_m, 0.0);
 }
 
-double Avoidance::speedLimit(const Point& direction, const Points& points, double latency_s) const {
+double Avoidance::speedLimit(const Point& direction, const Points& points, double delay_s) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
   // Outside the field of view only mapped obstacles are known, but no people.
   const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
-  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m, latency_s)) : most_m_s;
+  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m, delay_s)) : most_m_s;
 }
 
 bool Avoidance::isSeen(const Point& direction) const {
@@ -181,9 +181,9 @@ bool Avoidance::isSeen(const Point& direction) const {
          0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0;
 }
 
-double Avoidance::stoppingSpeed(double gap_m, double latency_s) const {
+double Avoidance::stoppingSpeed(double gap_m, double delay_s) const {
   // v t + v^2 / (2 a) = gap
-  const double a = config_.deceleration_m_s2, t = latency_s;
+  const double a = config_.deceleration_m_s2, t = delay_s;
   return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
 }
 

@@ -85,9 +85,9 @@ class Avoidance {
 
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
   bool cannotStopBefore(const Eigen::Vector2d& point_level_m, const Eigen::Vector2d& velocity_level_m_s) const;
-  double speedLimit(const Eigen::Vector2d& direction, const Points& points, double latency_s) const;
+  double speedLimit(const Eigen::Vector2d& direction, const Points& points, double delay_s) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
-  double stoppingSpeed(double gap_m, double latency_s) const;
+  double stoppingSpeed(double gap_m, double delay_s) const;
   double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
                        const std::vector<Threat>& threats, double latency_s) const;
   Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,

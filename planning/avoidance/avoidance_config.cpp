@@ -17,6 +17,8 @@ void AvoidanceConfig::describe(common::config::Fields& fields) {
   fields("blind_speed_m_s", blind_speed_m_s, {0.05, 20}, "Speed limit on a course that the laser does not see.");
   fields("latency_s", latency_s, {0, 2},
          "Time from a processed scan to its first effect on the speed; the age of the scan is added.");
+  fields("lag_s", lag_s, {0, 2},
+         "Lag of the vehicle's speed behind its limit: attitude and motors follow their commands in about this time.");
   fields("margin_m", margin_m, {0, 2}, "Distance between hull and obstacle when the vehicle has stopped.");
   fields("retreat_distance_m", retreat_distance_m, {0, 5},
          "Something unmapped nearer to the hull than this makes the vehicle retreat.");

@@ -28,6 +28,7 @@ struct AvoidanceConfig {
   double deceleration_m_s2 = 1.0;
   double blind_speed_m_s = 0.3;
   double latency_s = 0.12;
+  double lag_s = 0.08;
   double margin_m = 0.05;
   double retreat_distance_m = 0.25;
   double contact_time_s = 1.8;

@@ -69,10 +69,10 @@ TEST(Avoidance, ALateScanTakesSpeedAheadButNoRoomAtTheSides) {
     };
     const double ahead_m_s = limit({0.6, 0.0});
     EXPECT_LT(ahead_m_s, last_m_s) << age_s;
-    // v (latency + age) + v^2 / 2a is the free distance ahead.
+    // v (latency + lag + age) + v^2 / 2a is the free distance ahead.
     const Avoidance::Config config;
     const double free_m =
-        ahead_m_s * (config.latency_s + age_s) + 0.5 * ahead_m_s * ahead_m_s / config.deceleration_m_s2;
+        ahead_m_s * (config.latency_s + config.lag_s + age_s) + 0.5 * ahead_m_s * ahead_m_s / config.deceleration_m_s2;
     EXPECT_NEAR(free_m, 10.0 - 8.9 - kHull_m - config.margin_m, 0.06) << age_s;
     last_m_s = ahead_m_s;
   }
