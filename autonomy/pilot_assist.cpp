@@ -50,6 +50,7 @@ PilotAssist::PilotAssist(const PilotAssistConfig& config, double max_tilt_deg,
       max_tilt_rad_(max_tilt_deg * common::kRadPerDeg),
       hover_stick_(kHoverStick),
       deceleration_m_s2_(avoidance.deceleration_m_s2),
+      lag_s_(avoidance.lag_s),
       unlimited_m_s_(avoidance.max_speed_m_s) {}
 
 void PilotAssist::pilotArrived(const common::PilotSample& sample) {
@@ -78,20 +79,18 @@ Eigen::Vector2d PilotAssist::wantedVelocity_map_m_s(const common::VehicleState& 
   return Eigen::Rotation2Dd(state.T_map_body_planar().yaw_rad) * level_m_s;
 }
 
-/// The reactive layer counts on its own deceleration; against the pilot's stick the program has only what is left of
-/// its share, less the tilt by which the horizon may be wrong. A stick that is moved farther leaves none: the program
-/// then asks for a stop.
+/// The reactive layer counts on its own deceleration and lag; against the pilot's stick the program has only what is
+/// left of its share, less the tilt by which the horizon may be wrong. A stick that is moved farther leaves none: the
+/// program then asks for a stop.
 double PilotAssist::allowedSpeed_m_s(const planning::AvoidanceDecision& decision) const {
   const double limit_m_s = decision.speed_limit_m_s;
   if (limit_m_s >= unlimited_m_s_) return limit_m_s;
   const double stick = std::hypot(sticks_.pitch, sticks_.roll);
   const double left_m_s2 =
       common::kGravity_m_s2 * std::tan(max_tilt_rad_ * std::max(0.0, kProgramShare - stick) - kHorizonError_rad);
-  const double gap_m = 0.5 * limit_m_s * limit_m_s / deceleration_m_s2_ - kSpare_m;
+  const double gap_m = limit_m_s * lag_s_ + 0.5 * limit_m_s * limit_m_s / deceleration_m_s2_ - kSpare_m;
   if (left_m_s2 <= 0.0 || gap_m <= 0.0) return 0.0;
-  // v t + v^2 / 2a = gap.
-  const double allowed_m_s = left_m_s2 * (std::sqrt(kLag_s * kLag_s + 2.0 * gap_m / left_m_s2) - kLag_s);
-  return std::min(limit_m_s, allowed_m_s);
+  return std::min(limit_m_s, planning::stoppingSpeed_m_s(gap_m, left_m_s2, kLag_s));
 }
 
 bool PilotAssist::fly(control::FlightController& controller, const planning::AvoidanceDecision& decision,

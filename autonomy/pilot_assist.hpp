@@ -57,7 +57,7 @@ class PilotAssist {
   PilotAssistConfig config_;
   double max_tilt_rad_;
   double hover_stick_;  ///< The stick of the thrust when the pilot took over: from there it wishes to climb or to sink.
-  double deceleration_m_s2_, unlimited_m_s_;  ///< Of the reactive layer.
+  double deceleration_m_s2_, lag_s_, unlimited_m_s_;  ///< Of the reactive layer.
   common::PilotSample sticks_;
   bool assists_ = false;
   std::optional<double> yaw_map_rad_;  ///< Held while the stick of the yaw is centred.

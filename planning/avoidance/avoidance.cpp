@@ -47,6 +47,11 @@ std::string bearingInWords(const Point& p) {
 
 }  // namespace
 
+double stoppingSpeed_m_s(double gap_m, double deceleration_m_s2, double delay_s) {
+  const double a = deceleration_m_s2, t = delay_s;
+  return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
+}
+
 Avoidance::Avoidance(const Config& config, double hull_radius_m) : config_(config), hull_radius_m_(hull_radius_m) {}
 
 AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
@@ -165,7 +170,7 @@ bool Avoidance::cannotStopBefore(const Point& point_level_m, const Point& veloci
   const double speed_m_s = velocity_level_m_s.norm();
   if (speed_m_s <= kStill_m_s) return false;
   const double gap_m = gapAlong(velocity_level_m_s / speed_m_s, point_level_m, hull_radius_m_);
-  return gap_m < kInfinity && speed_m_s > stoppingSpeed(gap_m, 0.0);
+  return gap_m < kInfinity && speed_m_s > stoppingSpeed_m_s(gap_m, config_.deceleration_m_s2, 0.0);
 }
 
 double Avoidance::speedLimit(const Point& direction, const Points& points, double delay_s) const {
@@ -173,18 +178,13 @@ double Avoidance::speedLimit(const Point& direction, const Points& points, doubl
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
   // Outside the field of view only mapped obstacles are known, but no people.
   const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
-  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m, delay_s)) : most_m_s;
+  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed_m_s(gap_m, config_.deceleration_m_s2, delay_s))
+                           : most_m_s;
 }
 
 bool Avoidance::isSeen(const Point& direction) const {
   return std::abs(std::atan2(direction.y(), direction.x())) <=
          0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0;
-}
-
-double Avoidance::stoppingSpeed(double gap_m, double delay_s) const {
-  // v t + v^2 / (2 a) = gap
-  const double a = config_.deceleration_m_s2, t = delay_s;
-  return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
 }
 
 double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,

@@ -21,6 +21,9 @@ namespace swiftlet::planning {
 
 struct Threat;
 
+/// The speed from which the vehicle stops within the gap, braking after the delay: v t + v^2 / 2a = gap.
+double stoppingSpeed_m_s(double gap_m, double deceleration_m_s2, double delay_s);
+
 /// One scan, with the state at its time. The level frame is the body frame without roll and pitch.
 struct AvoidanceInput {
   common::Time stamp;
@@ -87,7 +90,6 @@ class Avoidance {
   bool cannotStopBefore(const Eigen::Vector2d& point_level_m, const Eigen::Vector2d& velocity_level_m_s) const;
   double speedLimit(const Eigen::Vector2d& direction, const Points& points, double delay_s) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
-  double stoppingSpeed(double gap_m, double delay_s) const;
   double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
                        const std::vector<Threat>& threats, double latency_s) const;
   Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
