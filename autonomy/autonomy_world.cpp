@@ -41,7 +41,7 @@ void Autonomy::takeSnapshot(Time now) {
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   parts.people.followed_map_m = executor_.followedPerson_map_m();
-  LengthHome home{executor_.desk().home_m(), 0.0, controller_.landing_s()};
+  FlightHome home{executor_.desk().home_m(), 0.0, controller_.landing_s()};
   if (world_ && !home.planned_m)
     home.trail_m = common::polylineLength(trailBackWithoutLoops(world_->vehicle->trail.points_map_m()));
   parts.map3d = estimator_.map3d();

@@ -75,9 +75,11 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
   return rotation * covariance * rotation.transpose();
 }
 
-Eigen::Matrix3d withoutVarianceAlong(const Eigen::Vector2d& direction, const Eigen::Matrix3d& covariance) {
+Eigen::Matrix3d withoutVarianceAlong(const std::optional<Eigen::Vector2d>& direction,
+                                     const Eigen::Matrix3d& covariance) {
+  if (!direction) return covariance;
   Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
-  across.topLeftCorner<2, 2>() -= direction * direction.transpose();
+  across.topLeftCorner<2, 2>() -= *direction * direction->transpose();
   return across * covariance * across;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -11,7 +12,7 @@ namespace swiftlet::common {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-/// The equal angle in (-pi, pi]. NaN for NaN and infinity.
+/// The angle wrapped to (-pi, pi]. NaN for NaN and infinity.
 double wrapAngle(double angle_rad);
 
 /// A pose in the plane, an element of SE(2).
@@ -60,8 +61,10 @@ Pose3 lifted(const Pose2& pose, double z_m);
 /// Converts the covariance of an error (x_m, y_m, yaw_rad) from frame b to frame a; `yaw_rad` is the yaw of b in a.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
 
-/// The covariance of (x_m, y_m, yaw_rad) without the variance of the position along a unit vector of the same frame.
-Eigen::Matrix3d withoutVarianceAlong(const Eigen::Vector2d& direction, const Eigen::Matrix3d& covariance);
+/// The covariance of (x_m, y_m, yaw_rad) without the variance of the position along a unit vector of the same frame;
+/// all of it if there is no such direction.
+Eigen::Matrix3d withoutVarianceAlong(const std::optional<Eigen::Vector2d>& direction,
+                                     const Eigen::Matrix3d& covariance);
 
 /// Covariance of the additive errors (x_m, y_m, yaw_rad), independent of each other, of these standard deviations.
 Eigen::Matrix3d planarCovariance(double position_sigma_m, double yaw_sigma_rad);

@@ -32,11 +32,6 @@ constexpr double kGreatestPush_m_s2 = 3.0, kUncertainPush_m_s2 = 0.4;
 
 }  // namespace
 
-void AlphaBetaFilter::reset() {
-  samples_ = 0;
-  velocity_m_s_ = 0.0;
-}
-
 void AlphaBetaFilter::update(const RawHeight& raw) {
   if (!std::isfinite(raw.height_m) || raw.height_m < 0.0) return;
   const double dt_s = (raw.stamp - stamp_).seconds();

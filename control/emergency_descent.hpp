@@ -29,7 +29,6 @@ struct RawHeight {
 class AlphaBetaFilter {
  public:
   AlphaBetaFilter(double time_constant_s, double jump_m) : time_constant_s_(time_constant_s), jump_m_(jump_m) {}
-  void reset();
   /// Ignores heights that are not finite and those older than the last one.
   void update(const RawHeight& raw);
   bool ready() const { return samples_ >= 2; }

@@ -117,7 +117,7 @@ double EnergyMonitor::remaining(common::Time now) const {
   return std::max(0.0, moved_to_ - (drawn_since_move_as_ + unheard_s(now) * current_a_) / capacity_as());
 }
 
-common::EnergyLayer EnergyMonitor::layer(common::Time now, const LengthHome& home, double thrust_margin,
+common::EnergyLayer EnergyMonitor::layer(common::Time now, const FlightHome& home, double thrust_margin,
                                          double land_share, double least_margin) const {
   common::EnergyLayer layer;
   if (!last_) return layer;
@@ -136,7 +136,7 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const LengthHome& hom
 }
 
 /// Without a path the vehicle would fly along its trail.
-void EnergyMonitor::tellHome(const LengthHome& home, common::EnergyLayer& layer) const {
+void EnergyMonitor::tellHome(const FlightHome& home, common::EnergyLayer& layer) const {
   // The learned speed falls to zero while the vehicle hovers, which tells nothing of how fast it would fly home.
   constexpr double kLeast_m_s = 0.1;
   layer.home_planned = home.planned_m.has_value();

@@ -22,8 +22,8 @@ struct EnergyConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// How far it is home.
-struct LengthHome {
+/// What a flight home takes.
+struct FlightHome {
   std::optional<double> planned_m;  ///< Length of the planned path; none while there is none.
   double trail_m = 0.0;             ///< Along the trail, without its loops.
   double landing_s = 0.0;           ///< From the height of the flight to the ground.
@@ -44,7 +44,7 @@ class EnergyMonitor {
   void followed(double speed_m_s, double dt_s);
 
   /// The vehicle lands when the charge falls to `land_share` or `thrust_margin`, the present one, to `least_margin`.
-  common::EnergyLayer layer(common::Time now, const LengthHome& home, double thrust_margin, double land_share,
+  common::EnergyLayer layer(common::Time now, const FlightHome& home, double thrust_margin, double land_share,
                             double least_margin) const;
   /// Why the charge is not that of the gauge but counted on by the current; empty if it is the gauge's.
   std::string countedOn(common::Time now) const;
@@ -54,7 +54,7 @@ class EnergyMonitor {
   double unheard_s(common::Time now) const;
   double remaining(common::Time now) const;
   double capacity_as() const;
-  void tellHome(const LengthHome& home, common::EnergyLayer& layer) const;
+  void tellHome(const FlightHome& home, common::EnergyLayer& layer) const;
 
   EnergyConfig config_;
   double capacity_as_;

@@ -63,10 +63,9 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
     step.clone_after = relative->to;
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
-  step.covariance = common::turned(relative->covariance, -relative->T_from_to.yaw_rad);
-  if (relative->unobservable_direction)
-    step.covariance = common::withoutVarianceAlong(*relative->unobservable_direction, step.covariance);
-  step.covariance += tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg);
+  const Eigen::Matrix3d covariance_to = common::turned(relative->covariance, -relative->T_from_to.yaw_rad);
+  step.covariance = common::withoutVarianceAlong(relative->unobservable_direction, covariance_to) +
+                    tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg);
   return step;
 }
 

@@ -9,7 +9,7 @@
 namespace swiftlet::autonomy {
 
 struct ExecutorConfig {
-  PlanningConfig planning;  ///< Its keys are on the level of these.
+  PlanningConfig planning;  ///< Without a section of its own: its keys stand beside those of the settings below.
   planning::PlanKeeper::Config plan_keeper;
   double explore_period_s = 0.5;
   double explore_period_share = 0.15;

@@ -49,8 +49,7 @@ Eigen::Vector2d PlanningDesk::escape_map_m(const common::VehicleState& state, co
                                            const control::FlightController& controller) const {
   const auto map = costMapAt(heights);
   if (!map) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d velocity_map_m_s =
-      Eigen::Rotation2Dd(state.T_map_odom.yaw_rad) * Eigen::Vector2d(state.velocity_odom_m_s.head<2>());
+  const Eigen::Vector2d velocity_map_m_s = state.velocity_map_m_s().head<2>();
   const double speed_m_s = velocity_map_m_s.norm();
   Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
   if (speed_m_s > 0.0)

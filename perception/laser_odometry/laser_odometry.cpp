@@ -16,14 +16,6 @@ using common::Pose2;
 
 namespace {
 
-/// The covariance of a key scan without the part along its unobservable direction. Along that direction the key scan
-/// itself defines the map. Its guess may have drifted relative to older key scans there, but scans matched to this one
-/// are not affected.
-Eigen::Matrix3d seenPart(const MatchResult& match) {
-  if (!match.unobservable_direction) return match.covariance;
-  return common::withoutVarianceAlong(*match.unobservable_direction, match.covariance);
-}
-
 void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
   switch (kind) {
     case MatcherKind::kCorrelative:
@@ -351,7 +343,12 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   relative.otherwise = otherwise;
   if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
-    self.addKeyScan(scan, match.T_reference_body, self.config.matcher.only_seen ? seenPart(match) : match.covariance);
+    // Along its unobservable direction the key scan itself defines the map. Its guess may have drifted relative to
+    // older key scans there, but scans matched to this one are not affected.
+    self.addKeyScan(scan, match.T_reference_body,
+                    self.config.matcher.only_seen
+                        ? common::withoutVarianceAlong(match.unobservable_direction, match.covariance)
+                        : match.covariance);
   }
   return relative;
 }

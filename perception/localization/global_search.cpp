@@ -144,8 +144,8 @@ class GlobalSearch::Descent {
   };
 
   const std::vector<std::int32_t>& offsetsAt(int direction, int level);
-  void boundTopBlocks();
-  void keepTheBest();
+  std::vector<PoseBlock> topBlocks();
+  void keepTheBest(std::vector<PoseBlock>& blocks);
   std::array<PoseBlock, 4> childrenOf(const PoseBlock& block);
   std::int32_t scoreWithin(PoseBlock block);
   void divide(const PoseBlock& block, BlockQueue& queue);
@@ -160,8 +160,7 @@ class GlobalSearch::Descent {
   double step_rad_ = 0.0;
   int distinct_cells_ = 0, distinct_directions_ = 0;
   std::vector<Direction> directions_;
-  std::vector<PoseBlock> blocks_;  // The coarsest, in no order.
-  std::int32_t forgotten_ = 0;     // Highest bound among the blocks dropped for lack of memory.
+  std::int32_t forgotten_ = 0;  // Highest bound among the blocks dropped for lack of memory.
   std::vector<Place> places_;
   bool complete_ = true;
 };
@@ -198,8 +197,7 @@ const std::vector<std::int32_t>& GlobalSearch::Descent::offsetsAt(int direction,
 }
 
 void GlobalSearch::Descent::run() {
-  boundTopBlocks();
-  BlockQueue queue(blocks_);
+  BlockQueue queue(topBlocks());
   int divided = 0;
   while (!queue.empty()) {
     // A dropped block may contain a better pose than all that remain.
@@ -220,8 +218,10 @@ void GlobalSearch::Descent::run() {
   complete_ = forgotten_ <= floor();
 }
 
-void GlobalSearch::Descent::boundTopBlocks() {
+/// The coarsest blocks that may contain a place, in no order.
+std::vector<PoseBlock> GlobalSearch::Descent::topBlocks() {
   const GlobalSearch& s = search_;
+  std::vector<PoseBlock> blocks;
   const int blocks_x = s.columns_ >> kTopLevel, blocks_y = s.rows_ >> kTopLevel, stride = s.width_ >> kTopLevel;
   const auto room = 2 * static_cast<std::size_t>(s.config_.max_blocks);
   std::vector<std::uint16_t> sums(indexOf(0, blocks_y, kWindowColumns));
@@ -234,31 +234,32 @@ void GlobalSearch::Descent::boundTopBlocks() {
         for (int x = x0; x < std::min(blocks_x, x0 + kWindowColumns); ++x) {
           const std::uint16_t bound = sums[windowIndex(x - x0, y)];
           if (bound <= least || !s.isFree(kTopLevel, x, y)) continue;
-          blocks_.push_back({bound, static_cast<std::uint16_t>(k), kTopLevel, x, y});
+          blocks.push_back({bound, static_cast<std::uint16_t>(k), kTopLevel, x, y});
           if (bound <= highest) continue;
           // A good pose found early lets more blocks be discarded.
           highest = bound;
-          best_ = std::max(best_, scoreWithin(blocks_.back()));
+          best_ = std::max(best_, scoreWithin(blocks.back()));
           least = std::max(floor(), forgotten_);
         }
-      if (blocks_.size() > room) {
-        keepTheBest();
+      if (blocks.size() > room) {
+        keepTheBest(blocks);
         least = std::max(floor(), forgotten_);
       }
     }
   }
-  std::erase_if(blocks_, [&](const PoseBlock& block) { return block.bound <= least; });
+  std::erase_if(blocks, [&](const PoseBlock& block) { return block.bound <= least; });
+  return blocks;
 }
 
 /// Keeps as many blocks as can ever be divided: a large map has hundreds of millions of blocks.
-void GlobalSearch::Descent::keepTheBest() {
+void GlobalSearch::Descent::keepTheBest(std::vector<PoseBlock>& blocks) {
   std::vector<std::size_t> counts(std::numeric_limits<std::uint16_t>::max() + 1);
-  for (const PoseBlock& block : blocks_) ++counts[block.bound];
+  for (const PoseBlock& block : blocks) ++counts[block.bound];
   auto bound = static_cast<std::int32_t>(counts.size());
   for (std::size_t kept = 0; kept <= static_cast<std::size_t>(search_.config_.max_blocks);)
     kept += counts[static_cast<std::size_t>(--bound)];
   forgotten_ = bound;
-  std::erase_if(blocks_, [&](const PoseBlock& block) { return block.bound <= forgotten_; });
+  std::erase_if(blocks, [&](const PoseBlock& block) { return block.bound <= forgotten_; });
 }
 
 int GlobalSearch::Descent::apart(int a, int b) const {
