@@ -18,7 +18,11 @@ constexpr double kHoverStick = 0.5;
 constexpr double kHorizonError_rad = 1.0 * common::kRadPerDeg;
 /// From a speed that is asked for to one that is flown.
 constexpr double kLag_s = 0.4;
-constexpr double kSpare_m = 0.05;  ///< Of the distance to stop in: the error of a controlled position.
+/// Kept from what is near, ahead and aside: gusts move a vehicle that stands by some 5 cm, and the pilot may leave it
+/// there for long. A door of 0.8 m leaves a hull of 0.55 m this much on either side.
+constexpr double kSpare_m = 0.12;
+/// From a distance that is missing to the speed away.
+constexpr double kAway_1_s = 1.0;
 /// The reference that is farther away was left by the pilot's sticks, not by the wind.
 constexpr double kLeft_m = 0.35;
 /// The yaw that is asked for lies so far ahead of the present one while its stick is moved.
@@ -93,6 +97,16 @@ double PilotAssist::allowedSpeed_m_s(const planning::AvoidanceDecision& decision
   return std::min(limit_m_s, planning::stoppingSpeed_m_s(gap_m, left_m_s2, kLag_s));
 }
 
+/// Away from the nearest return, at least as fast as it takes to regain the distance that is kept.
+Eigen::Vector2d PilotAssist::keptAway_level_m_s(const planning::AvoidanceDecision& decision,
+                                                const Eigen::Vector2d& velocity_level_m_s) {
+  const double missing_m = kSpare_m - decision.status.nearest_m;
+  if (!decision.nearest_level_m || missing_m <= 0.0) return velocity_level_m_s;
+  const Eigen::Vector2d away = -decision.nearest_level_m->normalized();
+  const double slower_m_s = kAway_1_s * missing_m - velocity_level_m_s.dot(away);
+  return velocity_level_m_s + std::max(0.0, slower_m_s) * away;
+}
+
 bool PilotAssist::fly(control::FlightController& controller, const planning::AvoidanceDecision& decision,
                       const common::VehicleState& state, double max_height_m) {
   const double yaw_now_rad = state.T_map_body_planar().yaw_rad, yaw_stick = wish(sticks_.yaw_rate, config_.dead_band);
@@ -108,6 +122,8 @@ bool PilotAssist::fly(control::FlightController& controller, const planning::Avo
   } else {
     const double speed_m_s = velocity_map_m_s.norm(), allowed_m_s = allowedSpeed_m_s(decision);
     if (speed_m_s > allowed_m_s) velocity_map_m_s *= allowed_m_s / speed_m_s;
+    const Eigen::Rotation2Dd R_map_level(yaw_now_rad);
+    velocity_map_m_s = R_map_level * keptAway_level_m_s(decision, R_map_level.inverse() * velocity_map_m_s);
   }
   double climb_m_s = config_.climb_m_s * wish(2.0 * (sticks_.thrust - hover_stick_), config_.climb_dead_band);
   if (state.T_odom_body.position_m.z() > max_height_m) climb_m_s = std::min(climb_m_s, 0.0);

@@ -53,6 +53,8 @@ class PilotAssist {
 
  private:
   double allowedSpeed_m_s(const planning::AvoidanceDecision& decision) const;
+  static Eigen::Vector2d keptAway_level_m_s(const planning::AvoidanceDecision& decision,
+                                            const Eigen::Vector2d& velocity_level_m_s);
 
   PilotAssistConfig config_;
   double max_tilt_rad_;

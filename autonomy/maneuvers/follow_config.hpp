@@ -51,7 +51,7 @@ struct PersonWatchConfig {
 
 /// Losses: a step at whose end the person is not seen, or is at a wrong distance, counts 1.
 struct PursuitConfig {
-  double nearer_m = 0.35;
+  double nearer_m = 0.5;
   double farther_m = 0.7;
   double per_metre = 1.0;
   double per_square_metre = 0.3;

@@ -151,7 +151,7 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
                              });
   DetourPlan result;
   std::optional<Eigen::Vector2d> place;
-  if (blocked && !person_blocks) place = map_.centerOf(blocked->last_free);
+  if (blocked && !person_blocks) place = map_.centerOf(blocked->outlook);
   if (!place || (*place - position_map_m).norm() < kWorth_m) {
     place = roomyPlace(position_map_m);
     result.makes_room = true;

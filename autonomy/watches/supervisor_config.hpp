@@ -15,7 +15,7 @@ struct SupervisorConfig {
   double battery_land_share = 0.12;
   double home_reserve_share = 0.02;
   double home_need_factor = 1.15;
-  double least_thrust_margin = 1.08;
+  double least_thrust_margin = 1.01;
   double thrust_margin_s = 1.0;
   double height_back_s = 0.5;
   double drift_back_m = 1.0;

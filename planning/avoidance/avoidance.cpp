@@ -100,8 +100,12 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 
   common::AvoidanceStatus& status = decision.status;
   status.nearest_m = kInfinity;
-  for (auto p = points.begin(); p != points.begin() + seen_points; ++p)
-    status.nearest_m = std::min(status.nearest_m, p->norm() - hull_radius_m_);
+  for (auto p = points.begin(); p != points.begin() + seen_points; ++p) {
+    const double gap_m = p->norm() - hull_radius_m_;
+    if (gap_m >= status.nearest_m) continue;
+    status.nearest_m = gap_m;
+    decision.nearest_level_m = *p;
+  }
   const double wanted_m_s = std::max(input.wanted_level_m_s.norm(), speed_m_s);
   status.braking = wanted_m_s > kStill_m_s && decision.speed_limit_m_s < wanted_m_s;
   status.retreating = retreating_;

@@ -51,6 +51,7 @@ struct AvoidanceDecision {
   double retreat_acceleration_m_s2 = 0.0;
   /// During a retreat: the angle to turn so that the laser sees both the danger and the course.
   double turn_rad = 0.0;
+  std::optional<Eigen::Vector2d> nearest_level_m;  ///< The nearest return, without keep-out zones.
   common::AvoidanceStatus status;
 };
 

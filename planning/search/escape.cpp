@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <unordered_set>
@@ -138,7 +139,10 @@ std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, Cell
   if (!path) return std::nullopt;
   const auto lethal = std::find_if(path->begin(), path->end(), isLethal);
   if (lethal == path->end()) return std::nullopt;
-  return BlockedPath{*std::prev(lethal), *lethal};
+  const auto roomy = std::find_if(std::make_reverse_iterator(lethal), path->rend(), [&](CellIndex cell) {
+    return map.obstacleDistance_m(cell) >= map.footprint().stopRadius_m();
+  });
+  return BlockedPath{roomy == path->rend() ? *std::prev(lethal) : *roomy, *lethal};
 }
 
 }  // namespace swiftlet::planning

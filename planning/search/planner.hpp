@@ -65,10 +65,10 @@ std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, 
 /// there is no escape.
 std::vector<Eigen::Vector2d> escapePoints_map_m(const CostMap& map, const Eigen::Vector2d& start_map_m);
 
-/// Where the path to a goal is blocked. Of the path that would be taken without the obstruction, this is the last cell
-/// before the first lethal one, and that lethal cell.
+/// Where the path to a goal is blocked. Of the path that would be taken without the obstruction: the first lethal cell,
+/// and the last one before it with room to stop (Footprint::stopRadius_m), or the one just before it if none has.
 struct BlockedPath {
-  common::CellIndex last_free, first_lethal;
+  common::CellIndex outlook, first_lethal;
 };
 /// Returns nothing when the start cannot escape, when nothing blocks the path, or when there is no path even without
 /// the obstruction.

@@ -274,8 +274,8 @@ TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
 TEST_F(SupervisorStory, TheTakeOffIsRefusedWithTheFigure) {
   EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the battery has not been measured");
   energy_.battery_voltage_v = 11.1;
-  energy_.thrust_margin = 1.02;
-  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the thrust is at most 1.02 times the weight; 1.08 is needed");
+  energy_.thrust_margin = 1.00;
+  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the thrust is at most 1.00 times the weight; 1.01 is needed");
   energy_.thrust_margin = 1.3;
   EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "");
   energy_.battery_remaining = 0.13;
@@ -294,11 +294,11 @@ TEST_F(SupervisorStory, TheChargeIsTheSubjectOfTwoEvents) {
 }
 
 TEST_F(SupervisorStory, LandsWhileItCanStillClimb) {
-  energy_.thrust_margin = 1.05;
+  energy_.thrust_margin = 1.00;
   EXPECT_FALSE(at(1.0).land);
   EXPECT_FALSE(at(1.5).land) << "a gust may take the margin for a moment";
   EXPECT_TRUE(at(2.1).land);
-  EXPECT_THAT(at(2.1).land_reason, HasSubstr("1.05 times the weight"));
+  EXPECT_THAT(at(2.1).land_reason, HasSubstr("1.00 times the weight"));
 }
 
 TEST_F(SupervisorStory, FliesBackWhenTheHeightIsUnseenAndGoesOnWhenItIsSeenAgain) {

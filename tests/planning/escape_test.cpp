@@ -51,5 +51,21 @@ TEST(Escape, ARoomWithANarrowDoorIsNotLeft) {
   EXPECT_EQ(planner.plan(map, {1.0, 1.5}, {4.0, 1.5}).error().reason, PlanFailure::Reason::kUnreachable);
 }
 
+/// Behind a door of 0.9 m the way is blocked. The vehicle fits into the door, but has no room there to stop and look.
+TEST(Escape, ABlockageIsLookedAtFromWhereThereIsRoomToStop) {
+  common::OccupancyGrid grid = test::room(100, 60);
+  test::fill(grid, {{40, 0}, {41, 60}}, test::kWallCell);
+  test::fill(grid, {{40, 21}, {41, 39}}, test::kFreeCell);
+  test::fill(grid, {{52, 0}, {53, 60}}, test::kWallCell);
+  test::fill(grid, {{52, 25}, {53, 35}}, test::kFreeCell);  // Too narrow.
+  const CostMap map = test::mapOf(grid);
+  const auto blocked = blockedPath(map, map.cellAt({1.0, 1.5}), map.cellAt({4.0, 1.5}));
+  ASSERT_TRUE(blocked);
+  EXPECT_GE(blocked->first_lethal.x, 41);
+  EXPECT_LT(blocked->outlook.x, 40);
+  EXPECT_GE(map.obstacleDistance_m(blocked->outlook), map.footprint().stopRadius_m());
+  EXPECT_FALSE(map.isLethal(map.indexOf({40, 30}))) << "the door itself is passable";
+}
+
 }  // namespace
 }  // namespace swiftlet::planning
