@@ -106,7 +106,7 @@ Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyCon
 
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {
   AutonomyConfig config;
-  config.estimator.slam.local_sigma_m = 0.02;
+  config.estimator.slam.local_sigma_m = 0.01;
   config.estimator.slam.loops.spacing_m = 0.5;
   return makeAutonomy(std::move(jobs), config);
 }
