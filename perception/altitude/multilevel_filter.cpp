@@ -182,12 +182,14 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
   const bool alone = scan.groups.empty();
   const double height_before_m = height.height_m(), velocity_before_m_s = height.velocity_m_s();
   for (NewSurface& surface : new_surfaces) {
-    const bool flat =
-        isFlat(config, surface, now) || isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1));
-    if (!flat) continue;
     // The present height on the line through all observations of the surface. At its ends, a line is as certain as the
     // mean of a quarter of its points.
     const double below_m = height_before_m - surface.heightAt_m(now);
+    // Nothing else measures the height: the vehicle may climb without knowing it, over a level that is known.
+    const bool known_height = alone && likeliestLevel(known(), below_m, surface.last.beams, false) != kNoLevel;
+    const bool flat = isFlat(config, surface, now) ||
+                      isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1), known_height);
+    if (!flat) continue;
     const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
     const bool first = alone && !correction;
     if (first) {

@@ -11,6 +11,8 @@ using common::Time;
 
 namespace {
 
+/// Of `slope_sigma`: backs of sofas fall by 20 deg below a vehicle, and stay below it for a second.
+constexpr double kLikelyShare = 0.5;
 constexpr double kLineAfter_s = 0.15;  // A surface seen for a shorter time is assumed to stay at its height.
 
 }  // namespace
@@ -25,10 +27,12 @@ bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now) {
 }
 
 bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& c, Time now,
-                                double speed_variance_m2_s2) {
-  const double variance_m2_s2 = rateVariance_m2_s2(config, c) + speed_variance_m2_s2;
-  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_moving_s &&
-         square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
+                                double speed_variance_m2_s2, bool known_height) {
+  const bool long_seen = c.seenFor_s(now) >= config.confirm_moving_s;
+  if (c.scans < config.confirm_scans || c.seenFor_s(now) < config.confirm_s || !(long_seen || known_height))
+    return false;
+  const double sigma = (long_seen && known_height ? 1.0 : kLikelyShare) * config.slope_sigma;
+  return square(c.rate_m_s()) <= square(sigma) * (rateVariance_m2_s2(config, c) + speed_variance_m2_s2);
 }
 
 void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelConfig& config, const std::vector<Beam>& beams,

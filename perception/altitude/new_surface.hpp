@@ -50,9 +50,10 @@ double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surf
 /// Whether the surface is measured at a constant height, unlike a slope.
 bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now);
 /// Whether a surface that rises or falls evenly may be flat, with a wrong vertical speed. Seen for long enough, it is
-/// no slope: slopes in rooms are short.
+/// no slope: slopes in rooms are short. Where a level is known at its height (`known_height`), a short time suffices.
+/// Where only one of both speaks for it, the error of the speed has to be a likely one.
 bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& surface, common::Time now,
-                                double speed_variance_m2_s2);
+                                double speed_variance_m2_s2, bool known_height);
 
 /// Algorithm 1, line 13: groups the beams that no level explains by neighbouring distance, for a vehicle at this
 /// height. Afterwards `surfaces` are these groups; surfaces that are not seen again are removed.

@@ -149,6 +149,7 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   if (input.cost_map == nullptr) return result;
   const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
   for (const Bin& bin : bins) {
+    if (!std::isfinite(bin.range_m)) continue;
     const double gap_m = bin.range_m - hull_radius_m_;
     const bool overruns = cannotStopBefore(bin.nearest_level_m, slack * input.velocity_level_m_s);
     if (!overruns && gap_m >= config_.retreat_distance_m * slack) continue;

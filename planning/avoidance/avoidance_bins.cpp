@@ -56,8 +56,8 @@ std::vector<Bin> Avoidance::bins(const Config& config, const std::vector<Point>&
   std::vector<double> sums(bins.size(), 0.0);
   std::vector<int> counts(bins.size(), 0);
   for (std::size_t i = 0; i < bins.size(); ++i)
-    bins[i] = {
-        -0.5 * view_rad + (static_cast<double>(i) + 0.5) * width_rad, std::numeric_limits<double>::infinity(), {}};
+    bins[i] = {-0.5 * view_rad + (static_cast<double>(i) + 0.5) * width_rad, std::numeric_limits<double>::infinity(),
+               Point::Zero()};
   for (const Point& p : smoothed_level_m) {
     const auto slot = static_cast<int>(std::floor((std::atan2(p.y(), p.x()) + 0.5 * view_rad) / width_rad));
     if (slot < 0 || slot >= config.bins) continue;

@@ -143,6 +143,20 @@ TEST(Avoidance, TheRobustMinimumSeesAThinPoleThatTheMeanHides) {
   }
 }
 
+/// A sector that returned nothing has no place, whatever was in the memory before.
+TEST(Avoidance, SectorsWithoutReturnsHaveNoNearestPlace) {
+  for (int again = 0; again < 20; ++again) {
+    {
+      const std::vector<Bin> dirty(static_cast<std::size_t>(Avoidance::Config().bins),
+                                   Bin{0.0, 1.0, Point(1e-9, 1e-9)});
+    }
+    for (const Bin& bin : Avoidance::bins({}, {})) {
+      EXPECT_TRUE(bin.nearest_level_m.isZero());
+      EXPECT_TRUE(std::isinf(bin.range_m));
+    }
+  }
+}
+
 TEST(Avoidance, BrakesOnlyIntentsFasterThanTheLimit) {
   Story story;
   story.pose = {5.0, 7.4, 0.0};  // 0.6 m from the wall.
