@@ -144,6 +144,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.fusionStatus() == perception::FusionStatus::kDiverged;
   flight.inertial_fault = inertial_.fault(now);
   flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
+  flight.horizon_offset_rad = estimator_.horizonOffset_rad();
   assistPilot(flight);
   const common::Setpoint setpoint = controller_.tick(flight);
   last_thrust_ = setpoint.thrust;

@@ -72,7 +72,10 @@ void Estimator::addImu(const common::ImuSample& sample, bool predicted) {
   hear(sample);
   filter_.predict(sample);
   imu_seen_ = true;
-  if (sample.rotation_ahrs_body.coeffs().allFinite()) last_imu_ = sample;
+  if (!sample.rotation_ahrs_body.coeffs().allFinite()) return;
+  last_imu_ = sample;
+  if (filter_.initialized() && !predicted)
+    horizon_.observe(sample.stamps.measured, sample.rotation_ahrs_body, filter_.state().T_odom_body.rotation);
 }
 
 void Estimator::setAtRest(bool at_rest) {

@@ -25,6 +25,7 @@
 #include "autonomy/estimation/step_uncertainty.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
 #include "autonomy/estimation/vertical_laser_pipeline.hpp"
+#include "autonomy/inertial/horizon_offset.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
@@ -124,6 +125,8 @@ class Estimator {
   common::VehicleState state() const;
   /// Acceleration at the newest IMU sample, gravity and bias removed; none before the filter has started.
   std::optional<Eigen::Vector3d> accelerationOdom_m_s2() const;
+  /// See HorizonOffset.
+  const Eigen::Vector2d& horizonOffset_rad() const { return horizon_.offset_rad(); }
   perception::FusionStatus fusionStatus() const { return filter_.status(); }
   perception::FusionHealth health() const { return filter_.health(); }
   const perception::LaserOdometryCounts& odometryCounts() const { return laser_.counts(); }
@@ -198,6 +201,7 @@ class Estimator {
   std::unique_ptr<TargetPipeline> targets_;                ///< Null without a camera, and without targets to look for.
 
   std::optional<common::ImuSample> last_imu_;
+  HorizonOffset horizon_;
   common::Time started_;        ///< Time at which the filter started.
   common::Time position_seen_;  ///< When the last scan that matched was processed.
   common::Time scanned_;        ///< The stamp of the last scan that was processed.

@@ -245,8 +245,13 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
   if (!on_ground && isFinite(tick.state)) oscillation_.observe(tick.state.T_odom_body.rotation, dt_s_);
   const ControlInput input{now_,       dt_s_,     tick.state,          target, tick.acceleration_odom_m_s2,
                            horizontal, on_ground, oscillation_.share()};
-  const common::Setpoint setpoint = position_.tick(input, tick.battery_v);
-  return on_ground || !isFinite(tick.state) ? setpoint : withinThrustLeft(setpoint, tick.state.T_odom_body.rotation);
+  common::Setpoint setpoint = position_.tick(input, tick.battery_v);
+  if (on_ground || !isFinite(tick.state)) return setpoint;
+  setpoint = withinThrustLeft(setpoint, tick.state.T_odom_body.rotation);
+  if (tick.fusion_diverged || !tick.inertial_fault.empty()) return setpoint;
+  setpoint.roll_rad += tick.horizon_offset_rad.x();
+  setpoint.pitch_rad += tick.horizon_offset_rad.y();
+  return setpoint;
 }
 
 tl::expected<void, std::string> FlightController::switchController(ControllerKind kind) {

@@ -62,6 +62,8 @@ struct FlightTick {
   bool pilot_flies = false;
   /// The motors get the thrust of the last setpoint: while a pilot overrules it, nothing is learned of it.
   bool thrust_applies = true;
+  /// Roll and pitch of the horizon that the autopilot flies by, less those of the state: what a setpoint has to add.
+  Eigen::Vector2d horizon_offset_rad = Eigen::Vector2d::Zero();
   /// By the accelerometer, without gravity and bias; none while it is not known.
   std::optional<Eigen::Vector3d> acceleration_odom_m_s2 = std::nullopt;
 };

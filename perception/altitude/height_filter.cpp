@@ -101,6 +101,13 @@ void HeightFilter::correct(int component, double value, double variance) {
   now_.covariance -= innovation_variance * gain * gain.transpose();
 }
 
+void HeightFilter::takeReference(double own_variance_m2) {
+  reference_variance_m2_ += now_.covariance(0, 0);
+  now_.covariance.row(0).setZero();
+  now_.covariance.col(0).setZero();
+  now_.covariance(0, 0) = own_variance_m2;
+}
+
 void HeightFilter::dropReference() {
   now_.covariance(0, 0) += reference_variance_m2_;
   reference_variance_m2_ = 0.0;

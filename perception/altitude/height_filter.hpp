@@ -31,6 +31,9 @@ class HeightFilter {
   /// not reduce it. It is kept separately from the filter's own covariance and does not affect the gain.
   void setReferenceVariance(double variance_m2) { reference_variance_m2_ = variance_m2; }
 
+  /// Begins the measurement against a level that got its height from this one: the error of the height so far is the
+  /// level's, too, and `own_variance_m2` is what the distance between both errs.
+  void takeReference(double own_variance_m2);
   /// Ends the measurement against a level: the variance of the reference becomes part of the filter's own.
   void dropReference();
 

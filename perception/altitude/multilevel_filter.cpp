@@ -186,9 +186,9 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     // mean of a quarter of its points.
     const double below_m = height_before_m - surface.heightAt_m(now);
     // Nothing else measures the height: the vehicle may climb without knowing it, over a level that is known.
-    const bool known_height = alone && likeliestLevel(known(), below_m, surface.last.beams, false) != kNoLevel;
+    const int explained_by = alone ? likeliestLevel(known(), below_m, surface.last.beams, false) : kNoLevel;
     const bool flat = isFlat(config, surface, now) ||
-                      isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1), known_height);
+                      isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1), explained_by);
     if (!flat) continue;
     const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
     const bool first = alone && !correction;
@@ -203,6 +203,7 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
       id = store.add(height.height_m() - below_m, height.covariance()(0, 0) + below_variance_m2);
       near.push_back(id);
       ++outcome.levels_added;
+      if (first) height.takeReference(below_variance_m2);
     }
     if (first) {
       correction = PriorCorrection{id,

@@ -27,11 +27,11 @@ bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now) {
 }
 
 bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& c, Time now,
-                                double speed_variance_m2_s2, bool known_height) {
+                                double speed_variance_m2_s2, int explained_by) {
   const bool long_seen = c.seenFor_s(now) >= config.confirm_moving_s;
-  if (c.scans < config.confirm_scans || c.seenFor_s(now) < config.confirm_s || !(long_seen || known_height))
-    return false;
-  const double sigma = (long_seen && known_height ? 1.0 : kLikelyShare) * config.slope_sigma;
+  if (c.scans < config.confirm_scans || c.seenFor_s(now) < config.confirm_s) return false;
+  if (!long_seen && explained_by == kNoLevel) return false;
+  const double sigma = (long_seen && explained_by != kNoLevel ? 1.0 : kLikelyShare) * config.slope_sigma;
   return square(c.rate_m_s()) <= square(sigma) * (rateVariance_m2_s2(config, c) + speed_variance_m2_s2);
 }
 

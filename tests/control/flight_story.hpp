@@ -30,6 +30,7 @@ struct Flight {
   double carried_bias_m_s2 = 0.0;
   double carried_s = 0.0;
   bool accelerometer = true;
+  bool knows_horizon = false;  ///< By how much the autopilot's horizon is wrong.
   /// The raw heights arrive with this period, and this late.
   common::Duration height_period = common::Duration::fromSeconds(0.03), height_delay;
   std::deque<RawHeight> heights_under_way;
@@ -70,6 +71,7 @@ struct Flight {
       tick.acceleration_odom_m_s2 = model.acceleration_m_s2;
       for (int axis = 0; axis < 3; ++axis) (*tick.acceleration_odom_m_s2)[axis] += accelerometer_noise.gaussian(0.3);
     }
+    if (knows_horizon) tick.horizon_offset_rad = {model.horizon_roll_rad, model.horizon_pitch_rad};
     tick.pilot_flies = pilot_climbs_m_s.has_value();
     common::Setpoint setpoint = controller.tick(tick);
     if (pilot_climbs_m_s) setpoint = byPilot();
