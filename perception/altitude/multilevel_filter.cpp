@@ -187,9 +187,7 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     const double below_m = height_before_m - surface.heightAt_m(now);
     // Nothing else measures the height: the vehicle may climb without knowing it, over a level that is known.
     const int explained_by = alone ? likeliestLevel(known(), below_m, surface.last.beams, false) : kNoLevel;
-    const bool flat = isFlat(config, surface, now) ||
-                      isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1), explained_by);
-    if (!flat) continue;
+    if (!isFlat(config, surface, now, height.covariance()(1, 1), explained_by)) continue;
     const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
     const bool first = alone && !correction;
     if (first) {

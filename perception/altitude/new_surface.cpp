@@ -21,18 +21,15 @@ double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& c) {
   return beamVariance_m2(config, std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
 }
 
-bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now) {
-  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_s &&
-         square(c.rate_m_s()) <= square(config.slope_sigma) * rateVariance_m2_s2(config, c);
-}
-
-bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& c, Time now,
-                                double speed_variance_m2_s2, int explained_by) {
-  const bool long_seen = c.seenFor_s(now) >= config.confirm_moving_s;
+bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now, double speed_variance_m2_s2,
+            int explained_by) {
   if (c.scans < config.confirm_scans || c.seenFor_s(now) < config.confirm_s) return false;
-  if (!long_seen && explained_by == kNoLevel) return false;
-  const double sigma = (long_seen && explained_by != kNoLevel ? 1.0 : kLikelyShare) * config.slope_sigma;
-  return square(c.rate_m_s()) <= square(sigma) * (rateVariance_m2_s2(config, c) + speed_variance_m2_s2);
+  const double rate2_m2_s2 = square(c.rate_m_s()), measured_m2_s2 = rateVariance_m2_s2(config, c);
+  if (rate2_m2_s2 <= square(config.slope_sigma) * measured_m2_s2) return true;
+  const bool long_seen = c.seenFor_s(now) >= config.confirm_moving_s, known = explained_by != kNoLevel;
+  if (!long_seen && !known) return false;
+  const double sigma = (long_seen && known ? 1.0 : kLikelyShare) * config.slope_sigma;
+  return rate2_m2_s2 <= square(sigma) * (measured_m2_s2 + speed_variance_m2_s2);
 }
 
 void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelConfig& config, const std::vector<Beam>& beams,

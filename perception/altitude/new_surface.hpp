@@ -47,13 +47,12 @@ class NewSurface {
 };
 
 double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surface);
-/// Whether the surface is measured at a constant height, unlike a slope.
-bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now);
-/// Whether a surface that rises or falls evenly may be flat, with a wrong vertical speed. Two things speak for it: that
-/// it was seen for long, as slopes in rooms are short, and that a level is known at its height (`explained_by`,
-/// kNoLevel for none). Where there is only one of both, the error of the speed has to be a likely one.
-bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& surface, common::Time now,
-                                double speed_variance_m2_s2, int explained_by);
+/// Whether the surface is flat: measured at a constant height, unlike a slope, or rising or falling evenly because the
+/// vertical speed is wrong. Two things speak for the latter: that it was seen for long, as slopes in rooms are short,
+/// and that a level is known at its height (`explained_by`, kNoLevel for none). Where there is only one of both, the
+/// error of the speed has to be a likely one.
+bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now, double speed_variance_m2_s2,
+            int explained_by);
 
 /// Algorithm 1, line 13: groups the beams that no level explains by neighbouring distance, for a vehicle at this
 /// height. Afterwards `surfaces` are these groups; surfaces that are not seen again are removed.
