@@ -222,7 +222,7 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
   }
   // A surface that rises or falls is not a level. It is dropped, but may flatten out later.
   std::erase_if(new_surfaces,
-                [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= config.confirm_moving_s; });
+                [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= longestSight_s(config); });
 }
 
 /// Line 15, for levels that are left: a level that was below in the last scan and no longer is gets one more

@@ -17,18 +17,22 @@ constexpr double kLineAfter_s = 0.15;  // A surface seen for a shorter time is a
 
 }  // namespace
 
+double longestSight_s(const MultilevelConfig& config) { return 2.0 * config.confirm_moving_s; }
+
 double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& c) {
   return beamVariance_m2(config, std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
 }
 
 bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now, double speed_variance_m2_s2,
             int explained_by) {
-  if (c.scans < config.confirm_scans || c.seenFor_s(now) < config.confirm_s) return false;
+  const double seen_s = c.seenFor_s(now);
+  if (c.scans < config.confirm_scans || seen_s < config.confirm_s) return false;
   const double rate2_m2_s2 = square(c.rate_m_s()), measured_m2_s2 = rateVariance_m2_s2(config, c);
   if (rate2_m2_s2 <= square(config.slope_sigma) * measured_m2_s2) return true;
-  const bool long_seen = c.seenFor_s(now) >= config.confirm_moving_s, known = explained_by != kNoLevel;
-  if (!long_seen && !known) return false;
-  const double sigma = (long_seen && known ? 1.0 : kLikelyShare) * config.slope_sigma;
+  const bool known = explained_by != kNoLevel;
+  if (!known && seen_s < config.confirm_moving_s) return false;
+  const double enough_s = known ? config.confirm_moving_s : longestSight_s(config);
+  const double sigma = config.slope_sigma * std::clamp(square(seen_s / enough_s), kLikelyShare, 1.0);
   return rate2_m2_s2 <= square(sigma) * (measured_m2_s2 + speed_variance_m2_s2);
 }
 

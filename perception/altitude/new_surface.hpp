@@ -47,10 +47,11 @@ class NewSurface {
 };
 
 double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surface);
+/// After this time a surface is no slope, as slopes in rooms are short, and no longer new.
+double longestSight_s(const MultilevelConfig& config);
 /// Whether the surface is flat: measured at a constant height, unlike a slope, or rising or falling evenly because the
-/// vertical speed is wrong. Two things speak for the latter: that it was seen for long, as slopes in rooms are short,
-/// and that a level is known at its height (`explained_by`, kNoLevel for none). Where there is only one of both, the
-/// error of the speed has to be a likely one.
+/// vertical speed is wrong. Two things speak for the latter: that it is seen for long, and that a level is known at its
+/// height (`explained_by`, kNoLevel for none). The more of them, the greater the error of the speed may be.
 bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now, double speed_variance_m2_s2,
             int explained_by);
 
