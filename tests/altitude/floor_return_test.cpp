@@ -29,7 +29,7 @@ TEST(FloorReturn, TheHeightIsCorrectedWhereTheFloorWasSeenBefore) {
     Overflight flight = overARamp(seed);
     if (std::abs(flight.filter.state().height_m - flight.z_m) > 0.2) ++wrong;
     flight.flyTo({0.0, 0.05}, 0.7);
-    EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.10) << "seed " << seed;
+    EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.08) << "seed " << seed;
     EXPECT_EQ(flight.filter.levels().levels.front().height_m, 0.0);
   }
   EXPECT_GE(wrong, 5) << "without the ramp's error there is nothing to correct";

@@ -213,17 +213,12 @@ TEST(MultilevelFilter, ReturnsToTheFloorBehindClutter) {
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "clutter");
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
     flight.boxes = {{1.0, 2.5, -1.0, 1.0, 0.36}};
-    double x_m = 2.5;
-    while (x_m < 5.0) {
-      const double next_m = x_m + flight.random.uniform(0.06, 0.15);
-      flight.boxes.push_back({x_m, next_m, -1.0, 1.0, flight.random.uniform(0.2, 0.9)});
-      x_m = next_m;
-    }
+    const double end_m = flight.addClutter(2.5, 5.0, 0.2, 0.9);
     flight.start();
     flight.climbTo(1.4);
     flight.flyTo({2.5, 0.0}, 0.7);
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
-    flight.flyTo({x_m + 1.5, 0.0}, 0.7);
+    flight.flyTo({end_m + 1.5, 0.0}, 0.7);
     unmeasured += flight.last.measurement ? 0 : 1;
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < kAltitudeAtRest_m ? 0 : 1;
   }

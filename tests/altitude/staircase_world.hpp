@@ -106,6 +106,16 @@ struct Overflight {
   AltitudeUpdate last;
   std::optional<double> regained_m;  ///< The last correction by the floor.
 
+  /// Boxes of all heights side by side along x, few of them wide enough to become a level. Returns where they end.
+  double addClutter(double from_m, double to_m, double lowest_m, double highest_m) {
+    while (from_m < to_m) {
+      const double next_m = from_m + random.uniform(0.06, 0.15);
+      boxes.push_back({from_m, next_m, -1.0, 1.0, random.uniform(lowest_m, highest_m)});
+      from_m = next_m;
+    }
+    return from_m;
+  }
+
   double surface(const Eigen::Vector2d& at) const {
     double height_m = 0.0;
     for (const Box& box : boxes)

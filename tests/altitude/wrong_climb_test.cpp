@@ -18,17 +18,12 @@ TEST(MultilevelFilter, BelievesTheFloorAgainThoughTheVehicleClimbsUnknowingly) {
     Overflight flight;
     flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "climb");
-    double x_m = 1.0;
-    while (x_m < 1.8) {
-      const double next_m = x_m + flight.random.uniform(0.06, 0.15);
-      flight.boxes.push_back({x_m, next_m, -1.0, 1.0, flight.random.uniform(0.2, 0.9)});
-      x_m = next_m;
-    }
+    const double end_m = flight.addClutter(1.0, 1.8, 0.2, 0.9);
     flight.start();
     flight.climbTo(1.4);
     flight.flyTo({1.0, 0.0}, 0.7);
     flight.acceleration_bias_m_s2 = -0.06;
-    flight.flyTo({x_m + 0.5, 0.0}, 0.7);
+    flight.flyTo({end_m + 0.5, 0.0}, 0.7);
     unmeasured += flight.last.measurement ? 0 : 1;
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < 0.06 ? 0 : 1;
   }
@@ -37,8 +32,7 @@ TEST(MultilevelFilter, BelievesTheFloorAgainThoughTheVehicleClimbsUnknowingly) {
   EXPECT_LE(wrong, kFlights / 10);
 }
 
-/// The back of a sofa falls by 20 deg below the vehicle for 1.2 s: it is a slope, not a vehicle that
-/// sinks.
+/// The back of a sofa falls by 20 deg below the vehicle for 1.2 s: that is a slope, and the vehicle does not sink.
 TEST(MultilevelFilter, TheBackOfASofaIsNoLevelBelowAVehicleThatSinks) {
   int wrong = 0;
   constexpr int kFlights = 40;
@@ -46,16 +40,11 @@ TEST(MultilevelFilter, TheBackOfASofaIsNoLevelBelowAVehicleThatSinks) {
     Overflight flight;
     flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "sofa");
-    double x_m = 1.0;
-    while (x_m < 2.0) {
-      const double next_m = x_m + flight.random.uniform(0.06, 0.15);
-      flight.boxes.push_back({x_m, next_m, -1.0, 1.0, flight.random.uniform(0.2, 0.7)});
-      x_m = next_m;
-    }
-    flight.boxes.push_back({x_m, x_m + 0.85, -1.0, 1.0, 0.75, 0.44});
+    const double end_m = flight.addClutter(1.0, 2.0, 0.2, 0.7);
+    flight.boxes.push_back({end_m, end_m + 0.85, -1.0, 1.0, 0.75, 0.44});
     flight.start();
     flight.climbTo(1.4);
-    flight.flyTo({x_m + 0.8, 0.0}, 0.7);
+    flight.flyTo({end_m + 0.8, 0.0}, 0.7);
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < 0.1 ? 0 : 1;
   }
   std::printf("back of a sofa: %d of %d heights err by more than 0.1 m\n", wrong, kFlights);
