@@ -47,11 +47,10 @@ void ControlLogSink::ticked(const autonomy::TickOutcome& outcome) {
   row.position_odom_m = estimate.position_m;
   row.velocity_odom_m_s = outcome.state.velocity_odom_m_s;
   row.battery_v = battery_v_;
-  const common::Pose3 T_map_world = vehicle_.T_world_map().inverse();
-  const common::Pose3 truth = T_map_world * vehicle_.truth().T_world_body;
+  const common::Pose3 truth = vehicle_.trueT_map_body();
   row.has_truth = true;
   row.true_position_map_m = truth.position_m;
-  row.true_velocity_map_m_s = T_map_world.rotation * vehicle_.truth().velocity_world_m_s;
+  row.true_velocity_map_m_s = vehicle_.T_world_map().rotation.conjugate() * vehicle_.truth().velocity_world_m_s;
   row.true_yaw_map_rad = common::yawOf(truth.rotation);
   note(writer_->write(row));
 }

@@ -24,8 +24,7 @@ void RgbdSink::input(const autonomy::Input& input) {
 
 void RgbdSink::ticked(const autonomy::TickOutcome& outcome) {
   if (!recorder_) return;
-  const common::Pose3 T_map_body = vehicle_.T_world_map().inverse() * vehicle_.truth().T_world_body;
-  note(recorder_->addTruth(outcome.now, T_map_body * T_body_camera_));
+  note(recorder_->addTruth(outcome.now, vehicle_.trueT_map_body() * T_body_camera_));
 }
 
 void RgbdSink::note(const interfaces::Written& written) {

@@ -49,6 +49,8 @@ class SimulatedVehicle final : public common::Vehicle {
   const Truth& truth() const;
   /// The frame the autonomy calls `map`: at the take-off place on its floor, with the yaw of the start.
   common::Pose3 T_world_map() const;
+  /// The true pose in that frame.
+  common::Pose3 trueT_map_body() const { return T_world_map().inverse() * truth().T_world_body; }
   /// The world after the seed's variation, and the rays in it.
   const WorldModel& world() const;
   const RayCaster& rays() const;

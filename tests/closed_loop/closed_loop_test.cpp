@@ -96,7 +96,7 @@ struct Loop {
                               setpoint.thrust / controller.thrust().hoverCommand()});
     vehicle.apply(setpoint);
     if (controller.state() == FlightState::kFlying) {
-      const auto truth = T_map_body();
+      const auto truth = vehicle.trueT_map_body();
       estimate2_m2 += (tick.state.T_odom_body.position_m - truth.position_m).squaredNorm();
       const Eigen::Vector3d velocity = vehicle.T_world_map().rotation.conjugate() * vehicle.truth().velocity_world_m_s;
       velocity2 += (tick.state.velocity_odom_m_s - velocity).squaredNorm();
@@ -104,7 +104,6 @@ struct Loop {
     }
     return true;
   }
-  common::Pose3 T_map_body() const { return vehicle.T_world_map().inverse() * vehicle.truth().T_world_body; }
   template <typename Condition>
   bool until(Condition&& condition, double at_most_s) {
     for (int i = 0; i < static_cast<int>(at_most_s * 100); ++i) {
@@ -131,7 +130,7 @@ TEST(ClosedLoop, HoversOnSimulatedSensors) {
     constexpr int kTicks = 1500;
     for (int i = 0; i < kTicks; ++i) {
       ASSERT_TRUE(loop.tick());
-      const Eigen::Vector3d off = loop.T_map_body().position_m - at;
+      const Eigen::Vector3d off = loop.vehicle.trueT_map_body().position_m - at;
       horizontal2 += off.head<2>().squaredNorm() / kTicks;
       height = std::max(height, std::abs(off.z()));
     }
@@ -156,11 +155,11 @@ double hoverAndCorner_m(control::ControllerKind kind) {
   double horizontal2 = 0;
   constexpr int kTicks = 800;
   for (int i = 0; i < kTicks && loop.tick(); ++i)
-    horizontal2 += (loop.T_map_body().position_m - at).head<2>().squaredNorm() / kTicks;
+    horizontal2 += (loop.vehicle.trueT_map_body().position_m - at).head<2>().squaredNorm() / kTicks;
   EXPECT_TRUE(loop.controller.follow({{{0, 0, 1}, {1.5, 0, 1}, {1.5, -1, 1}}, common::FlightMode::kCareful, {}}));
   EXPECT_TRUE(loop.until([&] { return loop.controller.pathFinished(); }, 20.0)) << loop.vehicle.stopReason();
   loop.until([] { return false; }, 3.0);
-  EXPECT_LT((loop.T_map_body().position_m - Eigen::Vector3d(1.5, -1, 1)).norm(), 0.2) << toString(kind);
+  EXPECT_LT((loop.vehicle.trueT_map_body().position_m - Eigen::Vector3d(1.5, -1, 1)).norm(), 0.2) << toString(kind);
   std::printf("%s: hover %.3f m RMS\n", toString(kind), std::sqrt(horizontal2));
   return std::sqrt(horizontal2);
 }
@@ -183,9 +182,9 @@ TEST(ClosedLoop, WithoutAnAhrsItStartsByGravityAndFliesACorner) {
     ASSERT_TRUE(loop.controller.follow({{{0, 0, 1}, {2, 0, 1}, {2, -2, 1}}, common::FlightMode::kFast, 0.8}));
     ASSERT_TRUE(loop.until([&] { return loop.controller.pathFinished(); }, 30.0)) << loop.vehicle.stopReason();
     loop.until([] { return false; }, 10.0);
-    EXPECT_LT((loop.T_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15);
+    EXPECT_LT((loop.vehicle.trueT_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15);
     const auto tilt = common::rollPitchYaw(loop.estimator.state().T_odom_body.rotation);
-    const auto truth = common::rollPitchYaw(loop.T_map_body().rotation);
+    const auto truth = common::rollPitchYaw(loop.vehicle.trueT_map_body().rotation);
     std::printf("%s: estimate %.3f m, %.3f m/s RMS, roll off by %.2f deg, pitch by %.2f deg\n",
                 gravity ? "gravity" : "drag", std::sqrt(loop.estimate2_m2 / loop.ticks),
                 std::sqrt(loop.velocity2 / loop.ticks), (tilt.roll_rad - truth.roll_rad) / common::kRadPerDeg,
@@ -245,7 +244,8 @@ TEST(ClosedLoop, ALaserThatIsLateFromTheStartTakesOffHoversAndFlies) {
     double worst_m = 0;
     ASSERT_TRUE(loop.until(
         [&] {
-          const Eigen::Vector3d off = loop.T_map_body().position_m - loop.controller.reference().position_odom_m;
+          const Eigen::Vector3d off =
+              loop.vehicle.trueT_map_body().position_m - loop.controller.reference().position_odom_m;
           worst_m = std::max(worst_m, off.norm());
           return loop.controller.pathFinished();
         },
@@ -253,7 +253,7 @@ TEST(ClosedLoop, ALaserThatIsLateFromTheStartTakesOffHoversAndFlies) {
         << latency_s << " s: " << loop.vehicle.stopReason();
     EXPECT_LT(worst_m, 0.3) << latency_s;
     loop.until([] { return false; }, 2.0);
-    EXPECT_LT((loop.T_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15) << latency_s;
+    EXPECT_LT((loop.vehicle.trueT_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15) << latency_s;
   }
 }
 
@@ -265,7 +265,8 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
   double worst_m = 0, worst_height_m = 0;
   ASSERT_TRUE(loop.until(
       [&] {
-        const Eigen::Vector3d off = loop.T_map_body().position_m - loop.controller.reference().position_odom_m;
+        const Eigen::Vector3d off =
+            loop.vehicle.trueT_map_body().position_m - loop.controller.reference().position_odom_m;
         worst_m = std::max(worst_m, off.head<2>().norm());
         worst_height_m = std::max(worst_height_m, std::abs(off.z()));
         return loop.controller.pathFinished();
@@ -273,7 +274,7 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
       40.0))
       << loop.vehicle.stopReason();
   loop.until([] { return false; }, 1.5);
-  const Eigen::Vector3d home = loop.T_map_body().position_m;
+  const Eigen::Vector3d home = loop.vehicle.trueT_map_body().position_m;
   ASSERT_TRUE(loop.controller.command(control::Land{}));
   EXPECT_TRUE(loop.until([&] { return loop.controller.state() == FlightState::kLanded; }, 12.0))
       << loop.vehicle.stopReason();

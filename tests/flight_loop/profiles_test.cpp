@@ -38,11 +38,10 @@ Flown fly(const std::string& name, int seed = 11) {
   common::LosslessQueue<common::OperatorCommand> commands;
   Flown flown;
   FlightLoop loop(*vehicle, autonomy, commands, {&flown.witness});
-  const common::Pose3 T_map_world = vehicle->T_world_map().inverse();
   while (!autonomy.finished() && loop.now() < Time::fromSeconds(45)) {
     if (!loop.step(loop.now() + common::kControlPeriod)) break;
     if (!vehicle->truth().airborne) continue;
-    const Pose2 truth = planar(T_map_world * vehicle->truth().T_world_body);
+    const Pose2 truth = planar(vehicle->trueT_map_body());
     const Pose2 estimate = planar(autonomy.state().T_map_body());
     flown.worst_m = std::max(flown.worst_m, (estimate.position_m() - truth.position_m()).norm());
   }

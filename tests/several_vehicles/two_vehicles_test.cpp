@@ -53,7 +53,7 @@ class Flyer : private autonomy::FlightSink {
 
   void fly(Time now) {
     if (!loop_.step(now)) return;
-    const common::Pose3 T_map_body = vehicle_.T_world_map().inverse() * vehicle_.truth().T_world_body;
+    const common::Pose3 T_map_body = vehicle_.trueT_map_body();
     farthest_m_ = std::max(farthest_m_, T_map_body.position_m.x());
   }
   /// It is still advanced after its mission, because the other could not fly on otherwise.
@@ -94,7 +94,7 @@ TEST(TwoVehicles, PassEachOtherAndReturnHome) {
     EXPECT_GT(flyer->farthest_m(), 4.8) << "it came past the other";
     EXPECT_GT(flyer->vehicle().truth().min_vehicle_clearance_m, 0.05);
     EXPECT_FALSE(flyer->vehicle().truth().airborne);
-    const common::Pose3 T_map_body = flyer->vehicle().T_world_map().inverse() * flyer->vehicle().truth().T_world_body;
+    const common::Pose3 T_map_body = flyer->vehicle().trueT_map_body();
     EXPECT_LT(T_map_body.position_m.head<2>().norm(), 0.16);
   }
 }

@@ -80,7 +80,7 @@ TEST(SimulatedVehicle, StandsUntilItsMotorsRun) {
   std::vector<common::SensorEvent> events;
   ASSERT_TRUE(vehicle.advanceTo(Time::fromSeconds(5.0), events));
   EXPECT_FALSE(vehicle.truth().airborne);
-  const common::Pose3 T_map_body = vehicle.T_world_map().inverse() * vehicle.truth().T_world_body;
+  const common::Pose3 T_map_body = vehicle.trueT_map_body();
   EXPECT_NEAR(T_map_body.position_m.z(), 0.146, 1e-3);
   EXPECT_LT(T_map_body.position_m.head<2>().norm(), 1e-3);
 }
