@@ -57,9 +57,9 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   if (const auto& m = step.measurement) {
     hear(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
     (void)filter_.addHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2);
-    if (m->velocity_m_s) {
-      hear(perception::TapedClimb{m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2});
-      (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
+    if (m->speed) {
+      hear(perception::TapedClimb{m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2});
+      (void)filter_.addVerticalSpeed(m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2);
     }
   }
   if (step.doubt_m_s)

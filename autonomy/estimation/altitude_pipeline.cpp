@@ -47,11 +47,11 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   for (perception::GroundPoint& point : ground) point.distance_below_m += ramp_.rise_m();
   perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
   prior.covariance(0, 0) += ramp_.variance_m2();
-  const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior, ramp_.onSlope());
+  const auto update = filter_.update(prior, T_map_body.position_m(), ground, ramp_.onSlope());
   if (update.height_above_ground_m)
     surface_height_m_ = vertical->height_m - *update.height_above_ground_m + ramp_.rise_m();
   step.measurement = update.measurement;
-  step.doubt_m_s = doubt_.add(scan.stamp, T_odom_body.position_m(), vertical->velocity_m_s, step.measurement);
+  step.doubt_m_s = doubt_.add(scan.stamp, T_odom_body.position_m(), step.measurement);
   if (step.measurement) {
     step.measurement->level_variance_m2 += ramp_.variance_m2();
     // A measurement is of an earlier scan, which may still be one over the slope.

@@ -12,8 +12,8 @@ namespace swiftlet::perception::altitude {
 /// One thread.
 class FloorReturn {
  public:
-  /// The floor itself is below, where it is expected.
-  void sawFloor() { cells_ = 0; }
+  /// Begins anew: the floor itself is below, where it is expected, or nothing below says where it is.
+  void reset() { cells_ = 0; }
   /// A level other than the floor was measured in a cell that was seen to be floor before; call it once for each cell
   /// and level. Returns true if the level is the floor.
   bool sawLevelOverFloor(int level, const Eigen::Vector2d& cell_map_m);

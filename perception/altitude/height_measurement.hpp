@@ -24,6 +24,12 @@ struct HeightState {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< Of (height_m, velocity_m_s).
 };
 
+struct VerticalSpeed {
+  double up_m_s = 0.0;
+  double variance_m2_s2 = 0.0;
+  double change_m_s = 0.0;  ///< By how much it differs from the speed that was believed.
+};
+
 /// One measurement of the height above the take-off floor, made from all beams whose level is known.
 struct VirtualHeight {
   common::Time stamp;
@@ -34,8 +40,7 @@ struct VirtualHeight {
   double level_variance_m2 = 0.0;
   int beams = 0;
   /// Set if a surface turned out to be flat although it seemed to rise or fall, so that the vertical speed was wrong.
-  std::optional<double> velocity_m_s;
-  double velocity_variance_m2_s2 = 0.0;
+  std::optional<VerticalSpeed> speed;
 };
 
 }  // namespace swiftlet::perception

@@ -14,7 +14,7 @@ void MultilevelConfig::describe(common::config::Fields& fields) {
   fields("surface_noise_m", surface_noise_m, {0.001, 0.5},
          "Standard deviation of a real surface from flat, shared by all beams of a scan.");
   fields("acceleration_noise_m_s2", acceleration_noise_m_s2, {0.01, 20},
-         "Error of the vertical acceleration over one scan period.");
+         "Error of the vertical acceleration while a surface is seen.");
   fields("gate_sigma", gate_sigma, {1, 10}, "Half width of all confidence regions, in standard deviations.");
   fields("cluster_gap_m", cluster_gap_m, {0.005, 1},
          "A wider gap between the sorted distances separates two surfaces.");

@@ -22,16 +22,15 @@ using common::square;
 using common::Time;
 
 struct MultilevelFilter::Impl {
-  explicit Impl(const Config& c) : config(c), height(c.acceleration_noise_m_s2), store(c.resolution_m) {}
+  explicit Impl(const Config& c) : config(c), store(c.resolution_m) {}
 
   // The steps of Algorithm 1, in its order.
   void matchBeams();
   bool leftALevel() const;
-  void assume(const HeightState& prior);
   void undoLastUpdates();
   std::optional<VirtualHeight> takeConfirmed();
   void distrustSlopes();
-  std::optional<VirtualHeight> updateHeight();
+  std::optional<VirtualHeight> updateHeight(double believed_m_s);
   void addNewLevels(AltitudeUpdate& outcome);
   void updateLeftLevels();
   void extendLevels(AltitudeUpdate& outcome);
@@ -50,7 +49,7 @@ struct MultilevelFilter::Impl {
   LevelStore store;
   std::vector<NewSurface> new_surfaces;
   std::deque<VirtualHeight> pending;
-  std::optional<PriorCorrection> correction;
+  PriorCorrection correction;
   FloorReturn floor_return;
   HeightState state;
   bool initialized = false;
@@ -79,24 +78,17 @@ bool MultilevelFilter::Impl::leftALevel() const {
 }
 
 void MultilevelFilter::Impl::undoLastUpdates() {
-  if (correction && correction->jumps) return;
-  height.recall();
+  if (correction.regained()) return;
   pending.clear();
-  if (correction) store.at(correction->level).seen = false;  // Must be entered again.
-  correction.reset();
-}
-
-void MultilevelFilter::Impl::assume(const HeightState& prior) {
-  if (correction && correction->isTakenIn(prior, height)) correction.reset();
-  const HeightState assumed = correction ? correction->applied(prior, height, now) : prior;
-  height.assume(now, assumed.height_m, assumed.velocity_m_s, assumed.covariance);
+  if (const auto& entered = correction.entered()) store.at(entered->level).seen = false;  // Must be entered again.
+  correction.end();
 }
 
 std::optional<VirtualHeight> MultilevelFilter::Impl::takeConfirmed() {
   if (pending.empty() || (now - pending.front().stamp).seconds() < config.publish_delay_s) return std::nullopt;
   const VirtualHeight oldest = pending.front();
   pending.pop_front();
-  if (correction && !correction->jumps && oldest.stamp > correction->since) correction.reset();
+  if (const auto& entered = correction.entered(); entered && oldest.stamp > entered->since) correction.end();
   return oldest;
 }
 
@@ -110,7 +102,8 @@ void MultilevelFilter::Impl::distrustSlopes() {
     // The error of a correction is the same in each innovation, so the variance of their sum grows with the square of
     // their number. The height itself follows measurements that are `publish_delay_s` late: what the prediction errs
     // since then is shared with the innovations of that time, the less the longer ago they are.
-    const double same = 1.0 + (correction ? 2.0 * level.innovations : std::min<double>(level.innovations, late_scans));
+    const double same =
+        1.0 + (correction.underWay() ? 2.0 * level.innovations : std::min<double>(level.innovations, late_scans));
     ++level.innovations;
     level.innovation_sum_m += g.height_m + g.distance_below_m - height.height_m();
     level.innovation_variance_m2 += same * height.ownVariance_m2() + beamVariance(g.beams);
@@ -125,7 +118,7 @@ void MultilevelFilter::Impl::distrustSlopes() {
 }
 
 /// Lines 6 to 11: one virtual measurement from all levels below the vehicle.
-std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
+std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight(double believed_m_s) {
   if (scan.groups.empty()) return std::nullopt;
   double weights = 0.0, weighted_m = 0.0, white_weights = 0.0, surest_m2 = scan.groups.front().variance_m2;
   int used = 0;
@@ -140,11 +133,9 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
   const double white_m2 = 1.0 / white_weights;
   height.update(weighted_m / weights, white_m2);
   height.setReferenceVariance(surest_m2 + square(config.surface_noise_m));
-  VirtualHeight measured{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used, {}, 0.0};
-  if (correction && pending.empty()) {
-    measured.velocity_m_s = height.velocity_m_s();
-    measured.velocity_variance_m2_s2 = correction->covariance(1, 1);
-  }
+  VirtualHeight measured{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used, {}};
+  if (const auto variance_m2_s2 = correction.speedVariance_m2_s2(); variance_m2_s2 && pending.empty())
+    measured.speed = {height.velocity_m_s(), *variance_m2_s2, height.velocity_m_s() - believed_m_s};
   return measured;
 }
 
@@ -189,7 +180,7 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     const int explained_by = alone ? likeliestLevel(known(), below_m, surface.last.beams, false) : kNoLevel;
     if (!isFlat(config, surface, now, height.covariance()(1, 1), explained_by)) continue;
     const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
-    const bool first = alone && !correction;
+    const bool first = alone && !correction.underWay();
     if (first) {
       height.dropReference();
       learnSpeed(surface);
@@ -204,12 +195,9 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
       if (first) height.takeReference(below_variance_m2);
     }
     if (first) {
-      correction = PriorCorrection{id,
-                                   now,
-                                   height.height_m() - height_before_m,
-                                   height.velocity_m_s() - velocity_before_m_s,
-                                   height.covariance(),
-                                   surface.seenFor_s(now) >= config.confirm_moving_s};
+      correction.begin(EnteredLevel{id, now, height.height_m() - height_before_m,
+                                    height.velocity_m_s() - velocity_before_m_s, height.covariance(),
+                                    surface.seenFor_s(now) >= config.confirm_moving_s});
     }
     for (const CellIndex& cell : surface.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
@@ -248,7 +236,7 @@ void MultilevelFilter::Impl::updateLeftLevels() {
 void MultilevelFilter::Impl::extendLevels(AltitudeUpdate& outcome) {
   int floor = kNoLevel;
   for (const BeamGroup& g : scan.groups)
-    if (g.level == kFloor) floor_return.sawFloor();
+    if (g.level == kFloor) floor_return.reset();
   for (const Beam& beam : scan.beams) {
     if (beam.level == kNoLevel || !store.extend(beam.level, beam.cell)) continue;
     changed = true;
@@ -268,16 +256,16 @@ void MultilevelFilter::Impl::regainFloor(int level, AltitudeUpdate& outcome) {
   Eigen::Matrix2d covariance = height.covariance();
   covariance << beamVariance(group->beams), 0.0, 0.0, covariance(1, 1);
   height.dropReference();
-  height.assume(now, group->distance_below_m, height.velocity_m_s(), covariance);
+  height.assume({now, group->distance_below_m, height.velocity_m_s(), covariance});
   outcome.floor_regained_m = height.height_m() - before_m;
   pending.clear();
-  correction = PriorCorrection{kFloor, now, *outcome.floor_regained_m, 0.0, covariance, true, true};
+  correction.begin(RegainedFloor{now, covariance});
   (void)store.join(kFloor, level);
   store.at(kFloor).forgetInnovations();
   group->level = kFloor;
   std::replace(present.begin(), present.end(), level, kFloor);
   std::erase(near, level);
-  floor_return.sawFloor();
+  floor_return.reset();
 }
 
 /// Line 17: merges levels that meet here and agree.
@@ -324,8 +312,8 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.store.clear();
   f.new_surfaces.clear();
   f.pending.clear();
-  f.correction.reset();
-  f.floor_return.sawFloor();
+  f.correction.end();
+  f.floor_return.reset();
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
@@ -341,14 +329,10 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
 
 bool MultilevelFilter::initialized() const { return impl_->initialized; }
 
-void MultilevelFilter::addAcceleration(Time time, double acceleration_up_m_s2) {
-  if (impl_->initialized) impl_->height.addAcceleration(time, acceleration_up_m_s2);
-}
-
-AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& position_map_m,
-                                        std::span<const GroundPoint> points, const std::optional<HeightState>& prior,
-                                        bool over_slope) {
+AltitudeUpdate MultilevelFilter::update(const HeightState& prior, const Eigen::Vector2d& position_map_m,
+                                        std::span<const GroundPoint> points, bool over_slope) {
   Impl& f = *impl_;
+  const Time time = prior.stamp;
   AltitudeUpdate outcome;
   if (!f.initialized || time <= f.height.stamp() || !position_map_m.allFinite()) return outcome;
   f.before = f.height.stamp();
@@ -358,19 +342,16 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   f.present.clear();
 
   // Stage 1: update the height estimate.
-  if (prior)
-    f.assume(*prior);
-  else
-    f.height.predictTo(time);
+  f.height.assume(f.correction.applied(prior, f.height));
   f.scan.read(position_map_m, points, f.store);
   f.matchBeams();
-  if (f.leftALevel() && !(f.correction && f.correction->confirmed)) {
+  if (f.leftALevel() && !f.correction.isConfirmed()) {
     // The last measurements of the level that was left may have been the beginning of a slope.
     f.undoLastUpdates();
     f.matchBeams();
   }
   f.distrustSlopes();
-  if (const auto measured = f.updateHeight()) f.pending.push_back(*measured);
+  if (const auto measured = f.updateHeight(prior.velocity_m_s)) f.pending.push_back(*measured);
   outcome.measurement = f.takeConfirmed();
 
   // Stage 2: update the map of levels.
@@ -378,7 +359,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   seeNewSurfaces(f.new_surfaces, f.config, f.scan.beams, f.height.height_m(), time);
   f.addNewLevels(outcome);
   f.updateLeftLevels();
-  if (over_slope) f.floor_return.sawFloor();
+  if (over_slope) f.floor_return.reset();
   f.extendLevels(outcome);
   for (const BeamGroup& g : f.scan.groups) {
     LevelEstimate& level = f.store.at(g.level);

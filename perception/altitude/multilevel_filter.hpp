@@ -1,8 +1,9 @@
 // Estimates the height of the vehicle and of the surfaces below it, from the laser beams that a mirror deflects down
 // (Grzonka 2012, section IV-C, Algorithm 1; Grzonka 2009, section V-E).
 //
-// Stage 1 is a Kalman filter over (z, v_z), predicted with the vertical acceleration. The known levels nearby that
-// explain a beam give one virtual measurement of the height above the take-off floor, as if nothing else were below.
+// Stage 1 is a Kalman filter over (z, v_z). It starts each scan from the fusion filter's estimate, where the paper
+// predicts with the vertical acceleration alone (docs/decisions/097). The known levels nearby that explain a beam give
+// one virtual measurement of the height above the take-off floor, as if nothing else were below.
 // Stage 2 is one Kalman filter per level. Surfaces that no level explains become new levels. A level is re-estimated
 // only when the vehicle enters or leaves it; otherwise the errors of level and height would drift together. A level
 // grows by the cells where it was measured. Two levels that meet and agree are merged:
@@ -21,8 +22,8 @@
 //
 // Heights are those of the body origin above the take-off floor, which is level 0, at height 0 without error. The state
 // is that of the time of the last scan. The vehicle's present height comes from the fusion filter, which uses the
-// virtual measurements, and whose estimate may replace the prediction of stage 1. Single-threaded. Deterministic for
-// a given order of the points. No heap use in the steady state.
+// virtual measurements. Single-threaded. Deterministic for a given order of the points. No heap use in the steady
+// state.
 #pragma once
 
 #include <memory>
@@ -67,17 +68,11 @@ class MultilevelFilter {
   void initialize(common::Time time, const Eigen::Vector2d& position_map_m, double height_m);
   bool initialized() const;
 
-  /// Adds a vertical acceleration in ENU (gravity and bias removed), at the IMU's rate. It is kept until the scan that
-  /// needs it, because scans arrive late. Non-finite and out-of-order accelerations are left out.
-  void addAcceleration(common::Time time, double acceleration_up_m_s2);
-
-  /// Algorithm 1 for one scan at `time`, with the vehicle at `position_map_m`. Scans must be in order of time; an
-  /// earlier one is ignored. Without accelerations since the last scan the velocity is predicted as constant. `prior`,
-  /// if given, is the height and vertical speed at `time` from the fusion filter that receives the measurements; it
-  /// replaces the prediction by accelerations. `over_slope`: the points are on a slope, lowered by its known rise to
-  /// the level from which it began.
-  AltitudeUpdate update(common::Time time, const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points,
-                        const std::optional<HeightState>& prior = std::nullopt, bool over_slope = false);
+  /// Algorithm 1 for one scan at `prior.stamp`, with the vehicle at `position_map_m`. Scans must be in order of time;
+  /// an earlier one is ignored. `prior` is the height and vertical speed from the fusion filter that receives the
+  /// measurements. `over_slope`: the points are on a slope, lowered by its known rise to the level from which it began.
+  AltitudeUpdate update(const HeightState& prior, const Eigen::Vector2d& position_map_m,
+                        std::span<const GroundPoint> points, bool over_slope = false);
 
   const HeightState& state() const;
   /// A copy of all levels with their cells.

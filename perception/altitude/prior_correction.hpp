@@ -1,6 +1,7 @@
-// The correction of a prior by a level that was just entered, until the fusion filter, which provides the prior, has
-// received the measurement itself.
+// The correction of a prior, until the fusion filter, which provides the prior, has received the measurement itself.
 #pragma once
+
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -11,19 +12,51 @@
 
 namespace swiftlet::perception::altitude {
 
-struct PriorCorrection {
+/// A level was entered: the prior is corrected by what that changed.
+struct EnteredLevel {
   int level = kNoLevel;
   common::Time since;
   double height_m = 0.0;  ///< To be added to the prior's height.
   double velocity_m_s = 0.0;
   Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
   bool confirmed = false;      ///< The level was seen for so long before that leaving it does not call it in question.
-  bool jumps = false;          ///< The prior is not used until it agrees: the fusion filter resists at first.
+};
 
-  /// Whether a prior has jumped, too, so that it agrees with the present height.
-  bool isTakenIn(const HeightState& prior, const HeightFilter& present) const;
-  /// The prior with the correction; after a jump the present height instead, moved to `now`.
-  HeightState applied(const HeightState& prior, const HeightFilter& present, common::Time now) const;
+/// What was taken for a level is the floor. The prior is not used until it agrees: the fusion filter resists at first,
+/// and a part of the correction would pass by the right height.
+struct RegainedFloor {
+  common::Time since;
+  Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
+};
+
+/// At most one correction is under way.
+class PriorCorrection {
+ public:
+  void begin(const EnteredLevel& entered) { entered_ = entered; }
+  void begin(const RegainedFloor& regained) {
+    entered_.reset();
+    regained_ = regained;
+  }
+  void end() {
+    entered_.reset();
+    regained_.reset();
+  }
+
+  bool underWay() const { return entered_ || regained_; }
+  const std::optional<EnteredLevel>& entered() const { return entered_; }
+  const std::optional<RegainedFloor>& regained() const { return regained_; }
+  /// Leaving what is below does not call the correction in question.
+  bool isConfirmed() const { return regained_ || (entered_ && entered_->confirmed); }
+  /// Of the vertical speed after the correction; none while none is under way.
+  std::optional<double> speedVariance_m2_s2() const;
+
+  /// The height and speed to start a scan from. Ends the correction by a regained floor once the prior agrees with the
+  /// height of the last scan, `present`.
+  HeightState applied(const HeightState& prior, const HeightFilter& present);
+
+ private:
+  std::optional<EnteredLevel> entered_;
+  std::optional<RegainedFloor> regained_;
 };
 
 }  // namespace swiftlet::perception::altitude

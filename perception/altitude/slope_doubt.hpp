@@ -4,9 +4,7 @@
 // over furniture speaks for a ramp; the height is then wrong by what the ramp rises (docs/decisions/061).
 #pragma once
 
-#include <deque>
 #include <optional>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -22,14 +20,12 @@ class SlopeDoubt {
   /// 0.05, over a ramp of 10 degrees at 0.7 m/s above 0.13.
   static constexpr double kLeast_m_s = 0.08;
 
-  /// A scan of that time and place, with the vertical speed that was believed, and what the filter measured.
-  /// Returns the correction, positive upwards, if it makes the height doubtful.
-  std::optional<double> add(common::Time time, const Eigen::Vector2d& place_odom_m, double velocity_m_s,
+  /// A scan of that time and place, and what the filter measured. Returns the correction of the vertical speed,
+  /// positive upwards, if it makes the height doubtful.
+  std::optional<double> add(common::Time time, const Eigen::Vector2d& place_odom_m,
                             const std::optional<VirtualHeight>& measurement);
 
  private:
-  /// Vertical speeds that were believed, by the time of their scan: a measurement is of an earlier scan.
-  std::deque<std::pair<common::Time, double>> believed_m_s_;
   std::optional<common::Time> time_;
   Eigen::Vector2d place_odom_m_ = Eigen::Vector2d::Zero();
   double speed_m_s_ = 0.0;  ///< Horizontal, smoothed.

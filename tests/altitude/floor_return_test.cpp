@@ -11,7 +11,6 @@ namespace {
 /// Up a ramp of 0.5 m, off its upper edge, and back around it over the floor from which the flight began.
 Overflight overARamp(int seed) {
   Overflight flight;
-  flight.fused = true;
   flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "floor");
   flight.boxes = {{3.0, 6.0, -0.6, 0.6, 0.0, 0.5}};
   flight.start();
@@ -37,7 +36,6 @@ TEST(FloorReturn, TheHeightIsCorrectedWhereTheFloorWasSeenBefore) {
 
 TEST(FloorReturn, ATableThatWasMovedIntoTheWayIsNoFloor) {
   Overflight flight;
-  flight.fused = true;
   flight.start();
   flight.climbTo(1.5);
   flight.flyTo({6.0, 0.0}, 0.7);

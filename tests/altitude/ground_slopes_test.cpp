@@ -133,7 +133,6 @@ double worstOverARamp_m(bool sees_slopes) {
   double worst_m = 0.0;
   for (int seed = 1; seed <= 8; ++seed) {
     Overflight flight;
-    flight.fused = true;
     flight.sees_slopes = sees_slopes;
     flight.gradient_error = seed % 2 == 0 ? 0.006 : -0.006;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "ramp");
@@ -158,7 +157,6 @@ int flightsInDoubt(const std::vector<Box>& boxes) {
   int in_doubt = 0;
   for (int seed = 1; seed <= 10; ++seed) {
     Overflight flight;
-    flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "doubt");
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.02, 0.02);
     flight.boxes = boxes;

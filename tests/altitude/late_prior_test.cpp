@@ -22,7 +22,7 @@ TEST(MultilevelFilter, AnErrorOfThePriorThatStaysIsNoSlope) {
     for (int i = 0; i < 10; ++i) points.push_back({{0.0, 0.0}, 1.0 + random.gaussian(0.01)});
     HeightState prior{common::Time::fromSeconds(now_s), 1.0045, 0.03};
     prior.covariance << common::square(0.006), 0.0, 0.0, common::square(0.03);
-    measured += filter.update(prior.stamp, {0, 0}, points, prior).measurement ? 1 : 0;
+    measured += filter.update(prior, {0, 0}, points).measurement ? 1 : 0;
   }
   EXPECT_GE(measured, scans - 10);
 }

@@ -209,7 +209,6 @@ TEST(MultilevelFilter, ReturnsToTheFloorBehindClutter) {
   int unmeasured = 0, wrong = 0;
   for (int seed = 1; seed <= kFlights; ++seed) {
     Overflight flight;
-    flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "clutter");
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
     flight.boxes = {{1.0, 2.5, -1.0, 1.0, 0.36}};
@@ -237,7 +236,6 @@ TEST(MultilevelFilter, KeepsTheHeightThatAGapBetweenFurnitureGave) {
   int wrong = 0;
   for (int seed = 1; seed <= kFlights; ++seed) {
     Overflight flight;
-    flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "gap");
     const auto furnish = [&](double from_m, double to_m) {
       for (double x_m = from_m; x_m < to_m; x_m += 0.1)
@@ -362,18 +360,20 @@ TEST(MultilevelFilter, IgnoresInvalidInput) {
   MultilevelFilter filter(config);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<GroundPoint> points(10, GroundPoint{{0, 0}, 1.0});
-  EXPECT_FALSE(filter.update(common::Time::fromSeconds(1.0), {0, 0}, points).measurement);
+  const auto priorAt = [](double time_s) {
+    return HeightState{common::Time::fromSeconds(time_s), 1.0, 0.0, 1e-4 * Eigen::Matrix2d::Identity()};
+  };
+  EXPECT_FALSE(filter.update(priorAt(1.0), {0, 0}, points).measurement);
   filter.initialize(common::Time::fromSeconds(1.0), {0, 0}, 1.0);
-  filter.addAcceleration(common::Time::fromSeconds(1.001), nan);
-  EXPECT_FALSE(filter.update(common::Time::fromSeconds(0.5), {0, 0}, points).measurement);
-  EXPECT_FALSE(filter.update(common::Time::fromSeconds(1.1), {nan, 0}, points).measurement);
+  EXPECT_FALSE(filter.update(priorAt(0.5), {0, 0}, points).measurement);
+  EXPECT_FALSE(filter.update(priorAt(1.1), {nan, 0}, points).measurement);
   points[0].position_map_m.x() = nan;
   points[1].distance_below_m = std::numeric_limits<double>::infinity();
   points[2].distance_below_m = -1.0;
-  const auto update = filter.update(common::Time::fromSeconds(1.2), {0, 0}, points);
+  const auto update = filter.update(priorAt(1.2), {0, 0}, points);
   ASSERT_TRUE(update.measurement);
   EXPECT_EQ(update.measurement->beams, 7);
-  EXPECT_FALSE(filter.update(common::Time::fromSeconds(1.3), {0, 0}, {}).measurement);
+  EXPECT_FALSE(filter.update(priorAt(1.3), {0, 0}, {}).measurement);
   EXPECT_TRUE(std::isfinite(filter.state().height_m));
 }
 

@@ -38,8 +38,7 @@ class LateFilter {
     std::size_t i = 0;
     while (i + 1 < steps_.size() && steps_[i].stamp < measured.stamp) ++i;
     update(steps_[i], {1.0, 0.0, 0.0}, measured.height_m, measured.variance_m2);
-    if (measured.velocity_m_s)
-      update(steps_[i], {0.0, 1.0, 0.0}, *measured.velocity_m_s, measured.velocity_variance_m2_s2);
+    if (measured.speed) update(steps_[i], {0.0, 1.0, 0.0}, measured.speed->up_m_s, measured.speed->variance_m2_s2);
     for (++i; i < steps_.size(); ++i) {
       Step again = steps_[i - 1];
       advance(again, steps_[i].stamp, steps_[i].acceleration_m_s2);
@@ -90,7 +89,6 @@ struct Overflight {
   double acceleration_bias_m_s2 = 0.0;
   double outlier_rate = 0.0, dropout_rate = 0.0;
   double height_offset_m = 0.0;  ///< Offset of all beams: a wrong mirror mount.
-  bool fused = false;            ///< The prior comes from outside, as in flight.
   LateFilter fusion;
   bool sees_slopes = false;     ///< A camera told the gradients of the ground.
   double gradient_error = 0.0;  ///< Of all of them, along x.
@@ -144,12 +142,9 @@ struct Overflight {
       now += common::Duration::fromMilliseconds(5);
       z_m += vz_m_s * 0.005 + 0.5 * acceleration_m_s2 * 0.005 * 0.005;
       vz_m_s += acceleration_m_s2 * 0.005;
-      const double one_m_s2 = acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2);
-      felt_m_s2 += one_m_s2 / steps;
-      filter.addAcceleration(now, one_m_s2);
+      felt_m_s2 += (acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2)) / steps;
     }
-    std::optional<HeightState> prior =
-        fused ? std::optional(fusion.predict(now, felt_m_s2)) : std::optional<HeightState>();
+    HeightState prior = fusion.predict(now, felt_m_s2);
     std::vector<GroundPoint> points;
     for (int i = 0; i < beams; ++i) {
       const double angle = beams > 1 ? spread_rad * (static_cast<double>(i) / (beams - 1) - 0.5) : 0.0;
@@ -162,17 +157,17 @@ struct Overflight {
     if (sees_slopes) {
       ramp.move({}, position_m, gradient());
       for (GroundPoint& point : points) point.distance_below_m += ramp.rise_m();
-      if (prior) prior->covariance(0, 0) += ramp.variance_m2();
+      prior.covariance(0, 0) += ramp.variance_m2();
     }
-    last = filter.update(now, position_m, points, prior, sees_slopes && ramp.onSlope());
+    last = filter.update(prior, position_m, points, sees_slopes && ramp.onSlope());
     if (last.floor_regained_m) regained_m = last.floor_regained_m;
-    doubts += doubt.add(now, position_m, prior ? prior->velocity_m_s : vz_m_s, last.measurement) ? 1 : 0;
+    doubts += doubt.add(now, position_m, last.measurement) ? 1 : 0;
     if (last.measurement) ramp.measured();
     if (last.measurement) fusion.add(*last.measurement);
     added += last.levels_added;
     joined += last.levels_joined;
     without_measurement += last.measurement ? 0 : 1;
-    const double error_m = (prior ? prior->height_m : filter.state().height_m) - z_m;
+    const double error_m = prior.height_m - z_m;
     worst_error_m = std::max(worst_error_m, std::abs(error_m));
     squares_m2 += error_m * error_m;
     ++scans;

@@ -16,7 +16,6 @@ TEST(MultilevelFilter, BelievesTheFloorAgainThoughTheVehicleClimbsUnknowingly) {
   constexpr int kFlights = 40;
   for (int seed = 1; seed <= kFlights; ++seed) {
     Overflight flight;
-    flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "climb");
     const double end_m = flight.addClutter(1.0, 1.8, 0.2, 0.9);
     flight.start();
@@ -38,7 +37,6 @@ TEST(MultilevelFilter, TheBackOfASofaIsNoLevelBelowAVehicleThatSinks) {
   constexpr int kFlights = 40;
   for (int seed = 1; seed <= kFlights; ++seed) {
     Overflight flight;
-    flight.fused = true;
     flight.random = common::RandomStream(static_cast<std::uint64_t>(seed), "sofa");
     const double end_m = flight.addClutter(1.0, 2.0, 0.2, 0.7);
     flight.boxes.push_back({end_m, end_m + 0.85, -1.0, 1.0, 0.75, 0.44});
