@@ -167,8 +167,8 @@ void Autonomy::tellInertialInput(const common::Setpoint& setpoint, bool thrust_a
   const bool low = state.height_above_ground_m < kNearGround_m || !state.vertical_valid ||
                    state.verticalAge_s(setpoint.stamp) > config_.control.emergency.blind_after_s;
   const bool near = low && controller_.state() != FlightState::kFlying;
-  const double hover = config_.control.position.thrust.max_thrust / controller_.thrustMargin();
-  inertial_.flown(setpoint, {control::isAirborne(controller_.state()), near, thrust_applies, setpoint.thrust / hover});
+  inertial_.flown(setpoint, {control::isAirborne(controller_.state()), near, thrust_applies,
+                             setpoint.thrust / controller_.carryingCommand()});
 }
 
 /// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is

@@ -5,6 +5,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/gravity.hpp"
+#include "common/square.hpp"
 
 namespace swiftlet::control {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kStill_m_s = 0.10;            ///< A descent is faster: only the ground explains less.
 constexpr double kMaxAcceleration_m_s2 = 2.0;  ///< A fifth of the weight: leaves thrust for the attitude.
+constexpr double kThrustLag_s = 0.10;          ///< From a setpoint to its thrust: link and motors.
 constexpr double kMaxIntegral_m_s2 = 2.0;      ///< A hover command that is wrong by a fifth.
 /// For each second without a measured height the slow part of the descent begins this much higher: a bias of the
 /// accelerometer of 0.02 m/s^2 makes an error of 1 m in ten seconds.
@@ -61,8 +63,8 @@ EmergencyDescent::EmergencyDescent(const Config& config)
     : config_(config), filter_(config.filter_time_s, config.jump_m) {}
 
 void EmergencyDescent::start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s,
-                             const Eigen::Vector2d& trim_level_m_s2) {
-  trim_level_m_s2_ = trim_level_m_s2.allFinite() ? trim_level_m_s2 : Eigen::Vector2d::Zero();
+                             const Eigen::Vector3d& trim_level_m_s2) {
+  trim_level_m_s2_ = trim_level_m_s2.allFinite() ? trim_level_m_s2 : Eigen::Vector3d::Zero();
   velocity_left_m_s_ = velocity_level_m_s.allFinite() ? velocity_level_m_s : Eigen::Vector2d::Zero();
   last_seen_ = last_moving_ = now;
   standing_height_m_ = standing_height_m;
@@ -81,17 +83,23 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
   const Eigen::Vector2d braking_m_s2 = -config_.brake_1_s * velocity_left_m_s_;
   const Eigen::Vector2d given_m_s2 = braking_m_s2 / std::max(1.0, braking_m_s2.norm() / kMaxAcceleration_m_s2);
   velocity_left_m_s_ += given_m_s2 * dt_s;
-  const Eigen::Vector2d tilt_m_s2 = given_m_s2 + trim_level_m_s2_;
+  const Eigen::Vector2d tilt_m_s2 = given_m_s2 + trim_level_m_s2_.head<2>();
   setpoint.pitch_rad = std::atan2(tilt_m_s2.x(), common::kGravity_m_s2);
   setpoint.roll_rad = std::atan2(-tilt_m_s2.y(), common::kGravity_m_s2);
   const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
   given_m_s2_ = sees ? seenAcceleration_m_s2(now, dt_s) : blindAcceleration_m_s2(now, dt_s, carried);
-  setpoint.thrust = thrust.commandFor(given_m_s2_, 1.0);
+  setpoint.thrust = thrust.commandFor(given_m_s2_ + trim_level_m_s2_.z(), 1.0);
   return setpoint;
 }
 
-double EmergencyDescent::wantedVelocity_m_s(double margin_m) const {
-  const bool low = motion_.height_m < standing_height_m_ + config_.touchdown_height_m + margin_m;
+/// Near the ground is where the touch-down speed is reached in time: a vehicle that sinks faster than it should, and
+/// is seen late, brakes higher up.
+double EmergencyDescent::wantedVelocity_m_s(double margin_m, double age_s) const {
+  const double sinks_m_s = std::max(0.0, -motion_.velocity_m_s);
+  const double excess_m2_s2 = common::square(sinks_m_s) - common::square(config_.touchdown_descent_m_s);
+  const double brakes_m =
+      sinks_m_s * (age_s + config_.filter_time_s + kThrustLag_s) + 0.5 * excess_m2_s2 / kMaxAcceleration_m_s2;
+  const bool low = motion_.height_m < standing_height_m_ + std::max(config_.touchdown_height_m, brakes_m) + margin_m;
   return low ? -config_.touchdown_descent_m_s : -config_.descent_m_s;
 }
 
@@ -110,7 +118,7 @@ double EmergencyDescent::seenAcceleration_m_s2(common::Time now, double dt_s) {
       motion_.height_m < standing_height_m_ + config_.rest_margin_m && std::abs(motion_.velocity_m_s) < kStill_m_s;
   if (!may_stand) last_moving_ = now;
   touched_down_ = (now - last_moving_).seconds() >= config_.rest_s;
-  return accelerationFor(wantedVelocity_m_s(0.0), dt_s);
+  return accelerationFor(wantedVelocity_m_s(0.0, (now - filter_.stamp()).seconds()), dt_s);
 }
 
 /// A vehicle on the ground cannot follow less thrust. So while the carried speed does not sink as wanted, more and more
@@ -128,7 +136,7 @@ double EmergencyDescent::blindAcceleration_m_s2(common::Time now, double dt_s,
   // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
   const double wrong_m_s = blind_s * (carried ? kCarriedSpeed_m_s2 : kModelSpeed_m_s2);
   const double share = carried ? 1.0 : kModelShare;
-  const double wanted_m_s = share * wantedVelocity_m_s(kBlindMargin_per_s * blind_s) - wrong_m_s;
+  const double wanted_m_s = share * wantedVelocity_m_s(kBlindMargin_per_s * blind_s, 0.0) - wrong_m_s;
   const bool sinks =
       carried ? motion_.velocity_m_s < kSinkingShare * wanted_m_s : motion_.height_m > standing_height_m_ - kMissed_m;
   const double step_m_s2 = config_.blind_push_m_s3 * dt_s;

@@ -80,18 +80,22 @@ class EmergencyDescent {
   void observe(const RawHeight& raw) { filter_.update(raw); }
   /// `standing_height_m` is the height that the mirror measured on the ground. `velocity_level_m_s` is the last known
   /// horizontal velocity, in the body frame without roll and pitch; zero if none is known. `trim_level_m_s2`, in the
-  /// same frame, balances wind and a wrong horizon: a horizon off by 1 deg would carry the vehicle 0.8 m in 3 s.
+  /// same frame, balances wind, a wrong horizon and a wrong hover command: a horizon off by 1 deg would carry the
+  /// vehicle 0.8 m in 3 s, and a command that lacks a tenth of the weight doubles the speed of the descent.
   void start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s,
-             const Eigen::Vector2d& trim_level_m_s2 = Eigen::Vector2d::Zero());
+             const Eigen::Vector3d& trim_level_m_s2 = Eigen::Vector3d::Zero());
   /// The yaw rate is zero. The tilt brakes the velocity given to start() without measuring it again.
   /// `carried` is the motion by the inertial samples, used while no raw height is fresh; none if it is not known.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust,
                         const std::optional<VerticalMotion>& carried = std::nullopt);
   bool touchedDown() const { return touched_down_; }
+  /// The upward acceleration that the hover command lacks, by the trim and what the descent has found since.
+  double lift_m_s2() const { return trim_level_m_s2_.z() + integral_m_s2_; }
   const AlphaBetaFilter& filter() const { return filter_; }
 
  private:
-  double wantedVelocity_m_s(double margin_m) const;
+  /// `margin_m`: so much the height may be wrong; `age_s`: so old the motion is.
+  double wantedVelocity_m_s(double margin_m, double age_s) const;
   double accelerationFor(double wanted_m_s, double dt_s);
   double seenAcceleration_m_s2(common::Time now, double dt_s);
   double blindAcceleration_m_s2(common::Time now, double dt_s, const std::optional<VerticalMotion>& carried);
@@ -99,13 +103,13 @@ class EmergencyDescent {
   Config config_;
   AlphaBetaFilter filter_;
   Eigen::Vector2d velocity_left_m_s_ = Eigen::Vector2d::Zero();  ///< What braking has not taken away yet.
-  Eigen::Vector2d trim_level_m_s2_ = Eigen::Vector2d::Zero();
+  Eigen::Vector3d trim_level_m_s2_ = Eigen::Vector3d::Zero();
   common::Time last_seen_;  ///< When the ground was last measured; at first, when the descent started.
   common::Time last_moving_;
   double standing_height_m_ = 0.0;
   double integral_m_s2_ = 0.0;
   VerticalMotion motion_;     ///< The last one that was seen, carried on by the thrust model.
-  double given_m_s2_ = 0.0;   ///< The vertical acceleration of the last command.
+  double given_m_s2_ = 0.0;   ///< The vertical acceleration of the last command, without the trim.
   double pushed_m_s2_ = 0.0;  ///< Downward acceleration added while a blind descent does not sink.
   bool touched_down_ = false;
 };

@@ -338,9 +338,11 @@ void FlightController::enter(FlightState from, FlightState entered) {
 /// The trim of a vehicle that flies fast balances drag, which ends with the braking.
 void FlightController::startEmergencyDescent() {
   const double yaw_rad = common::yawOf(last_state_.T_odom_body.rotation);
-  Eigen::Vector2d trim_level_m_s2 = Eigen::Vector2d::Zero();
+  Eigen::Vector3d trim_level_m_s2 = position_.trim_odom_m_s2();
   if (last_state_.velocity_odom_m_s.head<2>().norm() < kTrimmedSpeed_m_s)
-    trim_level_m_s2 = Eigen::Rotation2Dd(-yaw_rad) * position_.trim_odom_m_s2();
+    trim_level_m_s2.head<2>() = Eigen::Rotation2Dd(-yaw_rad) * trim_level_m_s2.head<2>();
+  else
+    trim_level_m_s2.head<2>().setZero();
   emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(), trim_level_m_s2);
 }
 

@@ -148,6 +148,8 @@ class FlightController {
   const ThrustModel& thrust() const { return position_.thrust(); }
   /// See ThrustModel::margin().
   double thrustMargin() const { return position_.thrust().margin(); }
+  /// The thrust that carries the weight: the learned hover command, and what the controller adds until that is learned.
+  double carryingCommand() const;
   /// What an earlier flight of this vehicle has learned, to be called before the first tick; and what is known now.
   void recallThrust(const ThrustPoints& points) { position_.thrust().table().recall(points); }
   ThrustPoints learnedThrust() const { return position_.thrust().table().points(); }

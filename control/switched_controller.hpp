@@ -38,7 +38,7 @@ class SwitchedController {
   common::Setpoint tick(const ControlInput& input, double battery_v);
 
   /// The horizontal acceleration that balances wind and a wrong horizon, as learned so far.
-  Eigen::Vector2d trim_odom_m_s2() const { return controller().trim_odom_m_s2(thrust_).head<2>(); }
+  Eigen::Vector3d trim_odom_m_s2() const { return controller().trim_odom_m_s2(thrust_); }
   ThrustModel& thrust() { return thrust_; }
   const ThrustModel& thrust() const { return thrust_; }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "common/gravity.hpp"
 #include "control/flight_controller.hpp"
 
 namespace swiftlet::control {
@@ -92,6 +93,12 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   return landed;
 }
 
+double FlightController::carryingCommand() const {
+  const double lift_m_s2 =
+      state() == FlightState::kEmergencyLanding ? emergency_.lift_m_s2() : position_.trim_odom_m_s2().z();
+  return position_.thrust().hoverCommand() * (1.0 + lift_m_s2 / common::kGravity_m_s2);
+}
+
 double FlightController::landing_s() const {
   const double slow_m = config_.touchdown_height_m;
   const double fast_m = std::max(0.0, last_state_.T_odom_body.position_m.z() - standing_raw_m_ - slow_m);
@@ -113,7 +120,7 @@ void FlightController::moveVertically(double goal_m, double speed_m_s, double he
 
 /// The ground may carry a part of the weight while the vehicle takes off and lands.
 bool FlightController::learnsThrust(const FlightTick& tick) const {
-  if (!tick.thrust_applies || tick.pilot_flies) return false;
+  if (!tick.thrust_applies || tick.pilot_flies || state() == FlightState::kEmergencyLanding) return false;
   if (state() == FlightState::kTakingOff) return lifted_;
   return state() == FlightState::kFlying || !nearGround();
 }

@@ -21,6 +21,27 @@ TEST(ThrustMargin, LearnsTheHoverThrustOfAWeakAndSaggingVehicle) {
   EXPECT_NEAR(flight.controller.thrust().correction(), 1.0 / 0.88, 0.05);
 }
 
+/// Right after the take-off the hover command has not been learned yet: an integral carries what it lacks.
+TEST(ThrustMargin, AnEmergencyRightAfterTheTakeOffOfAWeakVehicleIsSoft) {
+  for (const double thrust_factor : {0.80, 0.88, 1.0, 1.15}) {
+    Flight flight;
+    flight.model.thrust_factor = thrust_factor;
+    flight.height_period = common::Duration::fromMilliseconds(30);
+    flight.height_delay = common::Duration::fromMilliseconds(60);
+    flight.hover();
+    const double carries = flight.controller.carryingCommand();
+    const double sag = std::pow(flight.model.voltage_v / flight.model.vehicle.battery_full_v, 2);
+    const double needed =
+        9.81 * flight.model.vehicle.mass_kg / (flight.model.vehicle.max_thrust_n * sag * thrust_factor);
+    EXPECT_NEAR(carries, needed, 0.05 * needed) << thrust_factor;
+    flight.diverged = true;
+    ASSERT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kPoweredOff; }, 10.0));
+    std::printf("emergency with %.0f %% of the thrust: carries %.3f of %.3f, touches at %.2f m/s\n",
+                100 * thrust_factor, carries, needed, flight.model.hardest_touch_m_s);
+    EXPECT_LT(flight.model.hardest_touch_m_s, 0.85) << thrust_factor;
+  }
+}
+
 /// A flight there and back on a line of 8 m with a battery of that voltage.
 struct LineFlight {
   double seconds = 0, fastest_m_s = 0, greatest_command = 0, lowest_m = 10, margin = 0;
