@@ -5,6 +5,7 @@
 
 #include "autonomy/maneuvers/path_flight.hpp"
 #include "autonomy/maneuvers/table.hpp"
+#include "planning/costs/open_place.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -110,5 +111,16 @@ std::optional<Eigen::Vector2d> Executor::followedPerson_map_m() const {
 }
 
 std::vector<common::Event> Executor::takeEvents() { return std::exchange(memory_.events, {}); }
+
+Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const {
+  const auto map = costMapHere();
+  if (!map) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d velocity_map_m_s = state.velocity_map_m_s().head<2>();
+  const double speed_m_s = velocity_map_m_s.norm();
+  Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
+  if (speed_m_s > 0.0)
+    stopped_m += controller_.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
+  return planning::displacementToOpenPlace_m(*map, stopped_m, controller_.escapeReach_m());
+}
 
 }  // namespace swiftlet::autonomy

@@ -50,10 +50,9 @@ class Executor {
   std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
   /// Where the person is believed whom the vehicle follows, or returns to.
   std::optional<Eigen::Vector2d> followedPerson_map_m() const;
-  /// See PlanningDesk::escape_map_m.
-  Eigen::Vector2d escape_map_m(const common::VehicleState& state) const {
-    return desk_.escape_map_m(state, lowered_.heights(), controller_);
-  }
+  /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
+  /// FlightController::setEscape.
+  Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
   /// How much lower than its paths' height the vehicle flies, below something; else 0.
   double dip_m() const { return lowered_.dip_m(); }
   /// The newest cost map of the height at which the vehicle is; null before the first.

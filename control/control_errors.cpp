@@ -38,11 +38,10 @@ void integrate(Eigen::Vector3d& integral_m_s2, const Eigen::Vector3d& rate, cons
   }
 }
 
-double yawRate_rad_s(const ControlInput& input, const ControlErrors& errors, double gain_1_s,
-                     const ControlLimits& limits) {
+double yawRate_rad_s(const ControlInput& input, double error_rad, double gain_1_s, double max_yaw_rate_deg_s) {
   if (input.horizontal != Horizontal::kPosition) return 0.0;
-  const double most_rad_s = limits.max_yaw_rate_deg_s * common::kRadPerDeg;
-  return std::clamp(input.reference.yaw_rate_rad_s + gain_1_s * errors.yaw_rad, -most_rad_s, most_rad_s);
+  const double most_rad_s = max_yaw_rate_deg_s * common::kRadPerDeg;
+  return std::clamp(input.reference.yaw_rate_rad_s + gain_1_s * error_rad, -most_rad_s, most_rad_s);
 }
 
 void ControlLimits::describe(common::config::Fields& fields) {

@@ -38,7 +38,6 @@ void integrate(Eigen::Vector3d& integral_m_s2, const Eigen::Vector3d& rate, cons
                const Eigen::Vector3d& refused_m_s2, double most_m_s2, double dt_s);
 
 /// Proportional control of the yaw with the reference's rate fed forward; 0 while the position is not held.
-double yawRate_rad_s(const ControlInput& input, const ControlErrors& errors, double gain_1_s,
-                     const ControlLimits& limits);
+double yawRate_rad_s(const ControlInput& input, double error_rad, double gain_1_s, double max_yaw_rate_deg_s);
 
 }  // namespace swiftlet::control

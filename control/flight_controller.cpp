@@ -122,9 +122,9 @@ tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Ve
   return {};
 }
 
-void FlightController::hold(std::optional<double> yaw_map_rad) {
+void FlightController::hold() {
   if (escapes_until_) return;  // It ends in a hold by itself.
-  follower_.stop(yaw_map_rad ? std::optional(common::wrapAngle(*yaw_map_rad - T_map_odom_.yaw_rad)) : std::nullopt);
+  follower_.stop();
 }
 
 common::Setpoint FlightController::tick(const FlightTick& given) {

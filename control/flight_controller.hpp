@@ -115,8 +115,8 @@ class FlightController {
   /// while flying.
   tl::expected<void, std::string> followVelocity(const Eigen::Vector2d& velocity_map_m_s, double acceleration_m_s2,
                                                  double yaw_map_rad, double climb_m_s = 0.0);
-  /// Stops as fast as the flight mode allows and holds, at that yaw if one is given.
-  void hold(std::optional<double> yaw_map_rad = std::nullopt);
+  /// Stops as fast as the flight mode allows and holds.
+  void hold();
   /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat.
   void lookAt(const std::optional<Eigen::Vector2d>& point_map_m) { look_at_map_m_ = point_map_m; }
   /// Changes the controller in any state, in flight without a step. Fails, with the reason, for one without its model.

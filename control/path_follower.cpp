@@ -134,7 +134,7 @@ void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double 
   faces_travel_ = false;
 }
 
-void PathFollower::stop(std::optional<double> yaw_odom_rad) {
+void PathFollower::stop() {
   const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
   const double speed = velocity.norm();
   std::vector<Eigen::Vector3d> points{reference_.position_odom_m};
@@ -142,7 +142,7 @@ void PathFollower::stop(std::optional<double> yaw_odom_rad) {
     points.push_back(reference_.position_odom_m + velocity * (0.5 * speed / limits_.acceleration_m_s2));
   lay(std::move(points), limits_.acceleration_m_s2);
   carrot_speed_m_s_ = points_.size() > 1 ? speed : 0.0;
-  goal_yaw_odom_rad_ = yaw_odom_rad;
+  goal_yaw_odom_rad_.reset();
   faces_travel_ = false;
   hold_yaw_odom_rad_ = reference_.yaw_odom_rad;
 }

@@ -60,8 +60,8 @@ class PathFollower {
   /// Leaves the path and flies at that velocity and yaw until the next command. The velocity changes along a straight
   /// line by `acceleration_m_s2`, so it may reverse at once.
   void setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2, double yaw_odom_rad);
-  /// Stops as fast as the mode's limits allow and holds there, at that yaw if one is given.
-  void stop(std::optional<double> yaw_odom_rad = std::nullopt);
+  /// Stops as fast as the mode's limits allow and holds there.
+  void stop();
   /// While it is set, the yaw faces that point on paths and while holding; a velocity has a yaw of its own.
   void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { look_at_odom_m_ = point_odom_m; }
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.

@@ -5,6 +5,7 @@
 
 #include "common/config_fields.hpp"
 #include "control/actuation.hpp"
+#include "control/control_errors.hpp"
 
 namespace swiftlet::control {
 
@@ -37,13 +38,11 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
 
   const double yaw_rad = common::yawOf(state.T_odom_body.rotation);
   Actuation actuation = actuate(wanted_m_s2, yaw_rad, config_.max_acceleration_up_m_s2, on_ground, vehicle_, thrust);
-  if (horizontal == Horizontal::kPosition) {
-    const double most_rad_s = config_.max_yaw_rate_deg_s * common::kRadPerDeg;
-    actuation.setpoint.yaw_rate_rad_s =
-        std::clamp(reference.yaw_rate_rad_s + config_.yaw_p_1_s * common::wrapAngle(reference.yaw_odom_rad - yaw_rad),
-                   -most_rad_s, most_rad_s);
-  }
-  integrate(missing_m_s, wanted_m_s2, actuation.given_odom_m_s2, dt_s);
+  actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, common::wrapAngle(reference.yaw_odom_rad - yaw_rad),
+                                                    config_.yaw_p_1_s, config_.max_yaw_rate_deg_s);
+  const Eigen::Vector3d rate_1_s2(config_.horizontal_i_1_s2, config_.horizontal_i_1_s2, config_.vertical_i_1_s2);
+  integrate(integral_m_s2_, rate_1_s2, missing_m_s, wanted_m_s2 - actuation.given_odom_m_s2, config_.max_integral_m_s2,
+            dt_s);
   if (!on_ground) integral_m_s2_.z() -= thrust.learn(integral_m_s2_.z(), dt_s);
   return actuation.setpoint;
 }
@@ -71,18 +70,6 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
   missing_m_s.head<2>() =
       limited(wanted_m_s + correction, std::max(config_.max_speed_m_s, wanted_m_s.norm())) - velocity_m_s;
   return missing_m_s;
-}
-
-void PositionController::integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,
-                                   const Eigen::Vector3d& given_m_s2, double dt_s) {
-  const Eigen::Vector3d gain_1_s2(config_.horizontal_i_1_s2, config_.horizontal_i_1_s2, config_.vertical_i_1_s2);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double refused_m_s2 = wanted_m_s2[axis] - given_m_s2[axis];
-    // The integral must not grow when the vehicle cannot give more.
-    if (refused_m_s2 * missing_m_s[axis] > 1e-9) continue;
-    integral_m_s2_[axis] = std::clamp(integral_m_s2_[axis] + dt_s * gain_1_s2[axis] * missing_m_s[axis],
-                                      -config_.max_integral_m_s2, config_.max_integral_m_s2);
-  }
 }
 
 void PositionController::Config::describe(common::config::Fields& fields) {

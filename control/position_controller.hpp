@@ -48,8 +48,6 @@ class PositionController final : public Controller {
   /// The velocity error, including the correction for the position error, on which the velocity and integral gains act.
   Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference, Horizontal horizontal,
                                   double share) const;
-  void integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,
-                 const Eigen::Vector3d& given_m_s2, double dt_s);
 
   Config config_;
   common::VehicleConfig vehicle_;

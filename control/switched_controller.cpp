@@ -4,15 +4,9 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "control/usable_state.hpp"
 
 namespace swiftlet::control {
-namespace {
-
-bool finite(const common::VehicleState& state) {
-  return common::isFinite(state.T_odom_body) && state.velocity_odom_m_s.allFinite();
-}
-
-}  // namespace
 
 SwitchedController::SwitchedController(const ControllerChoiceConfig& choice, const PositionController::Config& position,
                                        const common::VehicleConfig& vehicle, const VehicleModel* model)
@@ -50,7 +44,7 @@ tl::expected<void, std::string> SwitchedController::switchTo(ControllerKind kind
 common::Setpoint SwitchedController::tick(const ControlInput& input, double battery_v) {
   thrust_.observeVoltage(battery_v, input.dt_s);
   common::Setpoint setpoint;
-  if (finite(input.state)) {
+  if (isFinite(input.state)) {
     ControlInput allowed = input;
     if (input.on_ground) allowed.horizontal = Horizontal::kLevel;
     setpoint = controller().tick(allowed, thrust_);

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "planning/costs/open_place.hpp"
 #include "planning/exploration/held_path.hpp"
 #include "planning/search/goal_map.hpp"
 
@@ -43,18 +42,6 @@ std::shared_ptr<const planning::CostMap> PlanningDesk::costMapAt(const FlightHei
 
 bool PlanningDesk::wallsAround(const common::VehicleState& state) const {
   return !cost_map_ || planning::isHeld(*cost_map_, state.T_map_body_planar().position_m(), exploration_);
-}
-
-Eigen::Vector2d PlanningDesk::escape_map_m(const common::VehicleState& state, const FlightHeights& heights,
-                                           const control::FlightController& controller) const {
-  const auto map = costMapAt(heights);
-  if (!map) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d velocity_map_m_s = state.velocity_map_m_s().head<2>();
-  const double speed_m_s = velocity_map_m_s.norm();
-  Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
-  if (speed_m_s > 0.0)
-    stopped_m += controller.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
-  return planning::displacementToOpenPlace_m(*map, stopped_m, controller.escapeReach_m());
 }
 
 void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {

@@ -14,7 +14,6 @@
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world.hpp"
-#include "control/flight_controller.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -42,10 +41,6 @@ class PlanningDesk {
   std::shared_ptr<const planning::CostMap> costMapAt(const FlightHeights& heights) const;
   /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
   bool wallsAround(const common::VehicleState& state) const;
-  /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
-  /// FlightController::setEscape.
-  Eigen::Vector2d escape_map_m(const common::VehicleState& state, const FlightHeights& heights,
-                               const control::FlightController& controller) const;
   /// The newest cost maps of paths at two heights; null before the first such path was asked for.
   std::shared_ptr<const planning::TwoHeights> heights() const { return heights_; }
   /// The newest cost map for judging goals; null before the first answer.

@@ -18,7 +18,8 @@ common::Setpoint CascadedPid::tick(const ControlInput& input, ThrustModel& thrus
   // The set points of the inner loops: roll, pitch and the thrust for the altitude.
   Actuation actuation =
       actuate(wanted_m_s2, errors.heading_rad, limits_.max_acceleration_up_m_s2, input.on_ground, vehicle_, thrust);
-  actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors, config_.yaw_p_1_s, limits_);
+  actuation.setpoint.yaw_rate_rad_s =
+      yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
 
   integrate(integral_m_s2_, i, errors.position_odom_m, wanted_m_s2 - actuation.given_odom_m_s2,
             limits_.max_integral_m_s2, input.dt_s);

@@ -125,7 +125,8 @@ common::Setpoint Lqr::command(const Eigen::Vector3d& wanted_m_s2, const ControlI
   const double up_m_s2 = integral_m_s2 + std::clamp(wanted_m_s2.z() - integral_m_s2, -most_m_s2, most_up_m_s2);
   setpoint.thrust = thrust.clamped(thrust.hoverCommand() * (up_m_s2 - model_.up.offset) / model_.up.gain);
   setpoint.yaw_rate_rad_s =
-      (yawRate_rad_s(input, errors, yaw_gain_1_s_, limits_) - model_.yaw.offset) / model_.yaw.gain;
+      (yawRate_rad_s(input, errors.yaw_rad, yaw_gain_1_s_, limits_.max_yaw_rate_deg_s) - model_.yaw.offset) /
+      model_.yaw.gain;
   if (input.on_ground || input.horizontal != Horizontal::kPosition) setpoint.yaw_rate_rad_s = 0.0;
   const Eigen::Vector2d given_level_m_s2(model_.forward.gain * tilt_rad.x() + model_.forward.offset,
                                          model_.left.gain * tilt_rad.y() + model_.left.offset);

@@ -34,7 +34,8 @@ common::Setpoint SlidingMode::tick(const ControlInput& input, ThrustModel& thrus
 
   Actuation actuation =
       actuate(wanted_m_s2, errors.heading_rad, limits_.max_acceleration_up_m_s2, input.on_ground, vehicle_, thrust);
-  actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors, config_.yaw_p_1_s, limits_);
+  actuation.setpoint.yaw_rate_rad_s =
+      yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
   advanceSurface(nominal_m_s2, wanted_m_s2 - actuation.given_odom_m_s2, errors, input.dt_s);
   estimateDisturbance(input, actuation.given_odom_m_s2);
   // A thrust that has been learned is a disturbance no longer.

@@ -40,7 +40,7 @@ common::Setpoint VoltagePid::tick(const ControlInput& input, ThrustModel& thrust
   setpoint.roll_rad = commandFor(-tilt_level_rad.y(), bench_roll_);
 
   // Equation 4: u = Kp (psi - psi*).
-  setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors, config_.yaw_p_1_s, limits_);
+  setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
 
   // Equation 5: u = C(U) + Kp (z - z*) + Ki e_z + Kd v_z. Grzonka 2009, equation 9, has no C(U).
   const double wanted = thrust.hoverCommand() + config_.vertical_p_1_m * errors.position_odom_m.z() + integral_.z() +

@@ -142,8 +142,10 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
     const bool near = gap_m < config_.retreat_distance_m * slack;
     const bool closing = moving && least_m < config_.contact_gap_m * slack;
     threat.dangerous = (near || closing) && !leaving;
-    threat.why = fmt::format("{} {:.2f} m off the hull at {}", closing ? "something closing in," : "something unmapped",
-                             gap_m, bearingInWords(threat.center_m));
+    if (threat.dangerous)
+      threat.why =
+          fmt::format("{} {:.2f} m off the hull at {}", closing ? "something closing in," : "something unmapped", gap_m,
+                      bearingInWords(threat.center_m));
     result.push_back(threat);
   }
   if (input.cost_map == nullptr) return result;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/check.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -12,24 +11,6 @@ using common::CellIndex;
 using Point = Eigen::Vector2d;
 
 }  // namespace
-
-const char* toString(PlanFailure::Reason reason) {
-  switch (reason) {
-    case PlanFailure::Reason::kStartBlocked:
-      return "start blocked";
-    case PlanFailure::Reason::kGoalBlocked:
-      return "goal blocked";
-    case PlanFailure::Reason::kGoalUnseen:
-      return "goal never seen";
-    case PlanFailure::Reason::kGoalKeptOut:
-      return "goal in a keep-out zone";
-    case PlanFailure::Reason::kUnreachable:
-      return "unreachable";
-    case PlanFailure::Reason::kOutsideMap:
-      return "outside the map";
-  }
-  SWIFTLET_CHECK(false, static_cast<int>(reason));
-}
 
 std::optional<Point> nearestPlace(const CostMap& map, const Point& point_map_m, double reach_m,
                                   const std::function<bool(CellIndex)>& isSuch) {

@@ -39,7 +39,6 @@ struct PlanFailure {
   /// The place nearest to a blocked goal where the centre may be; none when there is no such place within 3 m.
   std::optional<Eigen::Vector2d> nearest_free_map_m;
 };
-const char* toString(PlanFailure::Reason reason);
 
 /// The plan depends on the arguments only. A planner may keep its last search to answer the next call faster. Not
 /// thread-safe.

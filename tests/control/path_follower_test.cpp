@@ -174,18 +174,6 @@ TEST(PathFollower, StopTakesTheBrakingDistance) {
   EXPECT_LT(watch.worst_acceleration_m_s2, 1.3);
 }
 
-TEST(PathFollower, StopsAndTurnsToTheGivenYaw) {
-  Watch watch;
-  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kCareful);
-  for (int i = 0; i < 300; ++i) watch.step();
-  watch.follower.stop(1.2);
-  ASSERT_TRUE(watch.finish());
-  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.02);
-  watch.follower.stop();
-  ASSERT_TRUE(watch.finish());
-  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.02) << "it holds that yaw";
-}
-
 TEST(PathFollower, ASpeedLimitTakesEffectWithinTheBrakingTime) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {20, 0, 0}}, FlightMode::kFast);
