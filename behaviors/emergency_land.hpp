@@ -18,7 +18,7 @@ class EmergencyLand final : public IntentLeaf {
   }
 
  private:
-  IntentOrProblem makeIntent(const FlightTick&) override { return {common::EmergencyLandIntent{}, {}}; }
+  IntentOrProblem makeIntent(const FlightTick&) override { return common::EmergencyLandIntent{}; }
 };
 
 }  // namespace swiftlet::behaviors

@@ -10,9 +10,7 @@ tree::NodeManifest Explore::manifest() {
 }
 
 IntentLeaf::IntentOrProblem Explore::makeIntent(const FlightTick& tick) {
-  const auto intent = ports_.intent(tick.mode, *tick.flight.world);
-  if (!intent) return {std::nullopt, intent.error()};
-  return {*intent, {}};
+  return ports_.intent(tick.mode, *tick.flight.world);
 }
 
 }  // namespace swiftlet::behaviors

@@ -58,8 +58,8 @@ Status IntentLeaf::act(tree::TickContext& context) {
   }
   if (!kind_) {
     IntentOrProblem made = makeIntent(tick);
-    if (!made.kind) return fail(context, made.problem);
-    kind_ = std::move(made.kind);
+    if (!made) return fail(context, made.error());
+    kind_ = *std::move(made);
   }
   emitIntent(tick, *kind_);
   switch (intentState(tick)) {

@@ -5,6 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+
+#include <tl/expected.hpp>
 
 #include "behaviors/flight_tick.hpp"
 #include "behaviors/tree/leaf.hpp"
@@ -46,10 +50,7 @@ class IntentLeaf : public FlightLeaf {
 
  protected:
   /// The intent, or the reason why there is none.
-  struct IntentOrProblem {
-    std::optional<common::IntentKind> kind;
-    std::string problem;
-  };
+  using IntentOrProblem = tl::expected<common::IntentKind, std::string>;
   /// Called when an intent begins: at the start and after a suspension.
   virtual IntentOrProblem makeIntent(const FlightTick& tick) = 0;
   /// The present intent is outdated and must be emitted anew.

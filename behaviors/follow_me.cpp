@@ -54,13 +54,12 @@ IntentLeaf::IntentOrProblem PersonLeaf::makeIntent(const FlightTick& tick) {
   const auto lost = lost_s_.get();
   const auto clearance_m = clearance_m_.get();
   const auto mode = modeOr(mode_, tick.mode);
-  if (!distance_m) return {std::nullopt, distance_m_.problem()};
-  if (!lost) return {std::nullopt, lost_s_.problem()};
-  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
-  if (!mode) return {std::nullopt, mode_.problem()};
-  return {common::FollowIntent{*distance_m, 1e-9 * static_cast<double>(lost->nanoseconds), until_near_, *clearance_m,
-                               *mode},
-          {}};
+  if (!distance_m) return tl::unexpected(distance_m_.problem());
+  if (!lost) return tl::unexpected(lost_s_.problem());
+  if (!clearance_m) return tl::unexpected(clearance_m_.problem());
+  if (!mode) return tl::unexpected(mode_.problem());
+  return common::FollowIntent{*distance_m, 1e-9 * static_cast<double>(lost->nanoseconds), until_near_, *clearance_m,
+                              *mode};
 }
 
 }  // namespace swiftlet::behaviors

@@ -19,15 +19,15 @@ GoHome::GoHome(const tree::NodeSetup& setup)
 IntentLeaf::IntentOrProblem GoHome::makeIntent(const FlightTick& tick) {
   const auto tolerance_m = tolerance_m_.get();
   const auto clearance_m = clearance_m_.get();
-  if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};
-  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
+  if (!tolerance_m) return tl::unexpected(tolerance_m_.problem());
+  if (!clearance_m) return tl::unexpected(clearance_m_.problem());
   made_ = {};
   made_.goal_map_m = tick.flight.world->vehicle->home_map.position_m();
   made_.tolerance_m = *tolerance_m;
   made_.instead_within_m = common::kHomeWithin_m;
   made_.clearance_m = *clearance_m;
   made_.mode = tick.mode;
-  return {made_, {}};
+  return made_;
 }
 
 bool GoHome::isOutdated(const FlightTick& tick) const {

@@ -47,18 +47,18 @@ IntentLeaf::IntentOrProblem Inspect::makeIntent(const FlightTick& tick) {
   const auto radius_m = radius_m_.get(), turns = turns_.get(), clearance_m = clearance_m_.get();
   const auto height_m = height_m_.get();
   const auto mode = modeOr(mode_, tick.mode);
-  if (!point) return {std::nullopt, point_.problem()};
-  if (!radius_m) return {std::nullopt, radius_m_.problem()};
-  if (!turns) return {std::nullopt, turns_.problem()};
-  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
-  if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
-  if (!mode) return {std::nullopt, mode_.problem()};
+  if (!point) return tl::unexpected(point_.problem());
+  if (!radius_m) return tl::unexpected(radius_m_.problem());
+  if (!turns) return tl::unexpected(turns_.problem());
+  if (!clearance_m) return tl::unexpected(clearance_m_.problem());
+  if (height_m_.given() && !height_m) return tl::unexpected(height_m_.problem());
+  if (!mode) return tl::unexpected(mode_.problem());
   const auto places = NamedPlaces::in(*tick.flight.world);
-  if (!places) return {std::nullopt, places.error()};
+  if (!places) return tl::unexpected(places.error());
   common::Goal place{.place_map_m = places->inMap_m(*point), .height_m = height_m, .tolerance_m = 0, .clearance_m = 0};
   const auto verdict = common::judgeGoal(place, tick.flight.goal_limits, nullptr);
-  if (!verdict) return {std::nullopt, verdict.error().text};
-  return {common::InspectIntent{*verdict, point->z, *radius_m, *turns, height_m, *clearance_m, *mode}, {}};
+  if (!verdict) return tl::unexpected(verdict.error().text);
+  return common::InspectIntent{*verdict, point->z, *radius_m, *turns, height_m, *clearance_m, *mode};
 }
 
 }  // namespace swiftlet::behaviors

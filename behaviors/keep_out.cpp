@@ -14,10 +14,10 @@ tree::NodeManifest KeepOut::manifest() {
 
 RequestLeaf::RequestOrProblem KeepOut::makeRequest(const FlightTick& tick) {
   const auto points = polygon_.get();
-  if (!points) return {std::nullopt, polygon_.problem()};
+  if (!points) return tl::unexpected(polygon_.problem());
   const auto places = NamedPlaces::in(*tick.flight.world);
-  if (!places) return {std::nullopt, places.error()};
-  return {common::KeepOutRequest{places->inMap(*points)}, {}};
+  if (!places) return tl::unexpected(places.error());
+  return common::KeepOutRequest{places->inMap(*points)};
 }
 
 }  // namespace swiftlet::behaviors

@@ -12,7 +12,7 @@ class Land final : public IntentLeaf {
   static tree::NodeManifest manifest();
 
  private:
-  IntentOrProblem makeIntent(const FlightTick&) override { return {common::LandIntent{}, {}}; }
+  IntentOrProblem makeIntent(const FlightTick&) override { return common::LandIntent{}; }
 };
 
 }  // namespace swiftlet::behaviors

@@ -14,8 +14,8 @@ tree::NodeManifest LoadMap::manifest() {
 
 RequestLeaf::RequestOrProblem LoadMap::makeRequest(const FlightTick&) {
   const auto file = file_.get();
-  if (!file) return {std::nullopt, file_.problem()};
-  return {common::LoadMapRequest{*file}, {}};
+  if (!file) return tl::unexpected(file_.problem());
+  return common::LoadMapRequest{*file};
 }
 
 }  // namespace swiftlet::behaviors

@@ -29,20 +29,20 @@ MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)
 
 IntentLeaf::IntentOrProblem MoveToGoal::makeIntent(const FlightTick& tick) {
   const auto goal = goal_.get();
-  if (!goal) return {std::nullopt, goal_.problem()};
+  if (!goal) return tl::unexpected(goal_.problem());
   auto intent = go_to_.intentTo(*goal, tick, tick.mode);
-  if (!intent) return {std::nullopt, intent.error()};
+  if (!intent) return tl::unexpected(intent.error());
   const auto height_m = height_m_.get();
   const auto yaw_deg = yaw_deg_.get();
-  if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
-  if (yaw_deg_.given() && !yaw_deg) return {std::nullopt, yaw_deg_.problem()};
+  if (height_m_.given() && !height_m) return tl::unexpected(height_m_.problem());
+  if (yaw_deg_.given() && !yaw_deg) return tl::unexpected(yaw_deg_.problem());
   if (!intent->height_m) intent->height_m = height_m;
   if (yaw_deg) intent->yaw_map_rad = NamedPlaces::in(*tick.flight.world)->yawInMap_rad(*yaw_deg);
   emitted_ = *intent;
   // The goal is not judged by the map here, because the map may be about to grow: the executor does that, and waits.
   const auto verdict = common::judgeGoal(common::goalOf(*intent), tick.flight.goal_limits, nullptr);
-  if (!verdict) return {std::nullopt, verdict.error().text};
-  return {*intent, {}};
+  if (!verdict) return tl::unexpected(verdict.error().text);
+  return *intent;
 }
 
 bool MoveToGoal::isOutdated(const FlightTick& tick) const { return hasMoved(emitted_, *tick.flight.world); }

@@ -8,8 +8,8 @@ tree::Status RequestLeaf::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   if (id_ == 0) {
     RequestOrProblem made = makeRequest(tick);
-    if (!made.kind) return fail(context, made.problem);
-    id_ = tick.request(*std::move(made.kind));
+    if (!made) return fail(context, made.error());
+    id_ = tick.request(*std::move(made));
     return tree::Status::kRunning;
   }
   const auto answer = tick.takeAnswer(id_);

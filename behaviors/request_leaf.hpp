@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
+
+#include <tl/expected.hpp>
 
 #include "behaviors/flight_tick.hpp"
 #include "behaviors/tree/leaf.hpp"
@@ -17,10 +18,7 @@ class RequestLeaf : public tree::Leaf {
 
  protected:
   /// The request, or the reason why there is none.
-  struct RequestOrProblem {
-    std::optional<common::MissionRequestKind> kind;
-    std::string problem;
-  };
+  using RequestOrProblem = tl::expected<common::MissionRequestKind, std::string>;
   /// Called once, at the first tick.
   virtual RequestOrProblem makeRequest(const FlightTick& tick) = 0;
 

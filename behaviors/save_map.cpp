@@ -13,9 +13,9 @@ tree::NodeManifest SaveMap::manifest() {
 
 RequestLeaf::RequestOrProblem SaveMap::makeRequest(const FlightTick&) {
   const auto file = file_.get();
-  if (!file) return {std::nullopt, file_.problem()};
-  if (std::string problem = fileNameProblem(*file); !problem.empty()) return {std::nullopt, problem};
-  return {common::SaveMapRequest{*file}, {}};
+  if (!file) return tl::unexpected(file_.problem());
+  if (std::string problem = fileNameProblem(*file); !problem.empty()) return tl::unexpected(problem);
+  return common::SaveMapRequest{*file};
 }
 
 }  // namespace swiftlet::behaviors

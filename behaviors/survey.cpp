@@ -37,19 +37,19 @@ IntentLeaf::IntentOrProblem Survey::makeIntent(const FlightTick& tick) {
   const auto points = polygon_.get();
   const auto spacing_m = spacing_m_.get(), height_m = height_m_.get(), clearance_m = clearance_m_.get();
   const auto mode = modeOr(mode_, tick.mode);
-  if (!points) return {std::nullopt, polygon_.problem()};
-  if (spacing_m_.given() && !spacing_m) return {std::nullopt, spacing_m_.problem()};
-  if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
-  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
-  if (!mode) return {std::nullopt, mode_.problem()};
+  if (!points) return tl::unexpected(polygon_.problem());
+  if (spacing_m_.given() && !spacing_m) return tl::unexpected(spacing_m_.problem());
+  if (height_m_.given() && !height_m) return tl::unexpected(height_m_.problem());
+  if (!clearance_m) return tl::unexpected(clearance_m_.problem());
+  if (!mode) return tl::unexpected(mode_.problem());
   const auto places = NamedPlaces::in(*tick.flight.world);
-  if (!places) return {std::nullopt, places.error()};
+  if (!places) return tl::unexpected(places.error());
   const common::Polygon area = places->inMap(*points);
-  if (std::string problem = problemOf(area); !problem.empty()) return {std::nullopt, problem};
+  if (std::string problem = problemOf(area); !problem.empty()) return tl::unexpected(problem);
   common::Goal at_height{.place_map_m = area.corners_map_m.front(), .height_m = height_m};
   const auto verdict = common::judgeGoal(at_height, tick.flight.goal_limits, nullptr);
-  if (!verdict) return {std::nullopt, verdict.error().text};
-  return {common::SurveyIntent{area, spacing_m, height_m, *clearance_m, *mode}, {}};
+  if (!verdict) return tl::unexpected(verdict.error().text);
+  return common::SurveyIntent{area, spacing_m, height_m, *clearance_m, *mode};
 }
 
 }  // namespace swiftlet::behaviors

@@ -25,8 +25,8 @@ tree::NodeManifest TakeOff::manifest() {
 
 IntentLeaf::IntentOrProblem TakeOff::makeIntent(const FlightTick&) {
   const auto height_m = height_m_.get();
-  if (!height_m) return {std::nullopt, height_m_.problem()};
-  return {common::TakeOffIntent{*height_m}, {}};
+  if (!height_m) return tl::unexpected(height_m_.problem());
+  return common::TakeOffIntent{*height_m};
 }
 
 }  // namespace swiftlet::behaviors

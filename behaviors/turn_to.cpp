@@ -16,16 +16,16 @@ tree::NodeManifest TurnTo::manifest() {
 
 IntentLeaf::IntentOrProblem TurnTo::makeIntent(const FlightTick& tick) {
   const auto yaw_deg = yaw_deg_.get();
-  if (!yaw_deg) return {std::nullopt, yaw_deg_.problem()};
+  if (!yaw_deg) return tl::unexpected(yaw_deg_.problem());
   const auto places = NamedPlaces::in(*tick.flight.world);
-  if (!places) return {std::nullopt, places.error()};
+  if (!places) return tl::unexpected(places.error());
   common::GoToIntent intent;
   intent.goal_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
   intent.yaw_map_rad = places->yawInMap_rad(*yaw_deg);
   intent.mode = tick.mode;
   intent.tolerance_m = 0.15;  // A gust may push the vehicle while it turns.
   intent.clearance_m = 0.0;   // It stands here already.
-  return {intent, {}};
+  return intent;
 }
 
 }  // namespace swiftlet::behaviors
