@@ -17,12 +17,12 @@ namespace swiftlet::behaviors {
 struct MissionMemory {
   std::uint64_t last_intent_id = 0;
   /// The newest accepted goal or home command that no OperatorCommand has taken yet.
-  std::optional<common::OperatorCommand> pending_command;
+  std::optional<common::OperatorCommand> pending_command = {};
   common::FlightMode mode = common::FlightMode::kFast;  ///< Of leaves that name none.
   bool go_on = false;  ///< The operator said so, and no WaitForOperator has taken it yet.
   /// Answers to requests, until the leaf that asked takes its own: it may be suspended when the answer comes.
-  std::vector<common::MissionAnswer> answers;
-  std::vector<int> located_targets;  ///< The ids of those that a LocateTarget was about.
+  std::vector<common::MissionAnswer> answers = {};
+  std::vector<int> located_targets = {};  ///< The ids of those that a LocateTarget was about.
 };
 
 class FlightTick final : public tree::TickContext {

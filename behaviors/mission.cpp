@@ -121,7 +121,7 @@ bool Mission::letGo(Context& context) {
   const bool released =
       self.observed(context, [&](FlightTick& tick) { return self.tree.halt(tick) == tree::Release::kReleased; });
   if (released) {
-    self.memory = {self.memory.last_intent_id, {}, {}, {}, {}, {}};
+    self.memory = {.last_intent_id = self.memory.last_intent_id};
     self.narrator.forget();
     self.result = {};
   }
