@@ -43,6 +43,7 @@ void Relocalize::onStart(tree::TickContext& context) {
   forgotten_ = false;
   looks_.clear();
   look_ = 0;
+  flies_back_ = false;
 }
 
 /// Straight ahead first: what is there has been seen best.
@@ -55,28 +56,37 @@ void Relocalize::planLooks(const FlightTick& tick, double clearance_m, double ra
   look.clearance_m = 0.0;  // It is here already.
   for (int i = 1; i <= kTurns; ++i) {
     look.yaw_map_rad = common::wrapAngle(T_map_body.yaw_rad + i * 2.0 * std::numbers::pi / kTurns);
-    looks_.push_back(look);
+    looks_.push_back({look, false});
   }
-  common::GoToIntent here = look;
-  here.yaw_map_rad.reset();
+  back_ = look;
+  back_.yaw_map_rad.reset();
   for (int i = 0; i < kDirections; ++i) {
-    common::GoToIntent out = here;
+    common::GoToIntent out = back_;
     const Eigen::Rotation2Dd turned(i * 2.0 * std::numbers::pi / kDirections);
     out.goal_map_m = T_map_body * (turned * Eigen::Vector2d(radius_m, 0.0));
     out.clearance_m = clearance_m;
-    looks_.push_back(out);
-    looks_.push_back(here);
+    looks_.push_back({out, true});
   }
 }
 
-/// Leaves out what the map says is not free, and then the flight back from there.
+const common::GoToIntent* Relocalize::flown() const {
+  if (look_ >= looks_.size()) return nullptr;
+  return flies_back_ ? &back_ : &looks_[look_].out;
+}
+
+/// Leaves out the places that the map says are not free.
 void Relocalize::nextLook(const FlightTick& tick) {
   renewIntent();
-  ++look_;
-  const auto isFree = [&](const common::GoToIntent& look) {
-    return common::judgeGoal(common::goalOf(look), tick.flight.goal_limits, tick.flight.goal_map.get()).has_value();
+  if (looks_[look_].returns && !flies_back_) {
+    flies_back_ = true;
+    return;
+  }
+  const auto isFree = [&](const common::GoToIntent& out) {
+    return common::judgeGoal(common::goalOf(out), tick.flight.goal_limits, tick.flight.goal_map.get()).has_value();
   };
-  while (look_ < looks_.size() && looks_[look_].clearance_m > 0.0 && !isFree(looks_[look_])) look_ += 2;
+  flies_back_ = false;
+  ++look_;
+  while (look_ < looks_.size() && looks_[look_].returns && !isFree(looks_[look_].out)) ++look_;
 }
 
 Status Relocalize::act(tree::TickContext& context) {
@@ -97,10 +107,10 @@ Status Relocalize::act(tree::TickContext& context) {
   }
   if (localization->localized()) return Status::kSuccess;
   if (localization->refuted) return fail(context, "the given map is not that of this place");
-  if (look_ < looks_.size()) emitIntent(tick, looks_[look_]);
+  if (flown() != nullptr) emitIntent(tick, *flown());
   if (intentState(tick) != common::IntentState::kRunning) nextLook(tick);
-  if (look_ < looks_.size()) {
-    emitIntent(tick, looks_[look_]);
+  if (flown() != nullptr) {
+    emitIntent(tick, *flown());
     return Status::kRunning;
   }
   return fail(context, fmt::format("looked around, and the place is still {}", toString(localization->state)));

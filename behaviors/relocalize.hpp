@@ -10,8 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "behaviors/flight_leaf.hpp"
@@ -30,12 +28,21 @@ class Relocalize final : public FlightLeaf {
   void onStart(tree::TickContext& context) override;
   void planLooks(const FlightTick& tick, double clearance_m, double radius_m);
   void nextLook(const FlightTick& tick);
+  /// What is flown now; null after the last look.
+  const common::GoToIntent* flown() const;
+
+  struct Look {
+    common::GoToIntent out;
+    bool returns = false;  ///< It ends with the flight back; a turn where the vehicle is does not.
+  };
 
   tree::Input<double> clearance_m_, radius_m_;
   std::uint64_t request_id_ = 0;  ///< 0 before it has asked.
   bool forgotten_ = false;
-  std::vector<common::GoToIntent> looks_;
-  std::size_t look_ = 0;  ///< The one that is being flown.
+  std::vector<Look> looks_;
+  std::size_t look_ = 0;     ///< The one that is being flown.
+  bool flies_back_ = false;  ///< From that one.
+  common::GoToIntent back_;  ///< To where the vehicle began.
 };
 
 }  // namespace swiftlet::behaviors
