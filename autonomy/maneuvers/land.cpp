@@ -1,7 +1,5 @@
 #include "autonomy/maneuvers/land.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "planning/costs/landing_place.hpp"
@@ -36,15 +34,10 @@ Progress Land::step(const ManeuverInput& input) {
   if (!since_) since_ = input.now;
   if (!control::isAirborne(setup_.controller.state())) return Progress::done("on the ground");
   if (setup_.controller.state() != FlightState::kFlying) {
-    if (!descends_) descend(input.now, {});
-    return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
-  }
-  if (!here_map_m_ && !descends_) begin(input);
-  if (place_map_m_ && !descends_ && !approaches(input)) {
-    if (std::exchange(looks_, false))
-      choose(input);
-    else
-      descend(input.now, {});
+    if (phase_ != Phase::kDescends) descend(input.now, {});
+  } else {
+    if (phase_ == Phase::kStops) begin(input);
+    if (phase_ == Phase::kLooksBeyond || phase_ == Phase::kFliesThere) approach(input);
   }
   return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
 }
@@ -58,13 +51,16 @@ void Land::begin(const ManeuverInput& input) {
 
   here_map_m_ = input.position_map_m();
   if (const auto& stood_map_m = setup_.memory.stood_map_m;
-      stood_map_m && (*stood_map_m - *here_map_m_).norm() < kTakeOffPlace_m && !cost_map->isLethalAt(*stood_map_m)) {
+      stood_map_m && (*stood_map_m - here_map_m_).norm() < kTakeOffPlace_m && !cost_map->isLethalAt(*stood_map_m)) {
     place_map_m_ = stood_map_m;
+    phase_ = Phase::kFliesThere;
     return;
   }
-  place_map_m_ = planning::placeToLookFrom(*cost_map, *input.surfaces, *here_map_m_, needsOf(*cost_map));
-  looks_ = place_map_m_.has_value();
-  if (!looks_) choose(input);
+  place_map_m_ = planning::placeToLookFrom(*cost_map, *input.surfaces, here_map_m_, needsOf(*cost_map));
+  if (place_map_m_)
+    phase_ = Phase::kLooksBeyond;
+  else
+    choose(input);
 }
 
 void Land::choose(const ManeuverInput& input) {
@@ -72,31 +68,30 @@ void Land::choose(const ManeuverInput& input) {
   if (!cost_map || !input.surfaces) return descend(input.now, {});
   const planning::LandingNeeds needs = needsOf(*cost_map);
   no_path_.clear();
-  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, *here_map_m_, needs);
+  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, here_map_m_, needs);
   if (!place_map_m_)
     return descend(input.now, fmt::format("no level place for the hull is known within {:.0f} m", needs.reach_m));
-  const double distance_m = (*place_map_m_ - *here_map_m_).norm();
+  phase_ = Phase::kFliesThere;
+  const double distance_m = (*place_map_m_ - here_map_m_).norm();
   if (distance_m > kTolerance_m)
     setup_.memory.say(input.now, Severity::kInfo, "landing at " + input.names.of(*place_map_m_),
                       fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
 }
 
-/// False when the flight to the place is over.
-bool Land::approaches(const ManeuverInput& input) {
-  if ((*place_map_m_ - input.position_map_m()).norm() < kTolerance_m && setup_.controller.stopped()) return false;
-  const bool late = (input.now - *since_).seconds() > kApproach_s;
-  if (looks_ && (late || !no_path_.empty())) return false;
-  if (late || !input.state.horizontal_valid || !no_path_.empty()) {
-    descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));
-    return true;
-  }
-  if (setup_.retreat.active()) return true;
-  if (flight_.keep(input) && flight_.mayAsk()) flight_.ask(input, GoalRequest{*place_map_m_, kTolerance_m});
-  return true;
+/// A place to look from need not be reached; what is seen on the way counts, too.
+void Land::approach(const ManeuverInput& input) {
+  const bool there = (*place_map_m_ - input.position_map_m()).norm() < kTolerance_m && setup_.controller.stopped();
+  const bool given_up = (input.now - *since_).seconds() > kApproach_s || !no_path_.empty();
+  if (phase_ == Phase::kLooksBeyond && (there || given_up)) return choose(input);
+  if (there) return descend(input.now, {});
+  if (given_up || !input.state.horizontal_valid)
+    return descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));
+  if (!setup_.retreat.active() && flight_.keep(input) && flight_.mayAsk())
+    flight_.ask(input, GoalRequest{*place_map_m_, kTolerance_m});
 }
 
 Progress Land::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
-  if (!answer.path || descends_) return Progress::running();
+  if (!answer.path || phase_ == Phase::kDescends) return Progress::running();
   if (*answer.path)
     flight_.offer(**answer.path, now, state);
   else
@@ -106,7 +101,7 @@ Progress Land::answered(const PlanningAnswer& answer, Time now, const common::Ve
 
 /// Where the vehicle is; `reason` says why not at a better place.
 void Land::descend(Time now, const std::string& reason) {
-  descends_ = true;
+  phase_ = Phase::kDescends;
   if (!reason.empty()) setup_.memory.say(now, Severity::kWarning, "landing where it is", reason);
   if (setup_.controller.state() != FlightState::kLanding && setup_.controller.state() != FlightState::kEmergencyLanding)
     commanded_ = setup_.controller.command(control::Land{});

@@ -30,19 +30,21 @@ class Land final : public Maneuver {
   }
 
  private:
+  enum class Phase { kStops, kLooksBeyond, kFliesThere, kDescends };
+
   void begin(const ManeuverInput& input);
   void choose(const ManeuverInput& input);
-  bool approaches(const ManeuverInput& input);
+  void approach(const ManeuverInput& input);
   void descend(common::Time now, const std::string& reason);
 
   ManeuverSetup setup_;
   PathFlight flight_;
   tl::expected<void, std::string> commanded_;
-  std::optional<common::Time> since_;  ///< When the landing began.
-  bool looks_ = false, descends_ = false;
-  std::optional<Eigen::Vector2d> here_map_m_;   ///< Where it stopped to land.
-  std::optional<Eigen::Vector2d> place_map_m_;  ///< Where it flies to; none before it is chosen.
-  std::string no_path_;                         ///< Why there is no path to the place; empty if there is one.
+  Phase phase_ = Phase::kStops;
+  std::optional<common::Time> since_;                     ///< When the landing began.
+  Eigen::Vector2d here_map_m_ = Eigen::Vector2d::Zero();  ///< Where it stopped to land; not in Phase::kStops.
+  std::optional<Eigen::Vector2d> place_map_m_;            ///< Where it flies to; none before it is chosen.
+  std::string no_path_;                                   ///< Why there is no path to the place; empty if there is one.
 };
 
 }  // namespace swiftlet::autonomy
