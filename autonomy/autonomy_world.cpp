@@ -8,14 +8,6 @@ namespace swiftlet::autonomy {
 using common::MissionState;
 using common::Time;
 
-namespace {
-
-/// The flight home ends this far above the thrust margin at which the vehicle has to land where it is: 3 % of the
-/// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
-constexpr double kLandingMargin = 0.03;
-
-}  // namespace
-
 void Autonomy::takeSnapshot(Time now) {
   const common::VehicleState& state = estimator_.state();
   given_map_.update(now, state.T_map_body_planar(), state.T_map_odom, estimator_.localization(), estimator_.grid());
@@ -46,9 +38,10 @@ void Autonomy::takeSnapshot(Time now) {
     home.trail_m = common::polylineLength(trailBackWithoutLoops(world_->vehicle->trail.points_map_m()));
   parts.map3d = estimator_.map3d();
   parts.targets.targets = estimator_.targets();
+  // The flight home ends so far above the thrust at which the vehicle has to land where it is as a tilt needs.
   parts.energy = energy_ =
       energy_monitor_.layer(now, home, controller_.thrustMargin(), config_.supervisor.battery_land_share,
-                            kLandingMargin + config_.supervisor.least_thrust_margin);
+                            control::kKeptForHeight + config_.supervisor.least_thrust_margin);
   world_ = world_builder_.build(now, std::move(parts));
 }
 

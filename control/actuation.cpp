@@ -27,11 +27,10 @@ Eigen::Vector2d limited(const Eigen::Vector2d& vector, double most) {
   return norm > most ? Eigen::Vector2d(vector * (most / norm)) : vector;
 }
 
-/// A tilt that the thrust could not carry would cost height, so 3 % of the weight is kept for the height. The least
-/// tilt, 3 degrees, accelerates by 0.5 m/s2: enough to hold against a light wind while the vehicle sinks.
+/// The least tilt, 3 degrees, accelerates by 0.5 m/s2: enough to hold against a light wind while the vehicle sinks.
 double greatestTilt_rad(const common::VehicleConfig& vehicle, const ThrustModel& thrust) {
-  constexpr double kLeast_rad = 3.0 * common::kRadPerDeg, kKeptForHeight = 1.03;
-  const double carried_rad = std::acos(std::clamp(kKeptForHeight / thrust.margin(), 0.0, 1.0));
+  constexpr double kLeast_rad = 3.0 * common::kRadPerDeg;
+  const double carried_rad = std::acos(std::clamp((1.0 + kKeptForHeight) / thrust.margin(), 0.0, 1.0));
   return std::min(vehicle.max_tilt_deg * common::kRadPerDeg, std::max(kLeast_rad, carried_rad));
 }
 

@@ -10,6 +10,9 @@
 
 namespace swiftlet::control {
 
+/// Share of the weight that is kept for the height: a tilt that the thrust could not carry would cost height.
+inline constexpr double kKeptForHeight = 0.03;
+
 /// Roll, pitch and thrust of the setpoint are set.
 struct Actuation {
   common::Setpoint setpoint;
