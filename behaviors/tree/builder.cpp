@@ -103,7 +103,7 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     if (inner.names.contains(port)) continue;
     if (text)
       bind(port, *text);
-    else
+    else if (!foundEnough())
       report({place.document->at(*place.element),
               "SubTree",
               "port `" + port + "` is missing, and <TreeNodesModel> gives it no default",
@@ -115,12 +115,14 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
 void Builder::checkUnused(const Place& place, const Scope& inner, int record) {
   const std::string& id = *place.element->attribute("ID");
   const auto model = documents_.subtree_models.find(id);
+  std::vector<std::string> candidates;
   for (const auto& [port, entry] : inner.names) {
+    if (foundEnough()) return;
     if (entry.used) continue;
     if (model != documents_.subtree_models.end() && model->second.contains(port)) continue;
-    std::vector<std::string> candidates;
-    for (const auto& [name, other] : inner.names)
-      if (!other.passed) candidates.push_back(name);
+    if (candidates.empty())
+      for (const auto& [name, other] : inner.names)
+        if (!other.passed) candidates.push_back(name);
     report({place.document->at(*place.element, port), "SubTree", "the tree `" + id + "` has no entry {" + port + "}",
             didYouMean(port, candidates)},
            record);
@@ -303,7 +305,11 @@ bool Builder::tooLarge(const Place& place) {
   return true;
 }
 
-void Builder::report(Problem problem, int node) { found_.push_back({std::move(problem), node}); }
+void Builder::report(Problem problem, int node) {
+  if (!foundEnough()) found_.push_back({std::move(problem), node});
+}
+
+bool Builder::foundEnough() const { return found_.size() > static_cast<std::size_t>(options_.limits.problems); }
 
 /// Paths count siblings, so that they are known when the tree is complete.
 void Builder::addFound() {

@@ -45,6 +45,8 @@ class Builder {
   void checkUnused(const Place& place, const Scope& inner, int record);
   /// Of a node that may not be complete yet.
   void report(Problem problem, int node);
+  /// There is no need to look for more.
+  bool foundEnough() const;
   void addFound();
   void bindPorts(const Place& place, Scope& scope, const NodeManifest& manifest, NodeSetup& setup);
   void recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup);

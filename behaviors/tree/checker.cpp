@@ -59,6 +59,7 @@ void Checker::check() {
 }
 
 void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
+  if (problems_.full()) return;
   const XmlElement& element = *tree.element;
   const Document& document = *tree.document;
   tree_id_ = id;
@@ -96,7 +97,7 @@ void Checker::report(Problem problem) {
 std::string Checker::path() const {
   std::string path = tree_id_;
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    const std::string name = displayNameOf(*open_[i]);
+    const std::string& name = displayNameOf(*open_[i]);
     path += "/" + name;
     if (i == 0) continue;
     int before = 0, all = 0;
@@ -157,6 +158,7 @@ void Checker::checkUnknown(const Document& document, const XmlElement& element) 
 
 void Checker::checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                              const NodeManifest* manifest) {
+  if (problems_.full()) return;
   const std::string& name = attribute.name;
   const auto place = [&] { return document.at(element, name); };
   const auto owner = [&] { return typeNameOf(element); };

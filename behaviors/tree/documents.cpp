@@ -82,7 +82,7 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
   }
   seen_.insert(normalized(path));
   SourceText source(path, std::move(text));
-  XmlResult xml = parseXml(source, options_.limits.depth + 2);
+  XmlResult xml = parseXml(source, options_.limits.depth);
   if (!xml.root) {
     problems_.add(std::move(*xml.problem));
     return false;
@@ -108,7 +108,8 @@ bool Documents::checkRoot(const Document& document) {
   if (!checkFormat(document)) return false;
   const std::vector<std::string> known = {"BTCPP_format", "main_tree_to_execute"};
   for (const XmlAttribute& attribute : root.attributes)
-    if (!isForEditors(attribute.name) && std::find(known.begin(), known.end(), attribute.name) == known.end())
+    if (!problems_.full() && !isForEditors(attribute.name) &&
+        std::find(known.begin(), known.end(), attribute.name) == known.end())
       problems_.add({document.at(root, attribute.name), "root", "unknown attribute `" + attribute.name + "`",
                      didYouMean(attribute.name, known)});
   if (root.text_offset)
@@ -132,7 +133,7 @@ bool Documents::checkFormat(const Document& document) {
   if (of_version3) {
     reportVersion3(document, format);
     for (const Version3Use& use : uses)
-      problems_.add({document.at(*use.element, use.attribute), use.element->name, use.message, {}});
+      if (!problems_.full()) problems_.add({document.source.locate(use.offset), use.element->name, use.message, {}});
     return false;
   }
   problems_.warn({document.at(root), "root",
@@ -226,6 +227,7 @@ void Documents::readModel(const Document& document, const XmlElement& element) {
     const std::string* id = model.attribute("ID");
     if (id == nullptr) problems_.add({document.at(model), model.name, "the attribute `ID` is missing", {}});
     for (const XmlElement& port : model.children) {
+      if (problems_.full()) return;
       if (!isPortTag(port.name)) continue;
       const std::string* name = port.attribute("name");
       if (name == nullptr) problems_.add({document.at(port), port.name, "the attribute `name` is missing", {}});

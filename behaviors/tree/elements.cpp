@@ -30,7 +30,7 @@ const NodeType* typeOf(const XmlElement& element, const Registry& registry) {
   return registry.find(typeNameOf(element));
 }
 
-std::string displayNameOf(const XmlElement& element) {
+const std::string& displayNameOf(const XmlElement& element) {
   if (const std::string* name = element.attribute("name"); name != nullptr && !name->empty()) return *name;
   const std::string* id = isSubTree(element) || explicitKind(element.name) ? element.attribute("ID") : nullptr;
   return id == nullptr ? element.name : *id;

@@ -20,7 +20,7 @@ const std::string& typeNameOf(const XmlElement& element);
 const NodeType* typeOf(const XmlElement& element, const Registry& registry);
 
 /// The name of the node that the element makes: the attribute `name`, else its type or the ID of the SubTree.
-std::string displayNameOf(const XmlElement& element);
+const std::string& displayNameOf(const XmlElement& element);
 
 /// An attribute of the format itself: name, ID of the explicit form, _description and attributes of editors.
 bool isStructural(const XmlElement& element, std::string_view attribute);

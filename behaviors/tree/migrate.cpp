@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "behaviors/tree/document.hpp"
+#include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/version3.hpp"
 
@@ -29,7 +29,7 @@ std::optional<Problem> migrationRefusal(const Document& document) {
 /// Names that version 3 allowed cannot all become attributes: two may be equal, or hold a character that XML does not
 /// allow.
 std::optional<Problem> whatIsBroken(const Document& document, const std::string& text) {
-  const XmlResult xml = parseXml(SourceText(document.source.file(), text), ParseLimits{}.depth + 2);
+  const XmlResult xml = parseXml(SourceText(document.source.file(), text), ParseLimits{}.depth);
   if (xml.root) return std::nullopt;
   return Problem{document.at(document.root), "root",
                  "the rewritten file would not be XML (" + xml.problem->message + ")",
@@ -39,13 +39,17 @@ std::optional<Problem> whatIsBroken(const Document& document, const std::string&
 }  // namespace
 
 Migration migrateToVersion4(std::string text, const std::string& name) {
+  constexpr ParseLimits kLimits;
+  if (text.size() > kLimits.file_bytes)
+    return {{}, {}, {{{name, 0, 0}, {}, "is larger than " + std::to_string(kLimits.file_bytes) + " bytes", {}}}};
   SourceText source(name, std::move(text));
-  XmlResult xml = parseXml(source, ParseLimits{}.depth + 2);
+  XmlResult xml = parseXml(source, kLimits.depth);
   if (!xml.root) return {{}, {}, {std::move(*xml.problem)}};
   const Document document{std::move(source), std::move(*xml.root)};
   if (auto problem = migrationRefusal(document)) return {{}, {}, {std::move(*problem)}};
 
   Migration migration;
+  Problems problems(kLimits.problems);
   const std::string* format = document.root.attribute("BTCPP_format");
   if (format != nullptr && *format == "4") {
     migration.text = document.source.text();
@@ -54,15 +58,15 @@ Migration migrateToVersion4(std::string text, const std::string& name) {
   std::vector<Edit> edits = {formatEdit(document)};
   migration.changes.push_back({document.at(document.root), "root", "BTCPP_format=\"4\" says the version", {}});
   for (Version3Use& use : version3Uses(document)) {
-    Problem change{document.at(*use.element, use.attribute), use.element->name, use.message, {}};
+    Problem change{document.source.locate(use.offset), use.element->name, use.message, {}};
     if (!use.rewritable) {
       change.hint = "but a script cannot hold one of its values: name the entry with letters, digits and `_`";
-      migration.problems.push_back(change);
+      problems.add(change);
     }
     migration.changes.push_back(std::move(change));
     edits.insert(edits.end(), use.edits.begin(), use.edits.end());
   }
-  if (!migration.problems.empty()) return {{}, {}, std::move(migration.problems)};
+  if (!problems.empty()) return {{}, {}, problems.take()};
   migration.text = edited(document.source.text(), std::move(edits));
   if (auto problem = whatIsBroken(document, migration.text)) return {{}, {}, {std::move(*problem)}};
   return migration;

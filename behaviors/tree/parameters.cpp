@@ -80,7 +80,7 @@ std::string problemWith(const Parameter& parameter, const std::string& value) {
 
 std::vector<Parameter> parametersOf(const std::string& text, const std::string& name, const Registry& registry) {
   const SourceText source(name, text);
-  const XmlResult xml = parseXml(source, ParseLimits{}.depth + 2);
+  const XmlResult xml = parseXml(source, ParseLimits{}.depth);
   std::vector<Parameter> parameters;
   if (!xml.root) return parameters;
   const Visit visit = [&](const XmlElement&, Parameter parameter) { parameters.push_back(std::move(parameter)); };
@@ -91,7 +91,7 @@ std::vector<Parameter> parametersOf(const std::string& text, const std::string& 
 Changed withParameters(const std::string& text, const std::string& name, const Registry& registry,
                        const std::map<std::string, std::string>& values) {
   const SourceText source(name, text);
-  XmlResult xml = parseXml(source, ParseLimits{}.depth + 2);
+  XmlResult xml = parseXml(source, ParseLimits{}.depth);
   if (!xml.root) return {{}, {std::move(*xml.problem)}};
   Changed changed;
   std::vector<Edit> edits;

@@ -32,6 +32,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }
 
 const std::string* nearest(std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t kMost = 1000;  // A longer list is nobody's, and each problem looks through it.
+  candidates = candidates.first(std::min(candidates.size(), kMost));
   for (const std::string& candidate : candidates)
     if (withoutUnit(candidate) == withoutUnit(word)) return &candidate;
   // A longer name is not a typing error, and the distance takes quadratic time.

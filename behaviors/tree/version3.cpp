@@ -76,17 +76,17 @@ class Version3Reader {
     if (const auto name = lookUp(kRenamedTypes, type)) renameType(element, type, *name);
     for (const XmlAttribute& attribute : element.attributes)
       if (const auto name = lookUp(kRenamedCounts, attribute.name); name && type == "Parallel")
-        renameAttribute(element, attribute.name, *name);
+        renameAttribute(element, *source_.spanOf(element.offset, attribute.name), attribute.name, *name);
     for (const XmlElement& child : element.children) readElement(child);
   }
 
-  Version3Use& add(const XmlElement& element, std::string attribute, const std::string& what, const std::string& now) {
-    return uses_.emplace_back(Version3Use{
-        &element, std::move(attribute), what + " is of version 3, version 4 writes " + now, false, {}, true});
+  Version3Use& add(const XmlElement& element, std::size_t offset, const std::string& what, const std::string& now) {
+    return uses_.emplace_back(
+        Version3Use{&element, offset, what + " is of version 3, version 4 writes " + now, false, {}, true});
   }
 
   void renameType(const XmlElement& element, const std::string& type, std::string_view name) {
-    add(element, {}, inBackticks(type), inBackticks(name)).edits = typeEdits(element, type, name);
+    add(element, element.offset, inBackticks(type), inBackticks(name)).edits = typeEdits(element, type, name);
   }
 
   /// In both tags, or the attribute ID of the explicit form.
@@ -101,29 +101,30 @@ class Version3Reader {
     return edits;
   }
 
-  void renameAttribute(const XmlElement& element, const std::string& from, std::string_view to) {
-    const AttributeSpan span = *source_.spanOf(element.offset, from);
-    add(element, from, inBackticks(from), inBackticks(to)).edits = {{span.name, span.name_end, std::string(to)}};
+  void renameAttribute(const XmlElement& element, const AttributeSpan& span, const std::string& from,
+                       std::string_view to) {
+    add(element, span.name, inBackticks(from), inBackticks(to)).edits = {{span.name, span.name_end, std::string(to)}};
   }
 
   void readSubTree(const XmlElement& element, bool plus) {
-    for (const XmlAttribute& attribute : element.attributes) {
+    const std::vector<AttributeSpan> spans = source_.spansOf(element.offset);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      const XmlAttribute& attribute = element.attributes[i];
       const std::string& name = attribute.name;
       if (name == "__shared_blackboard" || name == "__autoremap")
-        renameAttribute(element, name, "_autoremap");
+        renameAttribute(element, spans[i], name, "_autoremap");
       else if (name != "ID" && name != "name" && !name.starts_with('_') && !plus && !entryOf(attribute.value, name))
-        bindEntry(element, attribute);
+        bindEntry(element, attribute, spans[i]);
     }
     for (const XmlElement& child : element.children)
       if (child.name == "remap") readRemap(element, child);
   }
 
   /// A SubTree of version 3 maps names of entries.
-  void bindEntry(const XmlElement& element, const XmlAttribute& attribute) {
-    const AttributeSpan span = *source_.spanOf(element.offset, attribute.name);
+  void bindEntry(const XmlElement& element, const XmlAttribute& attribute, const AttributeSpan& span) {
     const std::string text = escaped(attribute.value);
     uses_.push_back({&element,
-                     attribute.name,
+                     span.name,
                      "version 3 means the entry {" + attribute.value + "}, version 4 the text `" + attribute.value +
                          "`, and writes {" + attribute.value + "} for the entry",
                      true,
@@ -137,7 +138,7 @@ class Version3Reader {
     if (inner == nullptr || outer == nullptr) return;
     const std::string attribute = *inner + "=\"{" + escaped(*outer) + "}\"";
     const std::size_t name_end = subtree.offset + 1 + subtree.name.size();
-    add(remap, {}, "<remap>", "`" + attribute + "` into the <SubTree>").edits = {
+    add(remap, remap.offset, "<remap>", "`" + attribute + "` into the <SubTree>").edits = {
         {name_end, name_end, " " + attribute}, {withBlanksBefore(remap.offset), endOf(remap), {}}};
   }
 
@@ -148,7 +149,7 @@ class Version3Reader {
     const bool text = type == "BlackboardCheckString";
     const std::string script = operand(*a, text) + " == " + operand(*b, text);
     const bool writable = isOperand(*a, text) && isOperand(*b, text);
-    Version3Use& use = add(element, {}, inBackticks(type),
+    Version3Use& use = add(element, element.offset, inBackticks(type),
                            "`Precondition if=\"" + script + "\"`, which asks only before its child starts");
     use.rewritable = writable;
     use.edits = typeEdits(element, type, "Precondition");

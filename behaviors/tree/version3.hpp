@@ -19,8 +19,8 @@ struct Edit {
 /// One thing that version 4 writes in another way.
 struct Version3Use {
   const XmlElement* element = nullptr;
-  std::string attribute;  ///< The attribute that it is about; empty for the element.
-  std::string message;    ///< "`SequenceStar` is of version 3, version 4 writes `SequenceWithMemory`".
+  std::size_t offset = 0;  ///< Of the element, or of the attribute that it is about.
+  std::string message;     ///< "`SequenceStar` is of version 3, version 4 writes `SequenceWithMemory`".
   /// Both versions can read it, with another meaning: the attribute of a <SubTree> without braces.
   bool readable = false;
   std::vector<Edit> edits;

@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
 /// Whether the bytes from `offset` on begin with a character of UTF-8.
 bool isUtf8At(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) return true;
@@ -21,14 +19,20 @@ bool isUtf8At(std::string_view text, std::size_t offset) {
   const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
   if (first < 0xC2U || first > 0xF4U || offset + length > text.size()) return false;
   return std::all_of(text.begin() + static_cast<std::ptrdiff_t>(offset) + 1,
-                     text.begin() + static_cast<std::ptrdiff_t>(offset + length), continues);
+                     text.begin() + static_cast<std::ptrdiff_t>(offset + length), continuesCharacter);
 }
 
-/// UTF-16, with a byte order mark or without: XML holds no zero bytes.
-bool isWide(std::string_view text) {
-  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
-         text.substr(0, 2).find('\0') != std::string_view::npos;
+/// "UTF-16" or "UTF-32", with a byte order mark or without, by the zero bytes of the first character, which is `<` or
+/// the mark: XML in UTF-8 holds none. Empty for all else.
+std::string_view wideEncoding(std::string_view text) {
+  const std::string_view first = text.substr(0, 4);
+  const bool marked = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  if (first.find(std::string_view("\0\0", 2)) != std::string_view::npos) return "UTF-32";
+  return marked || first.substr(0, 2).find('\0') != std::string_view::npos ? "UTF-16" : "";
 }
+
+/// Elements around those whose depth is limited: <root> and <BehaviorTree>.
+constexpr int kOuterLevels = 2;
 
 class Reader {
  public:
@@ -48,8 +52,8 @@ class Reader {
       return result;
     }
     // Expat would read it, but offsets would not be those of the text.
-    if (isWide(text)) {
-      result.problem = wrongEncoding({source_.file(), 1, 1}, "UTF-16");
+    if (const std::string_view wide = wideEncoding(text); !wide.empty()) {
+      result.problem = wrongEncoding({source_.file(), 1, 1}, std::string(wide));
       return result;
     }
     const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), XML_TRUE);
@@ -84,7 +88,7 @@ class Reader {
 
   void open(const XML_Char* name, const XML_Char** attributes) {
     if (problem_) return;
-    if (static_cast<int>(open_.size()) >= max_depth_) {
+    if (static_cast<int>(open_.size()) >= max_depth_ + kOuterLevels) {
       stop(name, "elements are nested deeper than " + std::to_string(max_depth_), "take levels out");
       return;
     }
@@ -118,31 +122,54 @@ class Reader {
     const XML_Error code = XML_GetErrorCode(parser_.get());
     if (code == XML_ERROR_INVALID_TOKEN && !isUtf8At(source_.text(), offset()))
       return wrongEncoding(source_.locate(offset()), declared_encoding_);
-    Problem problem{source_.locate(offset()), {}, std::string("malformed XML: ") + XML_ErrorString(code), {}};
-    problem.hint = remedyFor(code);
-    if (open_.empty()) {
-      if (problem.hint.empty()) problem.hint = "a file begins with <root BTCPP_format=\"4\">";
-      return problem;
+    return {source_.locate(offset()), open_.empty() ? std::string() : "<" + open_.back().element->name + ">",
+            std::string("malformed XML: ") + XML_ErrorString(code), remedyFor(code)};
+  }
+
+  /// Empty for what is rare or says all by itself.
+  std::string remedyFor(XML_Error code) const {
+    if (code != XML_ERROR_UNCLOSED_TOKEN && source_.text().find('<') >= offset())
+      return "a file begins with <root BTCPP_format=\"4\">";
+    switch (code) {
+      case XML_ERROR_INVALID_TOKEN:
+        return remedyForToken();
+      case XML_ERROR_DUPLICATE_ATTRIBUTE:
+        return "give it once";
+      case XML_ERROR_TAG_MISMATCH:
+      case XML_ERROR_NO_ELEMENTS:
+        return open_.empty() ? std::string() : closingOf(*open_.back().element);
+      case XML_ERROR_UNDEFINED_ENTITY:
+        return "XML has &amp; &lt; &gt; &quot; and &apos; alone, write any other character itself";
+      case XML_ERROR_BAD_CHAR_REF:
+        return "XML does not allow this character, take it out";
+      case XML_ERROR_UNCLOSED_TOKEN:
+        return "what begins here has no end";
+      case XML_ERROR_UNCLOSED_CDATA_SECTION:
+        return "]]> ends it";
+      case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
+        return "only comments may follow </root>";
+      case XML_ERROR_MISPLACED_XML_PI:
+        return "<?xml ...?> stands at the very beginning, or not at all";
+      default:
+        return {};
     }
-    const XmlElement& innermost = *open_.back().element;
-    const Location opened = source_.locate(innermost.offset);
-    problem.element = "<" + innermost.name + ">";
-    if (problem.hint.empty())
-      problem.hint = "<" + innermost.name + "> was opened at line " + std::to_string(opened.line) + ", and </" +
-                     innermost.name + "> closes it";
-    return problem;
+  }
+
+  std::string closingOf(const XmlElement& element) const {
+    return "<" + element.name + "> was opened at line " + std::to_string(source_.locate(element.offset).line) +
+           ", and </" + element.name + "> closes it";
   }
 
   /// By what is written where expat stopped, or just before; empty if that tells nothing.
-  std::string remedyFor(XML_Error code) const {
-    if (code == XML_ERROR_DUPLICATE_ATTRIBUTE) return "give it once";
-    if (code != XML_ERROR_INVALID_TOKEN) return {};
+  std::string remedyForToken() const {
     const std::string& text = source_.text();
     const std::size_t at = offset();
     const auto isAt = [&](std::size_t place, char c) { return place < text.size() && text[place] == c; };
     if (isAt(at, '&') || (at > 0 && isAt(at - 1, '&'))) return "write & as &amp;";
     if (isAt(at, '<')) return "in a value, write < as &lt;";
     if (at > 0 && isAt(at - 1, '=')) return "put the value in quotes";
+    if (at < text.size() && static_cast<unsigned char>(text[at]) < 0x20U)
+      return "XML does not allow this control character, take it out";
     return {};
   }
 
@@ -186,53 +213,6 @@ const XmlAttribute* XmlElement::find(std::string_view attribute_name) const {
 const std::string* XmlElement::attribute(std::string_view attribute_name) const {
   const XmlAttribute* found = find(attribute_name);
   return found == nullptr ? nullptr : &found->value;
-}
-
-Location SourceText::locate(std::size_t offset) const {
-  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text_.size()));
-  const auto line = std::count(text_.begin(), end, '\n') + 1;
-  auto start = std::find(std::make_reverse_iterator(end), text_.rend(), '\n').base();
-  if (start == text_.begin() && text_.starts_with("\xEF\xBB\xBF")) start += std::min<std::ptrdiff_t>(3, end - start);
-  const auto column = std::count_if(start, end, [](char c) { return !continues(c); }) + 1;
-  return {file_, static_cast<int>(line), static_cast<int>(column)};
-}
-
-Location SourceText::locate(std::size_t element_offset, std::string_view attribute) const {
-  const auto span = spanOf(element_offset, attribute);
-  return locate(span ? span->name : element_offset);
-}
-
-std::optional<AttributeSpan> SourceText::spanOf(std::size_t element_offset, std::string_view attribute) const {
-  // The tag was read by expat, so it is well-formed: <name blanks name blanks = blanks quote ... quote ...
-  std::size_t at = text_.find_first_of(" \t\r\n/>", element_offset);
-  while (at != std::string::npos) {
-    at = text_.find_first_not_of(kBlanks, at);
-    if (at == std::string::npos || text_[at] == '>' || text_[at] == '/') break;
-    AttributeSpan span{.name = at};
-    span.name_end = text_.find_first_of(" \t\r\n=", at);
-    if (span.name_end == std::string::npos) break;
-    span.opening_quote = text_.find_first_of("\"'", span.name_end);
-    if (span.opening_quote == std::string::npos) break;
-    span.closing_quote = text_.find(text_[span.opening_quote], span.opening_quote + 1);
-    if (span.closing_quote == std::string::npos) break;
-    if (std::string_view(text_).substr(at, span.name_end - at) == attribute) return span;
-    at = span.closing_quote + 1;
-  }
-  return std::nullopt;
-}
-
-std::size_t SourceText::endOfTag(std::size_t tag_offset) const {
-  char quote = '\0';
-  for (std::size_t at = tag_offset; at < text_.size(); ++at) {
-    const char c = text_[at];
-    if (quote != '\0')
-      quote = c == quote ? '\0' : quote;
-    else if (c == '"' || c == '\'')
-      quote = c;
-    else if (c == '>')
-      return at + 1;
-  }
-  return text_.size();
 }
 
 XmlResult parseXml(const SourceText& source, int max_depth) { return Reader(source, max_depth).read(); }

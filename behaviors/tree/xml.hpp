@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "behaviors/tree/problem.hpp"
+#include "behaviors/tree/source_text.hpp"
 
 namespace swiftlet::tree {
 
@@ -36,39 +37,12 @@ struct XmlElement {
   const std::string* attribute(std::string_view attribute_name) const;
 };
 
-/// Where an attribute stands in its file, as offsets: of its name, and of the first and last quote of its value.
-struct AttributeSpan {
-  std::size_t name = 0, name_end = 0;
-  std::size_t opening_quote = 0, closing_quote = 0;
-};
-
-/// The text of a file, which converts offsets to lines and columns for messages.
-class SourceText {
- public:
-  SourceText(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
-
-  const std::string& file() const { return file_; }
-  const std::string& text() const { return text_; }
-  Location locate(std::size_t offset) const;
-  /// Offset of an attribute's name within the tag that starts at `element_offset`; that of the tag if it has no such
-  /// attribute.
-  Location locate(std::size_t element_offset, std::string_view attribute) const;
-  /// Nothing if the tag that starts at `element_offset` has no such attribute.
-  std::optional<AttributeSpan> spanOf(std::size_t element_offset, std::string_view attribute) const;
-  /// Offset behind the ">" of the tag that starts at `tag_offset`.
-  std::size_t endOfTag(std::size_t tag_offset) const;
-
- private:
-  std::string file_;
-  std::string text_;
-};
-
 struct XmlResult {
   std::optional<XmlElement> root;
   std::optional<Problem> problem;  ///< Present if `root` is not.
 };
 
-/// `max_depth` limits elements within elements.
+/// `max_depth` limits elements within elements, below <root> and <BehaviorTree>.
 XmlResult parseXml(const SourceText& source, int max_depth);
 
 }  // namespace swiftlet::tree

@@ -70,6 +70,23 @@ TEST(Problems, MalformedXmlIsReported) {
               ElementsAre(HasSubstr("duplicate attribute, give it once")));
 }
 
+TEST(Problems, AHintIsAboutWhatIsMalformed) {
+  const auto hintOf = [](const std::string& text) {
+    const ParseResult result = parseText(text, "f.xml", Registry::standard());
+    return result.problems.empty() ? "" : result.problems.front().hint;
+  };
+  const std::string begins = "a file begins with <root BTCPP_format=\"4\">";
+  EXPECT_EQ(hintOf("hello<root BTCPP_format=\"4\"/>"), begins);
+  EXPECT_EQ(hintOf("hello"), begins);
+  EXPECT_THAT(hintOf(file("<Script code=\"a&nbsp;b\"/>")), HasSubstr("write any other character itself"));
+  EXPECT_EQ(hintOf(file("<Script code=\"&#27;\"/>")), "XML does not allow this character, take it out");
+  EXPECT_EQ(hintOf(file(std::string("<Script \0/>", 11))), "XML does not allow this control character, take it out");
+  EXPECT_EQ(hintOf("<root BTCPP_format=\"4\"><BehaviorTree"), "what begins here has no end");
+  EXPECT_EQ(hintOf(file("<AlwaysSuccess/>") + "more"), "only comments may follow </root>");
+  EXPECT_EQ(hintOf("\n<?xml version=\"1.0\"?>" + file("<AlwaysSuccess/>")),
+            "<?xml ...?> stands at the very beginning, or not at all");
+}
+
 TEST(Problems, WhatXmlReservesIsReportedWithHowItIsWritten) {
   EXPECT_THAT(problemsIn("<Script code=\"a := 1 && 0\"/>"),
               ElementsAre(AllOf(HasSubstr("f.xml:3:23: "), HasSubstr(", write & as &amp;"))));
@@ -284,8 +301,8 @@ TEST(Limits, TheDepthOfATreeIsLimited) {
     return text;
   };
   EXPECT_THAT(problemsIn(nested(199)), ElementsAre());
-  EXPECT_THAT(problemsIn(nested(200)), ElementsAre(HasSubstr("elements are nested deeper than 202")));
-  EXPECT_THAT(problemsIn(nested(100'000)), ElementsAre(HasSubstr("elements are nested deeper than 202")));
+  EXPECT_THAT(problemsIn(nested(200)), ElementsAre(HasSubstr("elements are nested deeper than 200")));
+  EXPECT_THAT(problemsIn(nested(100'000)), ElementsAre(HasSubstr("elements are nested deeper than 200")));
   std::string more = "<BehaviorTree ID=\"T0\"><AlwaysSuccess/></BehaviorTree>\n";
   for (int i = 1; i < 300; ++i)
     more += "<BehaviorTree ID=\"T" + std::to_string(i) + "\"><SubTree ID=\"T" + std::to_string(i - 1) +

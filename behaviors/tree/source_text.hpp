@@ -1,0 +1,59 @@
+// The text of a tree file, which knows the lines and columns of its bytes and where attributes stand.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "behaviors/tree/problem.hpp"
+
+namespace swiftlet::tree {
+
+/// Where an attribute stands in its file, as offsets: of its name, and of the first and last quote of its value.
+struct AttributeSpan {
+  std::size_t name = 0, name_end = 0;
+  std::size_t opening_quote = 0, closing_quote = 0;
+};
+
+/// Whether a byte goes on with a character of UTF-8 that began before it.
+constexpr bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// For one thread at a time.
+class SourceText {
+ public:
+  SourceText(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
+
+  const std::string& file() const { return file_; }
+  const std::string& text() const { return text_; }
+  /// A line ends with \n, \r\n or \r.
+  Location locate(std::size_t offset) const;
+  /// Offset of an attribute's name within the tag that starts at `element_offset`; that of the tag if it has no such
+  /// attribute.
+  Location locate(std::size_t element_offset, std::string_view attribute) const;
+  /// Nothing if the tag that starts at `element_offset` has no such attribute.
+  std::optional<AttributeSpan> spanOf(std::size_t element_offset, std::string_view attribute) const;
+  /// Of every attribute of the tag that starts at `element_offset`, in its order.
+  std::vector<AttributeSpan> spansOf(std::size_t element_offset) const;
+  /// Offset behind the ">" of the tag that starts at `tag_offset`.
+  std::size_t endOfTag(std::size_t tag_offset) const;
+
+ private:
+  /// A byte whose place is known; the place of another one is counted from the last mark before it.
+  struct Mark {
+    std::size_t offset = 0;
+    int line = 1, column = 1;
+  };
+  std::vector<Mark> marked() const;
+  /// The attribute behind the blanks at `from`, which is the end of the tag's name or of another attribute.
+  std::optional<AttributeSpan> nextSpan(std::size_t from) const;
+  std::size_t endOfTagName(std::size_t element_offset) const;
+
+  std::string file_;
+  std::string text_;
+  mutable std::vector<Mark> marks_;  ///< Made when a place is asked for the first time: few files have a problem.
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,52 @@
+// Lines and columns of files, whatever ends their lines and however long these are.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "behaviors/tree/source_text.hpp"
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> problemsOf(const std::string& text) {
+  return linesOf(parseText(text, "f.xml", Registry::standard()).problems);
+}
+
+TEST(Places, LinesEndAsOnEverySystem) {
+  const std::string lines = "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"A\">\n<Nope/>\n</BehaviorTree></root>";
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char c : lines) text += c == '\n' ? std::string(end) : std::string(1, c);
+    EXPECT_THAT(problemsOf(text), ElementsAre("f.xml:3:1: Nope: unknown node `Nope`"));
+  }
+}
+
+TEST(Places, AreThoseOfTheSlowCount) {
+  std::string text = "\xEF\xBB\xBF";
+  for (int i = 0; i < 4000; ++i) text += i % 7 == 0 ? "ö" : i % 997 == 0 ? "\r\n" : i % 1301 == 0 ? "\n" : "x";
+  const SourceText source("f.xml", text);
+  int line = 1, column = 1;
+  for (std::size_t i = 3; i < text.size(); ++i) {
+    const Location place = source.locate(i);
+    ASSERT_EQ(place.line, line) << i;
+    ASSERT_EQ(place.column, column) << i;
+    column += (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U ? 0 : 1;
+    if (text[i] == '\n') ++line, column = 1;
+  }
+  EXPECT_EQ(source.locate(text.size() + 5).line, line);
+  EXPECT_EQ(SourceText("f.xml", "").locate(7).column, 1);
+}
+
+TEST(Encodings, AFileOfWideCharactersIsNamed) {
+  using namespace std::string_literals;
+  EXPECT_THAT(problemsOf("<\0r\0o\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
+  EXPECT_THAT(problemsOf("\xFF\xFE<\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
+  for (const std::string& wide : {"\xFF\xFE\0\0<\0\0\0"s, "\0\0\xFE\xFF\0\0\0<"s, "<\0\0\0r\0\0\0"s})
+    EXPECT_THAT(problemsOf(wide), ElementsAre(HasSubstr("the file is in UTF-32, expected UTF-8")));
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing
