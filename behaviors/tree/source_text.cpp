@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "behaviors/tree/utf8.hpp"
+
 namespace swiftlet::tree {
 namespace {
 

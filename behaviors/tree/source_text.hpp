@@ -18,9 +18,6 @@ struct AttributeSpan {
   std::size_t opening_quote = 0, closing_quote = 0;
 };
 
-/// Whether a byte goes on with a character of UTF-8 that began before it.
-constexpr bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
 /// For one thread at a time.
 class SourceText {
  public:

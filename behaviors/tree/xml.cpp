@@ -6,6 +6,8 @@
 
 #include <expat.h>
 
+#include "behaviors/tree/utf8.hpp"
+
 namespace swiftlet::tree {
 namespace {
 
@@ -128,8 +130,8 @@ class Reader {
 
   /// Empty for what is rare or says all by itself.
   std::string remedyFor(XML_Error code) const {
-    if (code != XML_ERROR_UNCLOSED_TOKEN && source_.text().find('<') >= offset())
-      return "a file begins with <root BTCPP_format=\"4\">";
+    const bool about_itself = code == XML_ERROR_UNCLOSED_TOKEN || code == XML_ERROR_MISPLACED_XML_PI;
+    if (!about_itself && source_.text().find('<') >= offset()) return "a file begins with <root BTCPP_format=\"4\">";
     switch (code) {
       case XML_ERROR_INVALID_TOKEN:
         return remedyForToken();

@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::vector<std::string> problemsOf(const std::string& text) {
+std::vector<std::string> linesIn(const std::string& text) {
   return linesOf(parseText(text, "f.xml", Registry::standard()).problems);
 }
 
@@ -20,7 +20,7 @@ TEST(Places, LinesEndAsOnEverySystem) {
   for (const char* end : {"\n", "\r\n", "\r"}) {
     std::string text;
     for (const char c : lines) text += c == '\n' ? std::string(end) : std::string(1, c);
-    EXPECT_THAT(problemsOf(text), ElementsAre("f.xml:3:1: Nope: unknown node `Nope`"));
+    EXPECT_THAT(linesIn(text), ElementsAre("f.xml:3:1: Nope: unknown node `Nope`"));
   }
 }
 
@@ -42,10 +42,10 @@ TEST(Places, AreThoseOfTheSlowCount) {
 
 TEST(Encodings, AFileOfWideCharactersIsNamed) {
   using namespace std::string_literals;
-  EXPECT_THAT(problemsOf("<\0r\0o\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
-  EXPECT_THAT(problemsOf("\xFF\xFE<\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
+  EXPECT_THAT(linesIn("<\0r\0o\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
+  EXPECT_THAT(linesIn("\xFF\xFE<\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
   for (const std::string& wide : {"\xFF\xFE\0\0<\0\0\0"s, "\0\0\xFE\xFF\0\0\0<"s, "<\0\0\0r\0\0\0"s})
-    EXPECT_THAT(problemsOf(wide), ElementsAre(HasSubstr("the file is in UTF-32, expected UTF-8")));
+    EXPECT_THAT(linesIn(wide), ElementsAre(HasSubstr("the file is in UTF-32, expected UTF-8")));
 }
 
 }  // namespace

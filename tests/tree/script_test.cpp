@@ -53,6 +53,19 @@ class Board {
 
 std::string valueOfText(std::string_view text) { return Board().run(text); }
 
+TEST(Script, HasOnlyFiniteNumbers) {
+  EXPECT_EQ(valueOfText("1e308 * 10"), "! the result is not a finite number");
+  EXPECT_EQ(valueOfText("-1e308 - 1e308"), "! the result is not a finite number");
+  EXPECT_EQ(valueOfText("1e308 / 0.1"), "! the result is not a finite number");
+  EXPECT_EQ(valueOfText("1e307 * 10"), "1e+308");
+  EXPECT_EQ(valueOfText("x := 1e400"), "! expected a number from 1e-307 to 1e308, or 0, at `1e400`");
+  EXPECT_EQ(valueOfText("0xFFFFFFFFFFFFFFFFFF"), "! expected a number of at most 63 bits at `0xFFFFFFFFFFFFFFFFFF`");
+}
+
+TEST(Script, ShowsAWholeCharacterThatItDoesNotKnow) {
+  EXPECT_EQ(Board().set("x", 2.0).run("x \u2260 3"), "! expected an operator or `;` at `\u2260`");
+}
+
 TEST(Script, ComputesWithTheRulesOfPrecedence) {
   EXPECT_EQ(valueOfText("1 + 2 * 3"), "7");
   EXPECT_EQ(valueOfText("(1 + 2) * 3"), "9");

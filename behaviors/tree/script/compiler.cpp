@@ -209,6 +209,8 @@ ScriptCompiler::Index ScriptCompiler::number(const Token& token) {
   if (read_whole.ec == std::errc{} && read_whole.ptr == end) return constant(whole);
   double number = 0.0;
   const auto read = std::from_chars(digits.data(), end, number);
+  const bool beyond = hex ? read_whole.ec == std::errc::result_out_of_range : read.ec == std::errc::result_out_of_range;
+  if (beyond) return fail(token, hex ? "a number of at most 63 bits" : "a number from 1e-307 to 1e308, or 0,");
   if (hex || read.ec != std::errc{} || read.ptr != end) return fail(token, "a number");
   return constant(number);
 }

@@ -1,5 +1,7 @@
 #include "behaviors/tree/script/lexer.hpp"
 
+#include "behaviors/tree/utf8.hpp"
+
 namespace swiftlet::tree {
 namespace {
 
@@ -49,7 +51,8 @@ Token nextToken(std::string_view rest) {
     return {TokenKind::kName, rest.substr(0, lengthOf(rest, 1, [](char c) { return isLetter(c) || isDigit(c); }))};
   if (rest.front() == '\'' || rest.front() == '"') return quoted(rest);
   const std::size_t length = signLength(rest);
-  return length == 0 ? Token{TokenKind::kBad, rest.substr(0, 1)} : Token{TokenKind::kSign, rest.substr(0, length)};
+  if (length > 0) return {TokenKind::kSign, rest.substr(0, length)};
+  return {TokenKind::kBad, rest.substr(0, lengthOf(rest, 1, continuesCharacter))};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "behaviors/tree/script/script.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace swiftlet::tree {
@@ -12,6 +13,19 @@ std::optional<std::int64_t> wholeResult(char op, std::int64_t a, std::int64_t b)
                          : op == '-' ? __builtin_sub_overflow(a, b, &result)
                                      : __builtin_mul_overflow(a, b, &result);
   return too_large ? std::nullopt : std::optional(result);
+}
+
+double realResult(ScriptOp op, double a, double b) {
+  switch (op) {
+    case ScriptOp::kAdd:
+      return a + b;
+    case ScriptOp::kSubtract:
+      return a - b;
+    case ScriptOp::kMultiply:
+      return a * b;
+    default:
+      return a / b;
+  }
 }
 
 void append(std::string& text, const Operand& operand) {
@@ -200,16 +214,9 @@ std::optional<Operand> Script::arithmetic(Op op, const Operand& a, const Operand
   }
   const auto number_a = numberOf(a), number_b = numberOf(b);
   if (!number_a || !number_b) return fail(std::string(kindOf(number_a ? b : a)) + " is not a number");
-  switch (op) {
-    case Op::kAdd:
-      return *number_a + *number_b;
-    case Op::kSubtract:
-      return *number_a - *number_b;
-    case Op::kMultiply:
-      return *number_a * *number_b;
-    default:
-      return *number_b == 0.0 ? fail("division by zero") : std::optional<Operand>(*number_a / *number_b);
-  }
+  if (op == Op::kDivide && *number_b == 0.0) return fail("division by zero");
+  const double result = realResult(op, *number_a, *number_b);
+  return std::isfinite(result) ? std::optional<Operand>(result) : fail("the result is not a finite number");
 }
 
 std::optional<Operand> Script::bits(Op op, const Operand& a, const Operand& b) {
