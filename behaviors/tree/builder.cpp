@@ -1,6 +1,7 @@
 #include "behaviors/tree/builder.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "behaviors/tree/composite.hpp"
@@ -29,11 +30,25 @@ std::size_t countOf(const XmlElement& element) {
   return count;
 }
 
+/// Entries that nodes of a tree use and its SubTree does not give.
+template <typename Entries>
+std::vector<std::string> namesOfNodes(const Entries& entries) {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries)
+    if (!entry.passed) names.push_back(name);
+  return names;
+}
+
 }  // namespace
 
 Builder::Builder(Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
                  std::unique_ptr<TreeParts> tree)
-    : documents_(documents), registry_(registry), options_(options), problems_(problems), tree_(std::move(tree)) {
+    : documents_(documents),
+      registry_(registry),
+      options_(options),
+      problems_(problems),
+      tree_(std::move(tree)),
+      flow_(tree_->flows) {
   tree_->name = documents.main_id;
 }
 
@@ -90,7 +105,8 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     }
     Slot* slot = makeSlot(port);
     slot->value = text;
-    tree_->flows[slot->id].literals.push_back({text, originOf(place), port});
+    flow_.recordLiteral(slot->id, {text, originOf(place), port});
+    tree_->flows[slot->id].is_set = true;
     inner.names[port] = {.slot = slot, .passed = true};
   };
   for (const XmlAttribute& attribute : place.element->attributes)
@@ -115,16 +131,14 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
 void Builder::checkUnused(const Place& place, const Scope& inner, int record) {
   const std::string& id = *place.element->attribute("ID");
   const auto model = documents_.subtree_models.find(id);
-  std::vector<std::string> candidates;
+  std::optional<std::vector<std::string>> candidates;
   for (const auto& [port, entry] : inner.names) {
     if (foundEnough()) return;
     if (entry.used) continue;
     if (model != documents_.subtree_models.end() && model->second.contains(port)) continue;
-    if (candidates.empty())
-      for (const auto& [name, other] : inner.names)
-        if (!other.passed) candidates.push_back(name);
+    if (!candidates) candidates = namesOfNodes(inner.names);
     report({place.document->at(*place.element, port), "SubTree", "the tree `" + id + "` has no entry {" + port + "}",
-            didYouMean(port, candidates)},
+            didYouMean(port, *candidates)},
            record);
   }
 }
@@ -138,7 +152,7 @@ std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
   setup.conditions = makeConditions(place, scope, type.manifest.id);
   setup.constants = &registry_.constants();
   bindPorts(place, scope, type.manifest, setup);
-  recordFlow(originOf(place), type.manifest, setup);
+  flow_.recordPorts(originOf(place), type.manifest, setup);
   auto node = type.build(setup);
   tree_->setups[static_cast<std::size_t>(record)] = std::move(setup);
   finishRecord(record, *node);
@@ -151,8 +165,6 @@ std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
       if (composite != nullptr) composite->addChild(std::move(child));
     }
   }
-  if (std::string problem = node->checkBuilt(); !problem.empty())
-    report({place.document->at(*place.element), type.manifest.id, std::move(problem), {}}, record);
   return node;
 }
 
@@ -174,26 +186,6 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
     } else {
       binding.literal = readValue(port, *text).value;
     }
-  }
-}
-
-void Builder::recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup) {
-  const PortBinding* anything = nullptr;
-  for (const PortBinding& binding : setup.ports)
-    if (binding.manifest->direction == Direction::kInput && binding.manifest->type == PortType::kAny)
-      anything = &binding;
-  for (const PortBinding& binding : setup.ports) {
-    if (binding.slot == nullptr) continue;
-    if (binding.manifest->direction != Direction::kOutput)
-      recordRead(binding.slot->id, origin, manifest.id, *binding.manifest);
-    if (binding.manifest->direction == Direction::kInput) continue;
-    EntryFlow& flow = tree_->flows[binding.slot->id];
-    if (binding.manifest->type != PortType::kAny || anything == nullptr)
-      flow.typed_writes.push_back(binding.manifest->type);
-    else if (anything->slot != nullptr)
-      flow.copied_from.push_back(anything->slot->id);
-    else if (anything->literal)
-      flow.literals.push_back({toString(*anything->literal), origin, anything->manifest->name});
   }
 }
 
@@ -219,33 +211,8 @@ Script* Builder::scriptOf(const XmlAttribute& attribute) {
 void Builder::bindScript(Script& script, const Place& place, Scope& scope, const std::string& owner,
                          const PortManifest& port) {
   const auto entries = script.entries();
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    Slot* slot = find(scope, entries[i].name);
-    script.bind(i, slot);
-    if (entries[i].read) recordRead(slot->id, originOf(place), owner, port);
-  }
-  recordWrites(script, originOf(place), port.name);
-}
-
-void Builder::recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute) {
-  for (const ScriptWrite& write : script.writes()) {
-    EntryFlow& flow = tree_->flows[script.slot(write.entry).id];
-    flow.changes += write.makes ? 0 : 1;
-    if (write.constant)
-      flow.literals.push_back({toString(script.constant(*write.constant)), origin, attribute});
-    else if (write.copied)
-      flow.copied_from.push_back(script.slot(*write.copied).id);
-    else
-      flow.typed_writes.push_back(write.type);
-  }
-}
-
-void Builder::recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner,
-                         const PortManifest& port) {
-  auto& reads = tree_->flows[slot].reads;
-  const auto known =
-      std::find_if(reads.begin(), reads.end(), [&](const EntryRead& read) { return read.port == &port; });
-  if (known == reads.end()) reads.push_back({&port, owner, origin});
+  for (std::size_t i = 0; i < entries.size(); ++i) script.bind(i, find(scope, entries[i].name));
+  flow_.recordScript(script, originOf(place), owner, port);
 }
 
 int Builder::addRecord(const Place& place, const NodeManifest* manifest) {

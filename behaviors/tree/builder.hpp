@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/flow_recorder.hpp"
 #include "behaviors/tree/registry.hpp"
 #include "behaviors/tree/tree.hpp"
 #include "behaviors/tree/tree_parts.hpp"
@@ -49,12 +50,9 @@ class Builder {
   bool foundEnough() const;
   void addFound();
   void bindPorts(const Place& place, Scope& scope, const NodeManifest& manifest, NodeSetup& setup);
-  void recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup);
-  void recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner, const PortManifest& port);
   Conditions* makeConditions(const Place& place, Scope& scope, const std::string& owner);
   Script* scriptOf(const XmlAttribute& attribute);
   void bindScript(Script& script, const Place& place, Scope& scope, const std::string& owner, const PortManifest& port);
-  void recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute);
   int addRecord(const Place& place, const NodeManifest* manifest);
   void finishRecord(int id, Node& node);
   Slot* find(Scope& scope, std::string_view name);
@@ -67,6 +65,7 @@ class Builder {
   const ParseOptions& options_;
   Problems& problems_;
   std::unique_ptr<TreeParts> tree_;
+  FlowRecorder flow_;
   Scope* main_scope_ = nullptr;
   std::vector<std::pair<Problem, int>> found_;  ///< With the nodes that they are about.
   bool gave_up_ = false;

@@ -6,6 +6,7 @@
 
 #include "behaviors/tree/conditions.hpp"
 #include "behaviors/tree/elements.hpp"
+#include "behaviors/tree/nodes/threshold.hpp"
 
 namespace swiftlet::tree {
 namespace {
@@ -19,6 +20,23 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kElsewher
      {"EntryUpdated", "use WasEntryUpdated"},
      {"ManualSelector", "use OperatorCommand"},
      {"SequenceStar", "use SequenceWithMemory"}}};
+
+/// The attributes of the format that begin with `_` and that people write.
+std::vector<std::string> underscoredNames(bool subtree) {
+  std::vector<std::string> names = {"_description"};
+  if (subtree) names.push_back("_autoremap");
+  for (std::size_t i = 0; i < kConditionKinds; ++i) names.emplace_back(attributeOf(static_cast<ConditionKind>(i)));
+  return names;
+}
+
+/// "exactly 1", "2 or 3", "at least 2" or "none".
+std::string expectedChildren(const NodeManifest& manifest) {
+  const int least = manifest.minChildren(), most = manifest.maxChildren();
+  if (most == 0) return "none";
+  if (least == most) return "exactly " + std::to_string(least);
+  if (least + 1 == most) return std::to_string(least) + " or " + std::to_string(most);
+  return "at least " + std::to_string(least);
+}
 
 std::vector<std::string> portNames(const NodeManifest& manifest) {
   std::vector<std::string> names;
@@ -92,6 +110,11 @@ void Checker::checkElement(const Document& document, const XmlElement& element) 
 void Checker::report(Problem problem) {
   problem.path = path();
   problems_.add(std::move(problem));
+}
+
+void Checker::warn(Problem warning) {
+  warning.path = path();
+  problems_.warn(std::move(warning));
 }
 
 std::string Checker::path() const {
@@ -181,7 +204,8 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
     checkPort(document, element, attribute, *port);
   } else if (name.starts_with('_')) {
     report({place(), owner(), "unknown attribute `" + name + "`",
-            name == "__shared_blackboard" ? "did you mean `_autoremap`?" : ""});
+            name == "__shared_blackboard" ? "did you mean `_autoremap`?"
+                                          : didYouMean(name, underscoredNames(isSubTree(element)))});
   } else if (manifest != nullptr) {
     const auto names = portNames(*manifest);
     std::string message = otherUnit(name, *manifest);
@@ -206,8 +230,24 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
         {document.at(element, port.name), where(), "`" + attribute.value + "` is not an entry, expected `{name}`", {}});
     return;
   }
-  std::string problem = readValue(port, attribute.value).problem;
-  if (!problem.empty()) report({document.at(element, port.name), where(), std::move(problem), {}});
+  ReadValue read = readValue(port, attribute.value);
+  if (!read.value)
+    report({document.at(element, port.name), where(), std::move(read.problem),
+            didYouMean(attribute.value, allowedTexts(port))});
+  else if (port.counts_children && !element.children.empty())
+    checkCount(document, element, port, std::get<std::int64_t>(*read.value));
+}
+
+void Checker::checkCount(const Document& document, const XmlElement& element, const PortManifest& port,
+                         std::int64_t count) {
+  const std::size_t children = element.children.size();
+  if (std::string problem = tooMany(port.name, count, children); !problem.empty())
+    report({document.at(element, port.name), typeNameOf(element), std::move(problem), {}});
+  else if (threshold(count, children) == 0 && !problems_.fullOfWarnings())
+    warn({document.at(element, port.name),
+          typeNameOf(element),
+          port.name + " is " + std::to_string(count) + ", which is reached before any child has ended",
+          {}});
 }
 
 void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
@@ -232,12 +272,10 @@ void Checker::checkScript(const Document& document, const XmlElement& element, c
 void Checker::checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
   const auto children = static_cast<int>(element.children.size());
   if (children >= manifest.minChildren() && children <= manifest.maxChildren()) return;
-  const std::string expected = manifest.kind == NodeKind::kControl     ? "at least 1"
-                               : manifest.kind == NodeKind::kDecorator ? "exactly 1"
-                                                                       : "none";
   report({document.at(element), manifest.id,
-          "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " + expected,
-          manifest.kind == NodeKind::kDecorator && children > 1 ? kIntoSequence : ""});
+          "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " +
+              expectedChildren(manifest),
+          manifest.kind == NodeKind::kDecorator && children > 1 ? kIntoSequence : manifest.about_children});
 }
 
 /// Opens the elements from `from` down to `wanted`; false, with none opened, if it is not below.

@@ -2,6 +2,7 @@
 // subtrees that exist and do not contain themselves.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,8 +31,10 @@ class Checker {
                  const PortManifest& port);
   void checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                    const PortManifest& port);
+  void checkCount(const Document& document, const XmlElement& element, const PortManifest& port, std::int64_t count);
   /// With the path of the element that is being checked.
   void report(Problem problem);
+  void warn(Problem warning);
   std::string path() const;
   void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkRecursion();

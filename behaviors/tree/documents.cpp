@@ -45,7 +45,7 @@ void Problems::add(Problem problem) {
 }
 
 void Problems::warn(Problem warning) {
-  if (warnings_.size() < limit_) warnings_.push_back(std::move(warning));
+  if (!fullOfWarnings()) warnings_.push_back(std::move(warning));
 }
 
 Documents::Documents(const ParseOptions& options, Problems& problems)
@@ -159,9 +159,9 @@ void Documents::readChildren(const Document& document, const std::string& path) 
   for (const XmlElement& element : document.root.children) {
     if (problems_.full()) return;
     if (element.name == "include")
-      include(document, element, path);
+      lost_a_tree_ = !include(document, element, path) || lost_a_tree_;
     else if (element.name == "BehaviorTree")
-      addTree(document, element, alone);
+      lost_a_tree_ = !addTree(document, element, alone) || lost_a_tree_;
     else if (element.name == "TreeNodesModel")
       readModel(document, element);
     else
@@ -171,16 +171,16 @@ void Documents::readChildren(const Document& document, const std::string& path) 
   }
 }
 
-void Documents::include(const Document& document, const XmlElement& element, const std::string& path) {
+bool Documents::include(const Document& document, const XmlElement& element, const std::string& path) {
   const std::string* wanted = element.attribute("path");
   if (element.attribute("ros_pkg") != nullptr) {
     problems_.add(
         {document.at(element, "ros_pkg"), "include", "ros_pkg is not supported", "give a path relative to this file"});
-    return;
+    return false;
   }
   if (wanted == nullptr || wanted->empty()) {
     problems_.add({document.at(element), "include", "the attribute `path` is missing", {}});
-    return;
+    return false;
   }
   const std::string target = normalized(fs::path(path).parent_path() / *wanted);
   if (std::find(open_.begin(), open_.end(), target) != open_.end()) {
@@ -188,36 +188,37 @@ void Documents::include(const Document& document, const XmlElement& element, con
     for (const std::string& file : open_) chain += file + " -> ";
     problems_.add(
         {document.at(element), "include", "files include each other: " + chain + target, "take this one out"});
-    return;
+    return false;
   }
-  if (seen_.contains(target)) return;
+  if (seen_.contains(target)) return true;
   auto text = read_file_(target);
   if (!text) {
     problems_.add({document.at(element, "path"), "include", "`" + target + "` cannot be read",
                    "a path begins at the folder of the file that includes"});
-    return;
+    return false;
   }
-  add(std::move(*text), target, &document, &element);
+  return add(std::move(*text), target, &document, &element);
 }
 
-void Documents::addTree(const Document& document, const XmlElement& element, bool alone) {
+bool Documents::addTree(const Document& document, const XmlElement& element, bool alone) {
   const std::string* id = element.attribute("ID");
   if (id != nullptr && id->empty()) {
     problems_.add({document.at(element, "ID"), element.name, "the ID is empty", {}});
-    return;
+    return false;
   }
   if (id == nullptr && !alone) {
     problems_.add(
         {document.at(element), element.name, "the attribute `ID` is missing, expected where there are several", {}});
-    return;
+    return false;
   }
   const std::string name = id == nullptr ? "BehaviorTree" : *id;
   const auto [other, is_new] = trees.try_emplace(name, TreeDefinition{&document, &element});
-  if (is_new) return;
+  if (is_new) return true;
   const Location first = other->second.document->at(*other->second.element);
   problems_.add({document.at(element), element.name,
                  "`" + name + "` is defined twice, first at " + toString(Problem{first, {}, {}, {}}),
                  "give one of them another ID"});
+  return true;
 }
 
 void Documents::readModel(const Document& document, const XmlElement& element) {
@@ -243,6 +244,8 @@ void Documents::findMain(const Document& document) {
   std::vector<std::string> ids;
   for (const auto& [id, tree] : trees) ids.push_back(id);
   const std::string* wanted = root.attribute("main_tree_to_execute");
+  const bool missing = wanted == nullptr ? trees.empty() : !trees.contains(*wanted);
+  if (missing && lost_a_tree_) return;
   if (wanted == nullptr && trees.size() != 1) {
     problems_.add({document.at(root), "root",
                    trees.empty() ? "there is no <BehaviorTree>"

@@ -28,6 +28,7 @@ class Problems {
 
   /// What is suspicious but can be used. Further warnings than the limit are dropped.
   void warn(Problem warning);
+  bool fullOfWarnings() const { return warnings_.size() >= limit_; }
   std::vector<Problem> takeWarnings() { return std::move(warnings_); }
 
  private:
@@ -61,13 +62,14 @@ class Documents {
  private:
   /// False if this file cannot contain a tree at all.
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
-  void include(const Document& document, const XmlElement& element, const std::string& path);
+  /// False if a mistake keeps out what it would add, as in addTree().
+  bool include(const Document& document, const XmlElement& element, const std::string& path);
   bool checkRoot(const Document& document);
   /// False for a file of another version than 4.
   bool checkFormat(const Document& document);
   void reportVersion3(const Document& document, const std::string* format);
   void readChildren(const Document& document, const std::string& path);
-  void addTree(const Document& document, const XmlElement& element, bool alone);
+  bool addTree(const Document& document, const XmlElement& element, bool alone);
   void readModel(const Document& document, const XmlElement& element);
   void findMain(const Document& document);
 
@@ -76,6 +78,7 @@ class Documents {
   FileReader read_file_;
   std::set<std::string> seen_;
   std::vector<std::string> open_;  ///< The chain of includes being read.
+  bool lost_a_tree_ = false;       ///< A file or a tree cannot be used; what it would define is not missing.
 };
 
 }  // namespace swiftlet::tree

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "behaviors/tree/builder.hpp"
@@ -16,9 +18,7 @@ bool fits(PortType written, PortType read) {
          (written == PortType::kInt && read == PortType::kDouble);
 }
 
-bool isSet(const EntryFlow& flow) {
-  return flow.by_host || flow.literals.size() + flow.copied_from.size() + flow.typed_writes.size() > flow.changes;
-}
+bool isSet(const EntryFlow& flow) { return flow.by_host || flow.is_set; }
 
 std::vector<std::string> namesOfSet(const TreeParts& tree) {
   std::vector<std::string> names;
@@ -35,64 +35,93 @@ std::string hintFor(const TreeParts& tree, const std::string& name) {
          "}\" or _autoremap=\"true\" on the SubTree";
 }
 
-void checkEntry(const TreeParts& tree, std::size_t slot, Problems& problems) {
-  const EntryFlow& flow = tree.flows[slot];
-  const auto pathOf = [&](const NodeOrigin& origin) { return tree.pathOf(origin.node); };
-  const std::string entry = "{" + tree.slots[slot].name + "}";
-  if (!isSet(flow)) {
-    const EntryRead& read = flow.reads.front();
-    problems.add({tree.locate(read.origin, read.port->name), read.owner + "." + read.port->name,
-                  "nothing sets the entry " + entry, hintFor(tree, tree.slots[slot].name), pathOf(read.origin)});
-    return;
+class EntryChecker {
+ public:
+  EntryChecker(const TreeParts& tree, Problems& problems) : tree_(tree), problems_(problems) {}
+
+  void check(std::size_t slot) {
+    const EntryFlow& flow = tree_.flows[slot];
+    if (!isSet(flow)) {
+      reportNotSet(slot, flow.reads.front());
+      return;
+    }
+    for (const EntryRead& read : flow.reads) {
+      for (const PortType written : flow.typed_writes)
+        if (!fits(written, read.port->type)) reportType(slot, read, written);
+      if (read.port->type == PortType::kAny || read.port->type == PortType::kScript) continue;
+      for (const std::size_t source : tree_.sourcesOf(slot)) checkLiterals(source, slot, read);
+    }
   }
-  for (const EntryRead& read : flow.reads) {
-    const std::string reader = read.owner + "." + read.port->name;
-    for (const PortType written : flow.typed_writes)
-      if (!fits(written, read.port->type))
-        problems.add(
-            {tree.locate(read.origin, read.port->name),
-             reader,
-             "the entry " + entry + " is written as " + toString(written) + ", expected " + expectedOf(*read.port),
-             {},
-             pathOf(read.origin)});
-    if (read.port->type == PortType::kAny || read.port->type == PortType::kScript) continue;
-    for (const LiteralWrite* literal : tree.literalsOf(slot))
-      if (const ReadValue value = readValue(*read.port, literal->text); !value.value)
-        problems.add({tree.locate(literal->origin, literal->attribute),
-                      literal->attribute,
-                      value.problem + " (read by " + reader + " from " + entry + ")",
-                      {},
-                      pathOf(literal->origin)});
+
+ private:
+  /// A text that several entries are copied from is judged once for a port.
+  void checkLiterals(std::size_t source, std::size_t slot, const EntryRead& read) {
+    if (!judged_.emplace(source, read.port).second) return;
+    for (const LiteralWrite& literal : tree_.flows[source].literals) {
+      if (problems_.full()) return;
+      const ReadValue value = readValue(*read.port, literal.text);
+      if (!value.value)
+        problems_.add({tree_.locate(literal.origin, literal.attribute),
+                       literal.attribute,
+                       value.problem + " (read by " + nameOf(read) + " from " + nameOf(slot) + ")",
+                       {},
+                       tree_.pathOf(literal.origin.node)});
+    }
   }
-}
+
+  void reportNotSet(std::size_t slot, const EntryRead& read) {
+    problems_.add({tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
+                   hintFor(tree_, tree_.slots[slot].name), tree_.pathOf(read.origin.node)});
+  }
+  void reportType(std::size_t slot, const EntryRead& read, PortType written) {
+    problems_.add(
+        {tree_.locate(read.origin, read.port->name),
+         nameOf(read),
+         "the entry " + nameOf(slot) + " is written as " + toString(written) + ", expected " + expectedOf(*read.port),
+         {},
+         tree_.pathOf(read.origin.node)});
+  }
+
+  static std::string nameOf(const EntryRead& read) { return read.owner + "." + read.port->name; }
+  std::string nameOf(std::size_t slot) const { return "{" + tree_.slots[slot].name + "}"; }
+
+  const TreeParts& tree_;
+  Problems& problems_;
+  std::set<std::pair<std::size_t, const PortManifest*>> judged_;
+};
 
 }  // namespace
 
 void checkEntries(const TreeParts& tree, Problems& problems) {
+  EntryChecker checker(tree, problems);
   for (std::size_t i = 0; i < tree.slots.size() && !problems.full(); ++i)
-    if (!tree.flows[i].reads.empty()) checkEntry(tree, i, problems);
+    if (!tree.flows[i].reads.empty()) checker.check(i);
 }
 
 std::vector<std::size_t> TreeParts::sourcesOf(std::size_t slot) const {
   std::vector<std::size_t> reached = {slot};
   for (std::size_t i = 0; i < reached.size(); ++i)
-    for (const std::size_t from : flows[reached[i]].copied_from)
-      if (reached.size() < kMaxCopies && std::find(reached.begin(), reached.end(), from) == reached.end())
-        reached.push_back(from);
+    for (const std::size_t from : flows[reached[i]].copied_from) {
+      if (reached.size() == kMaxCopies) return reached;
+      if (std::find(reached.begin(), reached.end(), from) == reached.end()) reached.push_back(from);
+    }
   return reached;
 }
 
-std::vector<const LiteralWrite*> TreeParts::literalsOf(std::size_t slot) const {
-  std::vector<const LiteralWrite*> literals;
+const std::vector<Value>& TreeParts::valuesOf(std::size_t slot, const PortManifest& port) const {
+  const auto [known, is_new] = values_.try_emplace({slot, &port});
+  if (!is_new) return known->second;
   for (const std::size_t source : sourcesOf(slot))
-    for (const LiteralWrite& literal : flows[source].literals) literals.push_back(&literal);
-  return literals;
+    for (const LiteralWrite& literal : flows[source].literals)
+      if (auto value = readValue(port, literal.text).value) known->second.push_back(std::move(*value));
+  return known->second;
 }
 
 bool TreeParts::isOnlyWrittenAsText(std::size_t slot) const {
   const std::vector<std::size_t> sources = sourcesOf(slot);
   return sources.size() < kMaxCopies && std::all_of(sources.begin(), sources.end(), [&](std::size_t source) {
-           return flows[source].typed_writes.empty() && !flows[source].by_host;
+           const EntryFlow& flow = flows[source];
+           return flow.typed_writes.empty() && !flow.by_host && !flow.is_unset;
          });
 }
 

@@ -97,9 +97,6 @@ class Node {
   /// It and all nodes below become IDLE at once. Not for a running node, because nothing is let go.
   void reset(TickContext& context);
 
-  /// Called once when all children are there. Returns what is wrong with the built node, or an empty string.
-  virtual std::string checkBuilt() const { return {}; }
-
   const std::string& name() const { return name_; }
   Status status() const { return status_; }
   /// Index in preorder from 0, unique in its tree.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +22,17 @@ struct NodeManifest {
   std::string description = {};  ///< One sentence.
   /// Whether it may answer SKIPPED on its own (leaves), or only if its children do.
   bool may_skip = false;
+  /// Of nodes with children that need a number of them; others take what their kind does.
+  std::optional<int> least_children = std::nullopt, most_children = std::nullopt;
+  std::string about_children = {};  ///< What they are for, for messages; may be empty.
 
   const PortManifest* findPort(std::string_view name) const;
   /// Controls: 1 or more; decorators: 1; leaves: 0.
-  int minChildren() const { return kind == NodeKind::kControl || kind == NodeKind::kDecorator ? 1 : 0; }
+  int minChildren() const {
+    return least_children.value_or(kind == NodeKind::kControl || kind == NodeKind::kDecorator ? 1 : 0);
+  }
   int maxChildren() const {
+    if (most_children) return *most_children;
     return kind == NodeKind::kControl ? std::numeric_limits<int>::max() : kind == NodeKind::kDecorator ? 1 : 0;
   }
 };

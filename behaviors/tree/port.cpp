@@ -30,7 +30,7 @@ bool inRange(const PortManifest& port, const Value& value) {
 /// unit, text is parsed, and numbers are also text.
 template <typename T>
 std::optional<T> converted(const PortManifest& port, const Value& value) {
-  if (port.choices.empty())
+  if (allowedTexts(port).empty())
     if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;
   if constexpr (std::is_same_v<T, double>)
     if (const auto* number = std::get_if<std::int64_t>(&value); number != nullptr && inRange(port, value))
@@ -65,9 +65,11 @@ std::optional<T> converted(const PortManifest& port, const Value& value) {
 
 }  // namespace
 
-std::string expectedOf(const PortManifest& port) {
+namespace {
+
+std::string expectedValueOf(const PortManifest& port) {
   std::string text;
-  for (const std::string& choice : port.choices) text += (text.empty() ? "" : " or ") + choice;
+  for (const std::string& allowed : allowedTexts(port)) text += (text.empty() ? "" : " or ") + allowed;
   if (!text.empty()) return text;
   if (port.names_entry) return "an entry";
   if (port.elements && *port.elements != PortType::kString)
@@ -107,12 +109,11 @@ std::string expectedOf(const PortManifest& port) {
   return text;
 }
 
-namespace {
-
-/// The text itself where any is allowed; else the choice that it is, or whose number from 0 it is, as of a constant.
+/// The text itself where any is allowed; else the one that it is, or the choice whose number it is, as of a constant.
 std::optional<std::string_view> choiceOf(const PortManifest& port, std::string_view text) {
+  const auto& allowed = allowedTexts(port);
+  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), text) != allowed.end()) return text;
   const auto& choices = port.choices;
-  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end()) return text;
   const auto number = parseValue(text, PortType::kInt, {});
   const std::int64_t index = number ? std::get<std::int64_t>(*number) : -1;
   if (index < 0 || index >= static_cast<std::int64_t>(choices.size())) return std::nullopt;
@@ -130,12 +131,30 @@ std::optional<std::string_view> wrongElement(std::string_view list, PortType typ
   return std::nullopt;
 }
 
+/// A time whose number is right, but too large for any port.
+std::string problemOfLongTime(PortManifest port, std::string_view text) {
+  port.maximum = longestTime(unitOf(port.name));
+  return "`" + std::string(text) + "` is out of range, expected " + expectedOf(port);
+}
+
 }  // namespace
+
+const std::vector<std::string>& allowedTexts(const PortManifest& port) {
+  static const std::vector<std::string> kStatuses = {"SUCCESS", "FAILURE", "RUNNING", "SKIPPED"};
+  return port.names_status ? kStatuses : port.choices;
+}
+
+std::string expectedOf(const PortManifest& port) {
+  if (port.direction != Direction::kOutput) return expectedValueOf(port);
+  return port.type == PortType::kAny ? "an entry" : "an entry for " + expectedValueOf(port);
+}
 
 ReadValue readValue(const PortManifest& port, std::string_view text) {
   ReadValue read;
   if (const auto chosen = choiceOf(port, text)) read.value = parseValue(*chosen, port.type, unitOf(port.name));
-  if (!read.value) {
+  if (!read.value && port.type == PortType::kDuration && parseValue(text, PortType::kDouble, {})) {
+    read.problem = problemOfLongTime(port, text);
+  } else if (!read.value) {
     read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
   } else if (!inRange(port, *read.value)) {
     read.value.reset();
@@ -181,6 +200,41 @@ std::string Input<T>::problem() const {
   const std::string entry = "the entry {" + binding_.slot->name + "}";
   if (!binding_.slot->value) return port + entry + " is not set";
   return port + entry + " is `" + toString(*binding_.slot->value) + "`, expected " + expectedOf(*binding_.manifest);
+}
+
+namespace {
+
+template <typename T>
+std::string problemAs(const PortBinding& binding) {
+  const Input<T> input(binding);
+  return !input.given() || input.get() ? std::string() : input.problem();
+}
+
+}  // namespace
+
+std::string readingProblem(const PortBinding& binding) {
+  switch (binding.manifest->type) {
+    case PortType::kAny:
+    case PortType::kScript:
+      return binding.slot == nullptr || binding.slot->value ? "" : problemAs<std::string>(binding);
+    case PortType::kString:
+      return problemAs<std::string>(binding);
+    case PortType::kDouble:
+      return problemAs<double>(binding);
+    case PortType::kInt:
+      return problemAs<std::int64_t>(binding);
+    case PortType::kBool:
+      return problemAs<bool>(binding);
+    case PortType::kPoint:
+      return problemAs<Point>(binding);
+    case PortType::kPoints:
+      return problemAs<Points>(binding);
+    case PortType::kRectangle:
+      return problemAs<Rectangle>(binding);
+    case PortType::kDuration:
+      return problemAs<Duration>(binding);
+  }
+  return {};
 }
 
 template class Input<std::string>;

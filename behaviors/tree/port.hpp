@@ -22,17 +22,28 @@ struct PortManifest {
   std::optional<double> minimum = std::nullopt;             ///< Inclusive; numbers and durations (in the port's unit).
   std::optional<double> maximum = std::nullopt;
   std::string description = {};  ///< One sentence.
-  /// The texts that are allowed; empty: any of the type.
+  /// The texts that are allowed, also by their numbers from 0; empty: any of the type.
   std::vector<std::string> choices = {};
   /// Of text that is a list with `;` between: the type of each element.
   std::optional<PortType> elements = std::nullopt;
   /// It reads news of an entry: text without braces is the name of one, too.
   bool names_entry = false;
+  /// Of an output: the input with the list whose elements it writes, one after the other; empty for any other.
+  std::string element_of = {};
+  /// Of an output: it takes the value of its entry away.
+  bool unsets = false;
+  /// Of a whole number: so many of the node's children; negative ones count from the end, -1 is all of them.
+  bool counts_children = false;
+  /// Of text: it is SUCCESS, FAILURE, RUNNING or SKIPPED.
+  bool names_status = false;
   /// Of a script: it is asked before a node starts and must not assign, because a Priority asks without starting it.
   bool asked = false;
 };
 
-/// "a number in metres from 0 to 5", for messages and documents.
+/// The texts that a port allows; empty: any of its type.
+const std::vector<std::string>& allowedTexts(const PortManifest& port);
+
+/// "a number in metres from 0 to 5", for messages and documents; of an output "an entry for a number in metres".
 std::string expectedOf(const PortManifest& port);
 
 /// The value of `text` for this port, or what is wrong with it.
@@ -86,6 +97,7 @@ class Input {
  public:
   /// The manifest must declare the port; it outlives the node (it lives in the registry).
   Input(const NodeSetup& setup, std::string_view port_name) : binding_(setup.port(port_name)) {}
+  explicit Input(const PortBinding& binding) : binding_(binding) {}
 
   /// Given in the XML or by a default.
   bool given() const { return binding_.literal.has_value() || binding_.slot != nullptr; }
@@ -99,6 +111,9 @@ class Input {
  private:
   PortBinding binding_;
 };
+
+/// Why a node cannot read an input of any type now, as Input::problem() says; empty if it can, or if it is not given.
+std::string readingProblem(const PortBinding& binding);
 
 /// A port that is written.
 class Output {

@@ -91,9 +91,9 @@ std::string numberType(const PortManifest& port, const char* base) {
   return text + "</xs:restriction></xs:simpleType>";
 }
 
-std::string choicesOf(const PortManifest& port) {
+std::string enumerationOf(const std::vector<std::string>& texts) {
   std::string text = "<xs:simpleType><xs:restriction base=\"xs:string\">";
-  for (const std::string& choice : port.choices) text += "<xs:enumeration value=\"" + escaped(choice) + "\"/>";
+  for (const std::string& allowed : texts) text += "<xs:enumeration value=\"" + escaped(allowed) + "\"/>";
   return text + "</xs:restriction></xs:simpleType>";
 }
 
@@ -106,7 +106,7 @@ std::string typeOf(const PortManifest& port) {
     case PortType::kAny:
     case PortType::kString:
     case PortType::kScript:
-      return port.choices.empty() ? std::string() : withEntry("entry", choicesOf(port));
+      return allowedTexts(port).empty() ? std::string() : withEntry("entry", enumerationOf(allowedTexts(port)));
     case PortType::kBool:
       return withEntry("boolean entry", {});
     case PortType::kPoint:
@@ -136,10 +136,17 @@ void writeAttribute(const PortManifest& port, std::string& text) {
   text += "      </xs:attribute>\n";
 }
 
+/// Of the children of a control node.
+std::string occurrences(const NodeManifest& manifest) {
+  const std::string least = manifest.least_children ? std::to_string(*manifest.least_children) : "";
+  return (least.empty() ? "" : " minOccurs=\"" + least + "\"") + " maxOccurs=\"" +
+         (manifest.most_children ? std::to_string(*manifest.most_children) : "unbounded") + "\"";
+}
+
 void writeElement(const NodeManifest& manifest, std::string& text) {
   text += "  <xs:element name=\"" + escaped(manifest.id) + "\">\n    <xs:annotation><xs:documentation>" +
           escaped(manifest.description) + "</xs:documentation></xs:annotation>\n    <xs:complexType>\n";
-  if (manifest.kind == NodeKind::kControl) text += "      <xs:group ref=\"node\" maxOccurs=\"unbounded\"/>\n";
+  if (manifest.kind == NodeKind::kControl) text += "      <xs:group ref=\"node\"" + occurrences(manifest) + "/>\n";
   if (manifest.kind == NodeKind::kDecorator) text += "      <xs:group ref=\"node\"/>\n";
   for (const PortManifest& port : manifest.ports) writeAttribute(port, text);
   text += "      <xs:attributeGroup ref=\"editor\"/>\n    </xs:complexType>\n  </xs:element>\n";

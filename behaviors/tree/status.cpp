@@ -26,9 +26,4 @@ std::optional<Status> answerFrom(std::string_view text) {
   return std::nullopt;
 }
 
-std::string notAnAnswer(std::string_view port, std::string_view text) {
-  if (answerFrom(text)) return {};
-  return std::string(port) + " is `" + std::string(text) + "`, expected SUCCESS, FAILURE, RUNNING or SKIPPED";
-}
-
 }  // namespace swiftlet::tree

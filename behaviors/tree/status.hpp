@@ -16,8 +16,6 @@ const char* toString(Status status);
 
 /// The answer that a port names: SUCCESS, FAILURE, RUNNING or SKIPPED; nothing for any other text.
 std::optional<Status> answerFrom(std::string_view text);
-/// "else is `YES`, expected SUCCESS, FAILURE, RUNNING or SKIPPED"; empty if the text names an answer.
-std::string notAnAnswer(std::string_view port, std::string_view text);
 
 /// Under way: it keeps its progress, and a tick continues it instead of starting anew.
 constexpr bool isActive(Status status) { return status == Status::kRunning || status == Status::kSuspended; }

@@ -1,5 +1,6 @@
 #include "behaviors/tree/tree.hpp"
 
+#include <map>
 #include <utility>
 
 #include "behaviors/tree/script/script.hpp"
@@ -82,9 +83,7 @@ std::vector<Value> Tree::knownValues(int id, std::string_view port) const {
   for (const PortBinding& binding : setup.ports) {
     if (binding.manifest->name != port) continue;
     if (binding.literal) values.push_back(*binding.literal);
-    if (binding.slot == nullptr) continue;
-    for (const LiteralWrite* literal : parts_->literalsOf(binding.slot->id))
-      if (auto value = readValue(*binding.manifest, literal->text).value) values.push_back(std::move(*value));
+    if (binding.slot != nullptr) values = parts_->valuesOf(binding.slot->id, *binding.manifest);
   }
   return values;
 }
@@ -107,15 +106,22 @@ std::optional<bool> Tree::constantTruth(int id, std::string_view attribute) cons
 
 std::string TreeParts::pathOf(int id) const {
   const NodeRecord& record = records[static_cast<std::size_t>(id)];
-  const std::string& own = record.node->name();
-  if (record.parent < 0) return name + "/" + own;
-  int before = 0, all = 0;
-  for (const auto& sibling : records[static_cast<std::size_t>(record.parent)].node->children()) {
-    if (sibling->name() != own) continue;
-    ++all;
-    before += sibling->id() < id ? 1 : 0;
+  const int number = numberAmongSiblings(id);
+  return (record.parent < 0 ? name : pathOf(record.parent)) + "/" + record.node->name() +
+         (number > 0 ? "[" + std::to_string(number) + "]" : "");
+}
+
+int TreeParts::numberAmongSiblings(int id) const {
+  if (!numbers_.empty()) return numbers_[static_cast<std::size_t>(id)];
+  numbers_.resize(records.size());
+  for (const NodeRecord& record : records) {
+    std::map<std::string_view, std::vector<int>> by_name;
+    for (const auto& child : record.node->children()) by_name[child->name()].push_back(child->id());
+    for (const auto& [same, ids] : by_name)
+      for (std::size_t i = 0; ids.size() > 1 && i < ids.size(); ++i)
+        numbers_[static_cast<std::size_t>(ids[i])] = static_cast<int>(i) + 1;
   }
-  return pathOf(record.parent) + "/" + own + (all > 1 ? "[" + std::to_string(before + 1) + "]" : "");
+  return numbers_[static_cast<std::size_t>(id)];
 }
 
 Location TreeParts::locate(const NodeOrigin& origin, std::string_view attribute) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "behaviors/tree/conditions.hpp"
@@ -36,13 +37,14 @@ struct EntryRead {
   NodeOrigin origin;
 };
 
-/// All sources and readers of one entry, as far as the file shows them.
+/// All sources and readers of one entry, as far as the file shows them; each source once.
 struct EntryFlow {
-  std::vector<LiteralWrite> literals;
+  std::vector<LiteralWrite> literals;    ///< Each text from the first place that gives it.
   std::vector<EntryRead> reads;          ///< One for each port manifest.
   std::vector<std::size_t> copied_from;  ///< Slots whose value SetBlackboard copies here.
   std::vector<PortType> typed_writes;    ///< Types that output ports of leaves write.
-  std::size_t changes = 0;  ///< How many of these sources only change an entry that something else has set.
+  bool is_set = false;                   ///< One of these sources makes the entry; others only change it.
+  bool is_unset = false;                 ///< A node takes its value away.
   bool by_host = false;
 };
 
@@ -64,15 +66,21 @@ struct TreeParts {
   Location locate(const NodeOrigin& origin, std::string_view attribute = {}) const;
   /// As Tree::pathOf. The tree must be complete.
   std::string pathOf(int id) const;
-  /// Every text that may reach a slot, directly or from slots it is copied from (at most kMaxCopies of them).
-  std::vector<const LiteralWrite*> literalsOf(std::size_t slot) const;
+  /// The slot and those it is copied from, directly or not, at most kMaxCopies of them. What may reach the slot as text
+  /// are their literals.
+  std::vector<std::size_t> sourcesOf(std::size_t slot) const;
   static constexpr std::size_t kMaxCopies = 64;
-  /// Whether literalsOf() is all that may reach it.
+  /// Whether these literals are all that may reach it.
   bool isOnlyWrittenAsText(std::size_t slot) const;
+  /// What a port makes of these literals; those that it cannot take are left out.
+  const std::vector<Value>& valuesOf(std::size_t slot, const PortManifest& port) const;
 
  private:
-  /// The slot and those it is copied from, directly or not.
-  std::vector<std::size_t> sourcesOf(std::size_t slot) const;
+  int numberAmongSiblings(int id) const;
+
+  // Each is made when it is asked for the first time.
+  mutable std::map<std::pair<std::size_t, const PortManifest*>, std::vector<Value>> values_;
+  mutable std::vector<int> numbers_;  ///< By node id: counted from 1 among siblings of one name; 0 for the only one.
 };
 
 }  // namespace swiftlet::tree

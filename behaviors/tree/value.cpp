@@ -9,6 +9,8 @@
 namespace swiftlet::tree {
 namespace {
 
+constexpr double kLongest_ns = 9e18;  ///< Of a duration.
+
 struct Unit {
   std::string_view name;
   std::string_view words;
@@ -180,12 +182,16 @@ std::string_view withoutUnit(std::string_view port_name) {
   return port_name.substr(0, port_name.size() - unit.size() - 1);
 }
 
+double longestTime(std::string_view unit) {
+  const Unit* known = findUnit(unit);
+  return known == nullptr || known->seconds == 0.0 ? 0.0 : kLongest_ns / (known->seconds * 1e9);
+}
+
 std::optional<Duration> durationOf(double number, std::string_view unit) {
   const Unit* known = findUnit(unit);
   if (known == nullptr || known->seconds == 0.0) return std::nullopt;
   const double nanoseconds = std::round(number * known->seconds * 1e9);
-  constexpr double kLongest = 9e18;
-  if (!(std::abs(nanoseconds) <= kLongest)) return std::nullopt;
+  if (!(std::abs(nanoseconds) <= kLongest_ns)) return std::nullopt;
   return Duration{static_cast<std::int64_t>(nanoseconds)};
 }
 

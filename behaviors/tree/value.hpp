@@ -71,6 +71,8 @@ std::string_view withoutUnit(std::string_view port_name);
 /// a word of truthOfWord(), 1 or 0. `unit` is that of the port and is used for kDuration only.
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
 
+/// The greatest number that durationOf() takes in a unit of time.
+double longestTime(std::string_view unit);
 /// `number` times the unit of time; nothing if it is no unit of time, or the time too long.
 std::optional<Duration> durationOf(double number, std::string_view unit);
 

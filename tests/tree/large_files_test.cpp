@@ -21,17 +21,15 @@ class Moment {
   std::clock_t start_ = std::clock();
 };
 
+/// Each `#` is the number of the copy.
 std::string repeated(int count, const std::string& text) {
   std::string all;
-  for (int i = 0; i < count; ++i) {
-    const std::size_t at = text.find('#');
-    all += text.substr(0, at);
-    if (at != std::string::npos) all += std::to_string(i) + text.substr(at + 1);
-  }
+  for (int i = 0; i < count; ++i)
+    for (const char c : text) all += c == '#' ? std::to_string(i) : std::string(1, c);
   return all;
 }
 
-ParseResult read(const std::string& text) {
+ParseResult judged(const std::string& text) {
   static const Registry kRegistry = Registry::standard();
   return parseText(text, "f.xml", kRegistry);
 }
@@ -45,18 +43,18 @@ void expectMany(const ParseResult& result) {
 TEST(LargeFiles, WithAttributesThatNothingReads) {
   const Moment moment;
   const std::string attributes = repeated(25'000, " a#=\"1\"");
-  expectMany(read(file("<AlwaysSuccess" + attributes + "/>")));
-  expectMany(read("<root BTCPP_format=\"4\"" + attributes + "><BehaviorTree><AlwaysSuccess/></BehaviorTree></root>"));
+  expectMany(judged(file("<AlwaysSuccess" + attributes + "/>")));
+  expectMany(judged("<root BTCPP_format=\"4\"" + attributes + "><BehaviorTree><AlwaysSuccess/></BehaviorTree></root>"));
   expectMany(
-      read(file("<SubTree ID=\"S\"" + attributes + "/>", "<BehaviorTree ID=\"S\"><AlwaysSuccess/></BehaviorTree>")));
+      judged(file("<SubTree ID=\"S\"" + attributes + "/>", "<BehaviorTree ID=\"S\"><AlwaysSuccess/></BehaviorTree>")));
 }
 
 TEST(LargeFiles, WithElementsThatAreWrong) {
   const Moment moment;
-  expectMany(read(file("<Sequence>" + repeated(100'000, "<Nope/>") + "</Sequence>")));
-  expectMany(read(file("<AlwaysSuccess/>", "<TreeNodesModel><Action ID=\"X\">" + repeated(50'000, "<input_port/>") +
-                                               "</Action></TreeNodesModel>")));
-  expectMany(read(file("<AlwaysSuccess/>", repeated(50'000, "<BehaviorTree ID=\"T#\"/>"))));
+  expectMany(judged(file("<Sequence>" + repeated(100'000, "<Nope/>") + "</Sequence>")));
+  expectMany(judged(file("<AlwaysSuccess/>", "<TreeNodesModel><Action ID=\"X\">" + repeated(50'000, "<input_port/>") +
+                                                 "</Action></TreeNodesModel>")));
+  expectMany(judged(file("<AlwaysSuccess/>", repeated(50'000, "<BehaviorTree ID=\"T#\"/>"))));
 }
 
 TEST(LargeFiles, OfVersion3) {
@@ -64,12 +62,38 @@ TEST(LargeFiles, OfVersion3) {
   const std::string stars = "<root><BehaviorTree ID=\"M\"><Sequence>\n" +
                             repeated(20'000, "<SequenceStar><AlwaysSuccess/></SequenceStar>\n") +
                             "</Sequence></BehaviorTree></root>";
-  expectMany(read(stars));
+  expectMany(judged(stars));
   EXPECT_EQ(migrateToVersion4(stars, "f.xml").changes.size(), 20'001U);
   const std::string remaps =
       "<root><BehaviorTree ID=\"M\"><SubTree ID=\"S\"" + repeated(20'000, " a#=\"b\"") + "/></BehaviorTree></root>";
-  expectMany(read(remaps));
+  expectMany(judged(remaps));
   EXPECT_EQ(migrateToVersion4(remaps, "f.xml").changes.size(), 20'001U);
+}
+
+TEST(LargeFiles, WithManyWritersAndReadersOfOneEntry) {
+  const Moment moment;
+  const int count = 20'000;
+  const ParseResult same =
+      judged(file("<Sequence>" + repeated(count, "<SetBlackboard value=\"1\" output_key=\"x\"/>") +
+                  repeated(count, "<Repeat num_cycles=\"{x}\"><AlwaysSuccess/></Repeat>") + "</Sequence>"));
+  ASSERT_TRUE(same.tree.has_value());
+  for (const NodeRecord& node : same.tree->nodes()) {
+    if (node.manifest->id != "Repeat") continue;
+    ASSERT_THAT(same.tree->knownValues(node.node->id(), "num_cycles"), ::testing::ElementsAre(Value(std::int64_t{1})));
+  }
+  EXPECT_TRUE(
+      judged(file("<Sequence>" + repeated(count, "<SetBlackboard value=\"#\" output_key=\"x\"/>") +
+                  repeated(count, "<Script code=\"a# := x\"/><Repeat num_cycles=\"{a#}\"><AlwaysSuccess/></Repeat>") +
+                  "</Sequence>"))
+          .tree.has_value());
+}
+
+TEST(LargeFiles, WithManySiblings) {
+  const Moment moment;
+  const ParseResult wide = judged(file("<Sequence>" + repeated(50'000, "<AlwaysSuccess/>") + "</Sequence>"));
+  ASSERT_TRUE(wide.tree.has_value());
+  for (const NodeRecord& node : wide.tree->nodes()) ASSERT_FALSE(wide.tree->pathOf(node.node->id()).empty());
+  EXPECT_EQ(wide.tree->pathOf(50'000), "Main/Sequence/AlwaysSuccess[50000]");
 }
 
 TEST(LargeFiles, ThatCannotBeMigratedListTheirFirstProblems) {

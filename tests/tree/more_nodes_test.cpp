@@ -108,7 +108,7 @@ TEST(Switch, RunsTheChildOfTheCase) {
   Story other("<Switch2 variable=\"left\" case_1=\"right\" case_2=\"up\"><A/><B/><C/></Switch2>");
   EXPECT_EQ(other.tick(), "RUNNING: start C");
   EXPECT_THAT(problemText("<Switch2 variable=\"1\" case_1=\"1\" case_2=\"2\"><A/><B/></Switch2>"),
-              HasSubstr("has 2 children, expected 3: one for each case, and one for all else"));
+              HasSubstr("has 2 children, expected exactly 3, one for each case, and one for all else"));
 }
 
 TEST(Switch, WithoutAVariableRunsTheLastChildAndPassesOverCasesThatAreNotSet) {
@@ -184,7 +184,7 @@ TEST(Precondition, AsksWhileTheChildIsNotUnderWay) {
   EXPECT_EQ(Story("<Priority><Precondition if=\"false\" else=\"SKIPPED\"><A/></Precondition><B/></Priority>").tick(),
             "RUNNING: start B");
   EXPECT_THAT(problemText("<Precondition if=\"true\" else=\"NO\"><A/></Precondition>"),
-              HasSubstr("else is `NO`, expected SUCCESS, FAILURE, RUNNING or SKIPPED"));
+              HasSubstr("Precondition.else: `NO` is not SUCCESS or FAILURE or RUNNING or SKIPPED"));
 }
 
 TEST(Loop, RunsTheChildOnceForEachElement) {
@@ -195,6 +195,8 @@ TEST(Loop, RunsTheChildOnceForEachElement) {
   EXPECT_EQ(story.tick(), "RUNNING: start A");
   EXPECT_EQ(story.tick(), "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A") << "the queue of the file starts anew";
+  EXPECT_THAT(problemText("<LoopString queue=\"1\" if_empty=\"never\"><A/></LoopString>"),
+              HasSubstr("LoopString.if_empty: `never` is not SUCCESS or FAILURE"));
   Story empty("<LoopString queue=\"\" if_empty=\"FAILURE\" value=\"{n}\"><A/></LoopString>");
   EXPECT_EQ(empty.tick(), "FAILURE");
 }

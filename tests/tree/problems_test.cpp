@@ -1,6 +1,4 @@
 // Errors in a file are reported with line, column, the offending text and what was expected; all of them at once.
-#include <chrono>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -152,11 +150,17 @@ TEST(Problems, AWrongTypeOrRangeIsReported) {
   EXPECT_THAT(
       problemsIn(R"(<Timeout msec="-1"><AlwaysSuccess/></Timeout>)"),
       ElementsAre("f.xml:3:10: Timeout.msec: `-1` is out of range, expected a time in milliseconds not below 0"));
+  EXPECT_THAT(
+      problemsIn(R"(<Timeout msec="1e300"><AlwaysSuccess/></Timeout>)"),
+      ElementsAre("f.xml:3:10: Timeout.msec: `1e300` is out of range, expected a time in milliseconds from 0 to "
+                  "9e+12"));
   for (const char* goal : {"", "1", "1;", "1;2;3;4", "1;inf", "1;2;", ";;", "1 2", "0x1;2", "1;2m", "--1;2", "+1;2"})
     EXPECT_EQ(problemsIn("<Fly goal=\"" + std::string(goal) + "\"/>").size(), 1U) << goal;
 }
 
 TEST(Problems, AnOutputWithoutAnEntryIsReported) {
+  EXPECT_THAT(problemsIn(R"(<SetBlackboard value="3"/>)"),
+              ElementsAre("f.xml:3:1: SetBlackboard: port `output_key` is missing, expected an entry"));
   EXPECT_THAT(problemsIn(R"(<Fly goal="1;2" flown_m="3"/>)"),
               ElementsAre("f.xml:3:17: Fly.flown_m: `3` is not an entry, expected `{name}`"));
   EXPECT_THAT(problemsIn(R"(<Fly goal="{}"/>)"),
@@ -174,7 +178,7 @@ TEST(Problems, AWrongNumberOfChildrenIsReported) {
   EXPECT_THAT(problemsIn("<AlwaysSuccess/><AlwaysSuccess/>"),
               ElementsAre(HasSubstr("`Main` has 2 children, expected 1, put them into a <Sequence>")));
   EXPECT_THAT(problemsIn("<Parallel success_count=\"3\"><AlwaysSuccess/></Parallel>"),
-              ElementsAre("f.xml:3:1: Parallel: success_count is 3, but it has only 1 child"));
+              ElementsAre("f.xml:3:11: Parallel: success_count is 3, but it has only 1 child"));
 }
 
 TEST(Problems, UnexpectedTextIsReported) {
@@ -264,7 +268,12 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
 }
 
 TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {
-  EXPECT_THAT(problemsIn("<AlwaysSuccess _skipif=\"x==1\"/>"), ElementsAre(HasSubstr("unknown attribute `_skipif`")));
+  EXPECT_THAT(problemsIn("<AlwaysSuccess _skipif=\"x==1\"/>"),
+              ElementsAre(HasSubstr("unknown attribute `_skipif`, did you mean `_skipIf`?")));
+  EXPECT_THAT(problemsIn("<AlwaysSuccess _onsucess=\"x:=1\"/>"), ElementsAre(HasSubstr("did you mean `_onSuccess`?")));
+  EXPECT_THAT(
+      problemsIn("<SubTree ID=\"S\" _autoremaps=\"1\"/>", "<BehaviorTree ID=\"S\"><Fly goal=\"1;1\"/></BehaviorTree>"),
+      ElementsAre(HasSubstr("did you mean `_autoremap`?")));
   EXPECT_THAT(
       problemsOf("<!DOCTYPE root [<!ENTITY a \"b\">]><root BTCPP_format=\"4\"/>"),
       ElementsAre("f.xml:1:16: <!DOCTYPE>: a DOCTYPE is not supported, take it out, and write its entities as the text "
@@ -277,6 +286,51 @@ TEST(Problems, AllAreReportedTogether) {
   EXPECT_THAT(problemsIn("<Sequence>\n<Flly/>\n<Fly/>\n<Inverter/>\n<SubTree ID=\"no\"/></Sequence>"),
               ElementsAre(HasSubstr(":4:1: Flly"), HasSubstr(":5:1: Fly"), HasSubstr(":6:1: Inverter"),
                           HasSubstr(":7:10: SubTree")));
+}
+
+TEST(Problems, WhatThePortsOfTheEngineNeedIsReportedWithAllElse) {
+  EXPECT_THAT(
+      problemsIn("<Sequence>\n<Precondition if=\"true\" else=\"running\"><AlwaysSuccess/></Precondition>\n"
+                 "<LoopInt queue=\"1\" if_empty=\"1\"><AlwaysSuccess/></LoopInt>\n<Switch2><AlwaysSuccess/></Switch2>\n"
+                 "<TryCatch><AlwaysSuccess/></TryCatch>\n<WhileDoElse><AlwaysSuccess/></WhileDoElse>\n"
+                 "<ParallelAll max_failures=\"2\"><AlwaysSuccess/></ParallelAll>\n<TestNode return_status=\"IDLE\"/>\n"
+                 "<Nope/></Sequence>"),
+      ElementsAre(HasSubstr("4:25: Precondition.else: `running` is not SUCCESS or FAILURE or RUNNING or SKIPPED, did "
+                            "you mean `RUNNING`?"),
+                  HasSubstr("5:20: LoopInt.if_empty: `1` is not SUCCESS"),
+                  HasSubstr("6:1: Switch2: has 1 child, expected exactly 3, one for each case, and one for all else"),
+                  HasSubstr("7:1: TryCatch: has 1 child, expected at least 2"),
+                  HasSubstr("8:1: WhileDoElse: has 1 child, expected 2 or 3"),
+                  HasSubstr("9:14: ParallelAll: max_failures is 2, but it has only 1 child"),
+                  HasSubstr("10:11: TestNode.return_status: `IDLE` is not"), HasSubstr("11:1: Nope")));
+}
+
+TEST(Problems, ACountThatNeedsNoChildIsAWarning) {
+  const auto warningsOf = [](const std::string& node) {
+    const ParseResult result =
+        parseText(file(node + "<AlwaysSuccess/><AlwaysSuccess/></" + node.substr(1, node.find(' ') - 1) + ">"), "f.xml",
+                  Registry::standard());
+    EXPECT_TRUE(result.tree.has_value()) << toString(result.problems);
+    return linesOf(result.warnings);
+  };
+  EXPECT_THAT(warningsOf("<Parallel failure_count=\"0\">"),
+              ElementsAre("f.xml:3:11: Parallel: failure_count is 0, which is reached before any child has ended"));
+  EXPECT_THAT(warningsOf("<Parallel success_count=\"0\" failure_count=\"-3\">"),
+              ElementsAre(HasSubstr("success_count is 0"), HasSubstr("failure_count is -3, which is reached")));
+  EXPECT_EQ(warningsOf("<ParallelAll max_failures=\"0\">").size(), 1U);
+  EXPECT_THAT(warningsOf("<Parallel success_count=\"-2\" failure_count=\"2\">"), ElementsAre());
+}
+
+TEST(Problems, AListThatNamesNoTreeIsNotMissedTwice) {
+  const std::string tree = "<BehaviorTree><AlwaysSuccess/></BehaviorTree>";
+  const std::string missing = "the attribute `ID` is missing";
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\">" + tree + tree + "</root>"),
+              ElementsAre(HasSubstr(missing), HasSubstr(missing)));
+  EXPECT_EQ(problemsOf("<root BTCPP_format=\"4\" main_tree_to_execute=\"A\">" + tree + tree + "</root>").size(), 2U);
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\"><BehaviorTree ID=\"\"><AlwaysSuccess/></BehaviorTree></root>"),
+              ElementsAre(HasSubstr("the ID is empty")));
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\"><include path=\"none.xml\"/></root>"),
+              ElementsAre(HasSubstr("cannot be read")));
 }
 
 TEST(Problems, ALongListIsShortened) {
@@ -324,44 +378,6 @@ TEST(Limits, ExpandedSubTreesAreLimited) {
 TEST(Limits, TheSizeOfAFileIsLimited) {
   EXPECT_THAT(problemsOf(std::string((std::size_t{8} << 20) + 1, ' ')),
               ElementsAre("f.xml: `f.xml` is larger than 8388608 bytes"));
-}
-
-TEST(Suggestions, ConsiderUnitCaseAndEditDistance) {
-  const std::vector<std::string> names = {"clearance_m", "tolerance_m", "TakeOff", "goal"};
-  EXPECT_EQ(didYouMean("clearance_mm", names), "did you mean `clearance_m`?");
-  EXPECT_EQ(didYouMean("tolerance", names), "did you mean `tolerance_m`?");
-  EXPECT_EQ(didYouMean("takeoff", names), "did you mean `TakeOff`?");
-  EXPECT_EQ(didYouMean("takeof", names), "did you mean `TakeOff`?");
-  EXPECT_EQ(didYouMean("entirely_else", names), "");
-  EXPECT_EQ(didYouMean("", names), "");
-}
-
-TEST(Values, UnitsAreReadFromNames) {
-  EXPECT_EQ(unitOf("speed_m_s"), "m_s");
-  EXPECT_EQ(unitOf("msec"), "msec");
-  EXPECT_EQ(unitOf("delay_msec"), "msec");
-  EXPECT_EQ(unitOf("num_cycles"), "");
-  EXPECT_EQ(withoutUnit("speed_m_s"), "speed");
-  EXPECT_EQ(withoutUnit("msec"), "msec");
-}
-
-TEST(Values, AreReadByTheirType) {
-  EXPECT_EQ(parseValue("1.5", PortType::kDuration, "s"), Value(Duration{1'500'000'000}));
-  EXPECT_EQ(parseValue("2", PortType::kDuration, "min"), Value(Duration{120'000'000'000}));
-  EXPECT_EQ(parseValue("1e30", PortType::kDuration, "s"), std::nullopt);
-  EXPECT_EQ(parseValue("1", PortType::kDuration, ""), std::nullopt);
-  EXPECT_EQ(parseValue(" -1.5;2 ; 3e0", PortType::kPoint, ""), Value(Point{-1.5, 2.0, 3.0}));
-  EXPECT_EQ(parseValue("1;2|3;4;5 | -6;7", PortType::kPoints, ""),
-            Value(Points{{{1.0, 2.0, std::nullopt}, {3.0, 4.0, 5.0}, {-6.0, 7.0, std::nullopt}}}));
-  for (const char* wrong : {"", "|", "1;2|", "1;2||3;4", "1;2|3", "1;2,3;4"})
-    EXPECT_EQ(parseValue(wrong, PortType::kPoints, ""), std::nullopt) << wrong;
-  EXPECT_EQ(toString(Value(Points{{{1.0, 2.0, std::nullopt}, {3.0, 4.0, 5.0}}})), "1;2 | 3;4;5");
-  EXPECT_EQ(parseValue("-2; 0;3 ;1.5", PortType::kRectangle, ""), Value(Rectangle{-2.0, 0.0, 3.0, 1.5}));
-  for (const char* wrong : {"", "1;2;3", "0;0;1;1;1", "0;0;1;", "3;0;-2;1", "0;1;1;1", "0;0;inf;1", "0,0,1,1"})
-    EXPECT_EQ(parseValue(wrong, PortType::kRectangle, ""), std::nullopt) << wrong;
-  EXPECT_EQ(toString(Value(Rectangle{-2.0, 0.0, 3.0, 1.5})), "-2;0;3;1.5");
-  EXPECT_EQ(parseValue("99999999999999999999", PortType::kInt, ""), std::nullopt);
-  EXPECT_EQ(toString(Value(Point{1.0, -2.5, std::nullopt})), "1;-2.5");
 }
 
 }  // namespace

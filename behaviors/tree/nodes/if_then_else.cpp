@@ -4,19 +4,14 @@
 
 namespace swiftlet::tree {
 
-std::string notTwoOrThree(std::size_t children) {
-  if (children == 2 || children == 3) return {};
-  return "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected 2 or 3";
-}
-
 NodeManifest IfThenElse::manifest() {
   return {.id = "IfThenElse",
           .kind = NodeKind::kControl,
           .ports = {},
-          .description = "The second child if the first succeeds, else the third, if there is one."};
+          .description = "The second child if the first succeeds, else the third, if there is one.",
+          .least_children = 2,
+          .most_children = 3};
 }
-
-std::string IfThenElse::checkBuilt() const { return notTwoOrThree(count()); }
 
 Status IfThenElse::run(TickContext& context) {
   if (chosen_ == 0) {

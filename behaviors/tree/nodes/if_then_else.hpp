@@ -16,7 +16,6 @@ class IfThenElse final : public Composite {
  public:
   using Composite::Composite;
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;
@@ -25,8 +24,5 @@ class IfThenElse final : public Composite {
 
   std::size_t chosen_ = 0;  ///< The child that runs: 0 is the condition.
 };
-
-/// "has 4 children, expected 2 or 3"; empty if the number is right.
-std::string notTwoOrThree(std::size_t children);
 
 }  // namespace swiftlet::tree

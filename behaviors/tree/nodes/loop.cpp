@@ -13,11 +13,13 @@ NodeManifest Loop::manifest(std::string id, PortType element) {
                      .elements = element},
                     {.name = "if_empty",
                      .default_value = "SUCCESS",
-                     .description = "The status when no element is left: SUCCESS, FAILURE or SKIPPED."},
+                     .description = "The status when no element is left.",
+                     .names_status = true},
                     {.name = "value",
                      .type = element,
                      .direction = Direction::kOutput,
-                     .description = "The entry that gets the element."}},
+                     .description = "The entry that gets the element.",
+                     .element_of = "queue"}},
           .description = "The child once for each element of a queue."};
 }
 
@@ -27,11 +29,6 @@ Loop::Loop(const NodeSetup& setup, PortType element)
       queue_(setup, "queue"),
       if_empty_(setup, "if_empty"),
       value_(setup, "value") {}
-
-std::string Loop::checkBuilt() const {
-  const auto text = if_empty_.get();
-  return text ? notAnAnswer("if_empty", *text) : std::string();
-}
 
 void Loop::clear(TickContext&) { left_.reset(); }
 

@@ -16,7 +16,6 @@ class Loop final : public Composite {
  public:
   Loop(const NodeSetup& setup, PortType element);
   static NodeManifest manifest(std::string id, PortType element);
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;

@@ -12,21 +12,23 @@ NodeManifest Parallel::manifest() {
                      .default_value = "-1",
                      .minimum = -1000,
                      .maximum = 1000,
-                     .description = "Number of children that must succeed; negative: counted from the end, -1 is all."},
+                     .description = "Number of children that must succeed; negative: counted from the end, -1 is all.",
+                     .counts_children = true},
                     {.name = "failure_count",
                      .type = PortType::kInt,
                      .default_value = "1",
                      .minimum = -1000,
                      .maximum = 1000,
                      .description =
-                         "Number of failures after which the node fails; negative: counted from the end, -1 is all."}},
+                         "Number of failures after which the node fails; negative: counted from the end, -1 is all.",
+                     .counts_children = true}},
           .description = "All children in the same tick, until enough of them succeeded or failed."};
 }
 
 Parallel::Parallel(const NodeSetup& setup)
     : Composite(setup), success_count_(setup, "success_count"), failure_count_(setup, "failure_count") {}
 
-std::string Parallel::checkBuilt() const {
+std::string Parallel::problemOfCounts() const {
   const std::string success = tooMany("success_count", success_count_.get(), count());
   return success.empty() ? tooMany("failure_count", failure_count_.get(), count()) : success;
 }
@@ -41,7 +43,7 @@ Status Parallel::run(TickContext& context) {
   const auto failure_count = failure_count_.get();
   if (!success_count) return endWith(context, fail(context, success_count_.problem()));
   if (!failure_count) return endWith(context, fail(context, failure_count_.problem()));
-  if (const std::string problem = checkBuilt(); !problem.empty()) return endWith(context, fail(context, problem));
+  if (const std::string problem = problemOfCounts(); !problem.empty()) return endWith(context, fail(context, problem));
   const std::size_t needed = threshold(*success_count, count());
   const std::size_t bearable = threshold(*failure_count, count());
 

@@ -20,10 +20,11 @@ class Parallel final : public Composite {
  public:
   explicit Parallel(const NodeSetup& setup);
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;
+  /// A count that was read from an entry and is more than the children; empty if there is none.
+  std::string problemOfCounts() const;
   void clear(TickContext&) override;
 
   Input<std::int64_t> success_count_;

@@ -13,13 +13,12 @@ NodeManifest ParallelAll::manifest() {
                      .minimum = -1000,
                      .maximum = 1000,
                      .description =
-                         "Number of failures after which the node fails; negative: counted from the end, -1 is all."}},
+                         "Number of failures after which the node fails; negative: counted from the end, -1 is all.",
+                     .counts_children = true}},
           .description = "All children in the same tick, until each of them has ended."};
 }
 
 ParallelAll::ParallelAll(const NodeSetup& setup) : Composite(setup), max_failures_(setup, "max_failures") {}
-
-std::string ParallelAll::checkBuilt() const { return tooMany("max_failures", max_failures_.get(), count()); }
 
 void ParallelAll::clear(TickContext&) {
   ended_.assign(count(), false);

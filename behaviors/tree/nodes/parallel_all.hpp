@@ -17,7 +17,6 @@ class ParallelAll final : public Composite {
  public:
   explicit ParallelAll(const NodeSetup& setup);
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;

@@ -12,18 +12,13 @@ NodeManifest Precondition::manifest() {
                      .asked = true},
                     {.name = "else",
                      .default_value = "FAILURE",
-                     .description =
-                         "Status of the node if the condition is not true: SUCCESS, FAILURE, RUNNING or SKIPPED."}},
+                     .description = "Status of the node if the condition is not true.",
+                     .names_status = true}},
           .description = "The child if a script is true, else a status."};
 }
 
 Precondition::Precondition(const NodeSetup& setup)
     : Composite(setup), if_(setup.port("if").script), else_(setup, "else") {}
-
-std::string Precondition::checkBuilt() const {
-  const auto text = else_.get();
-  return text ? notAnAnswer("else", *text) : std::string();
-}
 
 bool Precondition::onAsked(const TickContext& context) const {
   const auto holds = if_->holds();

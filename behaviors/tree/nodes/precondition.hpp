@@ -12,7 +12,6 @@ class Precondition final : public Composite {
  public:
   explicit Precondition(const NodeSetup& setup);
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;

@@ -19,7 +19,10 @@ NodeManifest SwitchNode::manifest(std::size_t cases) {
   NodeManifest manifest{.id = "Switch" + std::to_string(cases),
                         .kind = NodeKind::kControl,
                         .ports = {{.name = "variable", .description = "What is compared."}},
-                        .description = "The child of the first case that equals the variable, else the last child."};
+                        .description = "The child of the first case that equals the variable, else the last child.",
+                        .least_children = static_cast<int>(cases) + 1,
+                        .most_children = static_cast<int>(cases) + 1,
+                        .about_children = "one for each case, and one for all else"};
   for (std::size_t i = 1; i <= cases; ++i)
     manifest.ports.push_back({.name = "case_" + std::to_string(i),
                               .description = "The value that chooses child " + std::to_string(i) + "."});
@@ -29,12 +32,6 @@ NodeManifest SwitchNode::manifest(std::size_t cases) {
 SwitchNode::SwitchNode(const NodeSetup& setup, std::size_t cases)
     : Composite(setup), variable_(setup, "variable"), constants_(setup.constants) {
   for (std::size_t i = 1; i <= cases; ++i) cases_.emplace_back(setup, "case_" + std::to_string(i));
-}
-
-std::string SwitchNode::checkBuilt() const {
-  if (count() == cases_.size() + 1) return {};
-  return "has " + std::to_string(count()) + (count() == 1 ? " child" : " children") + ", expected " +
-         std::to_string(cases_.size() + 1) + ": one for each case, and one for all else";
 }
 
 std::size_t SwitchNode::chosen() const {

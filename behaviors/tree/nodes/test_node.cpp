@@ -10,7 +10,8 @@ NodeManifest TestNode::manifest() {
           .kind = NodeKind::kAction,
           .ports = {{.name = "return_status",
                      .default_value = "SUCCESS",
-                     .description = "Answer of the node: SUCCESS, FAILURE or SKIPPED."},
+                     .description = "Answer of the node.",
+                     .names_status = true},
                     {.name = "async_delay_msec",
                      .type = PortType::kDuration,
                      .default_value = "0",
@@ -30,11 +31,6 @@ TestNode::TestNode(const NodeSetup& setup)
       success_script_(setup.port("success_script").script),
       failure_script_(setup.port("failure_script").script),
       post_script_(setup.port("post_script").script) {}
-
-std::string TestNode::checkBuilt() const {
-  const auto text = return_status_.get();
-  return text ? notAnAnswer("return_status", *text) : std::string();
-}
 
 Release TestNode::onSuspend(TickContext& context) {
   watch_.stop(context.now_ns);

@@ -13,7 +13,6 @@ class TestNode final : public Leaf {
  public:
   explicit TestNode(const NodeSetup& setup);
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status act(TickContext& context) override;

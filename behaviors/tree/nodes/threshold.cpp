@@ -9,7 +9,7 @@ std::size_t threshold(std::int64_t asked, std::size_t children) {
   return static_cast<std::size_t>(std::max<std::int64_t>(0, asked < 0 ? all + asked + 1 : asked));
 }
 
-std::string tooMany(const char* port, const std::optional<std::int64_t>& asked, std::size_t children) {
+std::string tooMany(std::string_view port, const std::optional<std::int64_t>& asked, std::size_t children) {
   if (!asked || *asked <= static_cast<std::int64_t>(children)) return {};
   return std::string(port) + " is " + std::to_string(*asked) + ", but it has only " + std::to_string(children) +
          (children == 1 ? " child" : " children");

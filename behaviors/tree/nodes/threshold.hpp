@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace swiftlet::tree {
 
 /// The number of children that `asked` means.
 std::size_t threshold(std::int64_t asked, std::size_t children);
 /// "failure_count is 5, but it has only 3 children"; empty if there are enough of them, or the port is not known yet.
-std::string tooMany(const char* port, const std::optional<std::int64_t>& asked, std::size_t children);
+std::string tooMany(std::string_view port, const std::optional<std::int64_t>& asked, std::size_t children);
 
 }  // namespace swiftlet::tree

@@ -9,10 +9,9 @@ NodeManifest TryCatch::manifest() {
                      .type = PortType::kBool,
                      .default_value = "false",
                      .description = "Whether the last child is ticked once also when the others are halted."}},
-          .description = "The children but the last one after the other; when one fails, the last one, then FAILURE."};
+          .description = "The children but the last one after the other; when one fails, the last one, then FAILURE.",
+          .least_children = 2};
 }
-
-std::string TryCatch::checkBuilt() const { return count() > 1 ? "" : "has 1 child, expected at least 2"; }
 
 void TryCatch::clear(TickContext&) {
   current_ = skipped_ = 0;

@@ -14,7 +14,6 @@ class TryCatch final : public Composite {
  public:
   explicit TryCatch(const NodeSetup& setup) : Composite(setup), catch_on_halt_(setup, "catch_on_halt") {}
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;

@@ -9,7 +9,8 @@ NodeManifest UnsetBlackboard::manifest() {
                      .type = PortType::kAny,
                      .direction = Direction::kOutput,
                      .required = true,
-                     .description = "The entry that loses its value."}},
+                     .description = "The entry that loses its value.",
+                     .unsets = true}},
           .description = "Takes the value of a blackboard entry away."};
 }
 

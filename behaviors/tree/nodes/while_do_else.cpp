@@ -1,7 +1,6 @@
 #include "behaviors/tree/nodes/while_do_else.hpp"
 
 #include "behaviors/tree/nodes/ended_as.hpp"
-#include "behaviors/tree/nodes/if_then_else.hpp"
 
 namespace swiftlet::tree {
 
@@ -9,10 +8,10 @@ NodeManifest WhileDoElse::manifest() {
   return {.id = "WhileDoElse",
           .kind = NodeKind::kControl,
           .ports = {},
-          .description = "The second child while the first succeeds, else the third; asks the first at every tick."};
+          .description = "The second child while the first succeeds, else the third; asks the first at every tick.",
+          .least_children = 2,
+          .most_children = 3};
 }
-
-std::string WhileDoElse::checkBuilt() const { return notTwoOrThree(count()); }
 
 Status WhileDoElse::run(TickContext& context) {
   // A child that was halted lets go before anything else is asked.

@@ -17,7 +17,6 @@ class WhileDoElse final : public Composite {
  public:
   using Composite::Composite;
   static NodeManifest manifest();
-  std::string checkBuilt() const override;
 
  private:
   Status run(TickContext& context) override;

@@ -1,0 +1,73 @@
+// What is known of entries before the first tick: who sets them, and to which texts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Registry goalRegistry() {
+  Registry registry = Registry::standard();
+  registry.add({.id = "Fly", .kind = NodeKind::kAction, .ports = {{.name = "goal", .type = PortType::kPoint}}},
+               registry.find("AlwaysSuccess")->build);
+  return registry;
+}
+
+ParseResult withEntries(const std::string& inside) {
+  static const Registry kRegistry = goalRegistry();
+  return parseText(file(inside), "f.xml", kRegistry);
+}
+std::vector<std::string> entryProblems(const std::string& inside) { return linesOf(withEntries(inside).problems); }
+
+TEST(Entries, ThatAreOnlyUnsetAreNotSet) {
+  EXPECT_THAT(entryProblems("<Sequence><UnsetBlackboard key=\"k\"/><Script code=\"x := k\"/></Sequence>"),
+              ElementsAre(HasSubstr("Script.code: nothing sets the entry {k}")));
+  EXPECT_THAT(entryProblems("<Sequence><Script code=\"k := 1\"/><UnsetBlackboard key=\"k\"/><Script code=\"x := k\"/>"
+                            "</Sequence>"),
+              IsEmpty());
+}
+
+TEST(Entries, ThatAreUnsetHaveNoValueThatIsKnown) {
+  const auto knows = [](const std::string& more) {
+    const ParseResult result = withEntries("<Sequence><SetBlackboard value=\"0\" output_key=\"n\"/>" + more +
+                                           "<Repeat num_cycles=\"{n}\"><AlwaysSuccess/></Repeat></Sequence>");
+    const int repeat = static_cast<int>(result.tree->nodes().size()) - 2;
+    EXPECT_EQ(result.tree->knownValues(repeat, "num_cycles").size(), 1U);
+    return result.tree->knowsEveryValue(repeat, "num_cycles");
+  };
+  EXPECT_TRUE(knows(""));
+  EXPECT_TRUE(knows("<SetBlackboard value=\"0\" output_key=\"n\"/>"));
+  EXPECT_FALSE(knows("<UnsetBlackboard key=\"n\"/>"));
+}
+
+TEST(Entries, OfALoopAreTheElementsOfItsQueue) {
+  const auto loop = [](const std::string& type, const std::string& queue, const std::string& child) {
+    return "<" + type + " queue=\"" + queue + "\" value=\"{g}\">" + child + "</" + type + ">";
+  };
+  const std::string fly = "<Fly goal=\"{g}\"/>", repeat = "<Repeat num_cycles=\"{g}\"><AlwaysSuccess/></Repeat>";
+  EXPECT_THAT(entryProblems(loop("LoopString", "1;1 | 2;2", fly)),
+              ElementsAre(HasSubstr("3:13: queue: `1` is not a point `x;y` or `x;y;z` in metres (read by Fly.goal from "
+                                    "{g})"),
+                          HasSubstr("queue: `1 | 2` is not a point"), HasSubstr("queue: `2` is not a point")));
+  EXPECT_THAT(entryProblems(loop("LoopInt", "1;2;1", fly)).size(), 2U);
+  EXPECT_THAT(entryProblems(loop("LoopDouble", "2.0;3", repeat)), IsEmpty());
+  EXPECT_THAT(entryProblems(loop("LoopDouble", "2.5", repeat)), ElementsAre(HasSubstr("`2.5` is not a whole number")));
+  EXPECT_THAT(entryProblems("<Sequence><SetBlackboard value=\"2;3\" output_key=\"q\"/>" + loop("LoopInt", "{q}", fly) +
+                            "</Sequence>"),
+              ElementsAre(HasSubstr("Fly.goal: the entry {g} is written as whole number, expected a point")));
+}
+
+TEST(Entries, ATextThatIsCopiedTwiceIsJudgedOnce) {
+  EXPECT_THAT(
+      entryProblems("<Sequence><SetBlackboard value=\"here\" output_key=\"a\"/><Script code=\"b := a; c := a\"/>"
+                    "<Fly goal=\"{b}\"/><Fly goal=\"{c}\"/></Sequence>"),
+      ElementsAre(HasSubstr("value: `here` is not a point")));
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing
