@@ -17,6 +17,7 @@
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/data_paths.hpp"
+#include "common/printable.hpp"
 #include "interfaces/files/atomic_file.hpp"
 
 namespace swiftlet::apps {
@@ -45,10 +46,10 @@ behaviors::MissionVerdict judge(const std::string& mission, const CheckOptions& 
   }
 }
 
-/// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]".
+/// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.
 std::string lineOf(tree::Problem problem, bool warning) {
   if (warning) problem.element = "warning" + (problem.element.empty() ? "" : ": " + problem.element);
-  return toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]") + "\n";
+  return common::printable(toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]")) + "\n";
 }
 
 nlohmann::json jsonOf(const std::vector<tree::Problem>& problems) {
@@ -110,8 +111,7 @@ int check(const CheckOptions& options) {
   if (!options.draw.empty() && report.problems.empty()) draw(options);
   if (!options.dry_run.empty() && report.problems.empty()) {
     if (!options.json) print(report, 1);
-    showDryRun({options.missions.front(), options.dry_run, options.mock_leaves, options.json});
-    return kDone;
+    return showDryRun({options.missions.front(), options.dry_run, options.mock_leaves, options.json});
   }
   if (options.json) {
     nlohmann::json all = {{"problems", jsonOf(report.problems)}, {"warnings", jsonOf(report.warnings)}};
@@ -133,7 +133,7 @@ void addCheck(Command& program) {
   command.option("--system", options->system, "The profile they are to be flown with.");
   command.option("--dry-run", options->dry_run,
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "
-                 "`TakeOff: RUNNING x3, SUCCESS`.");
+                 "`TakeOff: RUNNING x3, SUCCESS`. The exit code is 1 unless the mission ends with SUCCESS.");
   command.option("--draw", options->draw, "Also write a picture of the tree into this file (SVG).");
   command.flag(
       "--mock-leaves", options->mock_leaves,

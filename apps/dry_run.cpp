@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/dry_run.hpp"
 #include "common/data_paths.hpp"
+#include "common/printable.hpp"
 #include "common/read_bytes.hpp"
 
 namespace swiftlet::apps {
@@ -15,38 +17,44 @@ namespace {
 
 double secondsOf(const tree::DryRunTick& tick) { return 1e-9 * static_cast<double>(tick.now_ns); }
 
-void printTicks(const tree::DryRun& run) {
-  for (const std::string& leaf : run.unscripted) show(fmt::format("not in the script: {}\n", leaf));
-  for (std::size_t i = 0; i < run.ticks.size(); ++i) {
-    const tree::DryRunTick& tick = run.ticks[i];
-    show(fmt::format("tick {}, {:.2f} s: {}\n", i + 1, secondsOf(tick), toString(tick.answer)));
-    for (const std::string& event : tick.events) show(fmt::format("  {}\n", event));
+/// In one line each, whatever the names in them hold.
+void showLine(const std::string& line) { show(common::printable(line) + "\n"); }
+
+/// The answer of the last tick.
+tree::Status printTicks(tree::DryRun& run) {
+  for (const std::string& leaf : run.unscripted()) showLine("not in the script: " + leaf);
+  tree::Status answer = tree::Status::kIdle;
+  int count = 0;
+  while (const auto tick = run.tick()) {
+    answer = tick->answer;
+    showLine(fmt::format("tick {}, {:.2f} s: {}", ++count, secondsOf(*tick), toString(answer)));
+    for (const std::string& event : tick->events) showLine("  " + event);
   }
-  const bool ended =
-      tree::Status::kSuccess == run.ticks.back().answer || tree::Status::kFailure == run.ticks.back().answer;
-  show(fmt::format("{} {} after {} ticks\n", ended ? "ended with" : "still", toString(run.ticks.back().answer),
-                   run.ticks.size()));
+  const bool ended = answer == tree::Status::kSuccess || answer == tree::Status::kFailure;
+  showLine(fmt::format("{} {} after {} ticks", ended ? "ended with" : "still", toString(answer), count));
+  return answer;
 }
 
-std::string ticksJson(const tree::DryRun& run) {
+tree::Status printJson(tree::DryRun& run) {
   auto ticks = nlohmann::json::array();
-  for (const tree::DryRunTick& tick : run.ticks)
-    ticks.push_back({{"time_s", secondsOf(tick)}, {"answer", toString(tick.answer)}, {"events", tick.events}});
-  const nlohmann::json all = {{"unscripted", run.unscripted}, {"ticks", ticks}};
-  return all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  tree::Status answer = tree::Status::kIdle;
+  while (const auto tick = run.tick()) {
+    answer = tick->answer;
+    ticks.push_back({{"time_s", secondsOf(*tick)}, {"answer", toString(answer)}, {"events", tick->events}});
+  }
+  const nlohmann::json all = {{"unscripted", run.unscripted()}, {"ticks", std::move(ticks)}};
+  showJson(all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return answer;
 }
 
 }  // namespace
 
-void showDryRun(const DryRunOptions& options) {
-  const tree::OutcomeScript script = tree::readOutcomeScript(common::readBytes(options.script), options.script);
-  const tree::DryRun run = tree::dryRun(common::findData(options.mission).string(), behaviors::missionRegistry(),
-                                        script, options.mock_leaves);
-  if (!run.problems.empty()) throw common::InputError(behaviors::toCommon(run.problems));
-  if (options.json)
-    showJson(ticksJson(run));
-  else
-    printTicks(run);
+int showDryRun(const DryRunOptions& options) {
+  tree::DryRun run(common::findData(options.mission).string(), behaviors::missionRegistry(),
+                   tree::readOutcomeScript(common::readBytes(options.script), options.script), options.mock_leaves);
+  if (!run.problems().empty()) throw common::InputError(behaviors::toCommon(run.problems()));
+  const tree::Status answer = options.json ? printJson(run) : printTicks(run);
+  return answer == tree::Status::kSuccess ? kDone : kFailed;
 }
 
 }  // namespace swiftlet::apps

@@ -12,7 +12,8 @@ struct DryRunOptions {
   bool json = false;
 };
 
-/// Prints what happens, tick by tick. Throws common::InputError for a script that cannot be used.
-void showDryRun(const DryRunOptions& options);
+/// Prints each tick as it happens; as JSON all of them at the end. Returns the exit code: kFailed if the mission ends
+/// with FAILURE, or is still RUNNING after the last tick. Throws common::InputError for a script that cannot be used.
+int showDryRun(const DryRunOptions& options);
 
 }  // namespace swiftlet::apps

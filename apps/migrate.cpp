@@ -9,6 +9,7 @@
 #include "behaviors/mission_check.hpp"
 #include "behaviors/tree/migrate.hpp"
 #include "common/error.hpp"
+#include "common/printable.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
 
@@ -24,7 +25,7 @@ int migrate(const MigrateOptions& options) {
   const tree::Migration migration = tree::migrateToVersion4(common::readBytes(options.file), options.file);
   if (!migration.problems.empty()) throw common::InputError(behaviors::toCommon(migration.problems));
   // What is printed to the standard output is the file alone, so that it can be redirected.
-  for (const tree::Problem& change : migration.changes) showError(toString(change) + "\n");
+  for (const tree::Problem& change : migration.changes) showError(common::printable(toString(change)) + "\n");
   if (migration.changes.empty()) showError(fmt::format("{}: it is of version 4 already\n", options.file));
   if (options.out.empty()) {
     show(migration.text);

@@ -1,9 +1,13 @@
 #include "behaviors/tree/dry_run.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <optional>
+#include <string_view>
 #include <utility>
 
+#include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 
@@ -12,10 +16,11 @@ namespace {
 
 /// The answers of one stand-in.
 struct Actor {
-  std::vector<Status> answers;
-  bool by_tick = false;      ///< A condition: one for each tick of the tree.
-  std::size_t next = 0;      ///< Of the others: the next answer.
-  bool was_skipped = false;  ///< In this tick.
+  std::vector<Status> usual = {};                ///< Of a leaf that the script does not name.
+  const std::vector<Status>* answers = nullptr;  ///< Of the script; null: the usual ones.
+  bool by_tick = false;                          ///< A condition: one for each tick of the tree.
+  std::size_t next = 0;                          ///< Of the others: the next answer.
+  bool was_skipped = false;                      ///< In this tick.
 };
 
 class Cast {
@@ -24,8 +29,9 @@ class Cast {
     const auto found = actors_.find(leaf.id());
     if (found == actors_.end()) return Status::kSuccess;  // Asked before the tree is built.
     Actor& actor = found->second;
-    const std::size_t last = actor.answers.size() - 1;
-    const Status answer = actor.answers[std::min(actor.by_tick ? tick_ : actor.next, last)];
+    const std::vector<Status>& answers = actor.answers == nullptr ? actor.usual : *actor.answers;
+    const std::size_t last = answers.size() - 1;
+    const Status answer = answers[std::min(actor.by_tick ? tick_ : actor.next, last)];
     if (answer == Status::kSkipped)
       actor.was_skipped = true;
     else if (ticked)
@@ -84,16 +90,23 @@ Registry withStandInLeaves(const Registry& base, const MockAnswer& answer) {
 /// Gives each stand-in of a tree its answers.
 class Casting {
  public:
-  Casting(const Tree& tree, const OutcomeScript& script, Cast& cast, DryRun& run)
-      : tree_(tree), script_(script), cast_(cast), run_(run), used_(script.leaves.size()) {}
+  Casting(const Tree& tree, const OutcomeScript& script, Cast& cast, Problems& problems)
+      : tree_(tree), script_(script), cast_(cast), problems_(problems), used_(script.leaves.size()) {
+    for (std::size_t i = 0; i < script.leaves.size(); ++i) lines_.emplace(script.leaves[i].leaf, i);
+  }
 
-  void assign() {
-    const Registry engine = Registry::standard();
+  /// Returns the leaves that the script does not name.
+  std::vector<std::string> assign() {
     for (const NodeRecord& record : tree_.nodes())
-      if (record.manifest != nullptr && record.node->children().empty() && engine.find(record.manifest->id) == nullptr)
-        assign(record);
-    for (std::size_t i = 0; i < used_.size(); ++i)
-      if (!used_[i]) reportUnused(script_.leaves[i], engine);
+      if (record.manifest != nullptr && record.node->children().empty()) {
+        const bool of_engine = engine_.find(record.manifest->id) != nullptr;
+        for (const std::string* name : {&record.node->name(), &record.manifest->id})
+          of_engine_[*name] = of_engine || of_engine_[*name];
+        if (!of_engine) assign(record);
+      }
+    for (std::size_t i = 0; i < used_.size() && !problems_.full(); ++i)
+      if (!used_[i]) reportUnused(script_.leaves[i]);
+    return std::move(unscripted_);
   }
 
  private:
@@ -104,83 +117,108 @@ class Casting {
     const ScriptedAnswers* scripted = scriptOf(path, record.node->name(), manifest.id);
     if (scripted == nullptr) {
       const Status usual = manifest.may_skip ? Status::kSkipped : condition ? Status::kFailure : Status::kSuccess;
-      cast_.add(record.node->id(), {{usual}, condition});
-      run_.unscripted.push_back(path + ": " + toString(usual));
+      cast_.add(record.node->id(), {.usual = {usual}, .by_tick = condition});
+      unscripted_.push_back(path + ": " + toString(usual));
       return;
     }
     const auto given = [&](Status status) {
       return std::find(scripted->answers.begin(), scripted->answers.end(), status) != scripted->answers.end();
     };
     if (condition && (given(Status::kRunning) || given(Status::kSkipped)))
-      run_.problems.push_back({scripted->location, scripted->leaf, "a condition is true or false", {}, path});
+      problems_.add({scripted->location, scripted->leaf, "a condition is true or false", {}, path});
     else if (given(Status::kSkipped) && !manifest.may_skip)
-      run_.problems.push_back({scripted->location, scripted->leaf, "`" + manifest.id + "` is never SKIPPED", {}, path});
-    cast_.add(record.node->id(), {scripted->answers, condition});
+      problems_.add({scripted->location, scripted->leaf, "`" + manifest.id + "` is never SKIPPED", {}, path});
+    cast_.add(record.node->id(), {.answers = &scripted->answers, .by_tick = condition});
   }
 
-  /// The entry that names the leaf best: by its path, by its name, by its type.
+  /// The line that names the leaf best: by its path, by its name, by its type.
   const ScriptedAnswers* scriptOf(const std::string& path, const std::string& name, const std::string& type) {
     for (const std::string* key : {&path, &name, &type})
-      for (std::size_t i = 0; i < script_.leaves.size(); ++i) {
-        if (script_.leaves[i].leaf != *key) continue;
-        used_[i] = true;
-        return &script_.leaves[i];
+      if (const auto line = lines_.find(*key); line != lines_.end()) {
+        used_[line->second] = true;
+        return &script_.leaves[line->second];
       }
     return nullptr;
   }
 
-  void reportUnused(const ScriptedAnswers& scripted, const Registry& engine) {
-    std::vector<std::string> names;
-    bool of_engine = false, overridden = false;
-    for (const NodeRecord& record : tree_.nodes()) {
-      if (record.manifest == nullptr || !record.node->children().empty()) continue;
-      const bool named = record.node->name() == scripted.leaf || record.manifest->id == scripted.leaf;
-      of_engine = of_engine || (named && engine.find(record.manifest->id) != nullptr);
-      overridden = overridden || named;
-      names.push_back(record.node->name());
-      names.push_back(record.manifest->id);
+  void reportUnused(const ScriptedAnswers& scripted) {
+    const auto named = of_engine_.find(scripted.leaf);
+    if (named != of_engine_.end()) {
+      problems_.add({scripted.location,
+                     scripted.leaf,
+                     named->second ? "it is a node of the engine, which is ticked as it is"
+                                   : "other lines name each of these leaves better",
+                     {}});
+      return;
     }
-    run_.problems.push_back({scripted.location, scripted.leaf,
-                             of_engine    ? "it is a node of the engine, which is ticked as it is"
-                             : overridden ? "other lines name each of these leaves better"
-                                          : "the mission has no such leaf",
-                             overridden ? "" : didYouMean(scripted.leaf, names)});
+    std::vector<std::string> names;
+    for (const auto& [name, of_engine] : of_engine_) names.push_back(name);
+    problems_.add({scripted.location, scripted.leaf, "the mission has no such leaf", didYouMean(scripted.leaf, names)});
   }
 
   const Tree& tree_;
   const OutcomeScript& script_;
   Cast& cast_;
-  DryRun& run_;
+  Problems& problems_;
+  Registry engine_ = Registry::standard();
+  std::map<std::string_view, std::size_t> lines_;       ///< Of the script, by what they name.
+  std::map<std::string, bool, std::less<>> of_engine_;  ///< Names and types of leaves: whether one is of the engine.
+  std::vector<std::string> unscripted_;
   std::vector<bool> used_;
 };
 
 }  // namespace
 
-DryRun dryRun(const std::string& path, const Registry& base, const OutcomeScript& script, bool mocks) {
-  DryRun run;
-  run.problems = script.problems;
-  if (!run.problems.empty()) return run;
+struct DryRun::Parts {
+  OutcomeScript script;
   Cast cast;
-  const MockAnswer answer = [&cast](const Node& leaf, bool ticked) { return cast.answerOf(leaf, ticked); };
-  Registry registry = withStandInLeaves(base, answer);
-  if (mocks) registry = withMocks(path, registry, {}, answer).registry;
-  ParseResult parsed = parseFile(path, registry);
-  run.problems = std::move(parsed.problems);
-  if (!parsed.tree) return run;
-  Casting(*parsed.tree, script, cast, run).assign();
-  if (!run.problems.empty()) return run;
-
-  Scribe scribe(*parsed.tree);
+  Registry registry;
+  std::optional<Tree> tree;
+  std::optional<Scribe> scribe;
   TickContext context;
-  context.observer = &scribe;
-  for (int i = 0; i < script.ticks; ++i) {
-    context.now_ns += std::int64_t{script.tick_ms} * 1'000'000;
-    const Status status = parsed.tree->tick(context);
-    cast.endTick();
-    run.ticks.push_back({context.now_ns, status, scribe.take()});
-    if (status == Status::kSuccess || status == Status::kFailure) break;
-  }
-  return run;
+  std::vector<Problem> problems;
+  std::vector<std::string> unscripted;
+  int ticks = 0;
+  bool ended = false;
+};
+
+DryRun::DryRun(const std::string& path, const Registry& base, OutcomeScript script, bool mocks)
+    : parts_(std::make_unique<Parts>()) {
+  Parts& parts = *parts_;
+  parts.script = std::move(script);
+  parts.problems = parts.script.problems;
+  if (!parts.problems.empty()) return;
+  const MockAnswer answer = [&parts](const Node& leaf, bool ticked) { return parts.cast.answerOf(leaf, ticked); };
+  parts.registry = withStandInLeaves(base, answer);
+  if (mocks) parts.registry = withMocks(path, parts.registry, {}, answer).registry;
+  ParseResult parsed = parseFile(path, parts.registry);
+  parts.problems = std::move(parsed.problems);
+  if (!parsed.tree) return;
+  parts.tree = std::move(parsed.tree);
+  Problems problems(ParseLimits{}.problems);
+  parts.unscripted = Casting(*parts.tree, parts.script, parts.cast, problems).assign();
+  parts.problems = problems.take();
+  parts.scribe.emplace(*parts.tree);
+  parts.context.observer = &*parts.scribe;
+}
+
+DryRun::~DryRun() = default;
+DryRun::DryRun(DryRun&&) noexcept = default;
+DryRun& DryRun::operator=(DryRun&&) noexcept = default;
+
+const std::vector<Problem>& DryRun::problems() const { return parts_->problems; }
+
+const std::vector<std::string>& DryRun::unscripted() const { return parts_->unscripted; }
+
+std::optional<DryRunTick> DryRun::tick() {
+  Parts& parts = *parts_;
+  if (!parts.problems.empty() || parts.ended || parts.ticks == parts.script.ticks) return std::nullopt;
+  ++parts.ticks;
+  parts.context.now_ns += std::int64_t{parts.script.tick_ms} * 1'000'000;
+  const Status status = parts.tree->tick(parts.context);
+  parts.cast.endTick();
+  parts.ended = status == Status::kSuccess || status == Status::kFailure;
+  return DryRunTick{parts.context.now_ns, status, parts.scribe->take()};
 }
 
 }  // namespace swiftlet::tree

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "behaviors/tree/outcome_script.hpp"
-#include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/registry.hpp"
 
@@ -20,17 +21,27 @@ struct DryRunTick {
   std::vector<std::string> events;
 };
 
-struct DryRun {
-  /// Leaves that the script does not name, and what they answer: "Land: SUCCESS".
-  std::vector<std::string> unscripted;
-  std::vector<DryRunTick> ticks;  ///< To the first SUCCESS or FAILURE of the tree, or the limit of the script.
-  std::vector<Problem> problems;  ///< Of the file and of the script. With one there are no ticks.
-};
+/// Leaves of `base` that are not of the engine are stand-ins with the ports of their types (mocks.hpp). With `mocks`,
+/// types that `base` does not have are mocks. A leaf that the script does not name is SKIPPED if it can be, a condition
+/// that it does not name is false, any other leaf SUCCESS. The engine's own leaves (Script, Sleep ...) do what they
+/// always do.
+class DryRun {
+ public:
+  DryRun(const std::string& path, const Registry& base, OutcomeScript script, bool mocks);
+  ~DryRun();
+  DryRun(DryRun&&) noexcept;
+  DryRun& operator=(DryRun&&) noexcept;
 
-/// Leaves of `base` that are not of the engine are stand-ins with the ports of their types; they neither read nor write
-/// entries. With `mocks`, types that `base` does not have are mocks (mocks.hpp). A leaf that the script does not name
-/// is SKIPPED if it can be, a condition that it does not name is false, any other leaf SUCCESS. The engine's own leaves
-/// (Script, Sleep ...) do what they always do.
-DryRun dryRun(const std::string& path, const Registry& base, const OutcomeScript& script, bool mocks);
+  /// Of the file and of the script. With one there are no ticks.
+  const std::vector<Problem>& problems() const;
+  /// Leaves that the script does not name, and what they answer: "Land: SUCCESS".
+  const std::vector<std::string>& unscripted() const;
+  /// Ticks the tree; nothing after its first SUCCESS or FAILURE, and at the limit of the script.
+  std::optional<DryRunTick> tick();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace swiftlet::tree

@@ -14,19 +14,60 @@
 namespace swiftlet::tree {
 namespace {
 
+/// A value of the type of a port, where no other is known.
+Value standInValue(const PortManifest& port) {
+  switch (port.type) {
+    case PortType::kDouble:
+      return 0.0;
+    case PortType::kInt:
+      return std::int64_t{0};
+    case PortType::kBool:
+      return false;
+    case PortType::kPoint:
+      return Point{};
+    case PortType::kPoints:
+      return Points{{Point{}}};
+    case PortType::kRectangle:
+      return Rectangle{0.0, 0.0, 1.0, 1.0};
+    case PortType::kDuration:
+      return Duration{};
+    case PortType::kAny:
+    case PortType::kString:
+    case PortType::kScript:
+      break;
+  }
+  return port.name;
+}
+
 class MockLeaf final : public Leaf {
  public:
-  MockLeaf(const NodeSetup& setup, const MockAnswer& answer) : Leaf(setup), answer_(answer) {}
+  MockLeaf(const NodeSetup& setup, const MockAnswer& answer) : Leaf(setup), answer_(answer) {
+    for (const PortBinding& binding : setup.ports) {
+      if (binding.slot == nullptr) continue;
+      if (binding.manifest->direction == Direction::kInput) inputs_.push_back(binding);
+      if (binding.manifest->direction == Direction::kOutput) outputs_.push_back(binding);
+    }
+  }
 
  private:
   Status answer(bool ticked) const { return answer_ ? answer_(*this, ticked) : Status::kSuccess; }
   bool onAsked(const TickContext&) const override { return answer(false) != Status::kSkipped; }
-  Status act(TickContext&) override {
+  void onStart(TickContext&) override {
+    problem_.clear();
+    for (const PortBinding& input : inputs_)
+      if (problem_.empty()) problem_ = readingProblem(input);
+  }
+  Status act(TickContext& context) override {
+    if (!problem_.empty()) return fail(context, problem_);
     const Status status = answer(true);
+    if (status == Status::kSuccess)
+      for (const PortBinding& output : outputs_) output.slot->write(standInValue(*output.manifest));
     return status == Status::kSkipped ? Status::kRunning : status;
   }
 
   MockAnswer answer_;
+  std::vector<PortBinding> inputs_, outputs_;  ///< Those that are bound to entries.
+  std::string problem_;                        ///< Of an input that could not be read at the start.
 };
 
 /// What the files tell about a type.

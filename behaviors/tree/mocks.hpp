@@ -18,7 +18,9 @@ namespace swiftlet::tree {
 /// tick.
 using MockAnswer = std::function<Status(const Node& mock, bool ticked)>;
 
-/// Replaces a type without children by a mock with the same ports.
+/// Replaces a type without children by a mock with the same ports. It fails at its start if it cannot read an input
+/// from its entry. With SUCCESS it writes to the entries of its outputs: 0, false, the point `0;0` or, as text, the
+/// name of the port.
 void addMockLeaf(Registry& registry, const NodeManifest& manifest, const MockAnswer& answer);
 
 struct Mock {

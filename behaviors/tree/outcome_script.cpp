@@ -1,6 +1,8 @@
 #include "behaviors/tree/outcome_script.hpp"
 
 #include <charconv>
+#include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -15,6 +17,16 @@ std::string_view withoutBlanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// `#` begins a comment at the start of a line and, after blanks, behind the answers: names of leaves may hold one.
+std::string_view withoutComment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    const std::string_view before = line.substr(0, at);
+    const bool behind = before.find(':') != std::string_view::npos && (before.back() == ' ' || before.back() == '\t');
+    if (withoutBlanks(before).empty() || behind) return before;
+  }
+  return line;
 }
 
 std::optional<int> countOf(std::string_view text, int most) {
@@ -35,6 +47,8 @@ class ScriptLines {
   explicit ScriptLines(std::string file) : file_(std::move(file)) {}
 
   OutcomeScript read(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     for (int line = 1; !text.empty(); ++line) {
       const std::size_t end = text.find('\n');
       readLine(text.substr(0, end), line);
@@ -45,8 +59,8 @@ class ScriptLines {
 
  private:
   void readLine(std::string_view line, int number) {
-    const std::string_view content = withoutBlanks(line);
-    if (content.empty() || content.front() == '#') return;
+    const std::string_view content = withoutBlanks(withoutComment(line));
+    if (content.empty()) return;
     const auto column = static_cast<int>(content.data() - line.data()) + 1;
     const Location place{file_, number, column};
     // The last colon, because names may have some.
@@ -74,6 +88,11 @@ class ScriptLines {
 
   void readAnswers(const std::string& leaf, std::string_view value, const Location& place) {
     ScriptedAnswers scripted{leaf, {}, place};
+    if (const auto [first, is_new] = lines_.try_emplace(leaf, place.line); !is_new) {
+      script_.problems.push_back({place, leaf, "is named twice, first in line " + std::to_string(first->second),
+                                  "write all its answers in one line"});
+      return;
+    }
     while (true) {
       const std::size_t comma = value.find(',');
       if (!readAnswer(withoutBlanks(value.substr(0, comma)), scripted)) return;
@@ -103,6 +122,7 @@ class ScriptLines {
 
   std::string file_;
   OutcomeScript script_;
+  std::map<std::string, int, std::less<>> lines_;  ///< Of the leaves that are named.
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 //   # comment
 //   ticks: 60                                 at most so many; 100 if not given
 //   tick_ms: 100                              between two ticks; 100 if not given
-//   TakeOff: RUNNING x3, SUCCESS              one answer for each tick of the leaf; the last one stays
+//   TakeOff: RUNNING x3, SUCCESS  # as here   one answer for each tick of the leaf; the last one stays
 //   Main/Priority/Hold: SKIPPED x5, RUNNING, SUCCESS, SKIPPED
 //   IsBatteryLow: false x20, true             one for each tick of the tree
 //

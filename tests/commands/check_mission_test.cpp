@@ -1,4 +1,6 @@
 // swiftlet check with warnings and dry runs, and swiftlet migrate, as users meet them.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -78,6 +80,27 @@ TEST_F(CheckMission, AScriptThatDoesNotFitIsRefused) {
   EXPECT_EQ(end.err, script + ":2:1: Takeof: the mission has no such leaf, did you mean `TakeOff`?\n");
   EXPECT_EQ(runSwiftlet({"check", "--dry-run", script, mission, mission}).exit_code, 2);
   EXPECT_EQ(runSwiftlet({"check", "--dry-run", path("none"), mission}).exit_code, 2);
+}
+
+TEST_F(CheckMission, TheExitCodeOfADryRunSaysHowItEnded) {
+  const std::string mission = write("mission.xml", missionWith(kHop));
+  const auto codeOf = [&](const std::string& script, bool json) {
+    std::vector<std::string> arguments = {"check", "--dry-run", write("s.script", script), mission};
+    if (json) arguments.push_back("--json");
+    return runSwiftlet(arguments).exit_code;
+  };
+  for (const bool json : {false, true}) {
+    EXPECT_EQ(codeOf("TakeOff: SUCCESS\n", json), 0);
+    EXPECT_EQ(codeOf("TakeOff: FAILURE\n", json), 1);
+    EXPECT_EQ(codeOf("TakeOff: RUNNING\nticks: 3\n", json), 1);
+  }
+}
+
+TEST_F(CheckMission, ANameWithALineEndStaysInItsLine) {
+  const std::string path = write("m.xml", missionWith("      <TakeOff name=\"a&#10;b\" x=\"1\"/>\n      <Land/>\n"));
+  const ProgramEnd end = runSwiftlet({"check", path});
+  EXPECT_THAT(end.err, HasSubstr("[Main/Sequence/a\\nb]\n"));
+  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << describe(end);
 }
 
 TEST_F(CheckMission, AMissionThatIsNotSoundHasNoDryRun) {

@@ -1,4 +1,6 @@
 // A tree ticked with scripted answers of its leaves: the script as people write it, and the trace.
+#include <ctime>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,19 +20,36 @@ Registry flyingRegistry() {
   Registry registry = Registry::standard();
   const auto build = registry.find("AlwaysSuccess")->build;
   registry.add({.id = "Fly", .kind = NodeKind::kAction, .ports = {{.name = "goal", .required = true}}}, build);
+  registry.add({.id = "Climb", .kind = NodeKind::kAction, .ports = {{.name = "height_m", .type = PortType::kDouble}}},
+               build);
+  registry.add({.id = "Find",
+                .kind = NodeKind::kAction,
+                .ports = {{.name = "height_m", .type = PortType::kDouble, .direction = Direction::kOutput}}},
+               build);
   registry.add({.id = "Land", .kind = NodeKind::kAction}, build);
   registry.add({.id = "Hold", .kind = NodeKind::kAction, .may_skip = true}, build);
   registry.add({.id = "IsLow", .kind = NodeKind::kCondition}, build);
   return registry;
 }
 
+/// A dry run to its end.
+struct Ran {
+  std::vector<std::string> unscripted;
+  std::vector<DryRunTick> ticks;
+  std::vector<Problem> problems;
+};
+
 class DryRuns : public test_support::Scratch {
  protected:
-  DryRun run(const std::string& inside, const std::string& script, bool mocks = false) const {
-    return dryRun(write("m.xml", file(inside)), flyingRegistry(), readOutcomeScript(script, "s.txt"), mocks);
+  Ran run(const std::string& inside, const std::string& script, bool mocks = false) const {
+    const Registry registry = flyingRegistry();
+    DryRun run(write("m.xml", file(inside)), registry, readOutcomeScript(script, "s.txt"), mocks);
+    Ran ran{run.unscripted(), {}, run.problems()};
+    while (auto tick = run.tick()) ran.ticks.push_back(std::move(*tick));
+    return ran;
   }
   /// "RUNNING RUNNING SUCCESS".
-  static std::string answers(const DryRun& run) {
+  static std::string answers(const Ran& run) {
     std::string text;
     for (const DryRunTick& tick : run.ticks) text += (text.empty() ? "" : " ") + std::string(toString(tick.answer));
     return text;
@@ -59,9 +78,45 @@ TEST(OutcomeScripts, MistakesHaveAPlace) {
     EXPECT_EQ(problemsOf(wrong).size(), 1U) << wrong;
 }
 
+TEST(OutcomeScripts, MayHaveCommentsBehindAnswersAndAByteOrderMark) {
+  const OutcomeScript script = readOutcomeScript(
+      "\xEF\xBB\xBF"
+      "Fly: RUNNING, SUCCESS # as: usual\n  # Land: FAILURE\nM/Go #2: FAILURE\nticks: 7 # few",
+      "s.txt");
+  EXPECT_THAT(linesOf(script.problems), IsEmpty());
+  ASSERT_EQ(script.leaves.size(), 2U);
+  EXPECT_EQ(script.leaves[0].leaf, "Fly");
+  EXPECT_THAT(script.leaves[0].answers, ElementsAre(Status::kRunning, Status::kSuccess));
+  EXPECT_EQ(script.leaves[1].leaf, "M/Go #2");
+  EXPECT_EQ(script.ticks, 7);
+}
+
+TEST(OutcomeScripts, NameALeafOnce) {
+  EXPECT_THAT(linesOf(readOutcomeScript("Fly: SUCCESS\nLand: SUCCESS\nFly: FAILURE", "s.txt").problems),
+              ElementsAre("s.txt:3:1: Fly: is named twice, first in line 1, write all its answers in one line"));
+}
+
+TEST_F(DryRuns, LeavesReadTheirInputs) {
+  const auto climb = [this](const std::string& before) {
+    const Ran made = run("<Sequence>" + before + "<Climb height_m=\"{h}\"/></Sequence>", "Climb: RUNNING, SUCCESS");
+    EXPECT_THAT(linesOf(made.problems), IsEmpty());
+    return made.ticks.back().answer == Status::kSuccess ? "done" : made.ticks.back().events.front();
+  };
+  EXPECT_EQ(climb("<SetBlackboard value=\"1\" output_key=\"h\"/>"), "done");
+  EXPECT_EQ(climb("<Find height_m=\"{h}\"/>"), "done") << "what a leaf writes has a value";
+  EXPECT_THAT(run("<Sequence><SetBlackboard value=\"1\" output_key=\"h\"/><UnsetBlackboard key=\"h\"/>"
+                  "<Climb height_m=\"{h}\"/></Sequence>",
+                  "")
+                  .ticks.back()
+                  .events,
+              ::testing::Contains("Main/Sequence/Climb fails: port height_m: the entry {h} is not set"));
+  EXPECT_THAT(
+      run("<Sequence><Script code=\"h := 'a' .. 'b'\"/><Climb height_m=\"{h}\"/></Sequence>", "").ticks.back().events,
+      ::testing::Contains(HasSubstr("the entry {h} is `ab`, expected a number in metres")));
+}
+
 TEST_F(DryRuns, TellWhatHappensTickByTick) {
-  const DryRun run =
-      this->run("<Sequence><Fly goal=\"a\"/><Land/></Sequence>", "Fly: RUNNING x2, SUCCESS\ntick_ms: 50");
+  const Ran run = this->run("<Sequence><Fly goal=\"a\"/><Land/></Sequence>", "Fly: RUNNING x2, SUCCESS\ntick_ms: 50");
   EXPECT_THAT(linesOf(run.problems), IsEmpty());
   EXPECT_THAT(run.unscripted, ElementsAre("Main/Sequence/Land: SUCCESS"));
   ASSERT_EQ(answers(run), "RUNNING RUNNING SUCCESS");
@@ -74,9 +129,8 @@ TEST_F(DryRuns, TellWhatHappensTickByTick) {
 }
 
 TEST_F(DryRuns, ALeafIsNamedByPathNameOrType) {
-  const DryRun run =
-      this->run("<Sequence><Fly goal=\"a\"/><Fly goal=\"b\" name=\"second\"/><Fly goal=\"c\"/></Sequence>",
-                "Fly: SUCCESS\nsecond: RUNNING, SUCCESS\nMain/Sequence/Fly[2]: RUNNING x2, FAILURE");
+  const Ran run = this->run("<Sequence><Fly goal=\"a\"/><Fly goal=\"b\" name=\"second\"/><Fly goal=\"c\"/></Sequence>",
+                            "Fly: SUCCESS\nsecond: RUNNING, SUCCESS\nMain/Sequence/Fly[2]: RUNNING x2, FAILURE");
   EXPECT_THAT(linesOf(run.problems), IsEmpty());
   EXPECT_EQ(answers(run), "RUNNING RUNNING RUNNING FAILURE");
 }
@@ -88,8 +142,8 @@ TEST_F(DryRuns, AnswersGoOnWhereALeafStartsAnew) {
 }
 
 TEST_F(DryRuns, ASkippedAnswerIsUsedUpByATick) {
-  const DryRun run = this->run("<Priority><Hold/><Fly goal=\"a\"/></Priority>",
-                               "Hold: SKIPPED x2, RUNNING, SUCCESS, SKIPPED\nFly: RUNNING x4, SUCCESS");
+  const Ran run = this->run("<Priority><Hold/><Fly goal=\"a\"/></Priority>",
+                            "Hold: SKIPPED x2, RUNNING, SUCCESS, SKIPPED\nFly: RUNNING x4, SUCCESS");
   EXPECT_THAT(linesOf(run.problems), IsEmpty());
   // Fly is ticked in all but the third tick, in which Hold has the vehicle.
   EXPECT_EQ(answers(run), "RUNNING RUNNING RUNNING RUNNING RUNNING SUCCESS");
@@ -104,7 +158,7 @@ TEST_F(DryRuns, AConditionIsAskedByTheTick) {
 }
 
 TEST_F(DryRuns, TheEnginesLeavesAndTimesAreReal) {
-  const DryRun run = this->run(
+  const Ran run = this->run(
       "<Sequence><Script code=\"n := 2\"/><Sleep msec=\"250\"/><ScriptCondition code=\"n == 2\"/>"
       "<Timeout msec=\"300\"><Fly goal=\"a\"/></Timeout></Sequence>",
       "Fly: RUNNING");
@@ -112,12 +166,20 @@ TEST_F(DryRuns, TheEnginesLeavesAndTimesAreReal) {
   EXPECT_THAT(run.ticks.back().events, ::testing::Contains(HasSubstr("Main/Sequence/Timeout fails: ")));
 }
 
+TEST_F(DryRuns, OfWideTreesTakeAMoment) {
+  const std::clock_t start = std::clock();
+  std::string leaves;
+  for (int i = 0; i < 20'000; ++i) leaves += "<Land/>";
+  const Ran made = run("<Sequence>" + leaves + "</Sequence>", "Land: SUCCESS x50000\n");
+  EXPECT_EQ(made.ticks.at(0).events.size(), 20'001U);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 3.0);
+}
+
 TEST_F(DryRuns, StopAtTheLimit) { EXPECT_EQ(run("<Fly goal=\"a\"/>", "Fly: RUNNING\nticks: 5").ticks.size(), 5U); }
 
 TEST_F(DryRuns, ScriptsThatDoNotFitAreRefused) {
   const auto problemsOf = [this](const char* script) {
-    const DryRun made =
-        run("<Priority><Hold/><Sequence><IsLow/><Sleep msec=\"1\"/><Land/></Sequence></Priority>", script);
+    const Ran made = run("<Priority><Hold/><Sequence><IsLow/><Sleep msec=\"1\"/><Land/></Sequence></Priority>", script);
     EXPECT_THAT(made.ticks, IsEmpty());
     return linesOf(made.problems);
   };
