@@ -20,13 +20,16 @@ struct NodesOptions {
 /// All nodes that are named, or all names that are no node's.
 int printNamed(const std::vector<std::string>& names, const tree::Registry& registry) {
   std::string help, problems;
+  std::vector<std::string> known = registry.ids();
+  known.push_back(tree::subTreeManifest().id);
   for (const std::string& name : names) {
     if (const tree::NodeType* type = registry.find(name))
       help += tree::writeNodeHelp(type->manifest);
+    else if (name == tree::subTreeManifest().id)
+      help += tree::writeNodeHelp(tree::subTreeManifest());
     else
       problems +=
-          toString(tree::Problem{{}, "nodes", "unknown node `" + name + "`", tree::didYouMean(name, registry.ids())}) +
-          "\n";
+          toString(tree::Problem{{}, "nodes", "unknown node `" + name + "`", tree::didYouMean(name, known)}) + "\n";
   }
   show(help);
   showError(problems);

@@ -57,7 +57,9 @@ std::string writeTreeNodesModel(const Registry& registry);
 std::string writeSchema(const Registry& registry);
 /// A Markdown table of every type: kind, sentence, and its ports with bounds and defaults.
 std::string writeNodeTable(const Registry& registry);
-/// A line for each type: its name and its sentence.
+/// What <SubTree> is, for documents: it is an element of the format and no type of the registry.
+const NodeManifest& subTreeManifest();
+/// A line for each type, and for SubTree: its name and its sentence.
 std::string writeNodeList(const Registry& registry);
 /// A type in plain text: its sentence, and each port with bounds, default and what it means.
 std::string writeNodeHelp(const NodeManifest& manifest);

@@ -1,4 +1,6 @@
+#include <map>
 #include <string>
+#include <string_view>
 
 #include "behaviors/tree/registry.hpp"
 
@@ -39,9 +41,26 @@ std::string writeNodeTable(const Registry& registry) {
   return text;
 }
 
+const NodeManifest& subTreeManifest() {
+  static const NodeManifest kSubTree = {
+      .id = "SubTree",
+      .ports = {{.name = "ID", .required = true, .description = "The ID of a <BehaviorTree>."},
+                {.name = "_autoremap",
+                 .type = PortType::kBool,
+                 .default_value = "false",
+                 .description = "Whether every entry that is not given is that of the same name around the SubTree."}},
+      .description =
+          "Runs another tree, with entries of its own; any other attribute is an entry of that tree, and "
+          "gives it a text or an entry {x} of this one."};
+  return kSubTree;
+}
+
 std::string writeNodeList(const Registry& registry) {
+  std::map<std::string_view, std::string_view> lines;
+  for (const auto& [id, type] : registry.types()) lines.emplace(id, type.manifest.description);
+  lines.emplace(subTreeManifest().id, subTreeManifest().description);
   std::string text;
-  for (const auto& [id, type] : registry.types()) text += id + ": " + type.manifest.description + "\n";
+  for (const auto& [id, description] : lines) text.append(id).append(": ").append(description).append("\n");
   return text;
 }
 

@@ -70,6 +70,9 @@ TEST(Nodes, PrintsAListAndThePortsOfThoseThatAreNamed) {
             "  yaw_deg: a number in degrees from -360 to 360, required\n"
             "      Heading in the map frame, counter-clockwise; 0 is that of the take-off, or the x axis of the given "
             "map.\n");
+  EXPECT_THAT(runSwiftlet({"nodes", "SubTree"}).out, HasSubstr("SubTree: Runs another tree, with entries of its own;"));
+  EXPECT_THAT(runSwiftlet({"nodes"}).out, HasSubstr("\nSubTree: Runs another tree"));
+  EXPECT_THAT(runSwiftlet({"nodes", "Subtree"}).err, HasSubstr("did you mean `SubTree`?"));
   const ProgramEnd end = runSwiftlet({"nodes", "TakeOff", "Photografh"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("nodes: unknown node `Photografh`, did you mean `Photograph`?"));
