@@ -83,7 +83,8 @@ struct MockFacts {
     return most_children > 1 ? NodeKind::kControl : most_children == 1 ? NodeKind::kDecorator : NodeKind::kAction;
   }
   void addPort(const std::string& name) {
-    if (std::find(ports.begin(), ports.end(), name) == ports.end()) ports.push_back(name);
+    constexpr std::size_t kMost = 200;  // A longer list is nobody's, and each node looks through it.
+    if (ports.size() < kMost && std::find(ports.begin(), ports.end(), name) == ports.end()) ports.push_back(name);
   }
 };
 

@@ -35,10 +35,11 @@ struct MockedRegistry {
   std::vector<Mock> mocks;  ///< By id.
 };
 
-/// `base` and a mock for each type that the file and what it includes use and `base` does not have. Types of `base`
-/// that are not of the engine are mocked too where the file gives them a port that they do not have. Files that cannot
-/// be read add nothing; the parser reports them. A null `answer` is SUCCESS. Kind of a mock: that of its model, of the
-/// explicit form, or by its children: Control with several, Decorator with one, Action with none.
+/// `base` and a mock, with at most 200 ports, for each type that the file and what it includes use and `base` does not
+/// have. Types of `base` that are not of the engine are mocked too where the file gives them a port that they do not
+/// have. Files that cannot be read add nothing; the parser reports them. A null `answer` is SUCCESS. Kind of a mock:
+/// that of its model, of the explicit form, or by its children: Control with several, Decorator with one, Action with
+/// none.
 MockedRegistry withMocks(const std::string& path, const Registry& base, const ParseOptions& options = {},
                          const MockAnswer& answer = {});
 

@@ -1,4 +1,5 @@
 // Mocks stand in for the nodes of other programs: trees are judged by their statuses, tick by tick, written by hand.
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -69,6 +70,16 @@ TEST(Mocks, StandInForATypeOfTheSameNameWithOtherPorts) {
   EXPECT_EQ(tree.mocks()[0].instead_of_port, "speed");
   tree.says("TakeOff", Status::kFailure);
   EXPECT_EQ(tree.tick(), "FAILURE: Sequence FAILURE, TakeOff FAILURE, Land IDLE");
+}
+
+TEST(Mocks, WithThousandsOfPortsAreRefusedInAMoment) {
+  std::string ports;
+  for (int i = 0; i < 50'000; ++i) ports += " a" + std::to_string(i) + "=\"1\"";
+  const std::clock_t start = std::clock();
+  const MockedTree tree(written(
+      "mocks_ports.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Do" + ports + "/></BehaviorTree></root>"));
+  EXPECT_EQ(tree.problems().size(), 101U);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
 }
 
 TEST(Mocks, OfNav2WatchTheBounds) {
