@@ -2,16 +2,20 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
 #include "interfaces/files/point_cloud.hpp"
+#include "interfaces/files/unpacked_stream.hpp"
 #include "mapping3d/voxels/floor_plan.hpp"
 #include "mapping3d/voxels/point_voxels.hpp"
 
@@ -22,6 +26,8 @@ namespace fs = std::filesystem;
 
 /// A voxel's side where a cloud becomes an octree, the one of the maps that flights leave.
 constexpr double kUsualResolution_m = 0.05;
+/// By how much a point may be moved where its coordinates are rounded to single precision.
+constexpr double kMostRounding_m = 0.001;
 
 struct ConvertOptions {
   std::string from;
@@ -45,25 +51,49 @@ Kind kindOf(const fs::path& file, bool may_be_plan) {
       may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : "it must be .bt, .ot, .ply or .pcd"});
 }
 
-/// The name of a packed octree without the ending of its compression.
-fs::path unpackedName(const fs::path& file) {
-  for (const char* packed : {".gz", ".bz2", ".xz"})
-    if (file.extension() == packed) return file.stem();
-  return file;
+[[noreturn]] void refuseFile(const ConvertOptions& options, const std::string& message, const std::string& hint) {
+  throw common::InputError(common::Problem{{options.from}, "", message, hint});
+}
+
+/// Says how many points are left out. Throws InputError if none is left.
+void sayLeftOut(const ConvertOptions& options, std::size_t left_out, std::size_t all, const std::string& where,
+                const std::string& hint) {
+  if (left_out == 0) return;
+  const std::string points = plural(all, "point", "points");
+  if (left_out == all) refuseFile(options, fmt::format("all of its {} are {}", points, where), hint);
+  show(fmt::format("note: {} of {} left out: {}\n", left_out, points, where));
+}
+
+std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
+  interfaces::StoredCloud cloud = interfaces::readCloud(options.from);
+  sayLeftOut(options, cloud.not_finite, cloud.points.size() + cloud.not_finite, "without a finite position", "");
+  if (cloud.rounding_m > kMostRounding_m)
+    refuseFile(
+        options,
+        fmt::format("its coordinates are so great that they would be rounded by up to {:.3g} m", cloud.rounding_m),
+        "subtract an offset from them first: they are kept in single precision");
+  return std::move(cloud.points);
 }
 
 common::VoxelMap readVoxels(const ConvertOptions& options, Kind from) {
   if (from == Kind::kOctree) return interfaces::readOctree(options.from);
-  return mapping3d::voxelsAround(interfaces::readCloud(options.from),
-                                 options.resolution_m.value_or(kUsualResolution_m));
+  const std::vector<common::SurfacePoint> points = readPoints(options);
+  const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
+  mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m);
+  sayLeftOut(options, voxels.left_out, points.size(),
+             fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
+                         mapping3d::octreeReach_m(resolution_m)),
+             "are they in metres? Move them to the origin, or give a greater --resolution");
+  return std::move(voxels.map);
 }
 
-void writePlan(const common::VoxelMap& map, const ConvertOptions& options) {
+void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind from) {
   const fs::path yaml = options.to;
   const common::OccupancyGrid plan = mapping3d::floorPlan(map, {*options.low_m, *options.high_m});
   if (knownExtent(plan).empty())
-    throw common::InputError(common::Problem{
-        {options.from}, "", fmt::format("nothing is known from {} to {} m", *options.low_m, *options.high_m), ""});
+    refuseFile(options, fmt::format("nothing is known from {} to {} m", *options.low_m, *options.high_m), "");
+  if (from == Kind::kCloud)
+    show("note: a cloud does not tell where room is free: nothing can be planned in a plan of occupied cells alone\n");
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));
 }
 
@@ -83,16 +113,16 @@ void checkOptions(const ConvertOptions& options, Kind from, Kind to) {
 }
 
 int convert(const ConvertOptions& options) {
-  const Kind from = kindOf(unpackedName(options.from), false), to = kindOf(options.to, true);
+  const Kind from = kindOf(interfaces::unpackedName(options.from), false), to = kindOf(options.to, true);
   checkOptions(options, from, to);
   if (to == Kind::kFloorPlan)
-    writePlan(readVoxels(options, from), options);
+    writePlan(readVoxels(options, from), options, from);
   else if (to == Kind::kOctree)
     required(interfaces::writeOctree(options.to, readVoxels(options, from)));
   else
     required(interfaces::writeCloud(
-        options.to, from == Kind::kCloud ? interfaces::readCloud(options.from)
-                                         : mapping3d::occupiedCenters(interfaces::readOctree(options.from))));
+        options.to,
+        from == Kind::kCloud ? readPoints(options) : mapping3d::occupiedCenters(interfaces::readOctree(options.from))));
   show(fmt::format("written {}\n", options.to));
   return kDone;
 }
@@ -104,7 +134,7 @@ void addConvert(Command& program) {
   Command command = program.command("convert", "Convert a 3D map to another format, or to a floor plan.");
   command.argument(
       "from", options->from,
-      "Octree of OctoMap (.bt or .ot, also compressed by gzip, bzip2 or xz), or a cloud of points (.ply or .pcd).");
+      "Octree of OctoMap (.bt or .ot) or a cloud of points (.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
   command.argument(
       "to", options->to,
       ".bt or .ot: an octree; .ply or .pcd: a cloud, with a point in each occupied voxel of an octree; .yaml: a "

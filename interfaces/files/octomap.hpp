@@ -29,9 +29,9 @@ std::string toOctree(const common::VoxelMap& map, OctreeFormat format);
 /// Writes the map in one step, in the format of the name's ending.
 [[nodiscard]] Written writeOctree(const std::filesystem::path& file, const common::VoxelMap& map);
 
-/// Reads either format, plain or compressed by gzip. Voxels of a .bt file get the least or the greatest log odds of
-/// OctoMap's sensor model, those of a .ot file theirs, rounded to steps of common::VoxelMap::kLogOddsStep. Throws
-/// InputError, also for a tree that fills more than `most_blocks` blocks of the map.
+/// Reads either format, plain or compressed by gzip, bzip2 or xz. Voxels of a .bt file get the least or the greatest
+/// log odds of OctoMap's sensor model, those of a .ot file theirs, rounded to steps of common::VoxelMap::kLogOddsStep.
+/// Throws InputError, also for a tree that fills more than `most_blocks` blocks of the map.
 common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_blocks = 2'000'000);
 /// Reads the bytes of a file as readOctree() does. Messages use `name` as the file.
 common::VoxelMap parseOctree(std::string_view bytes, const std::string& name, std::size_t most_blocks = 2'000'000);

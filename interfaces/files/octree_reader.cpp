@@ -8,7 +8,6 @@
 
 #include "common/error.hpp"
 #include "common/printable.hpp"
-#include "common/read_bytes.hpp"
 #include "interfaces/files/octomap.hpp"
 #include "interfaces/files/octree_codes.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
@@ -31,7 +30,7 @@ class OctreeReader {
       : bytes_(bytes), name_(name), most_blocks_(most_blocks), map_(readHeader()) {}
 
   VoxelMap read() {
-    if (place_ == bytes_.size()) return std::move(map_);  // An empty tree.
+    if (place_ == bytes_.size() && nodes_ == 0) return std::move(map_);  // An empty tree.
     const VoxelIndex first{-octree::kMiddle, -octree::kMiddle, -octree::kMiddle};
     if (format_ == OctreeFormat::kBinary)
       readBinary(first, 1 << kDepth);
@@ -70,6 +69,7 @@ class OctreeReader {
         fail(fmt::format("holds a tree of the kind `{}`", common::printable(std::string(text.substr(3, 40)))),
              "only OcTree is read");
       if (text.starts_with("res ")) resolution_m = number(text.substr(4));
+      if (text.starts_with("size ")) nodes_ = number(text.substr(5));
     }
     if (!(resolution_m >= 1e-3 && resolution_m <= 1e3)) fail("the header has no resolution between 0.001 and 1000 m");
     return VoxelMap(resolution_m);
@@ -156,6 +156,7 @@ class OctreeReader {
   const std::string& name_;
   std::size_t most_blocks_;
   std::size_t place_ = 0;
+  double nodes_ = 0.0;  ///< As the header says; it does not have to.
   OctreeFormat format_ = OctreeFormat::kBinary;
   VoxelMap map_;
 };
@@ -167,22 +168,7 @@ common::VoxelMap parseOctree(std::string_view bytes, const std::string& name, st
 }
 
 common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_blocks) {
-  UnpackedStream stream(file);
-  std::string bytes;
-  for (;;) {
-    constexpr std::size_t kChunk = std::size_t{1} << 20;
-    const std::size_t before = bytes.size();
-    if (before > common::kMostFileBytes)
-      throw common::InputError(common::Problem{
-          {file.string()}, "", "the octree is larger than 1 GiB", "prune it, or write it with a coarser resolution"});
-    bytes.resize(before + kChunk);
-    const BytesRead read = stream.read(bytes.data() + before, kChunk);
-    if (!read)
-      throw common::InputError(common::Problem{
-          {file.string()}, "", read.error(), "give a whole .bt or .ot, plain or packed by gzip, bzip2 or xz"});
-    bytes.resize(before + *read);
-    if (*read == 0) return parseOctree(bytes, file.string(), most_blocks);
-  }
+  return parseOctree(readUnpacked(file), file.string(), most_blocks);
 }
 
 }  // namespace swiftlet::interfaces

@@ -113,8 +113,11 @@ class HeaderReader {
 
   /// Each point takes at least a byte, except in compressed files, whose size is checked when they are unpacked.
   std::size_t points() const {
+    const bool has_size = width_ && height_ && (*height_ == 0 || *width_ <= SIZE_MAX / *height_);
+    if (points_ && has_size && *width_ * *height_ != *points_)
+      cursor_.fail(fmt::format("WIDTH {} times HEIGHT {} is not POINTS {}", *width_, *height_, *points_));
     if (points_) return *points_;
-    if (width_ && height_ && (*height_ == 0 || *width_ <= SIZE_MAX / *height_)) return *width_ * *height_;
+    if (has_size) return *width_ * *height_;
     cursor_.fail("the header has neither POINTS nor WIDTH and HEIGHT");
   }
 
@@ -157,8 +160,10 @@ constexpr bool kSwapped = std::endian::native != std::endian::little;
 
 void readText(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   for (std::size_t row = 0; row < header.points; ++row) {
+    cursor.beginRow();
     for (const Field& field : header.fields)
       for (std::size_t i = 0; i < field.count; ++i) builder.set(field.column, cursor.number());
+    cursor.endRow();
     builder.finish();
   }
 }
@@ -198,7 +203,7 @@ void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
 
 }  // namespace
 
-std::vector<common::SurfacePoint> parsePcd(std::string_view bytes, const std::string& name) {
+StoredCloud parsePcd(std::string_view bytes, const std::string& name) {
   Cursor cursor(bytes, name);
   const PcdHeader header = HeaderReader(cursor).read();
   Builder builder;

@@ -3,12 +3,11 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "common/submap3d.hpp"
+#include "interfaces/files/point_cloud.hpp"
 
 namespace swiftlet::interfaces {
 
-std::vector<common::SurfacePoint> parsePcd(std::string_view bytes, const std::string& name);
+StoredCloud parsePcd(std::string_view bytes, const std::string& name);
 
 }  // namespace swiftlet::interfaces

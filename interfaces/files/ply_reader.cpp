@@ -110,6 +110,7 @@ class ElementReader {
   void read(const Element& element, Builder* builder) {
     if (element.properties.empty() && element.count > 0) cursor_.fail("an element has no properties");
     for (std::size_t row = 0; row < element.count; ++row) {
+      if (text_) cursor_.beginRow();
       for (const Property& property : element.properties) {
         std::size_t values = 1;
         if (property.count_type) {
@@ -123,6 +124,7 @@ class ElementReader {
           if (builder != nullptr) builder->set(property.column, value);
         }
       }
+      if (text_) cursor_.endRow();
       if (builder != nullptr) builder->finish();
     }
   }
@@ -144,7 +146,7 @@ bool has(const Element& element, Role role) {
 
 }  // namespace
 
-std::vector<common::SurfacePoint> parsePly(std::string_view bytes, const std::string& name) {
+StoredCloud parsePly(std::string_view bytes, const std::string& name) {
   Cursor cursor(bytes, name);
   const PlyHeader header = readHeader(cursor);
   Builder builder;

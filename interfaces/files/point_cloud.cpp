@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 
 #include "common/check.hpp"
-#include "common/read_bytes.hpp"
+#include "common/error.hpp"
 #include "interfaces/files/pcd_reader.hpp"
 #include "interfaces/files/ply_reader.hpp"
+#include "interfaces/files/unpacked_stream.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -85,14 +86,15 @@ Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& 
   return writeAtomically(file, bytes);
 }
 
-std::vector<SurfacePoint> parseCloud(std::string_view bytes, const std::string& name, CloudFormat format) {
+StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format) {
   return format == CloudFormat::kPly ? parsePly(bytes, name) : parsePcd(bytes, name);
 }
 
-std::vector<SurfacePoint> readCloud(const std::filesystem::path& file) {
-  const auto format = cloudFormatOf(file);
-  SWIFTLET_CHECK(format.has_value(), file.string());
-  return parseCloud(common::readBytes(file), file.string(), *format);
+StoredCloud readCloud(const std::filesystem::path& file) {
+  const auto format = cloudFormatOf(unpackedName(file));
+  if (!format)
+    throw common::InputError(common::Problem{{file.string()}, "", "is not named .ply or .pcd, plain or packed", ""});
+  return parseCloud(readUnpacked(file), file.string(), *format);
 }
 
 }  // namespace swiftlet::interfaces

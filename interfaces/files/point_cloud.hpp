@@ -21,7 +21,7 @@ namespace swiftlet::interfaces {
 
 enum class CloudFormat { kPly, kPcd };
 
-/// By the ending of the name; none for any other ending.
+/// By the ending of the name; none for any other ending, also for that of a packed file.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
 /// The bytes of a file, binary and little-endian. Normals are written if any is known. Equal points give equal bytes on
@@ -34,11 +34,18 @@ std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat fo
 /// Writes triangles in one step, as .ply whatever the name's ending is.
 [[nodiscard]] Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh);
 
-/// Reads text and binary files of either format, those of PCL compressed too. Points whose position is not finite are
-/// left out, which PCL writes where nothing was measured. Colours and normals that a file does not have are grey and
-/// unknown; faces are left out. Throws InputError for anything that is not such a file.
-std::vector<common::SurfacePoint> readCloud(const std::filesystem::path& file);
+struct StoredCloud {
+  std::vector<common::SurfacePoint> points;
+  /// Points that were left out because their position is not finite. PCL writes such where nothing was measured.
+  std::size_t not_finite = 0;
+  double rounding_m = 0.0;  ///< By how much a coordinate differs at most from that of the file, which may be a double.
+};
+
+/// Reads text and binary files of either format, those of PCL compressed too, and such files packed by gzip, bzip2 or
+/// xz. Colours and normals that a file does not have are grey and unknown; faces are left out. Throws InputError for
+/// anything that is not such a file, whatever its name is.
+StoredCloud readCloud(const std::filesystem::path& file);
 /// Reads the bytes of a file as readCloud() does. Messages use `name` as the file.
-std::vector<common::SurfacePoint> parseCloud(std::string_view bytes, const std::string& name, CloudFormat format);
+StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format);
 
 }  // namespace swiftlet::interfaces

@@ -41,7 +41,8 @@ constexpr std::array<std::pair<std::string_view, Role>, 19> kRoles{{{"x", Role::
                                                                     {"diffuse_blue", Role::kBlue},
                                                                     {"rgb", Role::kPackedRgb}}};
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool isBlankInLine(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool isBlank(char c) { return isBlankInLine(c) || c == '\n'; }
 
 template <typename Number>
 double numberAt(const char* bytes, bool swapped) {
@@ -73,11 +74,15 @@ Role roleOf(std::string_view name) {
   return found == kRoles.end() ? Role::kOther : found->second;
 }
 
-void fail(const std::string& name, std::size_t place, const std::string& message, const std::string& hint) {
-  throw common::InputError(common::Problem{{name}, fmt::format("byte {}", place), message, hint});
+void Cursor::fail(const std::string& message, const std::string& hint) const {
+  if (!text_) throw common::InputError(common::Problem{{name_}, fmt::format("byte {}", place_), message, hint});
+  const std::string_view before = bytes_.substr(0, word_place_);
+  const auto line = static_cast<int>(1 + std::count(before.begin(), before.end(), '\n'));
+  throw common::InputError(common::Problem{{name_, line}, "", message, hint});
 }
 
 std::string_view Cursor::line() {
+  word_place_ = place_;
   const std::size_t end = bytes_.find('\n', place_);
   if (end == std::string_view::npos || end - place_ > kMostLineBytes) fail("the header does not end");
   std::string_view text = bytes_.substr(place_, end - place_);
@@ -87,20 +92,44 @@ std::string_view Cursor::line() {
 }
 
 std::string_view Cursor::take(std::size_t count) {
+  text_ = false;
   if (left() < count) fail(fmt::format("the file is cut: {} more bytes are needed, {} are left", count, left()));
   place_ += count;
   return bytes_.substr(place_ - count, count);
 }
 
-double Cursor::number() {
+void Cursor::skipBlanks() {
+  while (place_ < bytes_.size() && isBlankInLine(bytes_[place_])) ++place_;
+  word_place_ = place_;
+}
+
+std::string Cursor::word() const {
+  const std::string_view rest = bytes_.substr(place_, 20);
+  return common::printable(std::string(rest.substr(0, rest.find_first_of(" \t\r\n"))));
+}
+
+void Cursor::beginRow() {
   while (place_ < bytes_.size() && isBlank(bytes_[place_])) ++place_;
+}
+
+void Cursor::endRow() {
+  skipBlanks();
+  if (place_ == bytes_.size()) return;
+  if (bytes_[place_] != '\n')
+    fail(fmt::format("`{}` is one number more than the header names", word()), "each point has a line of its own");
+  ++place_;
+}
+
+double Cursor::number() {
+  skipBlanks();
   const char* const begin = bytes_.data() + place_;
   const char* const end = bytes_.data() + bytes_.size();
   if (begin == end) fail("the file is cut: a number is missing");
+  if (*begin == '\n') fail("the line has fewer numbers than the header names", "each point has a line of its own");
   double value = 0.0;
   const auto [stop, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, value);
   if (error == std::errc::invalid_argument || (stop != end && !isBlank(*stop)))
-    fail(fmt::format("`{}` is not a number", common::printable(std::string(bytes_.substr(place_, 20)))));
+    fail(fmt::format("`{}` is not a number", word()));
   place_ = static_cast<std::size_t>(stop - bytes_.data());
   return value;
 }
@@ -165,9 +194,13 @@ void Builder::set(const Column& column, double value) {
   switch (column.role) {
     case Role::kX:
     case Role::kY:
-    case Role::kZ:
-      next_.position_m[role - static_cast<int>(Role::kX)] = static_cast<float>(value);
+    case Role::kZ: {
+      const auto rounded = static_cast<float>(value);
+      next_.position_m[role - static_cast<int>(Role::kX)] = rounded;
+      if (std::isfinite(rounded))
+        cloud_.rounding_m = std::max(cloud_.rounding_m, std::abs(value - static_cast<double>(rounded)));
       return;
+    }
     case Role::kNormalX:
     case Role::kNormalY:
     case Role::kNormalZ:
@@ -199,7 +232,10 @@ void Builder::finish() {
     next_.normal /= length;
   else
     next_.normal.setZero();
-  if (next_.position_m.allFinite()) points_.push_back(next_);
+  if (next_.position_m.allFinite())
+    cloud_.points.push_back(next_);
+  else
+    ++cloud_.not_finite;
   next_ = blank();
 }
 

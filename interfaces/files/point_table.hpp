@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/submap3d.hpp"
+#include "interfaces/files/point_cloud.hpp"
 
 namespace swiftlet::interfaces::point_table {
 
@@ -31,31 +31,36 @@ struct Column {
   }
 };
 
-/// Throws InputError with the file, the place in it and the reason.
-[[noreturn]] void fail(const std::string& name, std::size_t place, const std::string& message,
-                       const std::string& hint = "");
-
-/// Reads a file from its beginning.
+/// Reads a file from its beginning: first as text, from the first take() on as binary.
 class Cursor {
  public:
   Cursor(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   std::size_t place() const { return place_; }
   std::size_t left() const { return bytes_.size() - place_; }
-  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const {
-    point_table::fail(name_, place_, message, hint);
-  }
+  /// Throws InputError with the file, the line in text or the byte in binary, and the reason.
+  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
   /// The next line of a header, without its end. Throws InputError at the end of the file or if it is too long.
   std::string_view line();
   /// Throws InputError if fewer are left.
   std::string_view take(std::size_t count);
-  /// The next number in text, between blanks and line ends. Throws InputError if there is none.
+  /// Goes to the next line in text that is not blank. A row begins there.
+  void beginRow();
+  /// The next number in text, between blanks. Throws InputError if the line has none.
   double number();
+  /// Goes behind the end of the line. Throws InputError if more numbers come before it.
+  void endRow();
 
  private:
+  void skipBlanks();
+  /// The first characters of the word that begins here, for messages.
+  std::string word() const;
+
   std::string_view bytes_;
   const std::string& name_;
   std::size_t place_ = 0;
+  std::size_t word_place_ = 0;  ///< Begin of what was read last, in text.
+  bool text_ = true;
 };
 
 /// The value of a binary number; `swapped` if its bytes are in the other order than this machine's.
@@ -66,17 +71,17 @@ std::size_t count(const Cursor& cursor, std::string_view text);
 
 std::vector<std::string_view> words(std::string_view line);
 
-/// Makes points from rows: set() for each column, then finish().
+/// Makes points from rows: set() for each column, then finish(). A point whose position is not finite is left out.
 class Builder {
  public:
   void set(const Column& column, double value);
   void finish();
-  std::vector<common::SurfacePoint> take() { return std::move(points_); }
+  StoredCloud take() { return std::move(cloud_); }
 
  private:
   static common::SurfacePoint blank();
 
-  std::vector<common::SurfacePoint> points_;
+  StoredCloud cloud_;
   common::SurfacePoint next_ = blank();
 };
 

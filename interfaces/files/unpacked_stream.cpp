@@ -177,4 +177,29 @@ std::string UnpackedStream::archiveError() const {
 
 std::int64_t UnpackedStream::packedBytesRead() const { return feed_->packed_bytes; }
 
+std::filesystem::path unpackedName(const std::filesystem::path& file) {
+  for (const char* packed : {".gz", ".bz2", ".xz"})
+    if (file.extension() == packed) return file.parent_path() / file.stem();
+  return file;
+}
+
+std::string readUnpacked(const std::filesystem::path& file, std::size_t most_bytes) {
+  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  const auto fail = [&](const std::string& message, const std::string& hint) {
+    throw common::InputError(common::Problem{{file.string()}, "", message, hint});
+  };
+  UnpackedStream stream(file);
+  std::string bytes;
+  for (;;) {
+    const std::size_t before = bytes.size();
+    if (before > most_bytes)
+      fail(fmt::format("holds more than {} MiB", most_bytes >> 20), "thin it, or write it with a coarser resolution");
+    bytes.resize(before + kChunk);
+    const BytesRead read = stream.read(bytes.data() + before, kChunk);
+    if (!read) fail(read.error(), "give the whole file, plain or packed by gzip, bzip2 or xz");
+    bytes.resize(before + *read);
+    if (*read == 0) return bytes;
+  }
+}
+
 }  // namespace swiftlet::interfaces

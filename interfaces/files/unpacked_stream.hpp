@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/read_bytes.hpp"
 #include "interfaces/files/byte_source.hpp"
 
 struct archive;
@@ -52,5 +53,12 @@ class UnpackedStream {
   std::string failure_;        ///< A failure when opening, reported by the first read.
   bool at_end_ = false;
 };
+
+/// The name of a file without the ending of its compression: "map.bt.gz" -> "map.bt".
+std::filesystem::path unpackedName(const std::filesystem::path& file);
+
+/// All bytes of a file, unpacked. Throws InputError if it cannot be opened, if it is cut or damaged, or if it holds
+/// more than `most_bytes`.
+std::string readUnpacked(const std::filesystem::path& file, std::size_t most_bytes = common::kMostFileBytes);
 
 }  // namespace swiftlet::interfaces

@@ -24,14 +24,19 @@ std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map) {
   return points;
 }
 
-common::VoxelMap voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m) {
-  common::VoxelMap map(resolution_m);
+double octreeReach_m(double resolution_m) { return (kReachVoxels - 1.0) * resolution_m; }
+
+PointVoxels voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m) {
+  PointVoxels voxels{common::VoxelMap(resolution_m)};
+  const double reach_m = octreeReach_m(resolution_m);
   for (const common::SurfacePoint& point : points) {
     const Eigen::Vector3d position_m = point.position_m.cast<double>();
-    if (position_m.allFinite() && position_m.cwiseAbs().maxCoeff() < (kReachVoxels - 1.0) * resolution_m)
-      map.set(map.voxelAt(position_m), kOccupied);
+    if (position_m.allFinite() && position_m.cwiseAbs().maxCoeff() < reach_m)
+      voxels.map.set(voxels.map.voxelAt(position_m), kOccupied);
+    else
+      ++voxels.left_out;
   }
-  return map;
+  return voxels;
 }
 
 }  // namespace swiftlet::mapping3d

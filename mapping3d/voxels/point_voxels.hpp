@@ -1,6 +1,7 @@
 // Between voxels and points, for files of either kind.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "common/submap3d.hpp"
@@ -11,8 +12,15 @@ namespace swiftlet::mapping3d {
 /// The centres of the occupied voxels, grey and without normals, in ascending order of their blocks.
 std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map);
 
-/// A voxel is occupied where at least one point is; nothing is known to be free. Points that are not finite, or farther
-/// from the origin than an octree of OctoMap reaches, are left out.
-common::VoxelMap voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m);
+struct PointVoxels {
+  common::VoxelMap map;
+  std::size_t left_out = 0;  ///< Points that are not finite, or farther from the origin than octreeReach_m().
+};
+
+/// How far from the origin an octree of OctoMap reaches along each axis.
+double octreeReach_m(double resolution_m);
+
+/// A voxel is occupied where at least one point is; nothing is known to be free.
+PointVoxels voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m);
 
 }  // namespace swiftlet::mapping3d

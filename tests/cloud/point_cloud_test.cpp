@@ -95,13 +95,13 @@ TEST_F(CloudFile, WhatPclWritesIsRead) {
   ASSERT_EQ(pcl::io::savePLYFileBinary(path("binary.ply"), cloud), 0);
   for (const char* name : {"binary.pcd", "compressed.pcd", "binary.ply"}) {
     SCOPED_TRACE(name);
-    expectSame(readCloud(path(name)), points);
+    expectSame(readCloud(path(name)).points, points);
   }
   ASSERT_EQ(pcl::io::savePCDFileASCII(path("text.pcd"), cloud), 0);
   ASSERT_EQ(pcl::io::savePLYFileASCII(path("text.ply"), cloud), 0);
   for (const char* name : {"text.pcd", "text.ply"}) {
     SCOPED_TRACE(name);
-    const std::vector<SurfacePoint> read = readCloud(path(name));
+    const std::vector<SurfacePoint> read = readCloud(path(name)).points;
     ASSERT_EQ(read.size(), points.size());
     for (std::size_t i = 0; i < read.size(); ++i) {
       ASSERT_LT((read[i].position_m - points[i].position_m).norm(), 1e-4F);
@@ -116,7 +116,7 @@ TEST(PointCloudTest, APointSurvivesEitherFormat) {
     for (const bool normals : {true, false})
       for (const CloudFormat format : {CloudFormat::kPly, CloudFormat::kPcd}) {
         const std::vector<SurfacePoint> points = randomPoints(count, random, normals);
-        expectSame(parseCloud(toCloud(points, format), "cloud", format), points);
+        expectSame(parseCloud(toCloud(points, format), "cloud", format).points, points);
       }
 }
 
@@ -134,27 +134,32 @@ TEST(PointCloudTest, PlyHasAHeaderAndFifteenBytesAPointWithoutNormals) {
 
 TEST(PointCloudTest, ReadsWhatOtherToolsWrite) {
   // Columns in another order, doubles, faces after the points, an element before them, Windows line ends.
-  const auto ply = parseCloud(
+  const StoredCloud text = parseCloud(
       "ply\r\nformat ascii 1.0\r\ncomment by hand\r\nelement camera 1\r\nproperty list uchar float view\r\n"
       "element vertex 2\r\nproperty uchar blue\r\nproperty double z\r\nproperty float quality\r\nproperty double y\r\n"
       "property double x\r\nelement face 1\r\nproperty list uchar int vertex_indices\r\nend_header\r\n"
       "2 0.5 0.5\r\n7 3 0.9 2 1\r\n8 +6e0 0.9 5 nan\r\n3 0 1 0\r\n",
       "by hand", CloudFormat::kPly);
-  ASSERT_EQ(ply.size(), 1U) << "the second point is not finite";
+  EXPECT_EQ(text.not_finite, 1U);
+  const std::vector<SurfacePoint>& ply = text.points;
+  ASSERT_EQ(ply.size(), 1U);
   EXPECT_EQ(ply[0].position_m, Eigen::Vector3f(1, 2, 3));
   EXPECT_EQ(ply[0].rgb, (std::array<std::uint8_t, 3>{160, 160, 7}));
   const auto big = parseCloud(
-      "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty short y\n"
-      "property float z\nend_header\n" +
-          std::string("\x3f\x80\0\0\0\x02\x40\x40\0\0", 10),
-      "big", CloudFormat::kPly);
+                       "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty short y\n"
+                       "property float z\nend_header\n" +
+                           std::string("\x3f\x80\0\0\0\x02\x40\x40\0\0", 10),
+                       "big", CloudFormat::kPly)
+                       .points;
   ASSERT_EQ(big.size(), 1U);
   EXPECT_EQ(big[0].position_m, Eigen::Vector3f(1, 2, 3));
   const auto pcd = parseCloud(
-      "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb vp\nSIZE 4 4 4 4 4\nTYPE F F F F F\nCOUNT 1 1 1 1 2\nWIDTH 1\nHEIGHT "
-      "2\n"
-      "VIEWPOINT 0 0 0 1 0 0 0\nDATA ascii\n1 2 3 2.3418052e-38 0 0\n4 5 6 0 1 1\n",
-      "by hand", CloudFormat::kPcd);
+                       "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb vp\nSIZE 4 4 4 4 4\nTYPE F F F F F\nCOUNT 1 1 1 1 "
+                       "2\nWIDTH 1\nHEIGHT "
+                       "2\n"
+                       "VIEWPOINT 0 0 0 1 0 0 0\nDATA ascii\n1 2 3 2.3418052e-38 0 0\n4 5 6 0 1 1\n",
+                       "by hand", CloudFormat::kPcd)
+                       .points;
   ASSERT_EQ(pcd.size(), 2U);
   EXPECT_EQ(pcd[0].rgb, (std::array<std::uint8_t, 3>{255, 0, 0})) << "0xff0000 as the bits of a float";
 }
@@ -165,17 +170,21 @@ TEST(PointCloudTest, PackedColoursKeepTheirBits) {
     for (const int red : {0x00, 0x7f, 0x80, 0xa5, 0xbf, 0xc0, 0xff}) {
       std::string point(12, '\0');
       point += {'\x03', '\x02', static_cast<char>(red), '\xff'};
-      const auto pcd = parseCloud(
-          fmt::format("FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F {}\nPOINTS 1\nDATA binary\n", type) + point, "packed",
-          CloudFormat::kPcd);
-      const auto ply = parseCloud(
-          fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                      "property float z\nproperty {} rgb\nend_header\n",
-                      type == 'F'   ? "float"
-                      : type == 'U' ? "uint"
-                                    : "int") +
-              point,
-          "packed", CloudFormat::kPly);
+      const auto pcd =
+          parseCloud(
+              fmt::format("FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F {}\nPOINTS 1\nDATA binary\n", type) + point,
+              "packed", CloudFormat::kPcd)
+              .points;
+      const auto ply =
+          parseCloud(
+              fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                          "property float z\nproperty {} rgb\nend_header\n",
+                          type == 'F'   ? "float"
+                          : type == 'U' ? "uint"
+                                        : "int") +
+                  point,
+              "packed", CloudFormat::kPly)
+              .points;
       for (const auto& cloud : {pcd, ply}) {
         ASSERT_EQ(cloud.size(), 1U);
         EXPECT_EQ(cloud[0].rgb, (std::array<std::uint8_t, 3>{static_cast<std::uint8_t>(red), 2, 3})) << type;
@@ -183,18 +192,24 @@ TEST(PointCloudTest, PackedColoursKeepTheirBits) {
     }
 }
 
+/// The text is part of the message, which names the line in text and the byte in binary.
+void expectRefused(const std::string& bytes, CloudFormat format, const std::string& text) {
+  try {
+    parseCloud(bytes, "broken", format);
+    ADD_FAILURE() << text;
+  } catch (const common::InputError& error) {
+    EXPECT_THAT(std::string(error.what()), HasSubstr(text));
+    EXPECT_THAT(std::string(error.what()), testing::ContainsRegex("broken:( byte )?[0-9]+: "));
+  }
+}
+
 TEST(PointCloudTest, SaysWhatIsWrong) {
-  const auto refused = [](const std::string& bytes, CloudFormat format, const std::string& text) {
-    try {
-      parseCloud(bytes, "broken", format);
-      ADD_FAILURE() << text;
-    } catch (const common::InputError& error) {
-      EXPECT_THAT(std::string(error.what()), HasSubstr(text));
-      EXPECT_THAT(std::string(error.what()), HasSubstr("broken: byte"));
-    }
+  const auto ply = [](const std::string& bytes, const std::string& text) {
+    expectRefused(bytes, CloudFormat::kPly, text);
   };
-  const auto ply = [&](const std::string& bytes, const std::string& text) { refused(bytes, CloudFormat::kPly, text); };
-  const auto pcd = [&](const std::string& bytes, const std::string& text) { refused(bytes, CloudFormat::kPcd, text); };
+  const auto pcd = [](const std::string& bytes, const std::string& text) {
+    expectRefused(bytes, CloudFormat::kPcd, text);
+  };
   ply("", "the header does not end");
   ply("hello\n", "does not begin with `ply`");
   ply("ply\nend_header\n", "no line `format`");
@@ -205,8 +220,8 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
   ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "`half` is not a type");
   ply("ply\nformat ascii 1.0\nproperty float x\n", "`property` is not a line");
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
-  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3\n4 5\n", "the file is cut");
-  ply("ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "1 2 three\n", "`three");
+  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3\n4 5", "broken:9: the file is cut");
+  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 three\n4 5 6\n", "broken:8: `three` is not a number");
   ply("ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\n" + xyz + "1234", "the file is cut");
   ply("ply\nformat ascii 1.0\nelement nothing 99999999999999\nelement vertex 1\n" + xyz, "no properties");
   ply("ply\nformat ascii 1.0\nelement list 1\nproperty list int int a\nelement vertex 1\n" + xyz + "-3\n",
@@ -219,12 +234,38 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
   pcd("FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "the type `F` with 3 bytes");
   pcd(head + "DATA ascii\n", "neither POINTS nor WIDTH");
   pcd(head + "WIDTH 9999999999999\nHEIGHT 9999999999999\nDATA ascii\n", "neither POINTS nor WIDTH");
+  pcd(head + "WIDTH 2\nHEIGHT 3\nPOINTS 2\nDATA ascii\n", "WIDTH 2 times HEIGHT 3 is not POINTS 2");
   pcd(head + "POINTS 1\nDATA zip\n", "`zip` is not a kind of data");
   pcd(head + "POINTS 9999999999\nDATA binary\n0123456789", "the file is cut");
   pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\3\0\0\0\14\0\0\0abc", 11), "the compressed points");
   pcd(head + "POINTS 357913941\nDATA binary_compressed\n" + std::string("\3\0\0\0\374\377\377\377abc", 11),
       "fewer compressed points");
   pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\2\0\0\0\14\0\0\0\xff\x01", 10), "compressed points");
+}
+
+/// Read as one stream of numbers, such rows would become points at wrong places.
+TEST(PointCloudTest, RowsOfTextHaveAsManyNumbersAsTheHeaderNames) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\n";
+  for (const auto& [head, format, first] :
+       {std::tuple{ply, CloudFormat::kPly, 8}, std::tuple{pcd, CloudFormat::kPcd, 6}}) {
+    expectRefused(head + "1 2 3\n4 5 6 7\n", format, fmt::format("broken:{}: `7` is one number more", first + 1));
+    expectRefused(head + "1 2\n3 4\n5 6\n", format, fmt::format("broken:{}: the line has fewer numbers", first));
+    EXPECT_EQ(parseCloud(head + "\n1 2 3 \r\n\n 4\t5 6", "blanks", format).points.size(), 2U);
+  }
+}
+
+TEST(PointCloudTest, TellsByHowMuchCoordinatesWereRounded) {
+  const std::string head = "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS 1\nDATA ascii\n";
+  EXPECT_EQ(parseCloud(head + "0.5 2 3\n", "near", CloudFormat::kPcd).rounding_m, 0.0);
+  EXPECT_NEAR(parseCloud(head + "5412345.1 2 3\n", "far", CloudFormat::kPcd).rounding_m, 0.1, 1e-6);
+  EXPECT_EQ(parseCloud(head + "1e300 2 3\n", "beyond", CloudFormat::kPcd).not_finite, 1U);
+}
+
+TEST_F(CloudFile, OfAnotherNameIsRefused) {
+  EXPECT_THROW(readCloud(write("cloud.obj", toCloud({}, CloudFormat::kPly))), common::InputError);
+  EXPECT_THROW(readCloud(write("cloud.gz", toCloud({}, CloudFormat::kPly))), common::InputError);
 }
 
 TEST(PointCloudTest, AnythingCutOrChangedIsRefusedOrRead) {

@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include <fmt/format.h>
+
 #include "common/voxel_map.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
@@ -66,7 +70,7 @@ TEST_F(Convert, OccupiedVoxelsAreAPointEachAndPointsAreOccupiedVoxels) {
   run({"convert", from, path("room.ply")});
   run({"convert", path("room.ply"), path("room.pcd")});
   run({"convert", path("room.pcd"), path("again.bt"), "--resolution", "0.1"});
-  const auto points = interfaces::readCloud(path("room.pcd"));
+  const auto points = interfaces::readCloud(path("room.pcd")).points;
   EXPECT_EQ(points.size(), 20U * 10 + 10 * 14);
   const common::VoxelMap map = interfaces::readOctree(from), again = interfaces::readOctree(path("again.bt"));
   for (int x = -1; x < 21; ++x)
@@ -99,6 +103,45 @@ TEST_F(Convert, WhatCannotBeConvertedIsSaid) {
   refused({"convert", path("none.bt"), path("room.ot")}, "none.bt");
   refused({"convert", write("text.bt", "hello\n"), path("room.ot")}, "begins with `hello`");
   EXPECT_FALSE(std::filesystem::exists(path("room.ot")));
+}
+
+/// A cloud in text with these rows.
+std::string cloudOf(std::size_t points, const std::string& rows) {
+  return fmt::format("FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS {}\nDATA ascii\n{}", points, rows);
+}
+
+TEST_F(Convert, ReadsAPackedCloudAndRefusesADamagedOne) {
+  const std::string plain = write("room.pcd", cloudOf(2, "1 1 1\n2 2 2\n"));
+  ASSERT_EQ(std::system(("gzip -f '" + plain + "'").c_str()), 0);
+  const ProgramEnd end = runSwiftlet({"convert", plain + ".gz", path("room.ply")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_EQ(interfaces::readCloud(path("room.ply")).points.size(), 2U);
+  const ProgramEnd damaged = runSwiftlet({"convert", write("room.pcd.xz", "123"), path("room.ot")});
+  EXPECT_EQ(damaged.exit_code, 2) << describe(damaged);
+}
+
+TEST_F(Convert, SaysHowManyPointsAreLeftOut) {
+  const ProgramEnd end =
+      runSwiftlet({"convert", write("some.pcd", cloudOf(4, "1 1 1\nnan nan nan\n2 2 2\n5000 0 0\n")), path("some.ot")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("note: 1 of 4 points left out: without a finite position"));
+  EXPECT_THAT(end.out, HasSubstr("note: 1 of 3 points left out: farther than 1638 m from the origin"));
+  const auto refused = [&](const std::string& rows, const std::string& text) {
+    const ProgramEnd refusal = runSwiftlet({"convert", write("bad.pcd", cloudOf(1, rows)), path("bad.ot")});
+    EXPECT_EQ(refusal.exit_code, 2) << describe(refusal);
+    EXPECT_THAT(refusal.err, HasSubstr(text));
+    EXPECT_FALSE(std::filesystem::exists(path("bad.ot")));
+  };
+  refused("nan nan nan\n", "all of its 1 point are without a finite position");
+  refused("5000 0 0\n", "farther than 1638 m from the origin");
+  refused("512345.67 5412345.67 100\n", "would be rounded by up to");
+}
+
+TEST_F(Convert, SaysThatAFloorPlanOfACloudHasNoFreeCells) {
+  const ProgramEnd end = runSwiftlet(
+      {"convert", write("some.pcd", cloudOf(2, "1 1 1\n2 2 1\n")), path("plan.yaml"), "--low", "0.5", "--high", "1.5"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("note: a cloud does not tell where room is free"));
 }
 
 }  // namespace

@@ -108,13 +108,13 @@ TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
   EXPECT_THAT(figures.at("notes").dump(), HasSubstr("frame-000010.depth.png: is cut off"));
   EXPECT_EQ(interfaces::readTum(path("out/trajectory.tum")).size(), 19u);
   EXPECT_GT(fs::file_size(path("out/cloud.ply")), 100'000u);
-  EXPECT_GT(interfaces::readCloud(path("out/mesh.ply")).size(), 1'000u) << "the vertices; faces are left out";
+  EXPECT_GT(interfaces::readCloud(path("out/mesh.ply")).points.size(), 1'000u) << "the vertices; faces are left out";
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("<title>3D map of some"));
 }
 
 /// The mean of the points, and of the occupied voxels: they tell one frame from another.
 Eigen::Vector3d middleOfCloud(const fs::path& file) {
-  const auto points = interfaces::readCloud(file);
+  const auto points = interfaces::readCloud(file).points;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const common::SurfacePoint& point : points) sum += point.position_m.cast<double>();
   return sum / static_cast<double>(points.size());
