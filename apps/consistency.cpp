@@ -26,6 +26,9 @@ using perception::Consistency;
 using perception::ConsistencyFigure;
 using perception::TapedFlight;
 
+/// The errors are compared once a second, and the best constant covariance needs some of them.
+constexpr double kLeast_s = 5.0;
+
 struct ConsistencyOptions {
   std::vector<std::string> runs;
   std::string system = "swiftlet";
@@ -116,7 +119,7 @@ void plotDrift(const TapedFlight& flight, const System& system, const Consistenc
 int consistencyOfRuns(const ConsistencyOptions& options) {
   const System system = loadSystem(options.system);
   std::vector<TapedFlight> flights;
-  for (const std::string& run : options.runs) flights.push_back(readTapedFlight(run, system.vehicle));
+  for (const std::string& run : options.runs) flights.push_back(readTapedFlight(run, system.vehicle, kLeast_s));
   const Consistency consistency = perception::consistencyOf(flights, system.config.autonomy.estimator.fusion);
   if (options.json)
     showJson(jsonOf(consistency).dump(2) + "\n");

@@ -60,12 +60,16 @@ std::vector<perception::FilterInput> readFilterTape(const std::string& run) {
   return inputs;
 }
 
-perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle) {
+perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle, double least_s) {
   perception::TapedFlight flight;
   for (const interfaces::ControlRow& row : readControlRows(run, vehicle, Truth::kNeeded))
     if (row.flying)
       flight.truth.push_back({row.stamp, row.true_yaw_map_rad, row.true_velocity_map_m_s, row.true_position_map_m});
   flight.inputs = readFilterTape(run);
+  const double flown_s = (flight.truth.back().stamp - flight.truth.front().stamp).seconds();
+  if (flown_s < least_s)
+    throw unusableRun(run, fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, least_s),
+                      "give a flight of a minute and more");
   return flight;
 }
 

@@ -21,7 +21,8 @@ std::vector<interfaces::ControlRow> readControlRows(const std::string& run, cons
 /// What the filter of that run was told. Throws common::InputError with file and line.
 std::vector<perception::FilterInput> readFilterTape(const std::string& run);
 
-/// What the filter was told, and the truth while the vehicle flew. Throws common::InputError.
-perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle);
+/// What the filter was told, and the truth while the vehicle flew. Throws common::InputError, also for a flight that
+/// took less than `least_s`.
+perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle, double least_s);
 
 }  // namespace swiftlet::apps

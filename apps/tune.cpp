@@ -35,17 +35,7 @@ std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const
   // As long as `identify` asks for: the filter converges in some seconds, which would be all that is learned from.
   const double least_s = control::AxisFitOptions{}.shortest_s;
   std::vector<TapedFlight> flights;
-  for (const std::string& run : runs) {
-    flights.push_back(readTapedFlight(run, vehicle));
-    const auto& truth = flights.back().truth;
-    const double flown_s = (truth.back().stamp - truth.front().stamp).seconds();
-    if (flown_s < least_s)
-      throw common::InputError(
-          common::Problem{{run},
-                          "",
-                          fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, least_s),
-                          "give a flight of a minute and more"});
-  }
+  for (const std::string& run : runs) flights.push_back(readTapedFlight(run, vehicle, least_s));
   return flights;
 }
 

@@ -5,6 +5,12 @@
 #include <fmt/format.h>
 
 namespace swiftlet::interfaces {
+namespace {
+
+/// No quantity of a flight has a greater number, in the units of the log.
+constexpr double kGreatest = 1e6;
+
+}  // namespace
 
 const LineFormat& controlLogFormat() {
   static const LineFormat kFormat{"tick",
@@ -49,27 +55,26 @@ std::vector<ControlRow> readControlLog(const std::filesystem::path& file) {
   std::vector<ControlRow> rows;
   while (nextWords(reader, words)) {
     const LineFields fields(reader, words, controlLogFormat());
-    const auto vector = [&](std::size_t at) {
-      return Eigen::Vector3d(fields.number(at), fields.number(at + 1), fields.number(at + 2));
-    };
+    const auto number = [&](std::size_t at) { return fields.numberWithin(at, kGreatest); };
+    const auto vector = [&](std::size_t at) { return Eigen::Vector3d(number(at), number(at + 1), number(at + 2)); };
     ControlRow row;
     row.stamp = fields.stamp(0);
     if (!rows.empty() && row.stamp <= rows.back().stamp)
       throw fields.problemAt(0, "t", "is not later than the line before");
-    row.flying = fields.number(1) != 0.0;
-    row.roll_rad = fields.number(2);
-    row.pitch_rad = fields.number(3);
-    row.yaw_rate_rad_s = fields.number(4);
-    row.thrust = fields.number(5);
-    row.tilt_cos = fields.number(6);
-    row.yaw_odom_rad = fields.number(7);
+    row.flying = number(1) != 0.0;
+    row.roll_rad = number(2);
+    row.pitch_rad = number(3);
+    row.yaw_rate_rad_s = number(4);
+    row.thrust = number(5);
+    row.tilt_cos = number(6);
+    row.yaw_odom_rad = number(7);
     row.position_odom_m = vector(8);
     row.velocity_odom_m_s = vector(11);
-    row.battery_v = fields.number(14);
-    row.has_truth = fields.number(15) != 0.0;
+    row.battery_v = number(14);
+    row.has_truth = number(15) != 0.0;
     row.true_position_map_m = vector(16);
     row.true_velocity_map_m_s = vector(19);
-    row.true_yaw_map_rad = fields.number(22);
+    row.true_yaw_map_rad = number(22);
     rows.push_back(row);
   }
   return rows;

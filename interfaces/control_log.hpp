@@ -47,7 +47,8 @@ class ControlLogWriter {
   std::string block_;
 };
 
-/// Throws InputError with file, line and column for a line that is not of the format, and for stamps that do not rise.
+/// Throws InputError with file, line and column for a line that is not of the format, for numbers that no
+/// flight has, and for stamps that do not rise.
 std::vector<ControlRow> readControlLog(const std::filesystem::path& file);
 
 }  // namespace swiftlet::interfaces

@@ -46,6 +46,13 @@ double LineFields::coordinate_m(std::size_t field) const {
   throw problemAt(field, std::string(format_.fields[field]), fmt::format("is farther away than {} m", kFarthest_m));
 }
 
+double LineFields::numberWithin(std::size_t field, double greatest) const {
+  const double value = number(field);
+  if (std::abs(value) <= greatest) return value;
+  throw problemAt(field, std::string(format_.fields[field]),
+                  fmt::format("`{}` is not from {} to {}", words_[field].text, -greatest, greatest));
+}
+
 common::InputError LineFields::problemAt(std::size_t field, std::string element, std::string message,
                                          std::string hint) const {
   return reader_.problemAt(words_[field].column, std::move(element), std::move(message), std::move(hint));

@@ -32,6 +32,8 @@ class LineFields {
   /// Throw InputError if the word is not a time in seconds, or not a finite number.
   common::Time stamp(std::size_t field) const;
   double number(std::size_t field) const;
+  /// Throws InputError also if the magnitude of the value is above `greatest`.
+  double numberWithin(std::size_t field, double greatest) const;
   /// Throws InputError also if the value is beyond kFarthest_m.
   double coordinate_m(std::size_t field) const;
 

@@ -25,8 +25,8 @@ using testing::HasSubstr;
 class Identify : public test_support::Scratch {
  protected:
   /// A short flight with everything that identify and tune read.
-  std::string hop(const std::string& run) const {
-    const ProgramEnd end = runSwiftlet({"fly", write("hop.xml", missionWith(kHop)), "--headless", "--nature", "real",
+  std::string hop(const std::string& run, const std::string& mission = kHop) const {
+    const ProgramEnd end = runSwiftlet({"fly", write("hop.xml", missionWith(mission)), "--headless", "--nature", "real",
                                         "--seed", "4", "--control-log", "--out", path(run)});
     EXPECT_EQ(end.exit_code, 0) << describe(end);
     return path(run);
@@ -84,8 +84,11 @@ TEST_F(Identify, TuneRefusesAFlightWithoutTheTruthOrTooShort) {
   expectRefused(runSwiftlet(tune), "fusion.tsv:1:1: is no input of the filter");
 }
 
+/// Long enough to compare the errors of the filter.
+const std::string kStay = "      <TakeOff height_m=\"1.0\"/>\n      <Sleep msec=\"6000\"/>\n      <Land/>\n";
+
 TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {
-  const std::string run = hop("run");
+  const std::string run = hop("run", kStay);
   const ProgramEnd end = runSwiftlet({"consistency", run, "--drift", path("drift.svg")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   EXPECT_THAT(end.out,
@@ -94,7 +97,7 @@ TEST_F(Identify, TheDriftOfAccelerationAloneIsPlotted) {
 }
 
 TEST_F(Identify, TheDriftOfAFilterThatNeverStartedIsRefused) {
-  const std::string run = hop("run");
+  const std::string run = hop("run", kStay);
   std::istringstream tape(readText(run + "/fusion.tsv"));
   std::string without;
   for (std::string line; std::getline(tape, line);)
@@ -103,6 +106,12 @@ TEST_F(Identify, TheDriftOfAFilterThatNeverStartedIsRefused) {
   expectRefused(runSwiftlet({"consistency", run, "--drift", path("drift.svg")}),
                 "run: --drift: its filter never started while the truth was known, put a run first that took off");
   EXPECT_FALSE(fs::exists(path("drift.svg")));
+}
+
+/// Of an instant alone a covariance is neither right nor wrong.
+TEST_F(Identify, TheConsistencyOfAHopIsRefused) {
+  expectRefused(runSwiftlet({"consistency", hop("run")}),
+                "run: 0\\.[0-9] s of flight are too few, at least 5 s are needed");
 }
 
 TEST_F(Identify, TuneSearchesGainsThatCanBeNamed) {

@@ -54,6 +54,9 @@ TEST_F(ControlLog, TellsWhereItIsDamaged) {
   std::string nan = good;
   nan.replace(nan.find("0.010000"), 8, "nan");
   EXPECT_THAT(problemOf(nan), testing::HasSubstr("control.tsv:1"));
+  std::string absurd = good;
+  absurd.replace(absurd.find("0.010000"), 8, "1e300");
+  EXPECT_THAT(problemOf(absurd), testing::HasSubstr("pitch: `1e300` is not from -1000000 to 1000000"));
   EXPECT_EQ(problemOf("# nothing\n"), "");
 }
 
