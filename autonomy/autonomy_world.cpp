@@ -2,6 +2,7 @@
 #include "autonomy/autonomy.hpp"
 #include "autonomy/trail_back.hpp"
 #include "common/segment.hpp"
+#include "control/actuation.hpp"
 
 namespace swiftlet::autonomy {
 

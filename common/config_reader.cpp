@@ -121,11 +121,21 @@ struct YamlReader::Impl {
     }
   }
 
-  /// Reports "loops.max_sigma_m: what is wrong" at the place of that key, or of its innermost section in the file.
+  /// Whether something is wrong with that value, or with an item of it, already.
+  bool isReported(std::string_view name) const {
+    const std::string path = pathOf(name);
+    return std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
+      return problem.element == path || problem.element.starts_with(path + "[");
+    });
+  }
+
+  /// Reports "loops.max_sigma_m: what is wrong" at the place of that key, or of its innermost section in the file. A
+  /// value that could not be read has kept its default, which says nothing about the file.
   void reportRelation(const YAML::Node& from, const std::string& text) {
     const std::size_t colon = text.find(": ");
     if (colon == std::string::npos) return report(from, "", text);
     const std::string name = text.substr(0, colon);
+    if (isReported(name)) return;
     YAML::Node node = from;
     for (std::size_t begin = 0; begin <= name.size() && node.IsMap();) {
       const std::size_t end = std::min(name.find('.', begin), name.size());

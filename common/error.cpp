@@ -61,10 +61,14 @@ InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(joinProblems(problems)), problems_(std::move(problems)) {}
 
 std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> candidates) {
+  // `roll` for `roll_deg`, `fx` for `fx_px`.
+  const auto begins = [&](const std::string& candidate) { return word.size() >= 2 && candidate.starts_with(word); };
+  if (const auto found = std::find_if(candidates.begin(), candidates.end(), begins); found != candidates.end())
+    return *found;
   const std::string* best = nullptr;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  // Where every letter would have to change, nothing is alike.
+  std::size_t best_distance = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : candidates) {
-    if (word.size() >= 3 && candidate.starts_with(word)) return candidate;  // `roll` for `roll_deg`.
     const std::size_t distance = editDistance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;

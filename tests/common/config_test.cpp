@@ -152,6 +152,8 @@ TEST(Config, AViolatedRelationIsReportedAtTheFieldItNames) {
 
 TEST(Config, AValueOutOfBoundsIsNotComparedWithOthers) {
   EXPECT_EQ(problemsOf<Branch>("far_m: -1\n"), "test.yaml:1:8: far_m: -1 is not at least 0.5");
+  EXPECT_EQ(problemsOf<Branch>("near_m: many\nfar_m: 0.6\n"), "test.yaml:1:9: near_m: `many` is not a number")
+      << "nor is the default that it keeps";
 }
 
 TEST(Config, ANumberWithoutADefaultMustBeGiven) {

@@ -15,6 +15,10 @@ TEST(Suggestions, ConsiderUnitCaseAndEditDistance) {
   EXPECT_EQ(didYouMean("takeof", names), "did you mean `TakeOff`?");
   EXPECT_EQ(didYouMean("entirely_else", names), "");
   EXPECT_EQ(didYouMean("", names), "");
+  const std::vector<std::string> lens = {"k1", "k2", "fx_px", "cx_px"};
+  EXPECT_EQ(didYouMean("fx", lens), "did you mean `fx_px`?");
+  EXPECT_EQ(didYouMean("k9", lens), "did you mean `k1`?");
+  EXPECT_EQ(didYouMean("zz", lens), "") << "no letter is alike";
 }
 
 TEST(Values, UnitsAreReadFromNames) {
