@@ -110,8 +110,13 @@ std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair,
       hasShapeOf(known.color, color->width_px, color->height_px) &&
       (known.is_registered ? same_size : hasShapeOf(known.depth, depth->width_px, depth->height_px));
   if (!shapes_fit) {
-    skipped = {FrameFault::kOtherSize, fmt::format("{}: {}x{}, its depth {}x{}", pair.color.string(), color->width_px,
-                                                   color->height_px, depth->width_px, depth->height_px)};
+    skipped = {
+        FrameFault::kOtherSize,
+        fmt::format("{}: {}x{}, its depth {}x{}, the calibration {}x{}{}", pair.color.string(), color->width_px,
+                    color->height_px, depth->width_px, depth->height_px, known.color.width_px, known.color.height_px,
+                    known.is_registered
+                        ? std::string()
+                        : fmt::format(", its depth {}x{}", known.depth.width_px, known.depth.height_px))};
     return std::nullopt;
   }
   std::optional<FrameFault> fault = faultOf(*depth, known.depth_units_per_m);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,6 +27,9 @@ using common::Time;
 constexpr const char* kKnownFormats =
     "expected associations.txt, or rgb.txt and depth.txt (TUM RGB-D), or frame-000000.color.png and "
     "frame-000000.depth.png (7-Scenes)";
+
+/// No two images are compared.
+constexpr double kNoneNear_s = std::numeric_limits<double>::infinity();
 
 struct StampedFile {
   Time stamp;
@@ -65,8 +70,10 @@ int depthWords(std::string_view path) {
   return count;
 }
 
-/// The stamp of a pair is that of its colour image.
-void readAssociations(const fs::path& folder, RgbdListing& listing) {
+/// The stamp of a pair is that of its colour image. Returns how far apart in time the nearest images are that make
+/// none.
+double readAssociations(const fs::path& folder, RgbdListing& listing) {
+  double nearest_s = kNoneNear_s;
   LineReader reader(folder / "associations.txt");
   for (std::vector<Word> words; nextWords(reader, words);) {
     requireWords(reader, words, 4, "stamp rgb_file stamp depth_file");
@@ -74,8 +81,9 @@ void readAssociations(const fs::path& folder, RgbdListing& listing) {
     const StampedFile second = stampedFile(reader, folder, words[2], words[3]);
     // Some tools write depth first. The folder that both are in may have that word too.
     const bool depth_first = depthWords(words[1].text) > depthWords(words[3].text);
-    if (std::abs((first.stamp - second.stamp).seconds()) > kPairedWithin_s) {
+    if (const double apart_s = std::abs((first.stamp - second.stamp).seconds()); apart_s > kPairedWithin_s) {
       listing.unpaired += 2;
+      nearest_s = std::min(nearest_s, apart_s);
       continue;
     }
     const StampedFile &color = depth_first ? second : first, &depth = depth_first ? first : second;
@@ -83,6 +91,18 @@ void readAssociations(const fs::path& folder, RgbdListing& listing) {
   }
   std::stable_sort(listing.pairs.begin(), listing.pairs.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  return nearest_s;
+}
+
+/// Of two lists in the order of their stamps.
+double nearestPair_s(const std::vector<StampedFile>& colors, const std::vector<StampedFile>& depths) {
+  double least_s = kNoneNear_s;
+  for (std::size_t c = 0, d = 0; c < colors.size() && d < depths.size();) {
+    const double later_s = (colors[c].stamp - depths[d].stamp).seconds();
+    least_s = std::min(least_s, std::abs(later_s));
+    ++(later_s < 0.0 ? c : d);
+  }
+  return least_s;
 }
 
 /// Both in the order of their stamps; each image is used once, the nearest pairs first.
@@ -128,7 +148,10 @@ std::optional<std::int64_t> frameNumber(const std::string& name) {
 
 void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
   std::map<std::int64_t, fs::path> colors, depths;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  std::error_code failure;
+  const fs::directory_iterator entries(folder, failure);
+  if (failure) throw InputError(Problem{{folder.string()}, "", failure.message(), ""});
+  for (const auto& entry : entries) {
     const std::string name = entry.path().filename().string();
     const std::optional<std::int64_t> number = frameNumber(name);
     if (!number) continue;
@@ -144,20 +167,41 @@ void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
   listing.unpaired = colors.size() + depths.size() - 2 * listing.pairs.size();
 }
 
+/// Whether it is there. Throws InputError where that cannot be seen.
+bool isThere(const fs::path& file) {
+  std::error_code failure;
+  const fs::file_status status = fs::status(file, failure);
+  if (failure && status.type() != fs::file_type::not_found)
+    throw InputError(Problem{{file.string()}, "", failure.message(), ""});
+  return fs::exists(status);
+}
+
+/// Why there is not a single pair.
+std::string whyNoPair(const RgbdListing& listing, double apart_s) {
+  if (listing.unpaired == 0) return "lists no images";
+  const std::string none = fmt::format("holds no pair of a colour and a depth image, of {} images", listing.unpaired);
+  if (!std::isfinite(apart_s)) return none;
+  return none +
+         fmt::format(": the nearest two are {:.3f} s apart, at most {:g} s are one time", apart_s, kPairedWithin_s);
+}
+
 }  // namespace
 
 RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibration_file) {
-  if (!fs::is_directory(folder))
+  if (!isThere(folder) || !fs::is_directory(folder))
     throw InputError(Problem{{folder.string()}, "", "is not a folder", "unpack an archive first"});
   RgbdListing listing;
-  if (fs::exists(folder / "associations.txt")) {
+  double apart_s = kNoneNear_s;
+  if (isThere(folder / "associations.txt")) {
     listing.format = "TUM RGB-D";
     listing.calibration = tumCalibration();
-    readAssociations(folder, listing);
-  } else if (fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt")) {
+    apart_s = readAssociations(folder, listing);
+  } else if (isThere(folder / "rgb.txt") && isThere(folder / "depth.txt")) {
     listing.format = "TUM RGB-D";
     listing.calibration = tumCalibration();
-    associate(readList(folder, "rgb.txt"), readList(folder, "depth.txt"), listing);
+    const std::vector<StampedFile> colors = readList(folder, "rgb.txt"), depths = readList(folder, "depth.txt");
+    associate(colors, depths, listing);
+    apart_s = nearestPair_s(colors, depths);
   } else {
     listing.format = "7-Scenes";
     listing.calibration = sevenScenesCalibration();
@@ -165,15 +209,9 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
     if (listing.pairs.empty() && listing.unpaired == 0)
       throw InputError(Problem{{folder.string()}, "", "holds no RGB-D frames of a known format", kKnownFormats});
   }
-  if (listing.pairs.empty())
-    throw InputError(
-        Problem{{folder.string()},
-                "",
-                fmt::format("holds no pair of a colour and a depth image, {} images are unpaired", listing.unpaired),
-                ""});
+  if (listing.pairs.empty()) throw InputError(Problem{{folder.string()}, "", whyNoPair(listing, apart_s), ""});
   const fs::path recorded = folder / "calibration.yaml";
-  const std::string calibration =
-      calibration_file.empty() && fs::exists(recorded) ? recorded.string() : calibration_file;
+  const std::string calibration = calibration_file.empty() && isThere(recorded) ? recorded.string() : calibration_file;
   if (!calibration.empty()) common::config::YamlReader::fromFile(calibration).read(listing.calibration);
   return listing;
 }

@@ -105,6 +105,7 @@ TEST_F(RgbdFolders, CountsWhatCannotBeUsedByItsReason) {
       {FrameFault::kWhite, 1},   {FrameFault::kRepeated, 1},   {FrameFault::kStampRepeated, 0}};
   for (const auto& [fault, count] : expected) EXPECT_EQ(folder.skipped(fault), count) << toString(fault);
   EXPECT_THAT(folder.firstDetail(FrameFault::kUnreadable), HasSubstr("3.000000.png: is cut off"));
+  EXPECT_THAT(folder.firstDetail(FrameFault::kOtherSize), HasSubstr("64x64, its depth 64x64, the calibration 640x480"));
 }
 
 TEST_F(RgbdFolders, StampsThatDoNotPairAreCounted) {
@@ -196,7 +197,25 @@ TEST_F(RgbdFolders, NamesTheLineOfAListThatCannotBeRead) {
   write("rgb.txt", "1.0\n");
   EXPECT_THAT(message(), HasSubstr("rgb.txt:1: expected `stamp file`, this line has 1 words"));
   write("rgb.txt", "9.0 rgb/1.png\n");
-  EXPECT_THAT(message(), HasSubstr("holds no pair of a colour and a depth image, 2 images are unpaired"));
+  EXPECT_THAT(message(),
+              HasSubstr("no pair of a colour and a depth image, of 2 images: the nearest two are 8.000 s apart, "
+                        "at most 0.02 s are one time"));
+  write("rgb.txt", "# none\n");
+  EXPECT_THAT(message(), HasSubstr("holds no pair of a colour and a depth image, of 1 images"));
+  write("associations.txt", "1.0 rgb/1.png 1.5 depth/1.png\n1.0 rgb/2.png 3.0 depth/2.png\n");
+  EXPECT_THAT(message(), HasSubstr("the nearest two are 0.500 s apart"));
+  write("associations.txt", "");
+  EXPECT_THAT(message(), HasSubstr("lists no images"));
+}
+
+TEST(RgbdListings, OfAFolderThatCannotBeReadNameItWithTheReason) {
+  const std::string folder(5000, 'x');
+  try {
+    (void)listRgbdFolder(folder);
+    ADD_FAILURE();
+  } catch (const common::InputError& error) {
+    EXPECT_EQ(std::string(error.what()), folder + ": File name too long");
+  }
 }
 
 TEST(ImageDecoder, NoCutAndNoFlippedByteCrashes) {
