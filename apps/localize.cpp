@@ -178,9 +178,7 @@ int localize(const LocalizeOptions& options) {
   const fs::path& out = folder.path();
   LocalizeRun run;
   localizeLog(log, options, localizer, run);
-  if (log.scans() == 0) throw log.error("no scan in it could be read");
-  if (run.estimates == 0)
-    throw log.error(fmt::format("not localized: none of its {} scans has points enough", log.scans()));
+  if (run.estimates == 0) throw log.error("not localized: " + log.whyNoPoints());
   if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const perception::LogLocalizerCounts counts = localizer.counts();

@@ -99,6 +99,7 @@ Trust trustOf(const RecordedLog& log, const MapRun& run) {
 
 std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run, const Trust& trust) {
   std::vector<std::string> warnings = log.warnings(run.slam.counts());
+  if (log.scans() == 1) warnings.emplace_back("the map is that of a single scan: nothing confirms it");
   if (!trust.trusted) warnings.insert(warnings.begin(), "the map is probably wrong: " + trust.reason);
   if (const auto restarts = run.slam.connection().breaks; trust.trusted && restarts > 0)
     warnings.push_back("the track was lost " + plural(restarts, "time", "times") +
@@ -154,8 +155,7 @@ int map(const MapOptions& options) {
   const fs::path& out = folder.path();
   MapRun run(options);
   mapLog(log, options, run);
-  if (run.slam.keyPoses().empty())
-    throw log.error(fmt::format("no map: none of its {} scans has points enough", log.scans()));
+  if (run.slam.keyPoses().empty()) throw log.error("no map: " + log.whyNoPoints());
   if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const common::OccupancyGrid grid = run.slam.map();

@@ -58,6 +58,7 @@ std::optional<interfaces::LoggedScan> RecordedLog::next() {
     auto logged = reader_->next();
     if (!logged) return logged;
     ++scans_;
+    countRanges(logged->scan);
     if (!first_stamp_) first_stamp_ = logged->scan.stamps.measured;
     duration_s_ = (logged->scan.stamps.measured - *first_stamp_).seconds();
     stamps_differ_ = stamps_differ_ || logged->scan.stamps.measured != *first_stamp_;
@@ -109,6 +110,29 @@ std::vector<std::pair<std::string, std::string>> RecordedLog::facts() const {
                                                          {"scans", fmt::format("{}", scans_)}};
   if (duration_s_ > 0.0) facts.emplace_back("duration", fmt::format("{:.1f} s", duration_s_));
   return facts;
+}
+
+void RecordedLog::countRanges(const common::LaserScan& scan) {
+  ranges_ += scan.ranges_m.size();
+  nearest_m_ = scan.range_min_m;
+  farthest_m_ = scan.range_max_m;
+  for (const float range_m : scan.ranges_m) {
+    invalid_ += range_m >= scan.range_min_m ? 0 : 1;
+    beyond_ += range_m > scan.range_max_m ? 1 : 0;
+  }
+}
+
+std::string RecordedLog::whyNoPoints() const {
+  if (scans_ == 0) return "no scan in it could be read";
+  const std::string none = fmt::format("none of its {} has points enough", plural(scans_, "scan", "scans"));
+  if (ranges_ == 0) return none + ": they have no ranges";
+  if (2 * invalid_ >= ranges_)
+    return none + fmt::format(": {} of {} ranges are no number or nearer than the laser's {:g} m", invalid_, ranges_,
+                              nearest_m_);
+  if (2 * beyond_ >= ranges_)
+    return none + fmt::format(": {} of {} ranges are beyond the laser's {:g} m; are they in metres?", beyond_, ranges_,
+                              farthest_m_);
+  return none;
 }
 
 common::InputError RecordedLog::error(const std::string& message) const {

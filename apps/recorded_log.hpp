@@ -67,17 +67,23 @@ class RecordedLog {
   std::vector<std::pair<std::string, std::string>> facts() const;
   /// For people: what is odd about it, with what the front end found.
   std::vector<std::string> warnings(const perception::LaserSlamCounts& found) const;
+  /// For people: what the ranges of all scans were, where no scan had points enough.
+  std::string whyNoPoints() const;
   /// An error about the log as a whole, with the first of its records that could not be read.
   common::InputError error(const std::string& message) const;
 
  private:
+  void countRanges(const common::LaserScan& scan);
+
   std::string file_;
   bool uses_odometry_;
   std::unique_ptr<interfaces::LaserLog> reader_;
   std::uint64_t scans_ = 0;
   std::optional<common::Time> first_stamp_;
   bool stamps_differ_ = false;
-  double duration_s_ = 0.0;  ///< From the first stamp to the last.
+  double duration_s_ = 0.0;                              ///< From the first stamp to the last.
+  std::uint64_t ranges_ = 0, invalid_ = 0, beyond_ = 0;  ///< All; those that tell nothing; those without a hit.
+  double nearest_m_ = 0.0, farthest_m_ = 0.0;            ///< What the laser of the last scan measures.
   std::string damage_;
 };
 

@@ -158,16 +158,17 @@ TEST_F(Map, RefusesFilesThatAreNotLogs) {
 }
 
 TEST_F(Map, ALogWithoutScansOrWithoutPointsHasNoMap) {
-  refused(write("a.log", "# message\nODOM 1 2 3 0 0 0 1.0 host 1.0\n"), "a\\.log: no map: none of its 0 scans");
+  refused(write("a.log", "# message\nODOM 1 2 3 0 0 0 1.0 host 1.0\n"), "a\\.log: no map: no scan in it could");
   refused(write("b.log", "FLASER 3 1.0\nFLASER x\n"), "no map: .*first problem: .*b\\.log:1:13: range");
-  refused(write("c.log", "FLASER 0 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
-  refused(write("d.log", "FLASER 2 81.9 81.9 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
-  refused(write("e.log", "FLASER 2 nan -3 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
+  refused(write("c.log", "FLASER 0 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scan .*: they have no ranges");
+  refused(write("d.log", "FLASER 2 1500 1510 0 0 0 0 0 0 1.0 host 1.0\n"), "2 of 2 ranges are beyond .*in metres");
+  refused(write("e.log", "FLASER 2 nan -3 0 0 0 0 0 0 1.0 host 1.0\n"), "2 of 2 ranges are no number or nearer");
 }
 
 TEST_F(Map, ASingleScanGivesAMap) {
   const nlohmann::json figures = mapped(scan(0.0, 1.0));
   EXPECT_EQ(figures.at("scans"), 1);
+  EXPECT_THAT(figures.at("notes").dump(), HasSubstr("of a single scan"));
   for (const std::string& name : kOutputs) EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
 }
 
