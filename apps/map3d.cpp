@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/map3d_notes.hpp"
 #include "apps/map3d_outputs.hpp"
+#include "apps/map3d_run.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
@@ -17,7 +19,6 @@
 #include "interfaces/files/tum.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/cloud/cloud.hpp"
-#include "mapping3d/model/mapper3d.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 #include "mapping3d/odometry/recorded_seeds.hpp"
 
@@ -26,12 +27,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::Pose3;
-using interfaces::FrameFault;
 
-/// With poses for a smaller part of the frames, their times are probably those of another clock.
-constexpr double kFewPoses = 0.5;
-/// A map of which more than this part was lost is probably not one map.
-constexpr double kMostLost = 0.1;
+/// One frame of so many, and one pixel of so many in it, tell how far away what the camera sees is.
+constexpr std::uint64_t kDepthFrames = 10;
+constexpr std::size_t kDepthPixels = 97;
 
 struct Map3dOptions {
   std::string folder;
@@ -40,30 +39,6 @@ struct Map3dOptions {
   std::string out;
   bool mesh = false;
   bool json = false;
-};
-
-/// A frame relative to a key frame, so that later loop closures move it.
-struct TrackedFrame {
-  common::Time stamp;
-  int scan = 0;
-  Pose3 T_scan_camera;
-};
-
-struct Map3dRun {
-  mapping3d::Mapper3d mapper{mapping3d::Mapper3dConfig()};
-  std::vector<TrackedFrame> tracked;
-  bool begins_at_pose = false;  ///< The map is in the world of the given poses: its first frame had one.
-  common::Trajectory given;     ///< Poses of the recorder's camera from other sensors.
-  std::uint64_t with_pose = 0;  ///< Frames with a given pose of their time.
-  rendering::ThinnedCurve milliseconds, disagreement;
-  std::vector<double> frame_ms;
-  std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
-  double wall_s = 0.0;
-
-  double medianMs() {
-    std::sort(frame_ms.begin(), frame_ms.end());
-    return frame_ms.empty() ? 0.0 : frame_ms[frame_ms.size() / 2];
-  }
 };
 
 /// Converts between `camera` and the recorder's camera, whose axes are those of image processing.
@@ -77,10 +52,24 @@ struct RecordedCamera {
   Pose3 T_camera_recorded;
 };
 
-/// The results have the axes of the given poses' world. Without any, the map begins at the first pose, whose axes are
-/// those of `camera` in the map and those of the recorder's camera in the results.
+/// The results are in the given poses' world. Without any, the map begins at the first pose, whose axes are those of
+/// `camera` in the map and those of the recorder's camera in the results.
 Pose3 T_results_map(const Map3dRun& run) {
-  return run.begins_at_pose ? Pose3{} : interfaces::T_camera_optical().inverse();
+  if (!run.anchor) return interfaces::T_camera_optical().inverse();
+  const TrackedFrame& frame = run.tracked[run.anchor->tracked];
+  const Pose3 T_map_camera = run.mapper.scans()->T_map_level(frame.scan) * frame.T_scan_camera;
+  return run.anchor->T_world_camera * T_map_camera.inverse();
+}
+
+/// None if nothing was measured.
+std::optional<double> medianDepth_m(const common::DepthImage& depth) {
+  std::vector<float> measured_m;
+  for (std::size_t i = 0; i < depth.depth_m.size(); i += kDepthPixels)
+    if (common::isMeasured(depth.depth_m[i])) measured_m.push_back(depth.depth_m[i]);
+  if (measured_m.empty()) return std::nullopt;
+  const auto middle = measured_m.begin() + static_cast<std::ptrdiff_t>(measured_m.size() / 2);
+  std::nth_element(measured_m.begin(), middle, measured_m.end());
+  return *middle;
 }
 
 void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, Map3dRun& run) {
@@ -90,6 +79,8 @@ void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, M
   const mapping3d::RgbdPose& pose = mapped.pose;
   seeds.compare(pose);
   run.frame_ms.push_back(1e3 * secondsSince(begin));
+  if (run.frames % kDepthFrames == 0)
+    if (const auto depth_m = medianDepth_m(frame.depth)) run.depths_m.push_back(*depth_m);
   const auto index = static_cast<double>(run.frames++);
   run.milliseconds.add(index, run.frame_ms.back());
   run.key_frames += pose.became_key_frame ? 1 : 0;
@@ -98,7 +89,7 @@ void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, M
     ++run.lost;
     return;
   }
-  if (run.tracked.empty()) run.begins_at_pose = seed.has_value();
+  if (seed && !run.anchor) run.anchor = WorldAnchor{run.tracked.size(), seed->T_map_camera};
   if (run.frames > 1) run.disagreement.add(index, 1.0 - pose.fit.agreement);
   run.found_again += pose.state == mapping3d::TrackState::kFoundAgain ? 1 : 0;
   run.loops += static_cast<std::uint64_t>(mapped.loops);
@@ -108,10 +99,11 @@ void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, M
 /// Of the recorder's camera, with all loop closures.
 common::Trajectory trajectoryOf(const Map3dRun& run, const RecordedCamera& camera) {
   const auto keys = run.mapper.scans();
+  const Pose3 T_results = T_results_map(run);
   common::Trajectory trajectory;
   for (const TrackedFrame& frame : run.tracked)
     trajectory.push_back(
-        {frame.stamp, T_results_map(run) * camera.recorded(keys->T_map_level(frame.scan) * frame.T_scan_camera)});
+        {frame.stamp, T_results * camera.recorded(keys->T_map_level(frame.scan) * frame.T_scan_camera)});
   return trajectory;
 }
 
@@ -125,7 +117,10 @@ double pathLength_m(const common::Trajectory& trajectory) {
 /// Empty where none are given.
 common::Trajectory givenPoses(const Map3dOptions& options) {
   if (options.poses == "none") return {};
-  return common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
+  common::Trajectory poses =
+      common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
+  if (poses.empty()) throw common::InputError(common::Problem{{options.poses}, "", "holds no poses", ""});
+  return poses;
 }
 
 mapping3d::RecordedSeeds seedsOf(common::Trajectory poses, const RecordedCamera& camera) {
@@ -146,56 +141,21 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
         secondsSince(begin));
   }
   run.wall_s = secondsSince(begin);
+  run.disagreement_of_given = seeds.disagreement();
   line.close();
 }
 
 /// In the axes of the results, which the trajectory has too.
 Map3dMap resultsOf(Map3dRun& run) {
   common::KeyPoses keys = *run.mapper.scans();
-  for (common::KeyPose& key : keys.keys) key.T_map_camera = T_results_map(run) * *key.T_map_camera;
+  const Pose3 T_results = T_results_map(run);
+  for (common::KeyPose& key : keys.keys) key.T_map_camera = T_results * *key.T_map_camera;
   const std::vector<common::Submap3d> submaps = run.mapper.submaps();
   const double resolution_m = mapping3d::VoxelConfig().resolution_m;
   return {mapping3d::cloudOf(submaps, keys), mapping3d::fuse(submaps, keys, resolution_m)};
 }
 
-/// What is to be said of the given poses; empty if most frames have one.
-std::string noteOnPoses(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
-  if (run.given.empty() || static_cast<double>(run.with_pose) >= kFewPoses * static_cast<double>(run.frames)) return {};
-  const auto& pairs = folder.listing().pairs;
-  return fmt::format("{}: the poses are from {:.3f} s to {:.3f} s, the frames from {:.3f} s to {:.3f} s",
-                     run.with_pose == 0 ? std::string("no frame has a pose of its time")
-                                        : fmt::format("only {} of {} have a pose of their time", run.with_pose,
-                                                      plural(run.frames, "frame", "frames")),
-                     run.given.front().stamp.seconds(), run.given.back().stamp.seconds(), pairs.front().stamp.seconds(),
-                     pairs.back().stamp.seconds());
-}
-
-std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
-  std::vector<std::string> warnings;
-  if (static_cast<double>(run.lost) > kMostLost * static_cast<double>(run.frames))
-    warnings.push_back("the map is probably wrong: much of the track was lost");
-  if (run.lost > 0)
-    warnings.push_back(fmt::format("the track was lost for {} and found again {}", plural(run.lost, "frame", "frames"),
-                                   plural(run.found_again, "time", "times")));
-  if (const auto factor = run.mapper.betterFocalFactor())
-    warnings.push_back(fmt::format(
-        "the map is probably wrong: the frames fit each other better with {:.2f} times the focal length; check the "
-        "calibration (--intrinsics)",
-        *factor));
-  if (std::string note = noteOnPoses(folder, run); !note.empty()) warnings.push_back(std::move(note));
-  if (folder.listing().unpaired > 0)
-    warnings.push_back(plural(folder.listing().unpaired, "image has", "images have") + " no partner of the same time");
-  for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i) {
-    const auto fault = static_cast<FrameFault>(i);
-    if (folder.skipped(fault) > 0)
-      warnings.push_back(fmt::format("{} skipped: {}; the first: {}",
-                                     plural(folder.skipped(fault), "frame was", "frames were"),
-                                     interfaces::toString(fault), folder.firstDetail(fault)));
-  }
-  return warnings;
-}
-
-nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, Map3dRun& run,
+nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, const Map3dRun& run,
                                  double path_length_m, const std::vector<std::string>& notes, const fs::path& out) {
   return {{"folder", options.folder},
           {"format", folder.listing().format},
@@ -214,23 +174,28 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
           {"notes", notes}};
 }
 
+/// "." has a name, too.
+fs::path wholePath(const std::string& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
 int map3d(const Map3dOptions& options) {
   interfaces::RgbdFolder folder(interfaces::listRgbdFolder(options.folder, options.intrinsics));
-  fs::path name = fs::path(options.folder).lexically_normal();
-  if (!name.has_filename()) name = name.parent_path();
-  ResultsFolder results(options.out.empty() ? fs::path(name.filename().string() + "-map3d") : fs::path(options.out),
-                        kMap3dResults);
+  const fs::path recording = wholePath(options.folder);
+  ResultsFolder results(
+      options.out.empty() ? fs::path(recording.filename().string() + "-map3d") : fs::path(options.out), kMap3dResults);
   Map3dRun run;
   run.given = givenPoses(options);
   mapFolder(folder, options, run);
-  Map3dFigures shown{options.folder, {}, warningsOf(folder, run), run.milliseconds, run.disagreement};
+  Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
     for (const std::string& warning : shown.warnings) showError(warning + "\n");
-    throw common::InputError(common::Problem{
-        {options.folder},
-        "",
-        fmt::format("of {} none can be used", plural(folder.listing().pairs.size(), "frame", "frames")),
-        "the notes above say why; a frame needs a depth image of the size of its picture, with depths in most of it"});
+    throw common::InputError(
+        common::Problem{{options.folder},
+                        "",
+                        fmt::format("of {} none can be used", plural(folder.listing().pairs.size(), "frame", "frames")),
+                        map3dRemedy(folder, run)});
   }
   const common::Trajectory trajectory = trajectoryOf(run, RecordedCamera(folder.calibration()));
   const double path_length_m = pathLength_m(trajectory);

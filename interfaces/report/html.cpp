@@ -72,7 +72,7 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& facts)
 
 std::string map3dSection(const std::string& jpeg_base64) {
   if (jpeg_base64.empty()) return "";
-  return section("3D map", fmt::format("<figure class=\"map\"><img alt=\"The 3D map with the path of the vehicle\" "
+  return section("3D map", fmt::format("<figure class=\"map\"><img alt=\"The 3D map with the path through it\" "
                                        "src=\"data:image/jpeg;base64,{}\"></figure>",
                                        jpeg_base64));
 }

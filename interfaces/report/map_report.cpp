@@ -14,7 +14,7 @@ std::string warningsSection(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return "";
   std::string list = "<ul>\n";
   for (const std::string& warning : warnings) list += "<li class=\"warn\">" + escaped(warning) + "</li>\n";
-  return html::section("About the log", list + "</ul>");
+  return html::section("About the recording", list + "</ul>");
 }
 
 std::string mapPicture(const std::string& map_svg) {

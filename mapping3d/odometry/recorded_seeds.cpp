@@ -26,6 +26,12 @@ constexpr std::uint64_t kLearnEvery = 10;
 /// Errors of neighbouring points are alike, so that an alignment is less certain than independent points would make it.
 constexpr double kSigmaFactor = 5.0;
 
+constexpr double kJudgedStretch_s = 1.0;
+/// Poses of other sensors may well be off by so much after a stretch, and by a part of the motion.
+constexpr double kTolerated_m = 0.1;
+constexpr double kTolerated_rad = 0.1;
+constexpr double kToleratedPart = 0.5;
+
 /// By the frame alone, without what was known before.
 bool isCertain(const Alignment& fit) {
   const Matrix6d covariance = kSigmaFactor * kSigmaFactor * fit.measured_information.inverse();
@@ -51,6 +57,11 @@ double medianOf(std::vector<double>& values) {
 }
 
 }  // namespace
+
+bool SeedDisagreement::isContradiction() const {
+  return error_m > std::max(kTolerated_m, kToleratedPart * motion_m) ||
+         error_rad > std::max(kTolerated_rad, kToleratedPart * motion_rad);
+}
 
 void RecordedSeedsConfig::describe(common::config::Fields& fields) {
   fields("longest_gap_s", longest_gap_s, {0.01, 10}, "Between poses farther apart, no motion is assumed.");
@@ -89,22 +100,47 @@ void RecordedSeeds::compare(const RgbdPose& pose) {
   learnSpread();
 }
 
-/// Mean length of the errors over stretches; a turn of one radian counts as one metre.
-std::optional<double> RecordedSeeds::misfit(double lateness_s) const {
-  double sum = 0.0;
-  int steps = 0;
+std::vector<RecordedSeeds::Stretch> RecordedSeeds::stretches(double length_s, double lateness_s) const {
+  std::vector<Stretch> found;
   std::size_t to = 0;
   for (const Tracked& from : tracked_) {
-    while (to < tracked_.size() && (tracked_[to].stamp - from.stamp).seconds() < config_.stretch_s) ++to;
+    while (to < tracked_.size() && (tracked_[to].stamp - from.stamp).seconds() < length_s) ++to;
     if (to == tracked_.size()) break;
     const auto seed_from = poseAt(from.stamp, lateness_s), seed_to = poseAt(tracked_[to].stamp, lateness_s);
     if (!seed_from || !seed_to) continue;
-    const StepError error = stepError(from.T_map_camera, tracked_[to].T_map_camera, *seed_from, *seed_to);
-    sum += error.shift_m.norm() + error.turn_rad.norm();
-    ++steps;
+    found.push_back({from.T_map_camera.inverse() * tracked_[to].T_map_camera, seed_from->inverse() * *seed_to});
   }
-  if (steps < config_.least_steps) return std::nullopt;
-  return sum / steps;
+  return found;
+}
+
+/// Mean length of the errors over stretches; a turn of one radian counts as one metre.
+std::optional<double> RecordedSeeds::misfit(double lateness_s) const {
+  const std::vector<Stretch> steps = stretches(config_.stretch_s, lateness_s);
+  if (steps.size() < static_cast<std::size_t>(config_.least_steps)) return std::nullopt;
+  double sum = 0.0;
+  for (const Stretch& step : steps) {
+    const Pose3 error = step.seed.inverse() * step.tracked;
+    sum += error.position_m.norm() + common::logSO3(error.rotation).norm();
+  }
+  return sum / static_cast<double>(steps.size());
+}
+
+std::optional<SeedDisagreement> RecordedSeeds::disagreement() const {
+  if (tracked_.empty()) return std::nullopt;
+  const double tracked_s = (tracked_.back().stamp - tracked_.front().stamp).seconds();
+  const double stretch_s = std::min(kJudgedStretch_s, 0.5 * tracked_s);
+  const std::vector<Stretch> steps = stretches(stretch_s, lateness_s_);
+  if (steps.size() < static_cast<std::size_t>(config_.least_steps)) return std::nullopt;
+  std::vector<double> errors_m, errors_rad, motions_m, motions_rad;
+  for (const Stretch& step : steps) {
+    const Pose3 error = step.seed.inverse() * step.tracked;
+    errors_m.push_back(error.position_m.norm());
+    errors_rad.push_back(common::logSO3(error.rotation).norm());
+    motions_m.push_back(step.tracked.position_m.norm());
+    motions_rad.push_back(common::logSO3(step.tracked.rotation).norm());
+  }
+  return SeedDisagreement{stretch_s, medianOf(errors_m), medianOf(errors_rad), medianOf(motions_m),
+                          medianOf(motions_rad)};
 }
 
 void RecordedSeeds::learnLateness() {

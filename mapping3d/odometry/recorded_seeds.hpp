@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "common/config_fwd.hpp"
 #include "common/trajectory.hpp"
@@ -32,6 +33,16 @@ struct RecordedSeedsConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// How far the poses and the track are apart at the end of stretches at whose begin they agree. Medians.
+struct SeedDisagreement {
+  double stretch_s = 0.0;  ///< A second, or half of what was tracked if that is less.
+  double error_m = 0.0, error_rad = 0.0;
+  double motion_m = 0.0, motion_rad = 0.0;  ///< What the track moved in a stretch.
+
+  /// Far more than noise and jumps of good poses: the track and the poses are not of the same motion.
+  bool isContradiction() const;
+};
+
 class RecordedSeeds {
  public:
   /// `poses` are those of the camera (axes of `camera`), in a map with z upwards if they know the vertical.
@@ -44,13 +55,20 @@ class RecordedSeeds {
 
   /// How late the poses are, by their stamps. 0 until it is known.
   double lateness_s() const { return lateness_s_; }
+  /// Of the last frames that were compared; none if they are too few.
+  std::optional<SeedDisagreement> disagreement() const;
 
  private:
   struct Tracked {
     common::Time stamp;
     common::Pose3 T_map_camera;
   };
+  /// Both are the poses at the end of a stretch, in the axes of those at its begin.
+  struct Stretch {
+    common::Pose3 tracked, seed;
+  };
   std::optional<common::Pose3> poseAt(common::Time stamp, double lateness_s) const;
+  std::vector<Stretch> stretches(double length_s, double lateness_s) const;
   std::optional<double> misfit(double lateness_s) const;
   void learnLateness();
   void learnSpread();

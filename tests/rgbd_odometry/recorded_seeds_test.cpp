@@ -95,6 +95,31 @@ TEST(RecordedSeeds, ThatAreLateAreReadLater) {
   }
 }
 
+TEST(RecordedSeeds, ThatContradictTheTrackAreTold) {
+  const auto disagreement = [](const auto& change) {
+    common::Trajectory poses = madeSeeds({0.03, common::kRadPerDeg, 0.1}, 1, 5.0);
+    for (common::StampedPose& at : poses) change(at.pose);
+    RecordedSeeds seeds(poses, {});
+    trackWith(seeds, poses, 60);
+    return seeds.disagreement();
+  };
+  const auto good = disagreement([](Pose3&) {});
+  ASSERT_TRUE(good);
+  EXPECT_FALSE(good->isContradiction()) << good->error_m << " m, " << good->error_rad << " rad";
+  const auto millimetres = disagreement([](Pose3& pose) { pose.position_m *= 1000.0; });
+  const auto w_first = disagreement([](Pose3& pose) {
+    const Eigen::Quaterniond q = pose.rotation;
+    pose.rotation = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+  });
+  const auto constant = disagreement([](Pose3& pose) { pose = Pose3{}; });
+  for (const auto& bad : {millimetres, w_first, constant}) {
+    ASSERT_TRUE(bad);
+    EXPECT_TRUE(bad->isContradiction()) << bad->error_m << " m, " << bad->error_rad << " rad; " << bad->motion_m
+                                        << " m, " << bad->motion_rad << " rad";
+  }
+  EXPECT_FALSE(RecordedSeeds({}, {}).disagreement());
+}
+
 /// After two seconds only one frame in more than a second comes, too few to continue the track by its own motion. What
 /// is then found again by what it looks like does not count.
 TEST(RecordedSeeds, ThatAreGoodCarryItAcrossTurnsThatAreNotSeen) {

@@ -1,0 +1,134 @@
+#include "apps/map3d_notes.hpp"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/recorded_log.hpp"
+#include "common/geometry.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+using interfaces::FrameFault;
+using interfaces::RgbdFolder;
+
+/// With poses for a smaller part of the frames, their times are probably those of another clock.
+constexpr double kFewPoses = 0.5;
+/// A map of which more than this part was lost is probably not one map.
+constexpr double kMostLost = 0.1;
+/// No camera pauses longer within one recording.
+constexpr double kLongGap_s = 10.0;
+
+/// Says how far away the frames are, from which a user sees whether the unit of the depths is right.
+std::string depthQuestion(const RgbdFolder& folder, const Map3dRun& run) {
+  return fmt::format("the depths are {:.2f} m in the median at {:g} units a metre: is depth_units_per_m right?",
+                     run.medianDepth_m(), folder.calibration().depth_units_per_m);
+}
+
+void noteOnTrack(const RgbdFolder& folder, const Map3dRun& run, std::vector<std::string>& notes) {
+  if (run.lost == 0) return;
+  if (static_cast<double>(run.lost) > kMostLost * static_cast<double>(run.frames)) {
+    notes.emplace_back("the map is probably wrong: much of the track was lost");
+    notes.push_back(depthQuestion(folder, run));
+  }
+  notes.push_back(fmt::format("the track was lost for {} and found again {}", plural(run.lost, "frame", "frames"),
+                              plural(run.found_again, "time", "times")));
+}
+
+void noteOnFocalLength(const Map3dRun& run, std::vector<std::string>& notes) {
+  if (const auto factor = run.mapper.betterFocalFactor())
+    notes.push_back(fmt::format(
+        "the map is probably wrong: the frames fit each other better with {:.2f} times the focal length; check the "
+        "calibration (--intrinsics)",
+        *factor));
+}
+
+void noteOnPoses(const RgbdFolder& folder, const Map3dRun& run, std::vector<std::string>& notes) {
+  if (run.given.empty()) return;
+  const auto& pairs = folder.listing().pairs;
+  if (static_cast<double>(run.with_pose) < kFewPoses * static_cast<double>(run.frames))
+    notes.push_back(fmt::format("{}: the poses are from {:.3f} s to {:.3f} s, the frames from {:.3f} s to {:.3f} s",
+                                run.with_pose == 0 ? std::string("no frame has a pose of its time")
+                                                   : fmt::format("only {} of {} have a pose of their time",
+                                                                 run.with_pose, plural(run.frames, "frame", "frames")),
+                                run.given.front().stamp.seconds(), run.given.back().stamp.seconds(),
+                                pairs.front().stamp.seconds(), pairs.back().stamp.seconds()));
+  if (const auto& apart = run.disagreement_of_given; apart && apart->isContradiction())
+    notes.push_back(fmt::format(
+        "the given poses contradict the pictures: within {:.1f} s the camera moves by {:.2f} m and {:.1f} deg in the "
+        "median, and the poses differ from that by {:.3g} m and {:.1f} deg; are they in metres, their rotations in the "
+        "order qx qy qz qw, and of this camera (x right, y down, z along the view) and its clock?",
+        apart->stretch_s, apart->motion_m, apart->motion_rad / common::kRadPerDeg, apart->error_m,
+        apart->error_rad / common::kRadPerDeg));
+}
+
+void noteOnStamps(const RgbdFolder& folder, std::vector<std::string>& notes) {
+  const auto& pairs = folder.listing().pairs;
+  double longest_s = 0.0, from_s = 0.0;
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const double gap_s = (pairs[i].stamp - pairs[i - 1].stamp).seconds();
+    if (gap_s <= longest_s) continue;
+    longest_s = gap_s;
+    from_s = pairs[i - 1].stamp.seconds();
+  }
+  if (longest_s > kLongGap_s)
+    notes.push_back(
+        fmt::format("the longest gap between two frames is {:.1f} s, after the one of {:.3f} s", longest_s, from_s));
+}
+
+void noteOnFrames(const RgbdFolder& folder, std::vector<std::string>& notes) {
+  if (folder.listing().unpaired > 0)
+    notes.push_back(plural(folder.listing().unpaired, "image has", "images have") + " no partner of the same time");
+  for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i) {
+    const auto fault = static_cast<FrameFault>(i);
+    if (folder.skipped(fault) > 0)
+      notes.push_back(fmt::format("{} skipped: {}; the first: {}",
+                                  plural(folder.skipped(fault), "frame was", "frames were"),
+                                  interfaces::toString(fault), folder.firstDetail(fault)));
+  }
+}
+
+std::string remedyOf(FrameFault fault, const RgbdFolder& folder) {
+  switch (fault) {
+    case FrameFault::kMissing:
+      return "are the images of the list in the folder?";
+    case FrameFault::kOtherSize:
+      return "give the calibration of this camera (--intrinsics), with its width_px and height_px";
+    case FrameFault::kNoDepth:
+      return "a frame needs depths in most of it";
+    case FrameFault::kOtherScale:
+      return fmt::format("are {:g} units a metre right? Give depth_units_per_m (--intrinsics)",
+                         folder.calibration().depth_units_per_m);
+    case FrameFault::kUnreadable:
+    case FrameFault::kBlack:
+    case FrameFault::kWhite:
+    case FrameFault::kRepeated:
+    case FrameFault::kStampRepeated:
+      break;
+  }
+  return "the notes above say why";
+}
+
+}  // namespace
+
+std::vector<std::string> map3dNotes(const RgbdFolder& folder, const Map3dRun& run) {
+  std::vector<std::string> notes;
+  noteOnTrack(folder, run, notes);
+  noteOnFocalLength(run, notes);
+  noteOnPoses(folder, run, notes);
+  noteOnStamps(folder, notes);
+  noteOnFrames(folder, notes);
+  return notes;
+}
+
+std::string map3dRemedy(const RgbdFolder& folder, const Map3dRun& run) {
+  if (run.frames > 0) return "they could be read, but show too little texture and too few surfaces to begin with";
+  auto most = FrameFault::kMissing;
+  for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i)
+    if (const auto fault = static_cast<FrameFault>(i); folder.skipped(fault) > folder.skipped(most)) most = fault;
+  return remedyOf(most, folder);
+}
+
+}  // namespace swiftlet::apps

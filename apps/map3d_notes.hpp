@@ -1,0 +1,18 @@
+// What `swiftlet map3d` has to say of a recording: what is odd about it, and why it cannot be mapped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/map3d_run.hpp"
+#include "interfaces/rgbd/rgbd_folder.hpp"
+
+namespace swiftlet::apps {
+
+/// For people; empty if nothing is odd.
+std::vector<std::string> map3dNotes(const interfaces::RgbdFolder& folder, const Map3dRun& run);
+
+/// What to do about a recording of which no frame was tracked.
+std::string map3dRemedy(const interfaces::RgbdFolder& folder, const Map3dRun& run);
+
+}  // namespace swiftlet::apps

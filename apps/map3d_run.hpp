@@ -1,0 +1,54 @@
+// What `swiftlet map3d` keeps of the frames that it has mapped.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/trajectory.hpp"
+#include "mapping3d/model/mapper3d.hpp"
+#include "mapping3d/odometry/recorded_seeds.hpp"
+#include "rendering/thinned_curve.hpp"
+
+namespace swiftlet::apps {
+
+/// A frame relative to a key frame, so that later loop closures move it.
+struct TrackedFrame {
+  common::Time stamp;
+  int scan = 0;
+  common::Pose3 T_scan_camera;
+};
+
+/// The first tracked frame that has a given pose: it hangs the map into the world of the given poses.
+struct WorldAnchor {
+  std::size_t tracked = 0;  ///< Index of the frame among the tracked ones.
+  common::Pose3 T_world_camera;
+};
+
+struct Map3dRun {
+  mapping3d::Mapper3d mapper{mapping3d::Mapper3dConfig()};
+  std::vector<TrackedFrame> tracked;
+  std::optional<WorldAnchor> anchor;
+  common::Trajectory given;  ///< Poses of the recorder's camera from other sensors.
+  std::optional<mapping3d::SeedDisagreement> disagreement_of_given;
+  std::uint64_t with_pose = 0;  ///< Frames with a given pose of their time.
+  rendering::ThinnedCurve milliseconds, disagreement;
+  std::vector<double> frame_ms;
+  std::vector<double> depths_m;  ///< Median depths of some of the frames.
+  std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
+  double wall_s = 0.0;
+
+  double medianMs() const { return medianOf(frame_ms); }
+  double medianDepth_m() const { return medianOf(depths_m); }
+
+ private:
+  /// 0 of none.
+  static double medianOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0.0 : values[values.size() / 2];
+  }
+};
+
+}  // namespace swiftlet::apps
