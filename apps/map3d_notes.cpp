@@ -43,6 +43,8 @@ void noteOnFocalLength(const Map3dRun& run, std::vector<std::string>& notes) {
         "the map is probably wrong: the frames fit each other better with {:.2f} times the focal length; check the "
         "calibration (--intrinsics)",
         *factor));
+  if (run.frames > 0 && !run.mapper.isFocalLengthChecked())
+    notes.emplace_back("the focal length could not be checked: too few views of the same place could be compared");
 }
 
 void noteOnPoses(const RgbdFolder& folder, const Map3dRun& run, std::vector<std::string>& notes) {

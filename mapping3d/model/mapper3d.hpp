@@ -67,6 +67,7 @@ class Mapper3d {
   std::shared_ptr<const common::KeyPoses> scans() const { return graph_.poses(); }
   /// See FocalCheck; without a 2D map only.
   std::optional<double> betterFocalFactor() const { return focal_.betterFactor(); }
+  bool isFocalLengthChecked() const { return focal_.canTell(); }
 
  private:
   /// The newest key frame becomes a node of the graph, and loops to it are closed.

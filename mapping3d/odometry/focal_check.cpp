@@ -8,9 +8,12 @@ namespace swiftlet::mapping3d {
 namespace {
 
 /// Fewer pairs of views do not tell.
-constexpr int kLeastAdded = 8;
-/// A right focal length leaves at least 0.95 of what the best other one leaves, on the recordings of decision 041.
+constexpr int kLeastAdded = 3;
+/// With a right focal length another one leaves at least 0.95 of what it leaves, on the recordings of decision 041.
+constexpr int kManyAdded = 8;
 constexpr double kClearlyBetter = 0.85;
+/// Over few pairs it may be 0.87. With 1.24 times the right one, the right one leaves about 0.5.
+constexpr double kFarBetter = 0.7;
 /// Pairs with fewer textured points have no correlation.
 constexpr int kLeastCompared = 300;
 
@@ -46,17 +49,22 @@ void FocalCheck::add(const FramePyramid& frame, const RgbdPose& pose, const KeyF
     const std::vector<ReferenceView> view{{T_map_key, &levels}};
     const Alignment fit = align(withFocal(frame, kFactors[i]), view, {pose.T_map_camera, Matrix6d::Zero()},
                                 pose.fit.exposure, config.features.depth_noise, config.alignment);
-    if (fit.textured < kLeastCompared) return;
-    unexplained[i] = 1.0 - fit.correlation;
+    const bool is_compared = fit.textured >= kLeastCompared;
+    if (!is_compared && i == 0) return;
+    // Far from the right focal length the views may hardly overlap any more.
+    unexplained[i] = is_compared ? 1.0 - fit.correlation : 1.0;
   }
   ++added_;
   for (std::size_t i = 0; i < kFactors.size(); ++i) unexplained_[i] += unexplained[i];
 }
 
+bool FocalCheck::canTell() const { return added_ >= kLeastAdded; }
+
 std::optional<double> FocalCheck::betterFactor() const {
-  if (added_ < kLeastAdded) return std::nullopt;
+  if (!canTell()) return std::nullopt;
   const auto best = std::min_element(unexplained_.begin(), unexplained_.end());
-  if (*best > kClearlyBetter * unexplained_.front()) return std::nullopt;
+  const double share = added_ < kManyAdded ? kFarBetter : kClearlyBetter;
+  if (*best > share * unexplained_.front()) return std::nullopt;
   return kFactors[static_cast<std::size_t>(best - unexplained_.begin())];
 }
 

@@ -12,8 +12,8 @@
 
 namespace swiftlet::mapping3d {
 
-/// One thread. Costs four alignments for each of the first key frames. It notices errors of about 20 %; smaller ones
-/// often change the grey values too little.
+/// One thread. Costs seven alignments for each of the first key frames. It notices errors of about 20 % and more;
+/// smaller ones often change the grey values too little.
 class FocalCheck {
  public:
   /// `key` is seen from T_map_key, and `frame` was aligned to it and others with the result `pose`.
@@ -22,14 +22,16 @@ class FocalCheck {
 
   /// Whether it has seen enough.
   bool isDone() const { return added_ >= kMostAdded; }
+  /// Whether enough was seen to tell.
+  bool canTell() const;
   /// By what the focal length would have to be multiplied to fit clearly better; none if it fits well, or if too little
   /// was seen to tell.
   std::optional<double> betterFactor() const;
 
  private:
-  /// A focal length does not change, so that later pairs would only cost four more alignments each.
+  /// A focal length does not change, so that later pairs would only cost more alignments.
   static constexpr int kMostAdded = 40;
-  static constexpr std::array kFactors{1.0, 0.8, 0.9, 1.1, 1.25};
+  static constexpr std::array kFactors{1.0, 0.65, 0.8, 0.9, 1.1, 1.25, 1.55};
 
   int added_ = 0;
   std::array<double, kFactors.size()> unexplained_{};  ///< Sums of 1 - correlation.

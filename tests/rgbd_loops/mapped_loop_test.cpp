@@ -137,15 +137,17 @@ TEST(FiveHertz, WhatCannotBeTrackedIsLostAndFoundAgain) {
   EXPECT_THAT(story.lost, testing::ElementsAre(40, 41, 42, 43, 44, 45, 46, 47, 48, 49));
 }
 
-TEST(FocalCheck, NoticesAFocalLengthThatIsWrongByAQuarter) {
-  for (const double factor : {1.0, 1.25}) {
+TEST(FocalCheck, NoticesAFocalLengthThatIsWrongByAQuarterAndMore) {
+  for (const double factor : {1.0, 1.25, 1.55}) {
     Mapper3d mapper(coarse());
+    EXPECT_FALSE(mapper.isFocalLengthChecked());
     for (common::RgbdFrame frame : lap(RoundRoom(), kLap / 2)) {
       frame.camera.fx_px *= factor;
       frame.camera.fy_px *= factor;
       (void)mapper.add(frame, {});
     }
-    EXPECT_EQ(mapper.betterFocalFactor().has_value(), factor != 1.0);
+    EXPECT_TRUE(mapper.isFocalLengthChecked()) << factor;
+    EXPECT_EQ(mapper.betterFocalFactor().has_value(), factor != 1.0) << factor;
     EXPECT_LE(mapper.betterFocalFactor().value_or(1.0), 1.0);
   }
 }
