@@ -55,6 +55,16 @@ FilterState stateAtRest(const ErrorStateFilter::Config& config, const RestEstima
   return state;
 }
 
+/// Time since a pose was last accepted, of the laser or of the camera.
+double horizontalAge_s(const FilterState& s) {
+  return (s.stamp - std::max(s.relative_gate.last_accepted, s.spatial_gate.last_accepted)).seconds();
+}
+
+/// Time since a height or a pose in space was last accepted.
+double verticalAge_s(const FilterState& s) {
+  return (s.stamp - std::max(s.height_gate.last_accepted, s.spatial_gate.last_accepted)).seconds();
+}
+
 }  // namespace
 
 struct ErrorStateFilter::Impl {
@@ -110,15 +120,11 @@ Eigen::Matrix<double, Rows, Rows> ErrorStateFilter::Impl::byLaser(const FilterSt
 }
 
 bool ErrorStateFilter::Impl::horizontalFresh(const Slot& newest) const {
-  const FilterState& s = newest.state;
-  const Time last = std::max(s.relative_gate.last_accepted, s.spatial_gate.last_accepted);
-  return newest.at_rest || (s.stamp - last).seconds() <= config.horizontal_timeout_s;
+  return newest.at_rest || horizontalAge_s(newest.state) <= config.horizontal_timeout_s;
 }
 
 bool ErrorStateFilter::Impl::verticalFresh(const Slot& newest) const {
-  const FilterState& s = newest.state;
-  const Time last = std::max(s.height_gate.last_accepted, s.spatial_gate.last_accepted);
-  return newest.at_rest || (s.stamp - last).seconds() <= config.vertical_timeout_s;
+  return newest.at_rest || verticalAge_s(newest.state) <= config.vertical_timeout_s;
 }
 
 ErrorStateFilter::ErrorStateFilter(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -321,11 +327,8 @@ FusionHealth ErrorStateFilter::health() const {
                              s.velocity_odom_m_s.norm(),
                              std::sqrt(std::max(0.0, s.covariance.diagonal().segment<3>(kVelocity).maxCoeff())),
                              s.recoveries)};
-  if (!f.horizontalFresh(newest))
-    return {now,
-            fmt::format("no usable relative pose for {:.2f} s", (s.stamp - s.relative_gate.last_accepted).seconds())};
-  if (!f.verticalFresh(newest))
-    return {now, fmt::format("no usable height for {:.2f} s", (s.stamp - s.height_gate.last_accepted).seconds())};
+  if (!f.horizontalFresh(newest)) return {now, fmt::format("no usable relative pose for {:.2f} s", horizontalAge_s(s))};
+  if (!f.verticalFresh(newest)) return {now, fmt::format("no usable height for {:.2f} s", verticalAge_s(s))};
   return {now, fmt::format("gate forced open {} times", s.recent_recoveries)};
 }
 

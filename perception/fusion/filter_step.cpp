@@ -28,6 +28,37 @@ double gateLimit2(double gate_sigma) {
   return square(gate_sigma) + 2.5 * (K - 1);
 }
 
+// The widen functions are for measurements that have disagreed for `recovery_s`. That is too long for outliers: the
+// estimate is wrong by about the residual.
+
+void widenHeight(FilterState& state, const Eigen::Matrix<double, 1, 1>& residual_m, double recovery_s) {
+  const double jump2 = residual_m.squaredNorm();
+  auto diagonal = state.covariance.diagonal();
+  diagonal(kPosition + 2) += jump2;
+  diagonal(kVelocity + 2) += jump2 / square(recovery_s);
+}
+
+/// The last row of the residual is the heading, those before it are the position or its part in one direction.
+template <int K>
+void widenPlanarPose(FilterState& state, const Eigen::Matrix<double, K, 1>& residual, double recovery_s,
+                     double gravity_m_s2) {
+  const double jump2 = residual.template head<K - 1>().squaredNorm();
+  auto diagonal = state.covariance.diagonal();
+  diagonal.segment<2>(kPosition).array() += jump2;
+  diagonal.segment<2>(kVelocity).array() += jump2 / square(recovery_s);
+  diagonal(kAttitude + 2) += square(residual(K - 1));
+  // The usual cause of a wrong velocity is a wrong roll or pitch.
+  diagonal.segment<2>(kAttitude).array() += jump2 / square(square(recovery_s) * gravity_m_s2);
+}
+
+void widenSpatialPose(FilterState& state, const Eigen::Matrix<double, 6, 1>& residual, double recovery_s) {
+  const double jump2 = residual.head<3>().squaredNorm(), turn2 = residual.tail<3>().squaredNorm();
+  auto diagonal = state.covariance.diagonal();
+  diagonal.segment<3>(kPosition).array() += jump2;
+  diagonal.segment<3>(kVelocity).array() += jump2 / square(recovery_s);
+  diagonal.segment<3>(kAttitude).array() += turn2;
+}
+
 }  // namespace
 
 FilterStep::FilterStep(const FusionConfig& config)
@@ -79,7 +110,8 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       return;
     case MeasurementKind::kHeight:
       state.height_common_variance_m2 = m.common_variance_m2;
-      gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)));
+      gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)), config_.recovery_s,
+                  widenHeight);
       return;
     case MeasurementKind::kVerticalSpeed:
       update(state, verticalSpeed(state, m.value, m.covariance(0, 0)));
@@ -88,44 +120,33 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       update(state, absolutePose(state, m.pose, m.covariance));
       return;
     case MeasurementKind::kRelativePose:
-    case MeasurementKind::kRelativePose3: {
-      const int clone = state.cloneAt(m.from);
-      if (clone < 0) return;  // The clone was dropped after the measurement was accepted.
-      state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
-      if (m.kind == MeasurementKind::kRelativePose3)
-        updateBySpatialPose(state, clone, m);
-      else if (m.unobservable_direction)
-        gatedUpdate(state, state.relative_gate,
-                    relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_direction));
-      else
-        gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance));
+    case MeasurementKind::kRelativePose3:
+      updateByRelativePose(state, m);
       return;
-    }
   }
 }
 
-/// Its gate has no memory of how long it disagrees: whatever else measures the position decides then. Only where
-/// nothing else does, the estimate is wrong by about the residual.
-void FilterStep::updateBySpatialPose(FilterState& state, int clone, const Measurement& m) const {
-  const Linearized<6> pose = relativePose3(state, clone, m.pose3, m.covariance6);
-  GateMemory& gate = state.spatial_gate;
-  if (mahalanobis2(state, pose) > gateLimit2<6>(config_.gate_sigma)) {
-    if (!gate.closed) gate.closed_since = state.stamp;
-    gate.closed = true;
-    ++gate.rejected;
-    const auto age_s = [&](Time time) { return (state.stamp - time).seconds(); };
-    if (age_s(gate.closed_since) < config_.recovery_s) return;
-    if (age_s(state.relative_gate.last_accepted) < config_.recovery_s) return;
-    auto diagonal = state.covariance.diagonal();
-    const double jump2 = pose.residual.head<3>().squaredNorm(), turn2 = pose.residual.tail<3>().squaredNorm();
-    diagonal.segment<3>(kPosition).array() += jump2;
-    diagonal.segment<3>(kVelocity).array() += jump2 / square(config_.recovery_s);
-    diagonal.segment<3>(kAttitude).array() += turn2;
-    recover(state);
+void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) const {
+  const int clone = state.cloneAt(m.from);
+  if (clone < 0) return;  // The clone was dropped after the measurement was accepted.
+  state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
+  if (m.kind == MeasurementKind::kRelativePose3) {
+    // A pose in space never overrules the laser: its gate is forced only where nothing else measures the position.
+    const bool alone = (state.stamp - state.relative_gate.last_accepted).seconds() >= config_.recovery_s;
+    gatedUpdate(state, state.spatial_gate, relativePose3(state, clone, m.pose3, m.covariance6), config_.recovery_s,
+                widenSpatialPose, alone);
+    return;
   }
-  if (!update(state, pose)) return;
-  gate.closed = false;
-  gate.last_accepted = state.stamp;
+  const auto widen = [this](FilterState& s, const auto& residual, double recovery_s) {
+    widenPlanarPose(s, residual, recovery_s, config_.gravity_m_s2);
+  };
+  if (m.unobservable_direction)
+    gatedUpdate(state, state.relative_gate,
+                relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_direction),
+                config_.pose_recovery_s, widen);
+  else
+    gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), config_.pose_recovery_s,
+                widen);
 }
 
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {
@@ -198,33 +219,20 @@ void FilterStep::updateByDrag(FilterState& state, double accelerometer_noise_m_s
   state.drag_stretch = {};
 }
 
-template <int K>
-void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m) const {
-  const double limit2 = gateLimit2<K>(config_.gate_sigma);
+template <int K, typename Widen>
+void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m, double recovery_s,
+                             Widen widen, bool may_force) const {
   const double innovation2 = mahalanobis2(state, m);
   gate.innovations.sum += innovation2;
   gate.innovations.degrees += static_cast<std::uint64_t>(K);
-  if (innovation2 > limit2) {
-    const double recovery_s = K == 1 ? config_.recovery_s : config_.pose_recovery_s;
+  if (innovation2 > gateLimit2<K>(config_.gate_sigma)) {
     if (!gate.closed) {
       gate.closed = true;
       gate.closed_since = state.stamp;
     }
     ++gate.rejected;
-    if ((state.stamp - gate.closed_since).seconds() < recovery_s) return;
-    // The measurement has disagreed for too long to be an outlier: the estimate is wrong by about the residual.
-    const double jump2 = m.residual.template head<std::max(1, K - 1)>().squaredNorm();
-    auto diagonal = state.covariance.diagonal();
-    if constexpr (K == 1) {
-      diagonal(kPosition + 2) += jump2;
-      diagonal(kVelocity + 2) += jump2 / square(recovery_s);
-    } else {
-      diagonal.segment<2>(kPosition).array() += jump2;
-      diagonal.segment<2>(kVelocity).array() += jump2 / square(recovery_s);
-      diagonal(kAttitude + 2) += square(m.residual(K - 1));
-      // The usual cause of a wrong velocity is a wrong roll or pitch.
-      diagonal.segment<2>(kAttitude).array() += jump2 / square(square(recovery_s) * config_.gravity_m_s2);
-    }
+    if (!may_force || (state.stamp - gate.closed_since).seconds() < recovery_s) return;
+    widen(state, m.residual, recovery_s);
     recover(state);
   }
   if (!update(state, m)) return;

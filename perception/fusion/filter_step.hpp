@@ -45,9 +45,12 @@ class FilterStep {
   /// Whether the specific force is taken for drag: not where it is taken for gravity.
   bool usesDrag() const { return config_.use_drag && !config_.use_gravity; }
   void updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const;
-  template <int K>
-  void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;
-  void updateBySpatialPose(FilterState& state, int clone, const Measurement& measurement) const;
+  void updateByRelativePose(FilterState& state, const Measurement& measurement) const;
+  /// The update of measurements that may be outliers. If their gate has been closed for `recovery_s` and `may_force` is
+  /// true, `widen(state, residual, recovery_s)` widens the covariance, and the measurement is accepted.
+  template <int K, typename Widen>
+  void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement, double recovery_s,
+                   Widen widen, bool may_force = true) const;
   void recover(FilterState& state) const;
   void watch(FilterState& state) const;
 

@@ -205,6 +205,32 @@ TEST(ErrorStateFilter, ASilentLaserDegradesTheStatusUntilScansReturn) {
   EXPECT_TRUE(filter.state().horizontal_valid);
 }
 
+/// What the filter says after 9.4 s of a flight whose laser measures only until 6 s, or only its heights, and whose
+/// camera measures until 8 s.
+FusionHealth withoutSensors(bool heights_only) {
+  SyntheticFlight flight(10, 9.4);
+  flight.camera_hz = 15.0;
+  auto deliveries = flight.deliveries();
+  std::erase_if(deliveries, [&](const Delivery& d) {
+    const bool camera = d.order >= 3, height = d.order == 0;
+    if (camera) return d.arrives > Time::fromSeconds(8.0);
+    return d.arrives > Time::fromSeconds(6.0) && (height || !heights_only);
+  });
+  ErrorStateFilter::Config config = withoutDrag();
+  config.vertical_timeout_s = config.horizontal_timeout_s;
+  ErrorStateFilter filter(config);
+  feed(filter, flight.imuSamples(), deliveries, flight.restUntil(), [&](double t) {
+    if (t < 7.0 || t > 7.9) return;
+    EXPECT_EQ(filter.status(), FusionStatus::kOk) << "the camera replaces the laser";
+  });
+  return filter.health();
+}
+
+TEST(ErrorStateFilter, ItsReasonGivesTheAgeOfTheNewestMeasurementOfLaserAndCamera) {
+  EXPECT_THAT(withoutSensors(false).reason, testing::StartsWith("no usable relative pose for 1."));
+  EXPECT_THAT(withoutSensors(true).reason, testing::StartsWith("no usable height for 1."));
+}
+
 /// After half a second without a height and with a wrong acceleration, a late measurement of the speed corrects the
 /// height too.
 TEST(ErrorStateFilter, AVerticalSpeedAlsoCorrectsTheHeight) {
