@@ -92,7 +92,10 @@ std::optional<CameraSeed> RecordedSeeds::at(common::Time stamp) const {
 }
 
 void RecordedSeeds::compare(const RgbdPose& pose) {
-  if (!pose.isTracked() || !pose.measured || !isCertain(pose.fit)) return;
+  if (!pose.isTracked()) return;
+  judged_.push_back({pose.stamp, pose.T_map_camera});
+  if (judged_.size() > static_cast<std::size_t>(config_.frames)) judged_.pop_front();
+  if (!pose.measured || !isCertain(pose.fit)) return;
   tracked_.push_back({pose.stamp, pose.T_map_camera});
   if (tracked_.size() > static_cast<std::size_t>(config_.frames)) tracked_.pop_front();
   if (++compared_ % kLearnEvery != 0) return;
@@ -100,22 +103,23 @@ void RecordedSeeds::compare(const RgbdPose& pose) {
   learnSpread();
 }
 
-std::vector<RecordedSeeds::Stretch> RecordedSeeds::stretches(double length_s, double lateness_s) const {
+std::vector<RecordedSeeds::Stretch> RecordedSeeds::stretches(const std::deque<Tracked>& frames, double length_s,
+                                                             double lateness_s) const {
   std::vector<Stretch> found;
   std::size_t to = 0;
-  for (const Tracked& from : tracked_) {
-    while (to < tracked_.size() && (tracked_[to].stamp - from.stamp).seconds() < length_s) ++to;
-    if (to == tracked_.size()) break;
-    const auto seed_from = poseAt(from.stamp, lateness_s), seed_to = poseAt(tracked_[to].stamp, lateness_s);
+  for (const Tracked& from : frames) {
+    while (to < frames.size() && (frames[to].stamp - from.stamp).seconds() < length_s) ++to;
+    if (to == frames.size()) break;
+    const auto seed_from = poseAt(from.stamp, lateness_s), seed_to = poseAt(frames[to].stamp, lateness_s);
     if (!seed_from || !seed_to) continue;
-    found.push_back({from.T_map_camera.inverse() * tracked_[to].T_map_camera, seed_from->inverse() * *seed_to});
+    found.push_back({from.T_map_camera.inverse() * frames[to].T_map_camera, seed_from->inverse() * *seed_to});
   }
   return found;
 }
 
 /// Mean length of the errors over stretches; a turn of one radian counts as one metre.
 std::optional<double> RecordedSeeds::misfit(double lateness_s) const {
-  const std::vector<Stretch> steps = stretches(config_.stretch_s, lateness_s);
+  const std::vector<Stretch> steps = stretches(tracked_, config_.stretch_s, lateness_s);
   if (steps.size() < static_cast<std::size_t>(config_.least_steps)) return std::nullopt;
   double sum = 0.0;
   for (const Stretch& step : steps) {
@@ -126,10 +130,10 @@ std::optional<double> RecordedSeeds::misfit(double lateness_s) const {
 }
 
 std::optional<SeedDisagreement> RecordedSeeds::disagreement() const {
-  if (tracked_.empty()) return std::nullopt;
-  const double tracked_s = (tracked_.back().stamp - tracked_.front().stamp).seconds();
+  if (judged_.empty()) return std::nullopt;
+  const double tracked_s = (judged_.back().stamp - judged_.front().stamp).seconds();
   const double stretch_s = std::min(kJudgedStretch_s, 0.5 * tracked_s);
-  const std::vector<Stretch> steps = stretches(stretch_s, lateness_s_);
+  const std::vector<Stretch> steps = stretches(judged_, stretch_s, lateness_s_);
   if (steps.size() < static_cast<std::size_t>(config_.least_steps)) return std::nullopt;
   std::vector<double> errors_m, errors_rad, motions_m, motions_rad;
   for (const Stretch& step : steps) {

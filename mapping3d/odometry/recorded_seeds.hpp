@@ -55,7 +55,7 @@ class RecordedSeeds {
 
   /// How late the poses are, by their stamps. 0 until it is known.
   double lateness_s() const { return lateness_s_; }
-  /// Of the last frames that were compared; none if they are too few.
+  /// Of the last tracked frames; none if they are too few.
   std::optional<SeedDisagreement> disagreement() const;
 
  private:
@@ -68,14 +68,15 @@ class RecordedSeeds {
     common::Pose3 tracked, seed;
   };
   std::optional<common::Pose3> poseAt(common::Time stamp, double lateness_s) const;
-  std::vector<Stretch> stretches(double length_s, double lateness_s) const;
+  std::vector<Stretch> stretches(const std::deque<Tracked>& frames, double length_s, double lateness_s) const;
   std::optional<double> misfit(double lateness_s) const;
   void learnLateness();
   void learnSpread();
 
   common::Trajectory poses_;
   RecordedSeedsConfig config_;
-  std::deque<Tracked> tracked_;
+  std::deque<Tracked> tracked_;  ///< The last frames that were certain of their pose.
+  std::deque<Tracked> judged_;   ///< The last frames, certain or not.
   std::uint64_t compared_ = 0;
   double lateness_s_ = 0.0;
   std::optional<Matrix6d> rate_covariance_;

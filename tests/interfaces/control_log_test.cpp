@@ -55,7 +55,7 @@ TEST_F(ControlLog, TellsWhereItIsDamaged) {
   nan.replace(nan.find("0.010000"), 8, "nan");
   EXPECT_THAT(problemOf(nan), testing::HasSubstr("control.tsv:1"));
   std::string absurd = good;
-  absurd.replace(absurd.find("0.010000"), 8, "1e300");
+  absurd.replace(absurd.find(" 0.010000 "), 10, " 1e300 ");
   EXPECT_THAT(problemOf(absurd), testing::HasSubstr("pitch: `1e300` is not from -1000000 to 1000000"));
   EXPECT_EQ(problemOf("# nothing\n"), "");
 }
