@@ -16,6 +16,7 @@
 #include "common/submap3d.hpp"
 #include "common/surface_mesh.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/stored_cloud.hpp"
 
 namespace swiftlet::interfaces {
 
@@ -33,13 +34,6 @@ std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat fo
 
 /// Writes triangles in one step, as .ply whatever the name's ending is.
 [[nodiscard]] Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh);
-
-struct StoredCloud {
-  std::vector<common::SurfacePoint> points;
-  /// Points that were left out because their position is not finite. PCL writes such where nothing was measured.
-  std::size_t not_finite = 0;
-  double rounding_m = 0.0;  ///< By how much a coordinate differs at most from that of the file, which may be a double.
-};
 
 /// Reads text and binary files of either format, those of PCL compressed too, and such files packed by gzip, bzip2 or
 /// xz. Colours and normals that a file does not have are grey and unknown; faces are left out. Throws InputError for

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "interfaces/files/point_cloud.hpp"
+#include "interfaces/files/stored_cloud.hpp"
 
 namespace swiftlet::interfaces::point_table {
 
