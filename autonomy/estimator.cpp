@@ -64,13 +64,8 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
                                                          : nullptr) {}
 
 void Estimator::addImu(const common::ImuSample& sample, bool predicted) {
-  if (predicted != predicted_) {
-    hear(perception::TapedPredicted{predicted});
-    filter_.setPredicted(predicted);
-  }
-  predicted_ = predicted;
-  hear(sample);
-  filter_.predict(sample);
+  if (predicted != filter_.predicted()) tell(perception::TapedPredicted{predicted});
+  tell(sample);
   imu_seen_ = true;
   if (!sample.rotation_ahrs_body.coeffs().allFinite()) return;
   last_imu_ = sample;
@@ -79,9 +74,7 @@ void Estimator::addImu(const common::ImuSample& sample, bool predicted) {
 }
 
 void Estimator::setAtRest(bool at_rest) {
-  if (at_rest != at_rest_) hear(perception::TapedRest{at_rest});
-  at_rest_ = at_rest;
-  filter_.setAtRest(at_rest);
+  if (at_rest != filter_.atRest()) tell(perception::TapedRest{at_rest});
 }
 
 std::optional<Eigen::Vector3d> Estimator::accelerationOdom_m_s2() const {
@@ -256,6 +249,11 @@ std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names
 
 // ------------------------------------------------------------------------------------------------------ the steps
 
+tl::expected<perception::Insertion, std::string> Estimator::tell(const perception::FilterInput& input) {
+  if (listener_ != nullptr) listener_->heard(input);
+  return perception::tell(filter_, input);
+}
+
 perception::ProjectedScan Estimator::project(const common::LaserScan& scan) const {
   const Time begin = scan.stamps.measured;
   const Time end = begin + scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size());
@@ -286,27 +284,17 @@ OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
 
 /// True when the step matched and the filter accepts it.
 bool Estimator::fuse(const OdometryStep& step) {
-  if (step.clone_before) addClone(*step.clone_before);
+  if (step.clone_before) tell(perception::TapedClone{*step.clone_before});
   bool taken = step.matched;
-  if (const auto& m = step.measurement) {
-    hear(perception::TapedRelativePose{m->from, m->to, m->T_from_to, m->covariance, m->unobservable_direction});
-    taken = filter_.addRelativePose(m->from, m->to, m->T_from_to, m->covariance, m->unobservable_direction) ==
-            perception::Insertion::kTaken;
-  }
-  if (step.clone_after) addClone(*step.clone_after);
+  if (step.measurement) taken = tell(*step.measurement) == perception::Insertion::kTaken;
+  if (step.clone_after) tell(perception::TapedClone{*step.clone_after});
   return taken;
-}
-
-void Estimator::addClone(Time time) {
-  hear(perception::TapedClone{time});
-  (void)filter_.addClone(time);
 }
 
 void Estimator::fuse(const CameraStep& step, Time now) {
   using perception::Insertion;
-  if (const auto& m = step.measurement; m && !isCameraDoubted(now)) {
-    hear(perception::TapedRelativePose3{m->from, m->to, m->T_from_to, m->covariance});
-    const Insertion taken = filter_.addRelativePose3(m->from, m->to, m->T_from_to, m->covariance);
+  if (step.measurement && !isCameraDoubted(now)) {
+    const auto taken = tell(*step.measurement);
     if (taken == Insertion::kTaken) {
       const CameraSupport support = supportOf(filter_.state());
       if (support.horizontal) position_seen_ = now;
@@ -314,7 +302,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     }
     if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();
   }
-  if (step.clone_after) addClone(*step.clone_after);
+  if (step.clone_after) tell(perception::TapedClone{*step.clone_after});
 }
 
 Eigen::Matrix2d Estimator::horizontalCovariance_m2() const {

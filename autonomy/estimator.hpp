@@ -148,13 +148,14 @@ class Estimator {
   std::vector<common::Event> takeEvents(const common::PlaceNames& names = {});
 
  private:
+  /// Tells the listener and then the filter; nothing else changes the filter. Returns what perception::tell returns.
+  tl::expected<perception::Insertion, std::string> tell(const perception::FilterInput& input);
   void initialize(const common::LaserScan& scan);
   void sayWaiting(common::Time now, std::string reason);
   perception::ProjectedScan project(const common::LaserScan& scan) const;
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
   bool isWithheld(const perception::ProjectedScan& scan);
   OdometryStep match(const perception::ProjectedScan& scan);
-  void addClone(common::Time time);
   bool fuse(const OdometryStep& step);
   void fuse(const AltitudeStep& step, common::Time stamp);
   Eigen::Matrix2d horizontalCovariance_m2() const;
@@ -176,16 +177,11 @@ class Estimator {
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
   void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
-  void hear(const perception::FilterInput& input) {
-    if (listener_ != nullptr) listener_->heard(input);
-  }
 
   bool uses_ahrs_;
   double standing_height_m_;  ///< Height of the body when standing, if the mirror sees no floor.
   perception::ErrorStateFilter filter_;
   perception::FilterListener* listener_ = nullptr;
-  bool at_rest_ = false;
-  bool predicted_ = false;     ///< The last sample was.
   double explained_within_m_;  ///< Of the people tracker.
   perception::PeopleTracker people_;
   LaserPipeline laser_;

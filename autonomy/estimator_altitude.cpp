@@ -47,20 +47,14 @@ void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stam
                     "used for {:.0f} s",
                     drift.speed_m_s, kCameraDoubted_s));
   camera_doubted_ = stamp;
-  const double climb_m_s = vertical->velocity_m_s + drift.speed_m_s;
-  hear(perception::TapedClimb{stamp, climb_m_s, drift.variance_m2_s2});
-  (void)filter_.addVerticalSpeed(stamp, climb_m_s, drift.variance_m2_s2);
+  tell(perception::TapedClimb{stamp, vertical->velocity_m_s + drift.speed_m_s, drift.variance_m2_s2});
 }
 
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   if (step.drift) correctClimb(*step.drift, stamp);
   if (const auto& m = step.measurement) {
-    hear(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
-    (void)filter_.addHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2);
-    if (m->speed) {
-      hear(perception::TapedClimb{m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2});
-      (void)filter_.addVerticalSpeed(m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2);
-    }
+    tell(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
+    if (m->speed) tell(perception::TapedClimb{m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2});
   }
   if (step.doubt_m_s)
     say(stamp, Severity::kWarning, "altitude", "height doubtful: the ground may slope",

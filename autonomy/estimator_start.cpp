@@ -37,8 +37,7 @@ void Estimator::initialize(const common::LaserScan& scan) {
   const auto standing = laser_.project(scan, [&](Time) { return Pose3{R_level_body, Eigen::Vector3d::Zero()}; });
   const double height_m = medianBelow_m(standing).value_or(standing_height_m_);
 
-  hear(perception::TapedStart{height_m});
-  const auto initialized = filter_.initialize(height_m);
+  const auto initialized = tell(perception::TapedStart{height_m});
   if (!initialized) return sayWaiting(scan.stamps.arrived, initialized.error());
   started_ = filter_.newest();
   altitude_.initialize(started_, height_m);

@@ -171,7 +171,11 @@ bool ErrorStateFilter::initialized() const { return !impl_->history.empty(); }
 
 void ErrorStateFilter::setAtRest(bool at_rest) { impl_->at_rest = at_rest; }
 
+bool ErrorStateFilter::atRest() const { return impl_->at_rest; }
+
 void ErrorStateFilter::setPredicted(bool predicted) { impl_->predicted = predicted; }
+
+bool ErrorStateFilter::predicted() const { return impl_->predicted; }
 
 Insertion ErrorStateFilter::addClone(Time time) {
   Measurement m;

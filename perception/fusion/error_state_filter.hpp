@@ -62,9 +62,11 @@ class ErrorStateFilter {
   /// While true, the vehicle is known to stand still: zero velocity and zero rotation are measured, from the next
   /// attitude update on.
   void setAtRest(bool at_rest);
+  bool atRest() const;
   /// While true, the samples are not measured but predicted from the vehicle's commands: they count as uncertain as
   /// FusionConfig says, and tell nothing of the drag.
   void setPredicted(bool predicted);
+  bool predicted() const;
 
   /// Clones the pose at `time`, usually that of a scan that becomes the reference. Up to four clones are kept; beyond
   /// that, the least recently used one is dropped.

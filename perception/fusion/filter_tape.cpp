@@ -10,22 +10,37 @@ namespace {
 using common::Time;
 
 struct Tell {
+  using Result = tl::expected<Insertion, std::string>;
+
   ErrorStateFilter& filter;
-  void operator()(const common::ImuSample& sample) const { filter.predict(sample); }
-  void operator()(const TapedStart& start) const { (void)filter.initialize(start.height_m); }
-  void operator()(const TapedRest& rest) const { filter.setAtRest(rest.at_rest); }
-  void operator()(const TapedPredicted& p) const { filter.setPredicted(p.predicted); }
-  void operator()(const TapedClone& clone) const { (void)filter.addClone(clone.time); }
-  void operator()(const TapedRelativePose& m) const {
-    (void)filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unobservable_direction);
+  Result operator()(const common::ImuSample& sample) const {
+    filter.predict(sample);
+    return Insertion::kTaken;
   }
-  void operator()(const TapedRelativePose3& m) const {
-    (void)filter.addRelativePose3(m.from, m.to, m.T_from_to, m.covariance);
+  Result operator()(const TapedStart& start) const {
+    return filter.initialize(start.height_m).map([] { return Insertion::kTaken; });
   }
-  void operator()(const TapedHeight& m) const {
-    (void)filter.addHeight(m.time, m.height_m, m.variance_m2, m.common_variance_m2);
+  Result operator()(const TapedRest& rest) const {
+    filter.setAtRest(rest.at_rest);
+    return Insertion::kTaken;
   }
-  void operator()(const TapedClimb& m) const { (void)filter.addVerticalSpeed(m.time, m.speed_m_s, m.variance_m2_s2); }
+  Result operator()(const TapedPredicted& p) const {
+    filter.setPredicted(p.predicted);
+    return Insertion::kTaken;
+  }
+  Result operator()(const TapedClone& clone) const { return filter.addClone(clone.time); }
+  Result operator()(const TapedRelativePose& m) const {
+    return filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unobservable_direction);
+  }
+  Result operator()(const TapedRelativePose3& m) const {
+    return filter.addRelativePose3(m.from, m.to, m.T_from_to, m.covariance);
+  }
+  Result operator()(const TapedHeight& m) const {
+    return filter.addHeight(m.time, m.height_m, m.variance_m2, m.common_variance_m2);
+  }
+  Result operator()(const TapedClimb& m) const {
+    return filter.addVerticalSpeed(m.time, m.speed_m_s, m.variance_m2_s2);
+  }
 };
 
 struct Print {
@@ -139,7 +154,9 @@ FilterInput shortOf(std::string_view name, Numbers& n) {
 
 }  // namespace
 
-void tell(ErrorStateFilter& filter, const FilterInput& input) { std::visit(Tell{filter}, input); }
+tl::expected<Insertion, std::string> tell(ErrorStateFilter& filter, const FilterInput& input) {
+  return std::visit(Tell{filter}, input);
+}
 
 std::string toLine(const FilterInput& input) { return std::visit(Print{}, input); }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <tl/expected.hpp>
 
 #include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
@@ -28,16 +29,18 @@ struct TapedPredicted {
 struct TapedClone {
   common::Time time;
 };
+/// Of the laser, relative to the clone at `from`; see ErrorStateFilter::addRelativePose.
 struct TapedRelativePose {
   common::Time from, to;
   common::Pose2 T_from_to;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector2d> unobservable_direction;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
+  std::optional<Eigen::Vector2d> unobservable_direction;  ///< Direction without information, in the frame at `from`.
 };
-/// Of a camera, in space.
+/// Of a camera, in space, relative to the clone at `from`; see ErrorStateFilter::addRelativePose3.
 struct TapedRelativePose3 {
   common::Time from, to;
   common::Pose3 T_from_to;
+  /// Of the error (position, rotation vector) in the axes of the body at `to`.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 struct TapedHeight {
@@ -58,8 +61,9 @@ class FilterListener {
   virtual void heard(const FilterInput& input) = 0;
 };
 
-/// Tells the filter.
-void tell(ErrorStateFilter& filter, const FilterInput& input);
+/// Tells the filter. Returns what became of a measurement or a clone, and kTaken for other inputs; the reason if the
+/// filter was to start and did not.
+tl::expected<Insertion, std::string> tell(ErrorStateFilter& filter, const FilterInput& input);
 
 /// One line with its newline: a word that names the input, and its numbers, times in nanoseconds.
 std::string toLine(const FilterInput& input);
