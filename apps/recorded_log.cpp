@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/system.hpp"
+#include "interfaces/files/unpacked_stream.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
 
 namespace swiftlet::apps {
@@ -42,7 +43,7 @@ void addLogOptions(Command& command, RecordedLogOptions& options, const std::str
 fs::path folderFor(const RecordedLogOptions& options, const std::string& suffix) {
   if (!options.out.empty()) return options.out;
   // Only known endings are removed: day.01.clf and day.02.clf are two logs.
-  const std::string unpacked = without(fs::path(options.file).filename().string(), {".gz", ".bz2", ".xz"});
+  const std::string unpacked = interfaces::unpackedName(options.file).filename().string();
   return fmt::format("{}-{}", without(unpacked, {".clf", ".log", ".bag", ".dat", ".txt"}), suffix);
 }
 

@@ -27,7 +27,7 @@ struct MultilevelFilter::Impl {
   // The steps of Algorithm 1, in its order.
   void matchBeams();
   bool leftALevel() const;
-  void undoLastUpdates();
+  bool withdrawMeasurements();
   std::optional<VirtualHeight> takeConfirmed();
   void distrustSlopes();
   std::optional<VirtualHeight> updateHeight(double believed_m_s);
@@ -77,11 +77,14 @@ bool MultilevelFilter::Impl::leftALevel() const {
   });
 }
 
-void MultilevelFilter::Impl::undoLastUpdates() {
-  if (correction.regained()) return;
+/// The measurements that are not published yet may have been of a slope. True if a level must be entered again.
+bool MultilevelFilter::Impl::withdrawMeasurements() {
+  if (correction.regained()) return false;
   pending.clear();
-  if (const auto& entered = correction.entered()) store.at(entered->level).seen = false;  // Must be entered again.
+  const bool entered = correction.entered().has_value();
+  if (entered) store.at(correction.entered()->level).seen = false;
   correction.end();
+  return entered;
 }
 
 std::optional<VirtualHeight> MultilevelFilter::Impl::takeConfirmed() {
@@ -109,7 +112,7 @@ void MultilevelFilter::Impl::distrustSlopes() {
     level.innovation_variance_m2 += same * height.ownVariance_m2() + beamVariance(g.beams);
     if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
     level.forgetInnovations();
-    undoLastUpdates();
+    withdrawMeasurements();
     level.distrusted_until = now + common::Duration::fromSeconds(config.hold_off_s);
     for (Beam& beam : scan.beams)
       if (beam.level == g.level) beam.level = kNoLevel;
@@ -345,11 +348,8 @@ AltitudeUpdate MultilevelFilter::update(const HeightState& prior, const Eigen::V
   f.height.assume(f.correction.applied(prior, f.height));
   f.scan.read(position_map_m, points, f.store);
   f.matchBeams();
-  if (f.leftALevel() && !f.correction.isConfirmed()) {
-    // The last measurements of the level that was left may have been the beginning of a slope.
-    f.undoLastUpdates();
-    f.matchBeams();
-  }
+  // The last measurements of a level that was left may have been the beginning of a slope.
+  if (f.leftALevel() && !f.correction.isConfirmed() && f.withdrawMeasurements()) f.matchBeams();
   f.distrustSlopes();
   if (const auto measured = f.updateHeight(prior.velocity_m_s)) f.pending.push_back(*measured);
   outcome.measurement = f.takeConfirmed();

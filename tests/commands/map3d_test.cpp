@@ -135,15 +135,24 @@ Eigen::Vector3d middleOfVoxels(const fs::path& file) {
   return sum / count;
 }
 
-/// The poses of a world with z upwards: all results are in that world.
+/// A world with z upwards, in which poses are given.
+const common::Pose3 T_world_own{common::expSO3({-1.6, 0.2, 0.4}), {3.0, -2.0, 1.0}};
+
+/// Lines of poses in that world, from the `first` on.
+std::string posesInWorld(const common::Trajectory& own, std::size_t first) {
+  std::string lines;
+  for (std::size_t i = first; i < own.size(); ++i)
+    lines += interfaces::toTumLine({own[i].stamp, T_world_own * own[i].pose});
+  return lines;
+}
+
+/// All results are in the world of the poses.
 TEST_F(Map3d, WithGivenPosesTheResultsAreInTheirWorld) {
   const auto some = kitchenFrames(folder_, 10);
   if (!some) return;
   ASSERT_EQ(runSwiftlet({"map3d", some->string(), "--out", path("out")}).exit_code, 0);
   const common::Trajectory own = interfaces::readTum(path("out/trajectory.tum"));
-  const common::Pose3 T_world_own{common::expSO3({-1.6, 0.2, 0.4}), {3.0, -2.0, 1.0}};
-  std::string poses;
-  for (const common::StampedPose& at : own) poses += interfaces::toTumLine({at.stamp, T_world_own * at.pose});
+  const std::string poses = posesInWorld(own, 0);
   const ProgramEnd seeded =
       runSwiftlet({"map3d", some->string(), "--poses", write("poses.tum", poses), "--out", path("seeded"), "--json"});
   ASSERT_EQ(seeded.exit_code, 0) << describe(seeded);
@@ -168,10 +177,7 @@ TEST_F(Map3d, GivenPosesThatBeginLaterPlaceAllResults) {
   if (!some) return;
   ASSERT_EQ(runSwiftlet({"map3d", some->string(), "--out", path("out")}).exit_code, 0);
   const common::Trajectory own = interfaces::readTum(path("out/trajectory.tum"));
-  const common::Pose3 T_world_own{common::expSO3({-1.6, 0.2, 0.4}), {3.0, -2.0, 1.0}};
-  std::string poses;
-  for (std::size_t i = 3; i < own.size(); ++i)
-    poses += interfaces::toTumLine({own[i].stamp, T_world_own * own[i].pose});
+  const std::string poses = posesInWorld(own, 3);
   const ProgramEnd seeded =
       runSwiftlet({"map3d", some->string(), "--poses", write("poses.tum", poses), "--out", path("seeded")});
   ASSERT_EQ(seeded.exit_code, 0) << describe(seeded);
