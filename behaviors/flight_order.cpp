@@ -1,10 +1,9 @@
 #include "behaviors/flight_order.hpp"
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 
-#include "behaviors/flight_leaf.hpp"
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/tree/conditions.hpp"
 #include "behaviors/tree/outcomes.hpp"
 
@@ -30,30 +29,26 @@ struct Exits {
 class Walk {
  public:
   Walk(const tree::Tree& tree, std::vector<tree::Problem>& problems)
-      : tree_(tree), problems_(problems), skips_(tree.nodes().size()) {
-    // Preorder: children come after their parents.
-    for (std::size_t i = tree.nodes().size(); i-- > 0;) skips_[i] = computeMaySkip(tree.nodes()[i]);
-  }
+      : tree_(tree), problems_(problems), outcomes_(missionOutcomes(tree)), reported_(tree.nodes().size()) {}
 
   Exits walk(const tree::Node& node, Whereabouts entry) {
     Exits exits = walkRule(node, entry);
-    const tree::Conditions* conditions = tree_.conditionsOf(node.id());
-    if (conditions == nullptr) return exits;
-    if (conditions->has(tree::ConditionKind::kSuccessIf)) exits.success = either(exits.success, entry);
-    if (conditions->has(tree::ConditionKind::kFailureIf)) exits.failure = either(exits.failure, entry);
-    return exits;
+    if (const tree::Conditions* conditions = tree_.conditionsOf(node.id())) {
+      if (conditions->has(tree::ConditionKind::kSuccessIf)) exits.success = either(exits.success, entry);
+      if (conditions->has(tree::ConditionKind::kFailureIf)) exits.failure = either(exits.failure, entry);
+    }
+    const tree::Outcomes& may = outcomesOf(node);
+    return {may.success ? exits.success : Whereabouts{}, may.failure ? exits.failure : Whereabouts{}};
   }
 
   bool takesOff() const { return takes_off_; }
-  bool maySkip(const tree::Node& node) const { return skips_[static_cast<std::size_t>(node.id())]; }
 
  private:
   Exits walkRule(const tree::Node& node, Whereabouts entry) {
     const std::string_view id = typeNameOf(recordOf(node));
     if (node.children().empty()) return walkLeaf(node, id, entry);
-    // AsyncSequence, ReactiveSequence and SequenceWithMemory differ only in when they tick their children again.
-    if (id.find("Sequence") != std::string_view::npos) return walkChain(node, entry, true);
-    if (id.find("Fallback") != std::string_view::npos) return walkChain(node, entry, false);
+    if (const tree::ChainRule chain = tree::chainOf(recordOf(node)); chain != tree::ChainRule::kNone)
+      return walkChain(node, entry, chain == tree::ChainRule::kSequence);
     if (id == "Priority") return walkPriority(node, entry);
     if (id == "IfThenElse") return walkIfThenElse(node, entry);
     if (node.children().size() > 1) return walkAnyOrder(node, entry, !id.starts_with("Parallel"));
@@ -64,47 +59,32 @@ class Walk {
     return tree_.nodes()[static_cast<std::size_t>(node.id())];
   }
 
-  /// Whether the node may answer that it does not want the vehicle.
-  bool computeMaySkip(const tree::NodeRecord& record) const {
-    const int id = record.node->id();
-    const tree::Conditions* conditions = tree_.conditionsOf(id);
-    if (conditions != nullptr &&
-        (conditions->has(tree::ConditionKind::kSkipIf) || conditions->has(tree::ConditionKind::kWhile)))
-      return true;
-    const std::string_view type = typeNameOf(record);
-    if (type == "Delay" || type == "KeepRunningUntilFailure") return false;
-    if (type == "RunOnce") return mayBe(id, "then_skip", true);
-    if (type == "SkipUnlessUpdated") return true;
-    if (type == "Precondition" && mayBe(id, "else", std::string("SKIPPED"))) return true;
-    const auto& children = record.node->children();
-    if (children.empty()) return record.manifest != nullptr && record.manifest->may_skip;
-    return std::all_of(children.begin(), children.end(), [&](const auto& child) { return maySkip(*child); });
+  const tree::Outcomes& outcomesOf(const tree::Node& node) const {
+    return outcomes_[static_cast<std::size_t>(node.id())];
   }
 
-  bool mayBe(int id, std::string_view port, const tree::Value& value) const {
-    const std::vector<tree::Value> values = tree_.knownValues(id, port);
-    return std::find(values.begin(), values.end(), value) != values.end();
-  }
+  /// Whether the node may answer that it does not want the vehicle.
+  bool maySkip(const tree::Node& node) const { return outcomesOf(node).skipped; }
 
   Exits walkLeaf(const tree::Node& node, std::string_view id, Whereabouts entry) {
     if (nowhere(entry)) return {};
-    if (id == "TakeOff") {
+    const VehicleUse use = traitsOf(recordOf(node)).vehicle;
+    if (use == VehicleUse::kNone) return {entry, entry};
+    if (use == VehicleUse::kTakesOff) {
       takes_off_ = true;
       return {{false, true}, {entry.ground, true}};
     }
-    if (id == "AlwaysSuccess" || id == "SetBlackboard" || id == "LogEvent" || id == "SetFlightMode") return {entry, {}};
-    if (id == "AlwaysFailure") return {{}, entry};
-    // AvoidObstacle and Hold ask for the vehicle only in flight.
-    const bool flies = dynamic_cast<const FlightLeaf*>(&node) != nullptr && !recordOf(node).manifest->may_skip;
-    if (flies && !entry.air)
+    if (!entry.air && !reported_[static_cast<std::size_t>(node.id())]) {
+      reported_[static_cast<std::size_t>(node.id())] = true;
       problems_.push_back({tree_.locationOf(node.id()),
                            std::string(id),
-                           "the vehicle stands on the floor here, expected a TakeOff before it",
+                           in_next_round_
+                               ? "the vehicle stands on the floor when this is repeated, expected a TakeOff before it"
+                               : "the vehicle stands on the floor here, expected a TakeOff before it",
                            {},
                            tree_.pathOf(node.id())});
-    if (id == "Land" || id == "EmergencyLand") return {{true, false}, entry};
-    if (neverSucceeds(tree_, recordOf(node))) return {{}, entry};
-    return {entry, entry};
+    }
+    return {use == VehicleUse::kLands ? Whereabouts{true, false} : entry, entry};
   }
 
   /// A Sequence continues after SUCCESS, a Fallback after FAILURE; both continue after SKIPPED.
@@ -169,34 +149,40 @@ class Walk {
   }
 
   Exits walkDecorator(const tree::Node& node, std::string_view id, Whereabouts entry) {
-    Exits exits = walk(*node.children().front(), entry);
+    const tree::Node& child = *node.children().front();
+    // After its time a Delay ends where it is when its child does not want the vehicle.
+    const bool stays = id == "Precondition" || id == "RunOnce" || (id == "Delay" && maySkip(child));
+    const Exits exits = walk(child, entry);
+    walkNextRound(node, id, exits);
     const Whereabouts both = either(exits.success, exits.failure);
     if (id == "Inverter") return {exits.failure, exits.success};
-    if (id == "ForceSuccess") return {both, {}};
-    if (id == "ForceFailure") return {{}, both};
-    if (id == "KeepRunningUntilFailure" || isForever(node, id, "Repeat", "num_cycles")) return {{}, exits.failure};
-    if (isForever(node, id, "RetryUntilSuccessful", "num_attempts")) return {exits.success, {}};
-    if (id == "Precondition" || id == "RunOnce") return {either(entry, exits.success), either(entry, exits.failure)};
+    if (id == "ForceSuccess" || id == "ForceFailure") return {both, both};
+    if (stays) return {either(entry, exits.success), either(entry, exits.failure)};
     if (id == "Timeout") return {exits.success, either(entry, both)};
     return exits;
   }
 
-  bool isForever(const tree::Node& node, std::string_view id, std::string_view type, std::string_view port) const {
-    return id == type && tree::isAlways(tree_, recordOf(node), port, -1);
+  /// A node that repeats its child begins again where the child has ended. Repeats inside of that round are walked
+  /// once, so that nested ones do not double the walk at each level.
+  void walkNextRound(const tree::Node& node, std::string_view id, const Exits& first) {
+    const bool after_failure = id == "RetryUntilSuccessful";
+    const bool repeats = after_failure || id == "Repeat" || id == "KeepRunningUntilFailure" || id.starts_with("Loop");
+    const bool once = tree::isAlways(tree_, recordOf(node), after_failure ? "num_attempts" : "num_cycles", 1);
+    if (!repeats || once || in_next_round_) return;
+    in_next_round_ = true;
+    walk(*node.children().front(), after_failure ? first.failure : first.success);
+    in_next_round_ = false;
   }
 
   const tree::Tree& tree_;
   std::vector<tree::Problem>& problems_;
-  std::vector<bool> skips_;
+  std::vector<tree::Outcomes> outcomes_;  ///< By node id.
+  std::vector<bool> reported_;            ///< Leaves, by node id.
   bool takes_off_ = false;
+  bool in_next_round_ = false;
 };
 
 }  // namespace
-
-bool neverSucceeds(const tree::Tree& tree, const tree::NodeRecord& leaf) {
-  const std::string_view id = typeNameOf(leaf);
-  return id == "OperatorCommand" || id == "FollowMe" || (id == "Patrol" && tree::isAlways(tree, leaf, "rounds", 0));
-}
 
 std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree) {
   std::vector<tree::Problem> problems;

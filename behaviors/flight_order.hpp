@@ -8,14 +8,11 @@
 
 namespace swiftlet::behaviors {
 
-/// - A node flies (Explore, Localize, MoveToGoal, GoHome, OperatorCommand) or lands although the vehicle is on the
-///   floor, judged by the statuses that lead there; or nothing ever takes off.
+/// - A node flies or lands (leaf_traits.hpp) although the vehicle is on the floor, judged by the statuses that lead
+///   there; or nothing ever takes off.
 /// - A child of a Priority, other than the last, that is never SKIPPED: the children below it would never get the
 ///   vehicle.
 std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree);
-
-/// A leaf that runs until something ends it, or fails: an OperatorCommand, a FollowMe, a Patrol without end.
-bool neverSucceeds(const tree::Tree& tree, const tree::NodeRecord& leaf);
 
 /// Whether some run of the tree ends with SUCCESS while the vehicle flies. A mission that fails is another matter:
 /// the autonomy brings the vehicle down.

@@ -31,7 +31,8 @@ tree::NodeManifest FollowMe::manifest() {
   return {.id = "FollowMe",
           .kind = tree::NodeKind::kAction,
           .ports = personPorts(),
-          .description = "Follows the nearest person who walks."};
+          .description = "Follows the nearest person who walks.",
+          .may_succeed = false};
 }
 
 tree::NodeManifest ReturnToMe::manifest() {

@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "behaviors/follow_path.hpp"
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 #include "common/goal.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
 
-bool isAboutTargets(std::string_view id) {
-  return id == "LocateTarget" || id == "IsTargetFound" || id == "ExploreUntilFound";
-}
-bool needsCamera(std::string_view id) {
-  return id == "Photograph" || id == "Inspect" || id == "LookAround" || isAboutTargets(id);
-}
-
 /// What is wrong with the targets that a node names; empty if nothing is.
 std::string targetProblem(const tree::Tree& tree, const tree::NodeRecord& record, const MissionLimits& limits) {
-  if (!limits.has_camera || !limits.target_names || !isAboutTargets(record.manifest->id)) return {};
+  if (!limits.has_camera || !limits.target_names || !traitsOf(record).about_targets) return {};
   if (limits.target_names->empty()) return "looks for targets, and the profile names none";
   for (const tree::Value& value : tree.knownValues(record.node->id(), "target"))
     if (const auto* name = std::get_if<std::string>(&value); name != nullptr && !name->empty())
@@ -34,10 +27,11 @@ struct AreaProblem {
   std::string problem;  ///< Empty without one.
   const char* hint = "";
 };
-AreaProblem areaProblem(const common::Polygon& area, std::string_view id, bool in_take_off_frame) {
+/// `keeps_out` is an area in the take-off frame that the vehicle does not enter.
+AreaProblem areaProblem(const common::Polygon& area, bool keeps_out) {
   if (std::string problem = problemOf(area); !problem.empty())
     return {std::move(problem), "give the corners in order along the edge"};
-  if (in_take_off_frame && id == "KeepOut" && area.contains(Eigen::Vector2d::Zero()))
+  if (keeps_out && area.contains(Eigen::Vector2d::Zero()))
     return {"holds the take-off place 0;0", "the vehicle could not fly home: leave the place out"};
   return {};
 }
@@ -47,10 +41,9 @@ constexpr const char* kHeightHint =
 
 std::string metres(double value) { return tree::toString(tree::Value(value)) + " m"; }
 
-bool hasLeaf(const tree::Tree& tree, std::string_view id) {
-  return std::any_of(tree.nodes().begin(), tree.nodes().end(), [id](const tree::NodeRecord& record) {
-    return record.manifest != nullptr && record.manifest->id == id;
-  });
+bool hasLeaf(const tree::Tree& tree, MapUse use) {
+  return std::any_of(tree.nodes().begin(), tree.nodes().end(),
+                     [use](const tree::NodeRecord& record) { return traitsOf(record).map == use; });
 }
 
 class LimitsCheck {
@@ -59,8 +52,8 @@ class LimitsCheck {
       : tree_(tree),
         limits_(limits),
         max_height_m_(maxHeightOf_m(tree).value_or(limits.max_height_m)),
-        loads_map_(hasLeaf(tree, "LoadMap")),
-        in_take_off_frame_(!loads_map_ && !hasLeaf(tree, "Localize")) {}
+        loads_map_(hasLeaf(tree, MapUse::kLoads)),
+        in_take_off_frame_(!loads_map_ && !hasLeaf(tree, MapUse::kNeeds)) {}
 
   std::vector<tree::Problem> find() {
     for (const tree::NodeRecord& record : tree_.nodes()) {
@@ -96,7 +89,7 @@ class LimitsCheck {
   }
 
   void checkCamera(const tree::NodeRecord& node) {
-    if (needsCamera(node.manifest->id) && !limits_.has_camera)
+    if (traitsOf(node).needs_camera && !limits_.has_camera)
       report(node, "needs an RGB-D camera, and the vehicle has none",
              "fly with a profile that has one: --system swiftlet_3d, or system: in a trial");
     if (const std::string problem = targetProblem(tree_, node, limits_); !problem.empty())
@@ -104,7 +97,7 @@ class LimitsCheck {
   }
 
   void checkFileName(const tree::NodeRecord& node) {
-    if (node.manifest->id != "Photograph" && node.manifest->id != "SaveMap") return;
+    if (!traitsOf(node).writes_file) return;
     forEachValue<std::string>(node, "file", [&](const std::string& file) {
       if (const std::string problem = fileNameProblem(file); !problem.empty()) report(node, "file", problem, {});
     });
@@ -135,7 +128,7 @@ class LimitsCheck {
     // A height is judged as that of a goal above the take-off place.
     forEachValue<double>(node, "height_m", [&](double height_m) { checkGoal("height_m", {.height_m = height_m}); });
     forEachValue<tree::Points>(node, "polygon", [&](const tree::Points& corners) {
-      const auto [problem, hint] = areaProblem(polygonOf(corners), node.manifest->id, in_take_off_frame_);
+      const auto [problem, hint] = areaProblem(polygonOf(corners), in_take_off_frame_ && traitsOf(node).keeps_out);
       if (!problem.empty()) report(node, "polygon", problem, hint);
     });
     forEachValue<tree::Point>(node, "goal", [&](const tree::Point& goal) {
@@ -144,11 +137,11 @@ class LimitsCheck {
   }
 
   void checkMap(const tree::NodeRecord& node) {
-    const std::string& leaf = node.manifest->id;
-    if ((leaf == "Localize" || leaf == "Relocalize") && !limits_.has_map && !loads_map_)
+    const MapUse use = traitsOf(node).map;
+    if (use == MapUse::kNeeds && !limits_.has_map && !loads_map_)
       report(node, "needs a map of the place, and the flight has none",
              "give it one: LoadMap, swiftlet fly --map MAP.yaml, or map: in a trial");
-    if (leaf != "LoadMap" || !limits_.map_problem) return;
+    if (use != MapUse::kLoads || !limits_.map_problem) return;
     forEachValue<std::string>(node, "file", [&](const std::string& file) {
       if (std::string problem = limits_.map_problem(file, tree_.locationOf(node.node->id()).file); !problem.empty())
         report(node, "file", std::move(problem), "a map is the YAML file of map_server, as a run writes map.yaml");
@@ -172,7 +165,7 @@ std::vector<tree::Problem> limitProblems(const tree::Tree& tree, const MissionLi
 std::optional<double> maxHeightOf_m(const tree::Tree& tree) {
   std::optional<double> greatest_m;
   for (const tree::NodeRecord& record : tree.nodes()) {
-    if (record.manifest == nullptr || record.manifest->id != "TakeOff") continue;
+    if (traitsOf(record).vehicle != VehicleUse::kTakesOff) continue;
     for (const tree::Value& value : tree.knownValues(record.node->id(), "max_height_m"))
       if (const auto* height_m = std::get_if<double>(&value))
         greatest_m = std::max(greatest_m.value_or(*height_m), *height_m);

@@ -11,7 +11,8 @@ tree::NodeManifest LogEvent::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {{.name = "text", .type = PortType::kString, .required = true, .description = "What happened."},
                     choicePort("severity", common::kSeverities, "How it is shown.")},
-          .description = "Writes an event."};
+          .description = "Writes an event.",
+          .may_fail = false};
 }
 
 tree::Status LogEvent::act(tree::TickContext& context) {

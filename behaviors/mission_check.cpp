@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "behaviors/flight_order.hpp"
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/limits_check.hpp"
 #include "behaviors/mission_warnings.hpp"
 #include "behaviors/registry.hpp"
@@ -101,7 +102,7 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
 std::vector<std::string> mapFilesOf(const tree::Tree& tree) {
   std::vector<std::string> files;
   for (const tree::NodeRecord& record : tree.nodes()) {
-    if (record.manifest == nullptr || record.manifest->id != "LoadMap") continue;
+    if (traitsOf(record).map != MapUse::kLoads) continue;
     for (const tree::Value& value : tree.knownValues(record.node->id(), "file"))
       if (const auto* file = std::get_if<std::string>(&value))
         if (std::find(files.begin(), files.end(), *file) == files.end()) files.push_back(*file);
@@ -117,11 +118,6 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
 
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits) {
   return toCommon(judgeMission(path, limits).problems);
-}
-
-std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
-                                              const MissionLimits& limits) {
-  return toCommon(judgeMissionText(text, name, limits).problems);
 }
 
 }  // namespace swiftlet::behaviors

@@ -41,7 +41,5 @@ MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
 
 MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits = {});
-std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
-                                              const MissionLimits& limits = {});
 
 }  // namespace swiftlet::behaviors

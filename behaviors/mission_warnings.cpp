@@ -4,27 +4,19 @@
 #include <string>
 #include <string_view>
 
-#include "behaviors/flight_leaf.hpp"
 #include "behaviors/flight_order.hpp"
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/tree/outcomes.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
-
-std::optional<tree::Outcomes> outcomesOfLeaf(const tree::Tree& tree, const tree::NodeRecord& leaf) {
-  if (typeNameOf(leaf) == "LogEvent") return tree::Outcomes{.success = true};
-  if (neverSucceeds(tree, leaf)) return tree::Outcomes{.failure = true};
-  return std::nullopt;
-}
 
 class Warnings {
  public:
   explicit Warnings(const tree::Tree& tree) : tree_(tree) {}
 
   std::vector<tree::Problem> find() {
-    const auto outcomes =
-        tree::outcomesOf(tree_, [this](const tree::NodeRecord& leaf) { return outcomesOfLeaf(tree_, leaf); });
-    const std::vector<tree::Unreached> unreached = tree::unreachedNodes(tree_, outcomes);
+    const std::vector<tree::Unreached> unreached = tree::unreachedNodes(tree_, missionOutcomes(tree_));
     for (const tree::Unreached& node : unreached) warn(node.node, "is never reached: " + node.why, {});
     for (const tree::NodeRecord& record : tree_.nodes())
       if (typeNameOf(record).starts_with("Parallel")) checkParallel(*record.node);
@@ -41,8 +33,7 @@ class Warnings {
 
   /// The first leaf below that has the vehicle whenever it is ticked; null without one.
   const tree::Node* flyingLeafIn(const tree::Node& node) const {
-    const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(node.id())].manifest;
-    if (dynamic_cast<const FlightLeaf*>(&node) != nullptr && manifest != nullptr && !manifest->may_skip) return &node;
+    if (traitsOf(tree_.nodes()[static_cast<std::size_t>(node.id())]).vehicle != VehicleUse::kNone) return &node;
     for (const auto& child : node.children())
       if (const tree::Node* leaf = flyingLeafIn(*child)) return leaf;
     return nullptr;
@@ -66,8 +57,8 @@ class Warnings {
       return false;
     };
     for (const tree::NodeRecord& record : tree_.nodes()) {
-      const std::string_view type = typeNameOf(record);
-      const bool lands = type.find("Land") != std::string_view::npos || type == "OperatorCommand";
+      const LeafTraits& traits = traitsOf(record);
+      const bool lands = traits.vehicle == VehicleUse::kLands || traits.obeys_operator;
       if (!lands || isUnreached(record.node->id())) continue;
       if (mayEndInTheAir(tree_))
         warn(0, "the mission may succeed while the vehicle is in the air", "end it with a <Land/>");

@@ -12,7 +12,8 @@ namespace swiftlet::behaviors {
 ///   condition, a case or a count that the file fixes excludes it.
 /// - A Parallel of several children that fly: only the last intent of a tick is flown.
 /// - Nothing lands the vehicle, and no OperatorCommand leaves that to the operator; or the mission may succeed in the
-/// air. Each has the path of its node.
+///   air.
+/// Each has the path of its node.
 std::vector<tree::Problem> missionWarnings(const tree::Tree& tree);
 
 }  // namespace swiftlet::behaviors

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "behaviors/tree/nodes/priority.hpp"
+
 namespace swiftlet::behaviors {
 namespace {
 
@@ -101,8 +103,7 @@ bool Narrator::isCondition(const Node& node) const {
 bool Narrator::isReportedBySwitches(const Node& node) const {
   const int parent = tree_.nodes()[static_cast<std::size_t>(node.id())].parent;
   if (parent < 0) return false;
-  const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(parent)].manifest;
-  return manifest != nullptr && manifest->id == "Priority";
+  return dynamic_cast<const tree::Priority*>(tree_.nodes()[static_cast<std::size_t>(parent)].node) != nullptr;
 }
 
 void Narrator::say(common::Severity severity, std::string text, std::string reason) {

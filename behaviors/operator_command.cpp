@@ -22,7 +22,8 @@ tree::NodeManifest OperatorCommand::manifest() {
   return {.id = "OperatorCommand",
           .kind = tree::NodeKind::kAction,
           .ports = {tolerancePort(), clearancePort()},
-          .description = "Flies to the goals the operator gives, or home, and holds between."};
+          .description = "Flies to the goals the operator gives, or home, and holds between.",
+          .may_succeed = false};
 }
 
 OperatorCommand::OperatorCommand(const tree::NodeSetup& setup)

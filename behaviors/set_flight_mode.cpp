@@ -8,7 +8,8 @@ tree::NodeManifest SetFlightMode::manifest() {
   return {.id = "SetFlightMode",
           .kind = tree::NodeKind::kAction,
           .ports = {choicePort("mode", common::kFlightModes, "How fast and how closely paths are flown.")},
-          .description = "Sets the flight mode of what follows."};
+          .description = "Sets the flight mode of what follows.",
+          .may_fail = false};
 }
 
 tree::Status SetFlightMode::act(tree::TickContext& context) {

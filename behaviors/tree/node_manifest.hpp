@@ -25,6 +25,9 @@ struct NodeManifest {
   /// Of nodes with children that need a number of them; others take what their kind does.
   std::optional<int> least_children = std::nullopt, most_children = std::nullopt;
   std::string about_children = {};  ///< What they are for, for messages; may be empty.
+  /// Leaves: whether it may end with SUCCESS, and with FAILURE for any other reason than a port that has no value.
+  bool may_succeed = true;
+  bool may_fail = true;
 
   const PortManifest* findPort(std::string_view name) const;
   /// Controls: 1 or more; decorators: 1; leaves: 0.

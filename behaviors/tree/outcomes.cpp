@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "behaviors/tree/conditions.hpp"
+#include "behaviors/tree/nodes/loop.hpp"
 #include "behaviors/tree/nodes/switch_node.hpp"
 
 namespace swiftlet::tree {
@@ -13,14 +14,6 @@ constexpr Outcomes kAny{true, true, true};
 
 Outcomes either(Outcomes a, Outcomes b) {
   return {a.success || b.success, a.failure || b.failure, a.skipped || b.skipped};
-}
-
-/// How a node asks its children one after the other.
-enum class ChainRule : unsigned char { kNone, kSequence, kFallback };
-
-ChainRule chainOf(std::string_view id) {
-  if (id.find("Sequence") != std::string_view::npos) return ChainRule::kSequence;
-  return id.find("Fallback") != std::string_view::npos ? ChainRule::kFallback : ChainRule::kNone;
 }
 
 /// Whether a chain goes on to its next child.
@@ -60,20 +53,17 @@ class OutcomeJudge {
     if (id == "IfThenElse" || id == "WhileDoElse") return choiceOutcomes(record);
     if (const auto* choice = dynamic_cast<const SwitchNode*>(record.node))
       if (const auto chosen = choice->alwaysChosen()) return of(*children[*chosen]);
-    if (chainOf(id) != ChainRule::kNone) return chainOutcomes(record, chainOf(id));
+    if (const ChainRule chain = chainOf(record); chain != ChainRule::kNone) return chainOutcomes(record, chain);
     if (children.size() == 1) return decorated(record, id, of(*children.front()));
     return anyOrder(record, id);
   }
 
   Outcomes leafOutcomes(const NodeRecord& record, std::string_view id) const {
-    if (id == "AlwaysFailure") return {false, true, false};
-    for (const char* name : {"AlwaysSuccess", "SetBlackboard", "UnsetBlackboard", "Sleep"})
-      if (id == name) return {true, false, false};
     if (id == "ScriptCondition")
       if (const auto holds = tree_.constantTruth(record.node->id(), "code")) return {*holds, !*holds, false};
     if (leaf_outcomes_)
       if (const auto known = leaf_outcomes_(record)) return *known;
-    return {true, true, record.manifest->may_skip};
+    return {record.manifest->may_succeed, record.manifest->may_fail, record.manifest->may_skip};
   }
 
   Outcomes chainOutcomes(const NodeRecord& record, ChainRule chain) const {
@@ -108,7 +98,8 @@ class OutcomeJudge {
     bool all_skip = true;
     for (const auto& child : record.node->children()) {
       all = either(all, of(*child));
-      all_skip = all_skip && of(*child).skipped;
+      const bool asked = id != "TryCatch" || child != record.node->children().back();
+      all_skip = all_skip && (of(*child).skipped || !asked);
     }
     // A Priority ends as its last child, or well if that is SKIPPED after another one did something.
     if (id == "Priority") {
@@ -116,7 +107,8 @@ class OutcomeJudge {
       all.success = last.success || (last.skipped && all.success);
     }
     if (id.starts_with("Parallel")) all.success = all.success || all.skipped;
-    all.skipped = all_skip;
+    // A Switch wants the vehicle as the child that it chooses does.
+    if (dynamic_cast<const SwitchNode*>(record.node) == nullptr) all.skipped = all_skip;
     return all;
   }
 
@@ -128,15 +120,40 @@ class OutcomeJudge {
     if (id == "KeepRunningUntilFailure") return {false, child.failure, false};
     if (id == "Repeat" && isAlways(tree_, record, "num_cycles", 0)) return {true, false, false};
     if (id == "RetryUntilSuccessful" && isAlways(tree_, record, "num_attempts", 0)) return {false, true, false};
-    if (id == "Precondition" && tree_.constantTruth(record.node->id(), "if") == true) return child;
+    if (id == "Precondition") return preconditioned(record, child);
+    if (dynamic_cast<const Loop*>(record.node) != nullptr) return looped(record);
     if (id == "Repeat") return {child.success && !isForever(record, "num_cycles"), child.failure, child.skipped};
     if (id == "RetryUntilSuccessful")
       return {child.success, child.failure && !isForever(record, "num_attempts"), child.skipped};
     if (id == "Timeout") return {child.success, true, child.skipped};
-    if (id == "Delay") return child;
-    if (id == "RunOnce" || id == "SkipUnlessUpdated") return {child.success, child.failure, true};
+    if (id == "Delay") return {child.success || child.skipped, child.failure || child.skipped, false};
+    if (id == "RunOnce") return {child.success, child.failure, child.skipped || mayBe(record, "then_skip", true)};
+    if (id == "SkipUnlessUpdated") return {child.success, child.failure, true};
     if (id == "Priority" || id.starts_with("Parallel") || id == "WaitValueUpdate") return child;
     return kAny;
+  }
+
+  Outcomes preconditioned(const NodeRecord& record, Outcomes child) const {
+    const auto holds = tree_.constantTruth(record.node->id(), "if");
+    if (holds == true) return child;
+    const Outcomes otherwise = answersOf(record, "else");
+    // A script that cannot be evaluated is FAILURE.
+    return holds == false ? otherwise : either(either(child, otherwise), {.failure = true});
+  }
+
+  /// FAILURE of a child is that of a Loop, and so is an element of another type.
+  Outcomes looped(const NodeRecord& record) const { return either(answersOf(record, "if_empty"), {.failure = true}); }
+
+  /// The statuses that a port may name.
+  Outcomes answersOf(const NodeRecord& record, std::string_view port) const {
+    const auto may = [&](const char* status) { return mayBe(record, port, std::string(status)); };
+    return {may("SUCCESS"), may("FAILURE"), may("SKIPPED")};
+  }
+
+  bool mayBe(const NodeRecord& record, std::string_view port, const Value& value) const {
+    const std::vector<Value> values = tree_.knownValues(record.node->id(), port);
+    return !tree_.knowsEveryValue(record.node->id(), port) ||
+           std::find(values.begin(), values.end(), value) != values.end();
   }
 
   bool isForever(const NodeRecord& record, std::string_view port) const { return isAlways(tree_, record, port, -1); }
@@ -168,6 +185,12 @@ std::string neverText(const Node& blocker, Outcomes end, ChainRule chain) {
 }
 
 }  // namespace
+
+ChainRule chainOf(const NodeRecord& record) {
+  const std::string_view id = typeNameOf(record);
+  if (id.find("Sequence") != std::string_view::npos) return ChainRule::kSequence;
+  return id.find("Fallback") != std::string_view::npos ? ChainRule::kFallback : ChainRule::kNone;
+}
 
 bool isAlways(const Tree& tree, const NodeRecord& record, std::string_view port, std::int64_t number) {
   const std::vector<Value> values = tree.knownValues(record.node->id(), port);
@@ -212,7 +235,7 @@ class UnreachedFinder {
   void judgeChildren(const NodeRecord& record, std::string_view id) {
     const auto& children = record.node->children();
     const std::string name = "`" + record.node->name() + "`";
-    if (const ChainRule chain = chainOf(id); chain != ChainRule::kNone) return judgeChain(*record.node, chain);
+    if (const ChainRule chain = chainOf(record); chain != ChainRule::kNone) return judgeChain(*record.node, chain);
     if (id == "IfThenElse" || id == "WhileDoElse") {
       const Outcomes& condition = of(*children.front());
       const std::string asked = "`" + children.front()->name() + "`, which is asked before it, never ";

@@ -16,12 +16,18 @@ namespace swiftlet::tree {
 struct Outcomes {
   bool success = false;
   bool failure = false;
+  /// It may answer so when it is asked. A Delay wants the vehicle first: where its child may be SKIPPED, it may succeed
+  /// and fail instead.
   bool skipped = false;
 
   bool operator==(const Outcomes&) const = default;
 };
 
-/// What an application knows about its own leaves; nothing for a leaf that may end in every way.
+/// How a node asks its children one after the other.
+enum class ChainRule : unsigned char { kNone, kSequence, kFallback };
+ChainRule chainOf(const NodeRecord& record);
+
+/// What an application knows of a leaf beyond its manifest; nothing where that says all.
 using LeafOutcomes = std::function<std::optional<Outcomes>(const NodeRecord& leaf)>;
 
 /// Whether every value that the port may have before the first tick is that number.

@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/mission.hpp"
-#include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
+#include "tests/behaviors/check_text.hpp"
 #include "tests/tree/story.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
+
+using testing::checkMissionText;
 
 using Row = std::vector<std::string>;
 

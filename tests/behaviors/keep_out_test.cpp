@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "behaviors/mission_check.hpp"
+#include "tests/behaviors/check_text.hpp"
 #include "tests/behaviors/flight.hpp"
 
 namespace swiftlet::behaviors::testing {

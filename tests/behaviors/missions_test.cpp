@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/mission_check.hpp"
+#include "tests/behaviors/check_text.hpp"
 #include "tests/behaviors/flight.hpp"
 
 namespace swiftlet::behaviors::testing {
@@ -171,6 +172,9 @@ TEST(Check, AChildMayStandAboveOthersWhereItsConditionSkipsIt) {
   EXPECT_THAT(above("<RunOnce><TurnTo yaw_deg=\"90\"/></RunOnce>"), IsEmpty());
   EXPECT_THAT(above("<Precondition if=\"rounds == 1\" else=\"SKIPPED\"><TurnTo yaw_deg=\"90\"/></Precondition>"),
               IsEmpty());
+  EXPECT_THAT(above("<LoopInt queue=\"1;2\" if_empty=\"SKIPPED\"><TurnTo yaw_deg=\"90\"/></LoopInt>"), IsEmpty());
+  EXPECT_THAT(above("<IfThenElse><Hold/><TurnTo yaw_deg=\"90\"/></IfThenElse>"), IsEmpty());
+  EXPECT_THAT(above("<Delay delay_msec=\"5\"><Hold/></Delay>"), ElementsAre(HasSubstr("Delay: never answers SKIPPED")));
   EXPECT_THAT(above("<Precondition if=\"rounds == 1\"><TurnTo yaw_deg=\"90\"/></Precondition>"),
               ElementsAre(HasSubstr("Precondition: never answers SKIPPED")));
   EXPECT_THAT(above("<RunOnce then_skip=\"false\"><TurnTo yaw_deg=\"90\"/></RunOnce>"),
@@ -180,6 +184,23 @@ TEST(Check, AChildMayStandAboveOthersWhereItsConditionSkipsIt) {
 TEST(Check, AConditionDoesNotLiftAVehicleOffTheFloor) {
   EXPECT_THAT(problemsOf("<Sequence><MoveToGoal goal=\"1;0\" _skipIf=\"false\"/><TakeOff/><Land/></Sequence>"),
               ElementsAre(HasSubstr("MoveToGoal: the vehicle stands on the floor here")));
+}
+
+TEST(Check, ARoundThatIsRepeatedBeginsWhereTheLastOneEnded) {
+  const auto repeated = [](const std::string& decorator) {
+    return problemsOf("<Sequence><TakeOff/><" + decorator +
+                      "><Sequence><MoveToGoal goal=\"1;0\"/><Land/></Sequence></" +
+                      decorator.substr(0, decorator.find(' ')) + "></Sequence>");
+  };
+  for (const char* decorator : {"Repeat num_cycles=\"2\"", "LoopInt queue=\"1;2\"", "KeepRunningUntilFailure"})
+    EXPECT_THAT(repeated(decorator),
+                ElementsAre(HasSubstr("MoveToGoal: the vehicle stands on the floor when this is repeated"),
+                            HasSubstr("Land: the vehicle stands on the floor")))
+        << decorator;
+  EXPECT_THAT(repeated("Repeat num_cycles=\"1\""), IsEmpty());
+  EXPECT_THAT(repeated("RetryUntilSuccessful num_attempts=\"2\""), IsEmpty()) << "it lands only when it succeeds";
+  EXPECT_THAT(problemsOf("<Repeat num_cycles=\"2\"><Sequence><TakeOff/><GoHome/><Land/></Sequence></Repeat>"),
+              IsEmpty());
 }
 
 }  // namespace

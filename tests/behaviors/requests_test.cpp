@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
+#include "tests/behaviors/check_text.hpp"
 #include "tests/behaviors/flight.hpp"
 
 namespace swiftlet::behaviors::testing {

@@ -8,13 +8,15 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/mission.hpp"
-#include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/drawing.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "tests/behaviors/check_text.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
+
+using testing::checkMissionText;
 
 namespace fs = std::filesystem;
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "behaviors/mission_check.hpp"
 #include "behaviors/seen_places.hpp"
 #include "common/rgbd_camera_config.hpp"
+#include "tests/behaviors/check_text.hpp"
 #include "tests/behaviors/flight.hpp"
 
 namespace swiftlet::behaviors::testing {

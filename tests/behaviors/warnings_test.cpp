@@ -43,6 +43,14 @@ TEST(Warnings, NameNodesThatAreNeverReached) {
               ElementsAre(HasSubstr("Land: is never reached: `OperatorCommand` before it never succeeds")));
 }
 
+TEST(Warnings, AgreeWithTheOrderOfFlightOnWhatCannotFail) {
+  for (const char* leaf : {"<SetFlightMode mode=\"fast\"/>", "<LogEvent text=\"a\"/>", "<Sleep msec=\"5\"/>"})
+    EXPECT_THAT(
+        warningsOf("<Sequence><TakeOff/><Fallback>" + std::string(leaf) + "<Land/></Fallback><Land/></Sequence>"),
+        ElementsAre(HasSubstr("Land: is never reached")))
+        << leaf;
+}
+
 TEST(Warnings, NameAParallelOfTwoThatFly) {
   EXPECT_THAT(
       warningsOf("<Sequence><TakeOff/>\n<Parallel><MoveToGoal goal=\"1;1\"/><Sequence><LogEvent text=\"a\"/><Explore "
@@ -74,7 +82,7 @@ TEST(Warnings, NameAMissionThatMaySucceedInTheAir) {
         << inside;
   for (const char* inside :
        {"<TakeOff/><IfThenElse><IsLost/><EmergencyLand/><Sequence><GoHome/><Land/></Sequence></IfThenElse>",
-        "<TakeOff/><Timeout msec=\"9\"><FollowMe/></Timeout>",
+        "<TakeOff/><Timeout msec=\"9\"><FollowMe/></Timeout>", "<TakeOff/><Delay delay_msec=\"5\"><Land/></Delay>",
         "<TakeOff/><Switch2 variable=\"{m}\" case_1=\"1\" case_2=\"2\" _onSuccess=\"m := 1\"><Land/><Land/><Land/>"
         "</Switch2>",
         "<TakeOff/><WhileDoElse><IsLost/><Land/><Land/></WhileDoElse>",

@@ -111,6 +111,9 @@ std::string randomShape(std::mt19937& random, int depth, int& leaves) {
                                             "RetryUntilSuccessful num_attempts=\"2\"",
                                             "RunOnce",
                                             "Precondition if=\"false\" else=\"SUCCESS\"",
+                                            "Precondition if=\"1 &lt; 2\" else=\"SKIPPED\"",
+                                            "LoopInt queue=\"1;2\" if_empty=\"SKIPPED\"",
+                                            "RunOnce then_skip=\"false\"",
                                             "Inverter _skipIf=\"1 &lt; 2\"",
                                             "KeepRunningUntilFailure"};
   const auto pick = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); };
@@ -121,7 +124,7 @@ std::string randomShape(std::mt19937& random, int depth, int& leaves) {
     return "<" + std::string(1, static_cast<char>('A' + leaves++)) + "/>";
   }
   if (kind == 1) {
-    const std::string tag = kDecorators[pick(9)];
+    const std::string tag = kDecorators[pick(static_cast<int>(std::size(kDecorators)))];
     return "<" + tag + ">" + randomShape(random, depth - 1, leaves) + "</" + tag.substr(0, tag.find(' ')) + ">";
   }
   const std::string tag = kControls[pick(10)];
@@ -153,6 +156,7 @@ TEST(Outcomes, HoldInRandomTreesWithRandomAnswers) {
         SCOPED_TRACE(inside + " node " + std::to_string(node.id) + " " + toString(node.status));
         EXPECT_TRUE(node.status != Status::kSuccess || may.success);
         EXPECT_TRUE(node.status != Status::kFailure || may.failure);
+        EXPECT_TRUE(node.status != Status::kSkipped || may.skipped);
         EXPECT_TRUE(!unreached.contains(node.id) || !isActive(node.status));
       }
     }

@@ -10,7 +10,11 @@ class AlwaysSuccess final : public Leaf {
  public:
   using Leaf::Leaf;
   static NodeManifest manifest() {
-    return {.id = "AlwaysSuccess", .kind = NodeKind::kAction, .ports = {}, .description = "SUCCESS at once."};
+    return {.id = "AlwaysSuccess",
+            .kind = NodeKind::kAction,
+            .ports = {},
+            .description = "SUCCESS at once.",
+            .may_fail = false};
   }
 
  private:
@@ -21,7 +25,11 @@ class AlwaysFailure final : public Leaf {
  public:
   using Leaf::Leaf;
   static NodeManifest manifest() {
-    return {.id = "AlwaysFailure", .kind = NodeKind::kAction, .ports = {}, .description = "FAILURE at once."};
+    return {.id = "AlwaysFailure",
+            .kind = NodeKind::kAction,
+            .ports = {},
+            .description = "FAILURE at once.",
+            .may_succeed = false};
   }
 
  private:

@@ -14,7 +14,8 @@ NodeManifest SetBlackboard::manifest() {
                      .direction = Direction::kOutput,
                      .required = true,
                      .description = "Entry that is written."}},
-          .description = "Writes a blackboard entry."};
+          .description = "Writes a blackboard entry.",
+          .may_fail = false};
 }
 
 SetBlackboard::SetBlackboard(const NodeSetup& setup)

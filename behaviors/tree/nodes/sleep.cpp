@@ -10,7 +10,8 @@ NodeManifest Sleep::manifest() {
                      .required = true,
                      .minimum = 0,
                      .description = "Time to wait."}},
-          .description = "Waits; the time it is suspended does not count."};
+          .description = "Waits; the time it is suspended does not count.",
+          .may_fail = false};
 }
 
 Release Sleep::onSuspend(TickContext& context) {

@@ -11,7 +11,8 @@ NodeManifest UnsetBlackboard::manifest() {
                      .required = true,
                      .description = "The entry that loses its value.",
                      .unsets = true}},
-          .description = "Takes the value of a blackboard entry away."};
+          .description = "Takes the value of a blackboard entry away.",
+          .may_fail = false};
 }
 
 Status UnsetBlackboard::act(TickContext&) {
