@@ -16,11 +16,13 @@ PositionController::PositionController(const Config& config, const common::Vehic
 
 void PositionController::reset() {
   integral_m_s2_.setZero();
+  trim_yaw_rad_.reset();
   lagged_.reset();
 }
 
 void PositionController::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel&) {
   integral_m_s2_ = trim_odom_m_s2.cwiseMax(-config_.max_integral_m_s2).cwiseMin(config_.max_integral_m_s2);
+  trim_yaw_rad_.reset();
 }
 
 common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel& thrust) {
@@ -29,6 +31,8 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
     lagged_.advance(reference, config_.attitude_lag_s, dt_s);
   else
     lagged_.reset();
+  const double yaw_rad = common::yawOf(state.T_odom_body.rotation);
+  turnTrim(yaw_rad);
   const Eigen::Vector3d missing_m_s = missingVelocity(state, reference, horizontal, share);
   const Eigen::Vector3d gain_1_s(share * config_.horizontal_v_1_s, share * config_.horizontal_v_1_s,
                                  config_.vertical_v_1_s);
@@ -36,7 +40,6 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
   wanted_m_s2.z() += reference.acceleration_odom_m_s2.z();
   if (horizontal == Horizontal::kPosition) wanted_m_s2.head<2>() += reference.acceleration_odom_m_s2.head<2>();
 
-  const double yaw_rad = common::yawOf(state.T_odom_body.rotation);
   Actuation actuation = actuate(wanted_m_s2, yaw_rad, config_.max_acceleration_up_m_s2, on_ground, vehicle_, thrust);
   actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, common::wrapAngle(reference.yaw_odom_rad - yaw_rad),
                                                     config_.yaw_p_1_s, config_.max_yaw_rate_deg_s);
@@ -45,6 +48,14 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
             dt_s);
   if (!on_ground) integral_m_s2_.z() -= thrust.learn(integral_m_s2_.z(), dt_s);
   return actuation.setpoint;
+}
+
+/// Most of what the trim makes up for turns with the vehicle: an attitude that is read with a lean, a weak motor, the
+/// drag of flying ahead.
+void PositionController::turnTrim(double yaw_rad) {
+  if (trim_yaw_rad_)
+    integral_m_s2_.head<2>() = Eigen::Rotation2Dd(yaw_rad - *trim_yaw_rad_) * Eigen::Vector2d(integral_m_s2_.head<2>());
+  trim_yaw_rad_ = yaw_rad;
 }
 
 Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& state, const Reference& reference,

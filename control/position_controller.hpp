@@ -2,6 +2,8 @@
 // 5; Saeedi, III-E). The reference's velocity and acceleration are fed forward.
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
@@ -49,9 +51,12 @@ class PositionController final : public Controller {
   Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference, Horizontal horizontal,
                                   double share) const;
 
+  void turnTrim(double yaw_rad);
+
   Config config_;
   common::VehicleConfig vehicle_;
   Eigen::Vector3d integral_m_s2_ = Eigen::Vector3d::Zero();
+  std::optional<double> trim_yaw_rad_;  ///< Yaw at the last tick; none before the first.
   LaggedReference lagged_;
 };
 

@@ -87,6 +87,22 @@ TEST(Flight, FollowsAPathWithCornersToItsGoal) {
               flight.greatest_tilt_rad * 57.3, flight.model.now.seconds());
 }
 
+/// A horizon that leans with the vehicle, and drag: what makes up for them turns with it.
+TEST(Flight, TheTrimTurnsWithTheVehicle) {
+  Flight flight;
+  flight.model.attitude_sigma_deg = 0.0;
+  flight.model.horizon_pitch_rad = flight.model.horizon_roll_rad = 0.03;
+  flight.model.attitude_correlation_s = 1e9;
+  flight.hover();
+  flight.run(8.0);
+  const Eigen::Vector3d place = flight.controller.reference().position_odom_m;
+  ASSERT_TRUE(flight.controller.follow({{place}, FlightMode::kFast, 2.8}));
+  const Rms rms = hoverFor(flight, 6.0, place);
+  std::printf("turn by 160 deg: %.3f m RMS\n", rms.horizontal_m);
+  EXPECT_NEAR(flight.model.yaw_rad, 2.8, 0.05);
+  EXPECT_LT(rms.horizontal_m, 0.02);
+}
+
 /// The limit of the position controller bounds corrections; a faster mode is flown at its own speed.
 TEST(Flight, EachModeIsFlownAtItsSpeedAboveTheLimitOfCorrections) {
   FlightController::Config config;
