@@ -20,6 +20,7 @@ bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const Explor
 }
 
 bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m, const ExplorationConfig& config) {
+  if (path_map_m.size() > 1 && !isHeld(map, path_map_m.back(), config)) return false;
   double unheld_m = 0.0, to_judge_m = kSpacing_m;  // Up to the next place that is judged.
   bool left_start = false;
   for (std::size_t i = 1; i < path_map_m.size(); ++i) {

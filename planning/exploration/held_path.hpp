@@ -14,8 +14,8 @@ namespace swiftlet::planning {
 /// is held: nothing is known of it.
 bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const ExplorationConfig& config);
 
-/// False if a stretch of the path of more than `max_unheld_m` is not held. The stretch that the vehicle is in at its
-/// start does not count, because it has to leave it.
+/// Whether the path ends at a held place, without a stretch of more than `max_unheld_m` that is not. The stretch that
+/// the vehicle is in at its start does not count, because it has to leave it.
 bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m, const ExplorationConfig& config);
 
 }  // namespace swiftlet::planning

@@ -43,7 +43,16 @@ TEST_F(RoomWithADoor, APathFarOutsideIsNot) {
   EXPECT_FALSE(staysHeld({{1.0, 2.7}, {5.2, 2.7}, {5.5, 2.7}, {9.0, 2.7}, {14.0, 2.7}})) << "in legs of any length";
 }
 
-TEST_F(RoomWithADoor, AVehicleOutsideMayFlyBack) { EXPECT_TRUE(staysHeld({{14.0, 2.7}, {1.0, 2.7}})); }
+TEST_F(RoomWithADoor, NoPathEndsOutside) {
+  EXPECT_FALSE(isHeld(map_, {8.0, 2.7}, {}));
+  EXPECT_FALSE(staysHeld({{1.0, 2.7}, {8.0, 2.7}})) << "only 3 m of it are outside";
+}
+
+TEST_F(RoomWithADoor, AVehicleOutsideMayFlyBackButNotOn) {
+  EXPECT_TRUE(staysHeld({{14.0, 2.7}, {1.0, 2.7}}));
+  EXPECT_FALSE(staysHeld({{8.0, 2.7}, {14.0, 2.7}}));
+  EXPECT_FALSE(staysHeld({{8.0, 2.7}, {8.0, 4.7}}));
+}
 
 }  // namespace
 }  // namespace swiftlet::planning
