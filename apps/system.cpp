@@ -1,11 +1,13 @@
 #include "apps/system.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,10 +32,11 @@ std::string namesIn(const std::string& folder) {
   return names.empty() || names.size() > kMost ? "" : fmt::format("config/{} has {}", folder, fmt::join(names, ", "));
 }
 
+bool isPath(const std::string& name) { return name.find_first_of("/.") != std::string::npos; }
+
 /// "utm_30lx" -> config/sensors/utm_30lx.yaml; anything with a dot or a slash is a file.
 std::string fileFor(const std::string& name, const std::string& folder) {
-  if (name.find('/') != std::string::npos || name.find('.') != std::string::npos)
-    return common::findData(name).string();
+  if (isPath(name)) return common::findData(name).string();
   try {
     return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
   } catch (const common::InputError& e) {
@@ -48,7 +51,9 @@ std::string namedFile(const std::string& name, const std::string& folder, const 
                       const common::SourceLocation& place) {
   const std::filesystem::path beside = std::filesystem::path(place.file).parent_path() / name;
   std::error_code error;
-  if (std::filesystem::is_regular_file(beside, error)) return beside.string();
+  const bool there = std::filesystem::exists(beside, error);
+  // What is there and cannot be followed, such as a loop of links, is not looked for elsewhere: reading it says why.
+  if (error || (there && std::filesystem::is_regular_file(beside, error))) return beside.string();
   try {
     return fileFor(name, folder);
   } catch (const common::InputError& e) {
@@ -63,8 +68,26 @@ std::string namedFile(const std::string& name, const std::string& folder, const 
 constexpr std::string_view kBasedOn =
     "Another profile, or a path, of which this one differs in the settings that it names; a list is given whole.";
 
+/// Where the settings of a profile are written: each in the profile itself or in one that it is based on.
+class ProfilePlaces {
+ public:
+  void add(const common::config::YamlReader& reader) {
+    for (const std::string& key : reader.writtenKeys()) places_[key] = reader.locationOf(key);
+  }
+  void setFile(std::string file) { file_ = std::move(file); }
+  /// The profile without a line for a setting that none of them names.
+  common::SourceLocation of(const std::string& key) const {
+    const auto place = places_.find(key);
+    return place == places_.end() ? common::SourceLocation{file_} : place->second;
+  }
+
+ private:
+  std::string file_;
+  std::map<std::string, common::SourceLocation> places_;
+};
+
 /// Reads a profile over those that it is based on. `chain` are the files that are being read.
-common::config::YamlReader readProfile(const std::string& file, SystemConfig& config, std::vector<std::string> chain) {
+void readProfile(const std::string& file, SystemConfig& config, ProfilePlaces& places, std::vector<std::string> chain) {
   common::config::YamlReader reader = common::config::YamlReader::fromFile(file);
   std::string base;
   reader("based_on", base, kBasedOn);
@@ -79,42 +102,73 @@ common::config::YamlReader readProfile(const std::string& file, SystemConfig& co
       throw common::InputError(common::Problem{place, "based_on",
                                                fmt::format("{} is based on this profile itself", base),
                                                "name another one, or leave based_on out"});
-    (void)readProfile(base_file, config, std::move(chain));
+    readProfile(base_file, config, places, std::move(chain));
   }
   reader.read(config);
   if (reader.writtenKeys().empty())
     throw common::InputError(
         common::Problem{{file}, "", "names no setting, so it is no profile", "the least one is `based_on: swiftlet`"});
   config.based_on.clear();
-  return reader;
+  places.add(reader);
+  places.setFile(file);
 }
 
+/// What a profile names by a key: a file of a folder of config, or one of the user.
+struct SheetKey {
+  const char* key;
+  const char* folder;
+  std::string SystemConfig::*name;
+  bool needed;
+};
+constexpr std::array<SheetKey, 5> kSheetKeys{{{"vehicle", "vehicles", &SystemConfig::vehicle, true},
+                                              {"laser", "sensors", &SystemConfig::laser, true},
+                                              {"rgbd_camera", "sensors", &SystemConfig::rgbd_camera, false},
+                                              {"vertical_laser", "sensors", &SystemConfig::vertical_laser, false},
+                                              {"vehicle_model", "models", &SystemConfig::vehicle_model, false}}};
+
+/// The file of each sheet that the profile names, by key. Those of the user are noted in the system.
+std::map<std::string, std::string> findSheets(System& system, const ProfilePlaces& places) {
+  std::map<std::string, std::string> files;
+  for (const SheetKey& sheet : kSheetKeys) {
+    const std::string& name = system.config.*sheet.name;
+    if (name.empty() && !sheet.needed) continue;
+    const common::SourceLocation place = places.of(sheet.key);
+    const std::string& file = files[sheet.key] = namedFile(name, sheet.folder, sheet.key, place);
+    // A plain name may be that of a sheet beside the profile too.
+    std::error_code error;
+    const std::filesystem::path beside = std::filesystem::path(place.file).parent_path() / name;
+    if (isPath(name) || file == beside.string())
+      system.own_files[sheet.key] = std::filesystem::absolute(file, error).lexically_normal().string();
+  }
+  return files;
+}
+
+std::string keptName(const std::string& key) { return key + ".yaml"; }
+
 /// A flight never starts half configured: a model of another vehicle or battery, or a controller without its model.
-void refuseUnfitModel(const System& system, const common::config::YamlReader& profile) {
+void refuseUnfitModel(const System& system, const ProfilePlaces& places, const common::config::YamlReader* model) {
   std::vector<common::Problem> problems;
-  if (system.model)
-    for (const std::string& problem : system.model->problemsFor(system.vehicle))
-      problems.push_back({profile.locationOf("vehicle_model"), "vehicle_model",
-                          fmt::format("{}: {}", system.config.vehicle_model, problem), ""});
-  const bool needs_model = system.config.autonomy.control.controller.kind == control::ControllerKind::kLqr;
-  if (needs_model && !(system.model && system.model->hasAxes()))
-    problems.push_back({profile.locationOf("autonomy.control.controller.kind"), "autonomy.control.controller.kind",
-                        system.model
-                            ? fmt::format("lqr needs every axis, but {} lacks some", system.config.vehicle_model)
-                            : std::string("lqr needs a vehicle_model, and the profile names none"),
-                        fmt::format("`swiftlet identify` makes one from flights of `{}`", system.vehicle.name)});
-  else if (needs_model)
-    for (const std::string& problem :
-         control::Lqr::problemsOf(system.config.autonomy.control.controller.lqr, *system.model))
-      problems.push_back({profile.locationOf("autonomy.control.controller.lqr"), "autonomy.control.controller.lqr",
-                          problem, "weights nearer to the default ones"});
+  const autonomy::AutonomyConfig& autonomy = system.config.autonomy;
+  if (model)
+    for (const common::Problem& problem :
+         system.model->problemsFor(system.vehicle, autonomy.control.position.thrust.table))
+      problems.push_back(
+          {places.of("vehicle_model"), "vehicle_model",
+           fmt::format("{}: {}: {}", toString(model->locationOf(problem.element)), problem.element, problem.message),
+           problem.hint});
+  if (autonomy.control.controller.kind == control::ControllerKind::kLqr)
+    for (common::Problem& problem : problemsOfLqr(system)) {
+      problem.element = "autonomy.control.controller.kind";
+      problem.location = places.of(problem.element);
+      problems.push_back(std::move(problem));
+    }
   if (!problems.empty()) throw common::InputError(std::move(problems));
 }
 
 /// One sensor makes the 3D map, and an upright laser has no mirror, whose beams would be placed wrongly.
-void refuseUnfitVerticalLaser(const System& system, const common::config::YamlReader& profile) {
+void refuseUnfitVerticalLaser(const System& system, const ProfilePlaces& places) {
   if (!system.vertical_laser) return;
-  const common::SourceLocation place = profile.locationOf("vertical_laser");
+  const common::SourceLocation place = places.of("vertical_laser");
   if (system.rgbd_camera)
     throw common::InputError(common::Problem{place, "vertical_laser",
                                              "one sensor makes the 3D map, and the profile names an rgbd_camera too",
@@ -166,26 +220,68 @@ std::string System::toYaml(bool comments) const {
   return print(config) + sheets;
 }
 
+std::vector<interfaces::RunText> System::keptSheets() const {
+  using common::config::YamlPrinter;
+  std::vector<interfaces::RunText> sheets;
+  const auto keep = [&](const char* key, const auto& sheet) {
+    if (own_files.contains(key))
+      sheets.push_back({keptName(key), "# The " + std::string(key) + " of config.yaml, as it was flown.\n" +
+                                           YamlPrinter(YamlPrinter::Comments::kNo).print(sheet)});
+  };
+  keep("vehicle", vehicle);
+  keep("laser", laser);
+  if (rgbd_camera) keep("rgbd_camera", *rgbd_camera);
+  if (vertical_laser) keep("vertical_laser", *vertical_laser);
+  if (model) keep("vehicle_model", *model);
+  return sheets;
+}
+
+System System::namingKeptSheets() const {
+  System system = *this;
+  for (const SheetKey& sheet : kSheetKeys)
+    if (own_files.contains(sheet.key)) system.config.*sheet.name = keptName(sheet.key);
+  return system;
+}
+
+System System::namingSheetsByPath() const {
+  System system = *this;
+  for (const SheetKey& sheet : kSheetKeys)
+    if (const auto file = own_files.find(sheet.key); file != own_files.end()) system.config.*sheet.name = file->second;
+  return system;
+}
+
+std::vector<common::Problem> problemsOfLqr(const System& system) {
+  const std::string& name = system.config.vehicle_model;
+  const std::string hint = fmt::format("`swiftlet identify` makes one from flights of `{}`", system.vehicle.name);
+  if (!system.model) return {{{}, "", "lqr needs a vehicle_model, and the profile names none", hint}};
+  if (!system.model->hasAxes()) return {{{}, "", fmt::format("lqr needs every axis, but {} lacks some", name), hint}};
+  std::vector<common::Problem> problems;
+  for (const std::string& problem :
+       control::Lqr::problemsOf(system.config.autonomy.control.controller.lqr, *system.model))
+    problems.push_back({{}, "", "lqr: " + problem, "weights nearer to the default ones would fit"});
+  return problems;
+}
+
 System loadSystem(const std::string& name) {
   System system;
   system.name = name;
-  const common::config::YamlReader reader = readProfile(fileFor(name, "systems"), system.config, {});
-  const auto sheet = [&](const std::string& named, const char* folder, const char* key) {
-    return namedFile(named, folder, key, reader.locationOf(key));
-  };
-  system.vehicle = common::config::readFile<common::VehicleConfig>(sheet(system.config.vehicle, "vehicles", "vehicle"));
-  system.laser = common::config::readFile<common::LaserConfig>(sheet(system.config.laser, "sensors", "laser"));
-  if (!system.config.rgbd_camera.empty())
-    system.rgbd_camera =
-        common::config::readFile<common::RgbdCameraConfig>(sheet(system.config.rgbd_camera, "sensors", "rgbd_camera"));
-  if (!system.config.vertical_laser.empty())
-    system.vertical_laser =
-        common::config::readFile<common::LaserConfig>(sheet(system.config.vertical_laser, "sensors", "vertical_laser"));
-  if (!system.config.vehicle_model.empty())
-    system.model =
-        common::config::readFile<control::VehicleModel>(sheet(system.config.vehicle_model, "models", "vehicle_model"));
-  refuseUnfitModel(system, reader);
-  refuseUnfitVerticalLaser(system, reader);
+  ProfilePlaces places;
+  readProfile(fileFor(name, "systems"), system.config, places, {});
+  const std::map<std::string, std::string> files = findSheets(system, places);
+  using common::config::readFile;
+  system.vehicle = readFile<common::VehicleConfig>(files.at("vehicle"));
+  system.laser = readFile<common::LaserConfig>(files.at("laser"));
+  if (const auto file = files.find("rgbd_camera"); file != files.end())
+    system.rgbd_camera = readFile<common::RgbdCameraConfig>(file->second);
+  if (const auto file = files.find("vertical_laser"); file != files.end())
+    system.vertical_laser = readFile<common::LaserConfig>(file->second);
+  std::optional<common::config::YamlReader> model;
+  if (const auto file = files.find("vehicle_model"); file != files.end()) {
+    model.emplace(common::config::YamlReader::fromFile(file->second));
+    model->read(system.model.emplace());
+  }
+  refuseUnfitModel(system, places, model ? &*model : nullptr);
+  refuseUnfitVerticalLaser(system, places);
   system.config.autonomy.limitTo(system.laser);
   return system;
 }

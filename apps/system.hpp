@@ -1,15 +1,18 @@
 // A system profile: vehicle, laser, and the settings of the autonomy. config/systems/NAME.yaml.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "autonomy/autonomy.hpp"
 #include "common/config_fwd.hpp"
+#include "common/error.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
 #include "control/vehicle_model.hpp"
+#include "interfaces/flight_summary.hpp"
 #include "perception/laser_odometry/motion_prediction.hpp"
 
 namespace swiftlet::perception {
@@ -39,15 +42,26 @@ struct System {
   std::optional<common::RgbdCameraConfig> rgbd_camera;
   std::optional<common::LaserConfig> vertical_laser;
   std::optional<control::VehicleModel> model;
+  /// The files of the sheets and of the model that are not shipped, by the keys of the profile that name them.
+  std::map<std::string, std::string> own_files;
 
   /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.
   std::string toYaml(bool comments) const;
+
+  /// The sheets of the user and the model for the folder of a profile, where `namingKeptSheets` finds them.
+  std::vector<interfaces::RunText> keptSheets() const;
+  System namingKeptSheets() const;
+  /// Names the sheets of the user by absolute paths, so that the profile may be kept in another folder.
+  System namingSheetsByPath() const;
 };
 
 /// `name` is a profile of config/systems or a file. The profile that it is based on is read first. Field of view and
 /// range of the autonomy are limited to those of the laser. Throws common::InputError, with the place in the profile,
 /// also for a model that does not fit the vehicle and a controller that lacks its model.
 System loadSystem(const std::string& name);
+
+/// Why the controller lqr cannot fly this system: messages and hints without places; empty if it can.
+std::vector<common::Problem> problemsOfLqr(const System& system);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
 common::LaserConfig loadLaser(const std::string& name);

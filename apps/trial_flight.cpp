@@ -24,8 +24,9 @@ using evaluation::TrialConfig;
 void findMap(TrialConfig& trial, const fs::path& trials) {
   if (trial.map.file.empty()) return;
   const fs::path beside = (fs::is_directory(trials) ? trials : trials.parent_path()) / trial.map.file;
+  std::error_code failure;  // What is there and cannot be followed is not looked for elsewhere.
   try {
-    trial.map.file = (fs::exists(beside) ? beside : common::findData(trial.map.file)).string();
+    trial.map.file = (fs::exists(beside, failure) || failure ? beside : common::findData(trial.map.file)).string();
   } catch (const common::InputError& e) {
     throw common::InputError(
         common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});
@@ -85,14 +86,14 @@ void checkControllers(const TrialConfig& trial, const System& system, std::vecto
     if (step.command != evaluation::OperatorAction::kController) continue;
     const auto kind = control::controllerNamed(step.controller);
     const auto add = [&](const std::string& message, const std::string& hint) {
-      problems.push_back({{}, fmt::format("trial {}: operator: controller", trial.name), message, hint});
+      problems.push_back({step.place, fmt::format("trial {}: operator: controller", trial.name), message, hint});
     };
     if (!kind)
       add(fmt::format("there is no `{}`", step.controller),
           common::didYouMean(step.controller, control::controllerWords()));
-    else if (*kind == control::ControllerKind::kLqr && !(system.model && system.model->hasAxes()))
-      add(fmt::format("lqr needs a vehicle_model, and the profile {} names none", system.name),
-          "`swiftlet identify` makes one");
+    else if (*kind == control::ControllerKind::kLqr)
+      for (const common::Problem& problem : problemsOfLqr(system))
+        add(fmt::format("profile {}: {}", system.name, problem.message), problem.hint);
   }
 }
 

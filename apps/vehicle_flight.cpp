@@ -102,6 +102,7 @@ interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::Simulate
   const simulation::Nature& nature = setup.scenario.nature ? *setup.scenario.nature : calm;
   info.nature = nature.name();
   info.nature_yaml = nature.valuesIn(vehicle.scenario());
+  info.sheets = setup.system.keptSheets();
   if (setup.memory.read) info.vehicle_memory_yaml = toYaml(*setup.memory.read);
   return info;
 }
@@ -122,7 +123,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
                 setup.map ? setup.map->T_world_given : std::nullopt),
       script_(setup.operator_steps, name_),
       autonomy_(makeAutonomy(setup, name_, std::move(mission.mission), job_meter_)),
-      folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
+      folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.namingKeptSheets().toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       map3d_(folder_),
       control_log_(setup.control_log ? std::make_unique<ControlLogSink>(folder_.path(), *vehicle_) : nullptr),

@@ -7,26 +7,18 @@
 #include "common/config.hpp"
 #include "common/error.hpp"
 #include "common/rounding.hpp"
-#include "control/battery_span.hpp"
+#include "control/thrust_table.hpp"
 
 namespace swiftlet::apps {
 namespace {
 
-/// The table is learned within the span of the vehicle's battery, so a voltage outside is of another one.
 void refuseOtherBattery(const autonomy::VehicleMemory& memory, const common::VehicleConfig& vehicle,
                         const common::config::YamlReader& reader) {
-  constexpr double kRounding_v = 0.01;  // A knot at an end of the span may be written a little beyond it.
-  const control::VoltageSpan span = control::batterySpan(vehicle);
-  for (std::size_t i = 0; i < memory.thrust.size(); ++i) {
-    const double voltage_v = memory.thrust[i].voltage_v;
-    if (voltage_v >= span.low_v - kRounding_v && voltage_v <= span.high_v + kRounding_v) continue;
-    const std::string key = fmt::format("thrust[{}].voltage_v", i);
-    throw common::InputError(
-        common::Problem{reader.locationOf(key), key,
-                        fmt::format("{} V is of another battery: that of `{}` has {:.2f} to {:.2f} V in flight",
-                                    voltage_v, vehicle.name, span.low_v, span.high_v),
-                        "give each battery a file of its own"});
-  }
+  std::optional<common::Problem> problem = control::otherBatteryProblem(memory.thrust, vehicle);
+  if (!problem) return;
+  problem->location = reader.locationOf(problem->element);
+  problem->hint = "give each battery a file of its own";
+  throw common::InputError(*problem);
 }
 
 }  // namespace

@@ -129,6 +129,14 @@ struct YamlReader::Impl {
     });
   }
 
+  /// The value of `key` or of `key[2]`, the third one of a list.
+  static YAML::Node childOf(const YAML::Node& map, const std::string& key) {
+    const std::size_t bracket = std::min(key.find('['), key.size());
+    const YAML::Node value = map[key.substr(0, bracket)];
+    if (bracket == key.size() || !value.IsDefined() || !value.IsSequence()) return value;
+    return value[std::stoul(key.substr(bracket + 1))];
+  }
+
   /// Reports "loops.max_sigma_m: what is wrong" at the place of that key, or of its innermost section in the file. A
   /// value that could not be read has kept its default, which says nothing about the file.
   void reportRelation(const YAML::Node& from, const std::string& text) {
@@ -139,8 +147,7 @@ struct YamlReader::Impl {
     YAML::Node node = from;
     for (std::size_t begin = 0; begin <= name.size() && node.IsMap();) {
       const std::size_t end = std::min(name.find('.', begin), name.size());
-      const YAML::Node& map = node;
-      const YAML::Node next = map[name.substr(begin, end - begin)];
+      const YAML::Node next = childOf(node, name.substr(begin, end - begin));
       if (!next.IsDefined()) break;
       node.reset(next);
       begin = end + 1;

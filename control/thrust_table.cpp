@@ -27,6 +27,22 @@ std::vector<std::string> problemsOf(const ThrustPoints& points) {
   return problems;
 }
 
+/// A table is learned within the span of the vehicle's battery.
+std::optional<common::Problem> otherBatteryProblem(const ThrustPoints& points, const common::VehicleConfig& vehicle) {
+  constexpr double kReading = 0.02;  // A voltmeter, or a battery fresh from its charger, may read that much more.
+  const VoltageSpan span = batterySpan(vehicle);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double voltage_v = points[i].voltage_v;
+    if (voltage_v >= (1.0 - kReading) * span.low_v && voltage_v <= (1.0 + kReading) * span.high_v) continue;
+    return common::Problem{{},
+                           fmt::format("thrust[{}].voltage_v", i),
+                           fmt::format("{} V is of another battery: that of `{}` has {:.2f} to {:.2f} V in flight",
+                                       voltage_v, vehicle.name, span.low_v, span.high_v),
+                           ""};
+  }
+  return std::nullopt;
+}
+
 ThrustTable::ThrustTable(const Config& config, const common::VehicleConfig& vehicle)
     : config_(config), vehicle_(vehicle) {
   const auto [low_v, high_v] = batterySpan(vehicle);
@@ -39,6 +55,12 @@ ThrustTable::ThrustTable(const Config& config, const common::VehicleConfig& vehi
 double ThrustTable::sheetCommand(double voltage_v) const {
   const double sag = std::pow(voltage_v / vehicle_.battery_full_v, config_.voltage_exponent);
   return vehicle_.mass_kg * common::kGravity_m_s2 / (vehicle_.max_thrust_n * sag);
+}
+
+bool ThrustTable::isWithinBounds(const ThrustPoint& point) const {
+  constexpr double kRounding = 1e-3;  // Of the share, in a file with few decimals.
+  const double share = point.hover_command / sheetCommand(point.voltage_v);
+  return std::abs(share - 1.0) <= config_.max_correction + kRounding;
 }
 
 double ThrustTable::bounded(std::size_t knot, double log_command) const {
@@ -119,6 +141,25 @@ ThrustPoints ThrustTable::points() const {
   ThrustPoints points;
   for (std::size_t i = 0; i < kKnots; ++i) points.push_back({voltages_v_[i], std::exp(log_commands_[i]), seen_s_[i]});
   return points;
+}
+
+std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const common::VehicleConfig& vehicle,
+                                             const ThrustTable::Config& config) {
+  if (auto problem = otherBatteryProblem(points, vehicle)) return problem;
+  const ThrustTable table(config, vehicle);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (table.isWithinBounds(points[i])) continue;
+    const double sheet_command = table.sheetCommand(points[i].voltage_v);
+    return common::Problem{
+        {},
+        fmt::format("thrust[{}].hover_command", i),
+        fmt::format("{} at {} V is too far from the {:.3f} of the data sheet of `{}`: {:.3f} to "
+                    "{:.3f} would fit",
+                    points[i].hover_command, points[i].voltage_v, sheet_command, vehicle.name,
+                    (1.0 - config.max_correction) * sheet_command, (1.0 + config.max_correction) * sheet_command),
+        ""};
+  }
+  return std::nullopt;
 }
 
 void ThrustPoint::describe(common::config::Fields& fields) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/error.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::control {
@@ -24,6 +26,10 @@ using ThrustPoints = std::vector<ThrustPoint>;
 /// What is wrong with rows of a table for one vehicle: voltages that do not rise, or a command that rises with the
 /// voltage.
 std::vector<std::string> problemsOf(const ThrustPoints& points);
+
+/// The first voltage that the vehicle's battery never has in flight, so that the table is of another one. Its element
+/// is the key of a list `thrust`: "thrust[3].voltage_v".
+std::optional<common::Problem> otherBatteryProblem(const ThrustPoints& points, const common::VehicleConfig& vehicle);
 
 /// Between its knots the logarithm of the command is linear in the voltage; beyond them it follows the data sheet's
 /// power law. The command never rises with the voltage. A value: not thread-safe.
@@ -54,6 +60,8 @@ class ThrustTable {
   double hoverCommand(double voltage_v) const;
   /// The hover command of the data sheet.
   double sheetCommand(double voltage_v) const;
+  /// Whether that command is within the bounds about the data sheet.
+  bool isWithinBounds(const ThrustPoint& point) const;
 
  private:
   static constexpr std::size_t kKnots = 9;  ///< Evenly over the voltages of the battery.
@@ -73,5 +81,10 @@ class ThrustTable {
   std::array<double, kKnots> log_commands_{};
   std::array<double, kKnots> seen_s_{};
 };
+
+/// The first row that the table of the vehicle would not recall as it is: of another battery, or a command beyond the
+/// bounds about the data sheet.
+std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const common::VehicleConfig& vehicle,
+                                             const ThrustTable::Config& config);
 
 }  // namespace swiftlet::control

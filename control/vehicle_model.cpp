@@ -1,7 +1,11 @@
 #include "control/vehicle_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,37 +23,127 @@ constexpr double kSameBattery = 0.02;
 
 bool differs(double a, double b) { return std::abs(a - b) > kSameBattery * std::max(std::abs(a), std::abs(b)); }
 
-std::vector<std::string> problemsOf(const char* name, const std::vector<CommandAngle>& rows) {
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    if (rows[i].command_deg <= rows[i - 1].command_deg || rows[i].angle_deg <= rows[i - 1].angle_deg)
-      return {fmt::format("{}: commands and angles must rise from row to row", name)};
+/// What an axis of a multirotor can be. A tilt accelerates by g per radian, less what the attitude loop leaves of it;
+/// thrust by g per command over that which carries the weight, so that gain and offset cancel at a hover.
+struct AxisBounds {
+  const char* name;
+  double low_gain, high_gain;
+  double low_offset, high_offset;
+};
+constexpr std::array<AxisBounds, 4> kAxisBounds{{{"forward", 3.0, 30.0, -5.0, 5.0},
+                                                 {"left", -30.0, -3.0, -5.0, 5.0},
+                                                 {"up", 2.0, 30.0, -30.0, -2.0},
+                                                 {"yaw", 0.2, 5.0, -1.0, 1.0}}};
+/// What is left of gain and offset at a hover, where the command is the one that carries the weight.
+constexpr double kMostAtHover_m_s2 = 5.0;
+
+/// The angle at the command 0, which the rows hold.
+double angleAtLevel_deg(const std::vector<CommandAngle>& rows) {
+  const auto above =
+      std::find_if(std::next(rows.begin()), rows.end(), [](const CommandAngle& row) { return row.command_deg >= 0.0; });
+  const auto below = std::prev(above);
+  return std::lerp(below->angle_deg, above->angle_deg, -below->command_deg / (above->command_deg - below->command_deg));
+}
+
+// A command is about the angle that it asks for.
+constexpr double kLeastSlope = 0.5, kGreatestSlope = 2.0;
+constexpr double kMostAtLevel_deg = 10.0;
+
+std::vector<std::string> problemsOfBench(const char* name, const std::vector<CommandAngle>& rows) {
+  if (rows.empty()) return {};
+  if (rows.size() == 1) return {fmt::format("{}: one row is no mapping, give two and more, or none", name)};
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double command_deg = rows[i].command_deg - rows[i - 1].command_deg;
+    const double angle_deg = rows[i].angle_deg - rows[i - 1].angle_deg;
+    if (command_deg <= 0.0 || angle_deg <= 0.0)
+      return {fmt::format("{}[{}]: commands and angles must rise from row to row", name, i)};
+    if (const double slope = angle_deg / command_deg; slope < kLeastSlope || slope > kGreatestSlope)
+      return {fmt::format("{}[{}].angle_deg: changes by {:.2g} deg for each deg of command, {} to {} would fit", name,
+                          i, slope, kLeastSlope, kGreatestSlope)};
+  }
+  if (rows.front().command_deg > 0.0 || rows.back().command_deg < 0.0)
+    return {fmt::format("{}: the commands must reach from below 0 to above 0", name)};
+  if (const double level_deg = angleAtLevel_deg(rows); std::abs(level_deg) > kMostAtLevel_deg)
+    return {fmt::format("{}: the command 0 gives {:.1f} deg, at most {} would fit", name, level_deg, kMostAtLevel_deg)};
   return {};
+}
+
+/// The controllers command up to the greatest tilt.
+void addShortBench(const char* name, const std::vector<CommandAngle>& rows, double max_tilt_deg,
+                   std::vector<common::Problem>& problems) {
+  constexpr double kRounding_deg = 0.5;
+  if (rows.empty()) return;
+  const double low_deg = rows.front().command_deg, high_deg = rows.back().command_deg;
+  if (low_deg <= kRounding_deg - max_tilt_deg && high_deg >= max_tilt_deg - kRounding_deg) return;
+  problems.push_back({{},
+                      name,
+                      fmt::format("the commands reach from {} to {} deg, but the vehicle tilts by up to {} deg",
+                                  low_deg, high_deg, max_tilt_deg),
+                      "put the vehicle on the bench again"});
 }
 
 }  // namespace
 
-std::vector<std::string> VehicleModel::validate() const {
+std::vector<std::string> problemsOfAxis(const std::string& axis, const AxisModel& model) {
+  if (model.gain == 0.0) return {};
+  const auto bounds = std::find_if(kAxisBounds.begin(), kAxisBounds.end(),
+                                   [&](const AxisBounds& candidate) { return axis == candidate.name; });
   std::vector<std::string> problems;
-  for (const std::string& problem : control::problemsOf(thrust)) problems.push_back("thrust: " + problem);
-  for (const std::string& problem : problemsOf("bench_pitch", bench_pitch)) problems.push_back(problem);
-  for (const std::string& problem : problemsOf("bench_roll", bench_roll)) problems.push_back(problem);
+  const auto within = [&](const char* key, double value, double low, double high) {
+    if (value < low || value > high)
+      problems.push_back(fmt::format("{}.{}: {:g} is not within {} and {}", axis, key, value, low, high));
+  };
+  within("gain", model.gain, bounds->low_gain, bounds->high_gain);
+  within("offset", model.offset, bounds->low_offset, bounds->high_offset);
+  if (problems.empty() && axis == "up" && std::abs(model.gain + model.offset) > kMostAtHover_m_s2)
+    problems.push_back(fmt::format("up.offset: {:g} is not about the negative gain, {:g}", model.offset, -model.gain));
+  if (problems.empty() && model.gain_interval >= std::abs(model.gain))
+    problems.push_back(
+        fmt::format("{}.gain_interval: {:g} leaves nothing of the gain, {:g}", axis, model.gain_interval, model.gain));
   return problems;
 }
 
-std::vector<std::string> VehicleModel::problemsFor(const common::VehicleConfig& sheet) const {
+std::vector<std::string> VehicleModel::validate() const {
   std::vector<std::string> problems;
+  const auto add = [&](const std::vector<std::string>& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+  };
+  add(problemsOfAxis("forward", forward));
+  add(problemsOfAxis("left", left));
+  add(problemsOfAxis("up", up));
+  add(problemsOfAxis("yaw", yaw));
+  for (const std::string& problem : control::problemsOf(thrust)) problems.push_back("thrust: " + problem);
+  add(problemsOfBench("bench_pitch", bench_pitch));
+  add(problemsOfBench("bench_roll", bench_roll));
+  return problems;
+}
+
+std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConfig& sheet,
+                                                       const ThrustTable::Config& table) const {
+  std::vector<common::Problem> problems;
   if (vehicle != sheet.name)
-    problems.push_back(fmt::format("vehicle: the model is of `{}`, but `{}` flies; identify a flight of `{}`", vehicle,
-                                   sheet.name, sheet.name));
+    problems.push_back({{},
+                        "vehicle",
+                        fmt::format("the model is of `{}`, but `{}` flies", vehicle, sheet.name),
+                        fmt::format("identify a flight of `{}`", sheet.name)});
+  addShortBench("bench_pitch", bench_pitch, sheet.max_tilt_deg, problems);
+  addShortBench("bench_roll", bench_roll, sheet.max_tilt_deg, problems);
+  if (thrust.empty()) return problems;
+  const std::size_t before = problems.size();
   const auto check = [&](const char* name, double of_model, double of_sheet, const char* unit) {
     if (differs(of_model, of_sheet))
-      problems.push_back(fmt::format("{}: C(U) was learned with a battery of {} {}, but that of `{}` has {} {}", name,
-                                     of_model, unit, sheet.name, of_sheet, unit));
+      problems.push_back({{},
+                          name,
+                          fmt::format("C(U) was learned with a battery of {} {}, but that of `{}` has {} {}", of_model,
+                                      unit, sheet.name, of_sheet, unit),
+                          ""});
   };
-  if (thrust.empty()) return problems;
   check("battery_full_v", battery_full_v, sheet.battery_full_v, "V");
   check("battery_empty_v", battery_empty_v, sheet.battery_empty_v, "V");
   check("battery_capacity_ah", battery_capacity_ah, sheet.battery_capacity_ah, "Ah");
+  // One of another battery or vehicle has another C(U), which is no news.
+  if (problems.size() > before || vehicle != sheet.name) return problems;
+  if (auto problem = problemOfRows(thrust, sheet, table)) problems.push_back(std::move(*problem));
   return problems;
 }
 

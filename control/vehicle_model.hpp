@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/error.hpp"
 #include "common/vehicle_config.hpp"
 #include "control/thrust_table.hpp"
 
@@ -52,13 +53,21 @@ struct VehicleModel {
   std::vector<CommandAngle> bench_roll;
 
   void describe(common::config::Fields& fields);
+  /// An axis that was identified must be one that a multirotor can have, see problemsOfAxis.
   std::vector<std::string> validate() const;
 
-  /// "key: what is wrong, with what would fit" of a model that is used for this vehicle; empty if it fits.
-  std::vector<std::string> problemsFor(const common::VehicleConfig& vehicle) const;
+  /// Why the model cannot be used for this vehicle, with its own keys and without places; empty if it fits. `table`
+  /// has the bounds of the controller that learns on from C(U).
+  std::vector<common::Problem> problemsFor(const common::VehicleConfig& vehicle,
+                                           const ThrustTable::Config& table) const;
   /// Whether every degree of freedom was identified, as an LQR needs it.
   bool hasAxes() const;
 };
+
+/// Why no multirotor has an identified axis like that, "forward.gain: the reason"; empty for one that has not been
+/// identified. `axis` is the key of the axis in VehicleModel. The bounds are wide: an LQR divides by the gain, so that
+/// a wrong sign or size would fly the vehicle into a wall.
+std::vector<std::string> problemsOfAxis(const std::string& axis, const AxisModel& model);
 
 /// The command for which the vehicle takes that angle, by a bench's rows of rising commands and angles; the angle
 /// itself without rows. Beyond the rows the end of the mapping goes on with a slope of 1.

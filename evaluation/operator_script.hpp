@@ -8,6 +8,7 @@
 
 #include "common/command.hpp"
 #include "common/config_fwd.hpp"
+#include "common/error.hpp"
 #include "common/event.hpp"
 #include "common/intent.hpp"
 #include "common/time.hpp"
@@ -34,6 +35,7 @@ struct OperatorStep {
   double delay_s = 0.0;
   ExpectedAnswer expect = ExpectedAnswer::kAccepted;
   std::string vehicle = {};
+  common::SourceLocation place = {};  ///< In its file, for messages.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -186,6 +186,8 @@ TrialConfig readTrial(const fs::path& file) {
   constexpr std::string_view kScenario = "scenario.";
   for (const std::string& key : reader.writtenKeys())
     if (key.starts_with(kScenario)) trial.scenario.written.push_back(key.substr(kScenario.size()));
+  for (std::size_t i = 0; i < trial.operator_steps.size(); ++i)
+    trial.operator_steps[i].place = reader.locationOf(fmt::format("operator[{}].command", i));
   if (trial.name.empty()) trial.name = file.stem().string();
   return trial;
 }

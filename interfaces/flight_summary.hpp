@@ -25,6 +25,12 @@ enum class Outcome {
 };
 const char* toString(Outcome outcome);
 
+/// A text file of a run.
+struct RunText {
+  std::string file;
+  std::string text;
+};
+
 /// Facts that are known before the flight.
 struct RunInfo {
   std::string mission;       ///< Name of the mission, for titles and folders.
@@ -38,6 +44,7 @@ struct RunInfo {
   std::string vehicle = {};              ///< Name of the vehicle among several; empty: it flew alone.
   std::string nature = {};               ///< Name of the simulator's nature; empty: it flew in no simulator.
   std::string nature_yaml = {};          ///< The values drawn from that nature; empty: nothing is drawn.
+  std::vector<RunText> sheets = {};      ///< Data sheets that the settings name and that are not shipped.
   std::string vehicle_memory_yaml = {};  ///< What earlier flights have learned of the vehicle; empty: nothing.
 };
 

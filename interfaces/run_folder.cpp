@@ -41,7 +41,7 @@ constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Bet
 /// Every file that a run may leave; no other file is ever removed.
 constexpr const char* kMemoryRead = "vehicle_memory_read.yaml";
 constexpr const char* kMemoryLearned = "vehicle_memory_learned.yaml";
-constexpr std::array<const char*, 19> kFiles = {"mission.json",
+constexpr std::array<const char*, 24> kFiles = {"mission.json",
                                                 "events.jsonl",
                                                 "trajectory.tum",
                                                 "trajectory_given.tum",
@@ -55,6 +55,11 @@ constexpr std::array<const char*, 19> kFiles = {"mission.json",
                                                 "report.html",
                                                 "config.yaml",
                                                 "nature.yaml",
+                                                "vehicle.yaml",
+                                                "laser.yaml",
+                                                "rgbd_camera.yaml",
+                                                "vertical_laser.yaml",
+                                                "vehicle_model.yaml",
                                                 kMemoryRead,
                                                 kMemoryLearned,
                                                 "ground_truth.tum",
@@ -283,6 +288,7 @@ void RunFolder::Impl::followCamera(const common::World& world) {
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
     : impl_(std::make_unique<Impl>(std::move(path), std::move(info), std::move(config_yaml))) {
   impl_->write("config.yaml", impl_->config_yaml);
+  for (const RunText& sheet : impl_->summary.info.sheets) impl_->write(sheet.file.c_str(), sheet.text);
   if (!impl_->summary.info.nature_yaml.empty()) impl_->write("nature.yaml", impl_->summary.info.nature_yaml);
   if (!impl_->summary.info.vehicle_memory_yaml.empty())
     impl_->write(kMemoryRead, impl_->summary.info.vehicle_memory_yaml);

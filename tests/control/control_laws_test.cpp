@@ -307,21 +307,75 @@ TEST(ControlErrors, UseOnlyWhatMayBeUsed) {
   EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.z(), 1.0);
 }
 
+/// "key: message, hint" of each reason.
+std::vector<std::string> unfit(const VehicleModel& model) {
+  std::vector<std::string> texts;
+  for (const common::Problem& problem : model.problemsFor({}, {})) texts.push_back(toString(problem));
+  return texts;
+}
+
 TEST(VehicleModel, SaysWhyItDoesNotFit) {
   VehicleModel model = sheetModel();
-  const common::VehicleConfig sheet;
-  EXPECT_THAT(model.problemsFor(sheet), IsEmpty());
+  EXPECT_THAT(unfit(model), IsEmpty());
   model.vehicle = "pelican";
-  EXPECT_THAT(model.problemsFor(sheet), ElementsAre(HasSubstr("the model is of `pelican`, but `cobra` flies")));
+  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("vehicle: the model is of `pelican`, but `cobra` flies")));
   model = sheetModel();
-  model.thrust = {{11.0, 0.6, 10.0}, {12.0, 0.5, 10.0}};
+  model.thrust = {{11.0, 0.7, 10.0}, {12.0, 0.6, 10.0}};
+  EXPECT_THAT(unfit(model), IsEmpty());
   model.battery_full_v = 16.8;
-  EXPECT_THAT(model.problemsFor(sheet), ElementsAre(HasSubstr("a battery of 16.8 V, but that of `cobra` has 12.6 V")));
+  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("a battery of 16.8 V, but that of `cobra` has 12.6 V")));
   model.thrust = {{12.0, 0.6, 10.0}, {11.0, 0.5, 10.0}};
   EXPECT_THAT(common::config::problemsOf(model), ElementsAre(HasSubstr("voltages must rise")));
-  model = sheetModel();
-  model.bench_roll = {{0, 0}, {10, 9}, {20, 8}};
-  EXPECT_THAT(common::config::problemsOf(model), ElementsAre(HasSubstr("must rise from row to row")));
+}
+
+TEST(VehicleModel, TheRowsOfItsThrustAreOfTheVehicle) {
+  VehicleModel model = sheetModel();
+  model.thrust = {{12.0, 0.6, 10.0}, {21.0, 0.5, 10.0}};
+  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[1].voltage_v: 21 V is of another battery: that of `cobra` "
+                                                  "has 9.18 to 12.60 V in flight")));
+  model.thrust = {{11.0, 5.0, 10.0}, {12.0, 5.0, 10.0}};
+  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[0].hover_command: 5 at 11 V is too far from the 0.735 of the "
+                                                  "data sheet of `cobra`: 0.294 to 1.176 would fit")));
+}
+
+TEST(VehicleModel, AnAxisIsOneThatAMultirotorCanHave) {
+  const auto problems = [](AxisModel VehicleModel::*axis, double AxisModel::*value, double wrong) {
+    VehicleModel model = sheetModel();
+    (model.*axis).*value = wrong;
+    return common::config::problemsOf(model);
+  };
+  EXPECT_THAT(common::config::problemsOf(sheetModel()), IsEmpty());
+  const auto gain = &AxisModel::gain, offset = &AxisModel::offset;
+  EXPECT_THAT(problems(&VehicleModel::forward, gain, -8.41), ElementsAre("forward.gain: -8.41 is not within 3 and 30"));
+  EXPECT_THAT(problems(&VehicleModel::forward, offset, 1e6), ElementsAre(HasSubstr("forward.offset: 1e+06 is not")));
+  EXPECT_THAT(problems(&VehicleModel::left, gain, 9.0), ElementsAre("left.gain: 9 is not within -30 and -3"));
+  EXPECT_THAT(problems(&VehicleModel::up, gain, -9.8), ElementsAre(HasSubstr("up.gain: -9.8 is not within")));
+  EXPECT_THAT(problems(&VehicleModel::up, gain, 1e-300), ElementsAre(HasSubstr("up.gain: 1e-300 is not within")));
+  EXPECT_THAT(problems(&VehicleModel::up, gain, 1e300), ElementsAre(HasSubstr("up.gain: 1e+300 is not within")));
+  EXPECT_THAT(problems(&VehicleModel::up, offset, -20.0), ElementsAre(HasSubstr("is not about the negative gain")));
+  EXPECT_THAT(problems(&VehicleModel::yaw, gain, -1.0), ElementsAre(HasSubstr("yaw.gain: -1 is not within 0.2 and 5")));
+  EXPECT_THAT(problems(&VehicleModel::left, &AxisModel::gain_interval, 10.0),
+              ElementsAre(HasSubstr("left.gain_interval: 10 leaves nothing of the gain, -9.8")));
+  EXPECT_THAT(problems(&VehicleModel::left, gain, 0.0), IsEmpty()) << "one that was not identified";
+}
+
+TEST(VehicleModel, TheRowsOfABenchAreAMappingOfAngles) {
+  const auto problems = [](const std::vector<CommandAngle>& rows) {
+    VehicleModel model = sheetModel();
+    model.bench_roll = rows;
+    return common::config::problemsOf(model);
+  };
+  EXPECT_THAT(problems({{-20, -19}, {0, 0.5}, {20, 21}}), IsEmpty());
+  EXPECT_THAT(problems({{0, 0}, {10, 9}, {20, 8}}), ElementsAre(HasSubstr("must rise from row to row")));
+  EXPECT_THAT(problems({{0, 0}}), ElementsAre(HasSubstr("bench_roll: one row is no mapping")));
+  EXPECT_THAT(problems({{-180, 59}, {180, 60}}),
+              ElementsAre(HasSubstr("bench_roll[1].angle_deg: changes by 0.0028 deg for each deg of command")));
+  EXPECT_THAT(problems({{5, 5}, {20, 20}}), ElementsAre(HasSubstr("must reach from below 0 to above 0")));
+  EXPECT_THAT(problems({{-20, 0}, {20, 40}}), ElementsAre(HasSubstr("the command 0 gives 20.0 deg, at most 10")));
+  VehicleModel narrow = sheetModel();
+  narrow.bench_pitch = {{-5, -5}, {20, 20}};
+  EXPECT_THAT(unfit(narrow), ElementsAre(HasSubstr("bench_pitch: the commands reach from -5 to 20 deg, but the vehicle "
+                                                   "tilts by up to 20 deg")));
 }
 
 }  // namespace
