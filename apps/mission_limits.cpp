@@ -13,12 +13,12 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
     return autonomy.problemsWith(clearance_m);
   };
   limits.has_map = has_map;
-  limits.map_problem = [](const std::string& map, const std::string& mission) -> std::string {
+  limits.map_problem = [](const std::string& map, const std::string& mission) -> std::optional<common::Problem> {
     try {
       (void)readUsableMap(missionMap(map, mission));
-      return {};
+      return std::nullopt;
     } catch (const common::InputError& wrong) {
-      return wrong.problems().empty() ? wrong.what() : wrong.problems().front().message;
+      return wrong.problems().front();
     }
   };
   limits.has_camera = system.rgbd_camera.has_value();

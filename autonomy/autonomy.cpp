@@ -32,7 +32,10 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::Ve
           .has_camera = has_camera,
           .target_names = config.estimator.targets.names(),
           .has_map = has_map,
-          .map_problem = [&maps](const std::string& map, const std::string&) { return maps.problemOf(map); }};
+          .map_problem = [&maps](const std::string& map, const std::string&) -> std::optional<common::Problem> {
+            const std::string why = maps.problemOf(map);
+            return why.empty() ? std::nullopt : std::optional(common::Problem{{}, "", why, ""});
+          }};
 }
 
 }  // namespace

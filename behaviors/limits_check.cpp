@@ -143,8 +143,13 @@ class LimitsCheck {
              "give it one: LoadMap, swiftlet fly --map MAP.yaml, or map: in a trial");
     if (use != MapUse::kLoads || !limits_.map_problem) return;
     forEachValue<std::string>(node, "file", [&](const std::string& file) {
-      if (std::string problem = limits_.map_problem(file, tree_.locationOf(node.node->id()).file); !problem.empty())
-        report(node, "file", std::move(problem), "a map is the YAML file of map_server, as a run writes map.yaml");
+      std::optional<common::Problem> problem = limits_.map_problem(file, tree_.locationOf(node.node->id()).file);
+      if (!problem) return;
+      const std::string hint = std::exchange(problem->hint, {});
+      std::string text = toString(*problem);
+      if (text.find(file) == std::string::npos) text = "`" + file + "`: " + text;
+      report(node, "file", std::move(text),
+             hint.empty() ? "a map is the YAML file of map_server, as a run writes map.yaml" : hint);
     });
   }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace swiftlet::behaviors {
 
 /// Limits that the rest of the system sets to a mission.
@@ -20,9 +22,9 @@ struct MissionLimits {
   std::optional<std::vector<std::string>> target_names = {};
   /// A map of the place is given; nodes that localize need one, or a LoadMap in the mission.
   bool has_map = true;
-  /// Why the map that a LoadMap names, in that mission file, cannot be loaded; empty if it can. Without a function
-  /// every map is accepted.
-  std::function<std::string(const std::string& map, const std::string& mission)> map_problem = {};
+  /// Why the map that a LoadMap names, in that mission file, cannot be loaded, with its place; none if it can. Without
+  /// a function every map is accepted.
+  std::function<std::optional<common::Problem>(const std::string& map, const std::string& mission)> map_problem = {};
 };
 
 }  // namespace swiftlet::behaviors

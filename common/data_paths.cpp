@@ -17,7 +17,8 @@ std::vector<std::string> siblingsOf(const fs::path& name, const std::vector<fs::
   for (const fs::path& folder : folders) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder / name.parent_path(), error))
-      siblings.push_back((name.parent_path() / entry.path().filename()).string());
+      if (entry.path().filename() != name.filename())
+        siblings.push_back((name.parent_path() / entry.path().filename()).string());
   }
   return siblings;
 }
@@ -42,12 +43,15 @@ std::vector<fs::path> dataFolders() {
 fs::path findData(const fs::path& name) {
   const std::vector<fs::path> folders = name.is_absolute() ? std::vector<fs::path>{"/"} : dataFolders();
   std::string places;
+  std::error_code unusable;  // Why a name that is there cannot be followed: a loop of links, a folder without rights.
   for (const fs::path& folder : folders) {
     std::error_code error;
     fs::path path = folder == "." ? name : folder / name;
     if (!name.empty() && fs::exists(path, error)) return path;
+    if (error && !unusable) unusable = error;
     places += (places.empty() ? "" : ", ") + folder.string();
   }
+  if (unusable) throw InputError(Problem{{name.string()}, "", unusable.message(), ""});
   const std::string message = name.is_absolute() ? "no such file" : "no such file in " + places;
   throw InputError(Problem{{name.string()}, "", message, didYouMean(name.string(), siblingsOf(name, folders))});
 }

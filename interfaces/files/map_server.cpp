@@ -41,12 +41,13 @@ char pixelOf(occupancy::Cell cell) {
 constexpr double kMostOrigin_m = 1e6;
 
 enum class Mode { kTrinary, kScale, kRaw };
+enum class Negate { k0, k1, kFalse, kTrue };
 
 struct MapYaml {
   std::string image;
   double resolution_m = 0.0;
   std::vector<double> origin;
-  int negate = 0;
+  Negate negate = Negate::k0;
   double occupied_thresh = 0.65;
   double free_thresh = 0.196;
   Mode mode = Mode::kTrinary;
@@ -56,11 +57,13 @@ struct MapYaml {
     fields("resolution", resolution_m, {1e-3, 100}, "Metres a pixel.");
     fields("origin", origin, {-kMostOrigin_m, kMostOrigin_m},
            "x, y and yaw of the lower left pixel's corner, in metres and radians.");
-    fields("negate", negate, {0, 1}, "1 when white is occupied.");
+    fields.choice("negate", negate, {"0", "1", "false", "true"}, "1 when white is occupied.");
     fields("occupied_thresh", occupied_thresh, {0, 1}, "Probability from which a pixel is occupied.");
     fields("free_thresh", free_thresh, {0, 1}, "Probability up to which a pixel is free.");
     fields.choice("mode", mode, {"trinary", "scale", "raw"}, "How pixels are understood.");
   }
+
+  bool isNegated() const { return negate == Negate::k1 || negate == Negate::kTrue; }
 
   std::vector<std::string> validate() const {
     return common::Validation()
@@ -83,7 +86,7 @@ occupancy::Cell cellOfProbability(double probability) {
 /// Thresholds are inclusive, as in nav2.
 occupancy::Cell cellOf(std::uint8_t pixel, const MapYaml& yaml) {
   if (yaml.mode == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
-  const double occupied = (yaml.negate == 1 ? pixel : 255 - pixel) / 255.0;
+  const double occupied = (yaml.isNegated() ? pixel : 255 - pixel) / 255.0;
   if (occupied >= yaml.occupied_thresh) return occupancy::kMaxSteps;
   if (occupied <= yaml.free_thresh) return -occupancy::kMaxSteps;
   if (yaml.mode == Mode::kTrinary) return occupancy::kUnknown;
@@ -113,6 +116,12 @@ class PgmHeader {
 
   InputError fail(const char* element, const std::string& message, const std::string& hint = "") const {
     return InputError(Problem{{name_, line_}, element, message, hint});
+  }
+
+  /// Whether no word follows.
+  bool atEnd() {
+    skipBlank();
+    return at_ >= bytes_.size();
   }
 
   /// The bytes after the one blank that ends the header.
@@ -198,9 +207,10 @@ StoredMap readMap(const std::filesystem::path& yaml_file) {
   const std::filesystem::path image_file = yaml_file.parent_path() / yaml.image;
   std::error_code error;
   if (!std::filesystem::exists(image_file, error))
-    throw InputError(Problem{reader.locationOf("image"), "image",
-                             fmt::format("`{}`: no such file", image_file.string()),
-                             "it is looked for beside the YAML"});
+    throw InputError(
+        Problem{reader.locationOf("image"), "image",
+                fmt::format("`{}`: {}", image_file.string(), error ? error.message() : std::string("no such file")),
+                "it is looked for beside the YAML"});
   StoredMap map = place(parsePgm(common::readBytes(image_file), image_file.string()), yaml);
   map.resolution_location = reader.locationOf("resolution");
   map.image_location = reader.locationOf("image");
@@ -215,7 +225,10 @@ GreyImage parsePgm(std::string_view bytes, const std::string& name) {
   GreyImage image;
   image.width_px = header.number("width", 1, kMostSide_px);
   image.height_px = header.number("height", 1, kMostSide_px);
-  const int greatest = header.number("greatest value", 1, 255);
+  const int greatest = header.number("greatest value", 1, 65'535);
+  if (greatest > 255)
+    throw header.fail("greatest value", fmt::format("{} is that of 16 bits a pixel, 8 can be read", greatest),
+                      "convert it, for instance by ImageMagick's `convert m.pgm -depth 8 m8.pgm`");
   const std::size_t count = static_cast<std::size_t>(image.width_px) * image.height_px;
 
   // Each pixel takes at least one byte. A header that promises more pixels than there are bytes must not allocate them.
@@ -224,6 +237,8 @@ GreyImage parsePgm(std::string_view bytes, const std::string& name) {
     throw header.fail("pixels", fmt::format("the file ends after {} of {} pixels", data.size(), count));
   image.pixels.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    if (magic == "P2" && header.atEnd())
+      throw header.fail("pixels", fmt::format("the file ends after {} of {} pixels", i, count));
     const int value = magic == "P5" ? static_cast<std::uint8_t>(data[i]) : header.number("pixel", 0, greatest);
     image.pixels += static_cast<char>(std::min(value, greatest) * 255 / greatest);
   }

@@ -183,11 +183,15 @@ std::vector<std::string> problemsWithMaps(const std::string& inside, const Missi
 TEST(LoadMap, IsCheckedBeforeTheFlight) {
   MissionLimits limits;
   limits.has_map = false;
-  limits.map_problem = [](const std::string& map, const std::string& mission) {
-    return map == "good.yaml" ? std::string() : map + " of " + mission + " does not exist";
+  limits.map_problem = [](const std::string& map, const std::string& mission) -> std::optional<common::Problem> {
+    if (map == "good.yaml") return std::nullopt;
+    if (map == "dull.yaml") return common::Problem{{"d.pgm", 3}, "width", "is 0", "1 would fit"};
+    return common::Problem{{}, "", map + " of " + mission + " does not exist", ""};
   };
   EXPECT_THAT(problemsWithMaps(R"(<LoadMap file="bad.yaml"/><TakeOff/><Localize/><Land/>)", limits),
               ElementsAre(HasSubstr("LoadMap.file: bad.yaml of m.xml does not exist")));
+  EXPECT_THAT(problemsWithMaps(R"(<LoadMap file="dull.yaml"/><TakeOff/><Localize/><Land/>)", limits),
+              ElementsAre(HasSubstr("LoadMap.file: `dull.yaml`: d.pgm:3: width: is 0, 1 would fit")));
   EXPECT_THAT(problemsWithMaps(R"(<LoadMap file="good.yaml"/><TakeOff/><Relocalize/><Land/>)", limits), IsEmpty());
   EXPECT_THAT(problemsWithMaps(R"(<TakeOff/><Relocalize/><Land/>)", limits),
               ElementsAre(HasSubstr("Relocalize: needs a map of the place, and the flight has none")));

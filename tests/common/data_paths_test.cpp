@@ -1,5 +1,6 @@
 #include "common/data_paths.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -71,6 +72,17 @@ TEST_F(DataPaths, AMissingFileGetsASuggestion) {
     EXPECT_NE(text.find("missions/only_hare.xml: no such file"), std::string::npos) << text;
     EXPECT_NE(text.find("did you mean `missions/only_here.xml`?"), std::string::npos) << text;
     EXPECT_NE(text.find(folder_.string()), std::string::npos) << text;
+  }
+}
+
+TEST_F(DataPaths, ALoopOfLinksIsToldAsOne) {
+  fs::create_symlink("loop.xml", folder_ / "missions/loop.xml");
+  try {
+    findData(folder_ / "missions/loop.xml");
+    FAIL() << "a loop was found";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("loop.xml: Too many levels of symbolic links"));
+    EXPECT_THAT(e.what(), testing::Not(testing::HasSubstr("did you mean")));
   }
 }
 

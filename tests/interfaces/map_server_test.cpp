@@ -115,7 +115,9 @@ TEST(MapServer, FollowsModeThresholdsAndNegate) {
   const std::string grey = {static_cast<char>(40), static_cast<char>(128)};  // Probabilities 0.84 and 0.50.
   EXPECT_EQ(kind(readTwo(folder, grey, origin).grid.at({0, 0})), '#');
   EXPECT_EQ(kind(readTwo(folder, grey, origin).grid.at({1, 0})), '?');
-  EXPECT_EQ(kind(readTwo(folder, grey, origin + "negate: 1\n").grid.at({0, 0})), '.');
+  for (const std::string negate : {"1", "true"})
+    EXPECT_EQ(kind(readTwo(folder, grey, origin + "negate: " + negate + "\n").grid.at({0, 0})), '.');
+  EXPECT_EQ(kind(readTwo(folder, grey, origin + "negate: false\n").grid.at({0, 0})), '#');
   EXPECT_EQ(kind(readTwo(folder, grey, origin + "occupied_thresh: 0.9\n").grid.at({0, 0})), '?');
   EXPECT_EQ(kind(readTwo(folder, grey, origin + "free_thresh: 0.51\n").grid.at({1, 0})), '.');
   const auto scaled = readTwo(folder, grey, origin + "mode: scale\noccupied_thresh: 0.9\nfree_thresh: 0.1\n");
@@ -151,9 +153,11 @@ TEST(MapServer, ReportsThePlaceOfMistakesInPictures) {
   EXPECT_THAT(problem("\x89PNG"), HasSubstr("P5 or P2 was expected"));
   EXPECT_THAT(problem("P5\n# c\n0 3\n255\n"), HasSubstr("m.pgm:3: width: `0` is not a whole number from 1"));
   EXPECT_THAT(problem("P5\n2\nx\n255\n"), HasSubstr("m.pgm:3: height: `x`"));
-  EXPECT_THAT(problem("P5\n2 2\n65535\n"), HasSubstr("m.pgm:3: greatest value: `65535`"));
+  EXPECT_THAT(problem("P5\n2 2\n65536\n"), HasSubstr("m.pgm:3: greatest value: `65536`"));
+  EXPECT_THAT(problem("P5\n2 2\n65535\n"),
+              HasSubstr("m.pgm:3: greatest value: 65535 is that of 16 bits a pixel, 8 can be read, convert it"));
   EXPECT_THAT(problem("P5\n32000 32000\n255\nabc"), HasSubstr("m.pgm:3: pixels: the file ends after 3 of 1024000000"));
-  EXPECT_THAT(problem("P2\n2 2\n9\n1 2 3 "), HasSubstr("pixel: `` is not a whole number"));
+  EXPECT_THAT(problem("P2\n2 2\n9\n1 2 3 "), HasSubstr("pixels: the file ends after 3 of 4 pixels"));
   EXPECT_THAT(problem("P2\n2 2\n9\n1 2\n10 3\n"), HasSubstr("m.pgm:5: pixel: `10` is not a whole number from 0 to 9"));
 }
 
@@ -178,6 +182,9 @@ TEST(MapServer, ReportsThePlaceOfMistakesInYaml) {
   EXPECT_THAT(problem(good + "treshold: 1\n"), HasSubstr("unknown key `treshold`"));
   EXPECT_THAT(problem("image: m.png\nresolution: 0.05\norigin: [0, 0, 0]\n"), HasSubstr("is not a .pgm picture"));
   EXPECT_THAT(problem(good), HasSubstr("m.pgm`: no such file"));
+  EXPECT_THAT(problem(good + "negate: 2\n"), HasSubstr("m.yaml:4:"));
+  std::filesystem::create_symlink("m.pgm", folder / "m.pgm");
+  EXPECT_THAT(problem(good), HasSubstr("m.pgm`: Too many levels of symbolic links"));
 }
 
 struct Counts {
