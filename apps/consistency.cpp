@@ -119,7 +119,9 @@ void plotDrift(const TapedFlight& flight, const System& system, const Consistenc
 int consistencyOfRuns(const ConsistencyOptions& options) {
   const System system = loadSystem(options.system);
   std::vector<TapedFlight> flights;
-  for (const std::string& run : options.runs) flights.push_back(readTapedFlight(run, system.vehicle, kLeast_s));
+  refuseRunsGivenTwice(options.runs, "run");
+  for (const std::string& run : options.runs)
+    flights.push_back(readTapedFlight(run, {system.vehicle, kSystemOfVehicle}, kLeast_s));
   const Consistency consistency = perception::consistencyOf(flights, system.config.autonomy.estimator.fusion);
   if (options.json)
     showJson(jsonOf(consistency).dump(2) + "\n");

@@ -2,18 +2,23 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <system_error>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"
 #include "common/config.hpp"
+#include "common/config_check.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
 #include "common/rounding.hpp"
 #include "common/table.hpp"
 #include "control/identification/identify.hpp"
@@ -46,6 +51,9 @@ control::FlightSamples samplesOf(const std::vector<interfaces::ControlRow>& rows
   return samples;
 }
 
+/// What marks a file as a model of ours.
+const std::string kModelLine = "# Identified by `swiftlet identify`; a system profile names it as its vehicle_model.";
+
 double rounded6(double value) { return std::round(value * 1e6) / 1e6; }
 
 AxisModel roundedAxis(AxisModel axis) {
@@ -55,12 +63,16 @@ AxisModel roundedAxis(AxisModel axis) {
   return axis;
 }
 
-std::string modelYaml(control::VehicleModel model) {
+/// Throws common::InputError for a model that no profile could name.
+std::string modelYaml(control::VehicleModel model, const common::VehicleConfig& vehicle) {
   for (AxisModel* axis : {&model.forward, &model.left, &model.up, &model.yaw}) *axis = roundedAxis(*axis);
   for (control::ThrustPoint& point : model.thrust)
     point = {common::rounded(point.voltage_v), rounded6(point.hover_command), common::rounded(point.seen_s)};
-  return "# Identified by `swiftlet identify`; a system profile names it as its vehicle_model.\n" +
-         common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model);
+  std::vector<common::Problem> problems = model.problemsFor(vehicle, {});
+  for (const std::string& problem : common::config::problemsOf(model))
+    problems.push_back({{}, "", problem, "the flights do not tell a model that could be flown"});
+  if (!problems.empty()) throw common::InputError(std::move(problems));
+  return kModelLine + "\n" + common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model);
 }
 
 common::Table axisTable(const Identification& found) {
@@ -114,12 +126,27 @@ std::string jsonOf(const Identification& found, const std::string& out) {
   return json.dump(2) + "\n";
 }
 
+constexpr const char* kNatureFile = "nature.yaml";
+
+/// Only the simulator says what flew: by a nature.yaml, or that it was the plant of the data sheet.
+void requirePlant(const std::filesystem::path& run) {
+  std::error_code failure;
+  if (std::filesystem::exists(run / kNatureFile, failure)) return;
+  const auto mission = nlohmann::json::parse(common::readBytes(run / "mission.json"), nullptr, false);
+  const auto nature = mission.is_object() ? mission.find("nature") : mission.end();
+  if (nature != mission.end() && *nature == simulation::Nature::calm().name()) return;
+  throw common::InputError(common::Problem{{run.string()},
+                                           "--bench",
+                                           "has no nature.yaml, so that nobody knows which vehicle flew",
+                                           "put a run of the simulator first, or leave out --bench"});
+}
+
 /// The plant that flew the run, fixed to one axis.
 std::vector<control::CommandAngle> benchRows(const std::string& run, const common::VehicleConfig& vehicle,
                                              int axis_body) {
   simulation::Scenario scenario;
   scenario.vehicle = vehicle;
-  const std::filesystem::path drawn = std::filesystem::path(run) / "nature.yaml";
+  const std::filesystem::path drawn = std::filesystem::path(run) / kNatureFile;
   if (std::filesystem::exists(drawn)) scenario = simulation::Nature::load(drawn.string()).drawn(scenario, 1);
   std::vector<control::CommandAngle> rows;
   for (const simulation::BenchRow& row : simulation::attitudeBench(scenario, axis_body))
@@ -130,10 +157,14 @@ std::vector<control::CommandAngle> benchRows(const std::string& run, const commo
 /// A model that lacks something is written all the same, if it has anything: what it lacks is told.
 int identify(const IdentifyOptions& options) {
   const common::VehicleConfig vehicle = loadVehicle(options.vehicle);
+  if (!options.out.empty()) requireWritable(options.out, "--out", kModelLine);
+  refuseRunsGivenTwice(options.runs, "run");
+  const FlownVehicle flown{vehicle, "--vehicle"};
   std::vector<control::FlightSamples> flights;
   for (const std::string& run : options.runs)
     flights.push_back(
-        samplesOf(readControlRows(run, vehicle, options.truth ? Truth::kNeeded : Truth::kUnused), options.truth));
+        samplesOf(readControlRows(run, flown, options.truth ? Truth::kNeeded : Truth::kUnused), options.truth));
+  if (options.bench) requirePlant(options.runs.front());
   Identification found = control::identify(flights, vehicle);
   if (options.bench) {
     found.model.bench_roll = benchRows(options.runs.front(), vehicle, 0);
@@ -141,9 +172,9 @@ int identify(const IdentifyOptions& options) {
   }
   const control::VehicleModel& model = found.model;
   const bool anything = !model.thrust.empty() || model.forward.gain != 0.0 || model.up.gain != 0.0;
-  if (anything && !options.out.empty()) required(interfaces::writeAtomically(options.out, modelYaml(model)));
+  const bool writes = anything && !options.out.empty();
   if (options.json) {
-    showJson(jsonOf(found, anything ? options.out : ""));
+    showJson(jsonOf(found, writes ? options.out : ""));
   } else {
     show(fmt::format("{}\n", toText(axisTable(found))));
     if (!model.thrust.empty())
@@ -153,8 +184,9 @@ int identify(const IdentifyOptions& options) {
                        found.thrust.sigma));
     for (const std::string& doubt : found.doubts) show(fmt::format("not told well: {}\n", doubt));
     for (const std::string& problem : found.problems) show(fmt::format("not identified: {}\n", problem));
-    if (anything && !options.out.empty()) show(fmt::format("model   {}\n", options.out));
   }
+  if (writes) required(interfaces::writeAtomically(options.out, modelYaml(model, vehicle)));
+  if (writes && !options.json) show(fmt::format("model   {}\n", options.out));
   return found.problems.empty() ? kDone : kFailed;
 }
 

@@ -1,5 +1,7 @@
 // swiftlet papers: one row for each experiment, table and figure of the five papers.
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/output_file.hpp"
 #include "apps/paper_experiments.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
@@ -20,15 +23,57 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// No figure of a flight is larger, in SI units.
+constexpr double kGreatestFigure = 1e6;
+
+/// One trial of a results.json.
+struct FlownTrial {
+  std::string file;
+  std::size_t index = 0;
+  Json json;
+  mutable bool used = false;  ///< A row of the page shows it.
+
+  /// `key` is within the trial, "flights[0]"; empty: the trial itself.
+  common::InputError problem(const std::string& key, const std::string& message) const {
+    const std::string element = fmt::format("trials[{}]{}{}", index, key.empty() ? "" : ".", key);
+    return common::InputError(common::Problem{{file}, element, message, "give results that `swiftlet trial` wrote"});
+  }
+};
+
+/// Throws common::InputError unless all that the page may read of the trial has its type.
+void requireSound(const FlownTrial& trial) {
+  const Json& json = trial.json;
+  if (!json.is_object()) throw trial.problem("", "is no object");
+  for (const char* key : {"name", "system"})
+    if (json.contains(key) && !json[key].is_string()) throw trial.problem(key, "is no text");
+  if (json.contains("runs") && !json["runs"].is_number_unsigned())
+    throw trial.problem("runs", fmt::format("{} is no number of flights", json["runs"].dump()));
+  const Json flights = json.value("flights", Json::array());
+  if (!flights.is_array()) throw trial.problem("flights", "is no list");
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const std::string key = fmt::format("flights[{}]", i);
+    if (!flights[i].is_object()) throw trial.problem(key, "is no object");
+    const Json phases = flights[i].value("phases", Json::object());
+    if (!phases.is_object()) throw trial.problem(key + ".phases", "is no object");
+    for (const auto& [name, phase] : phases.items())
+      if (!phase.is_object()) throw trial.problem(key + ".phases." + name, "is no object");
+  }
+}
+
 /// The trials of all results; a later file replaces a trial of an earlier one.
-std::vector<Json> readResults(const std::vector<std::string>& files) {
-  std::vector<Json> trials;
+std::vector<FlownTrial> readResults(const std::vector<std::string>& files) {
+  std::vector<FlownTrial> trials;
   for (const std::string& file : files) {
     const Json json = Json::parse(common::readBytes(file, std::size_t{64} << 20), nullptr, false);
     if (!json.is_object() || !json.contains("trials") || !json["trials"].is_array())
       throw common::InputError(
           common::Problem{{file}, "", "is not the results.json of trials", "give one that `swiftlet trial` wrote"});
-    for (const Json& trial : json["trials"]) trials.push_back(trial);
+    if (json["trials"].empty())
+      throw common::InputError(common::Problem{{file}, "trials", "is empty", "give the results of flights"});
+    for (std::size_t i = 0; i < json["trials"].size(); ++i) {
+      trials.push_back({file, i, json["trials"][i]});
+      requireSound(trials.back());
+    }
   }
   return trials;
 }
@@ -45,42 +90,55 @@ struct Measured {
   std::size_t flights = 0;
 };
 
-std::optional<Measured> medianOverFlights(const std::vector<Json>& figures) {
+/// None if it is no number, as a figure that was not measured.
+std::optional<double> figureOf(const FlownTrial& trial, const std::string& key, const Json& value) {
+  if (!value.is_number()) return std::nullopt;
+  const auto number = value.get<double>();
+  if (!(std::abs(number) < kGreatestFigure))
+    throw trial.problem(key, fmt::format("{} is no figure of a flight, in SI units", value.dump()));
+  return number;
+}
+
+/// The figure that `read` takes from each flight, by its key in the flight.
+std::optional<Measured> medianOverFlights(const FlownTrial& trial, const std::string& key,
+                                          const std::function<Json(const Json& flight)>& read) {
   std::vector<double> values;
-  for (const Json& figure : figures)
-    if (figure.is_number()) values.push_back(figure.get<double>());
+  const Json flights = trial.json.value("flights", Json::array());
+  for (std::size_t i = 0; i < flights.size(); ++i)
+    if (const auto value = figureOf(trial, fmt::format("flights[{}].{}", i, key), read(flights[i])))
+      values.push_back(*value);
   const auto median = medianOf(values);
   return median ? std::optional(Measured{*median, values.size()}) : std::nullopt;
 }
 
 /// Of the whole trial, or the median over its flights.
-std::optional<Measured> measured(const Json& trial, const std::string& figure) {
-  const Json flights = trial.value("flights", Json::array());
-  std::vector<Json> figures;
+std::optional<Measured> measured(const FlownTrial& trial, const std::string& figure) {
   if (figure.starts_with("phases.")) {
     const std::string name = figure.substr(7);
     const std::string phase = name.substr(0, name.find('.')), key = name.substr(name.find('.') + 1);
-    for (const Json& flight : flights)
-      figures.push_back(flight.value("phases", Json::object()).value(phase, Json::object()).value(key, Json()));
-    return medianOverFlights(figures);
+    return medianOverFlights(trial, figure, [&](const Json& flight) {
+      return flight.value("phases", Json::object()).value(phase, Json::object()).value(key, Json());
+    });
   }
   if (figure.starts_with("flights.")) {
-    for (const Json& flight : flights) figures.push_back(flight.value(figure.substr(8), Json()));
-    return medianOverFlights(figures);
+    const std::string key = figure.substr(8);
+    return medianOverFlights(trial, key, [&](const Json& flight) { return flight.value(key, Json()); });
   }
-  const Json value = trial.value(figure, Json());
-  if (!value.is_number()) return std::nullopt;
-  return Measured{value.get<double>(), trial.value("runs", std::size_t{0})};
+  const auto value = figureOf(trial, figure, trial.json.value(figure, Json()));
+  return value ? std::optional(Measured{*value, trial.json.value("runs", std::size_t{0})}) : std::nullopt;
 }
 
 /// "0.031 (n = 5)" of each condition that was flown with the profile, with its name where there are several: a trial in
 /// two natures has two figures. Of results with the same name the last counts.
-std::string flownWith(const std::vector<Json>& trials, const PaperExperiment& experiment, const std::string& profile) {
-  std::map<std::string, const Json*> conditions;
-  for (const Json& trial : trials) {
-    const std::string name = trial.value("name", "");
+std::string flownWith(const std::vector<FlownTrial>& trials, const PaperExperiment& experiment,
+                      const std::string& profile) {
+  std::map<std::string, const FlownTrial*> conditions;
+  for (const FlownTrial& trial : trials) {
+    const std::string name = trial.json.value("name", "");
     const bool same = name == experiment.trial || name.starts_with(experiment.trial + "-");
-    if (same && trial.value("system", "") == profile) conditions[name] = &trial;
+    if (!same || trial.json.value("system", "") != profile) continue;
+    conditions[name] = &trial;
+    trial.used = true;
   }
   std::string text;
   for (const auto& [name, trial] : conditions) {
@@ -98,7 +156,7 @@ std::string flownWith(const std::vector<Json>& trials, const PaperExperiment& ex
   return text;
 }
 
-std::string rowOf(const PaperExperiment& experiment, const std::vector<Json>& trials) {
+std::string rowOf(const PaperExperiment& experiment, const std::vector<FlownTrial>& trials) {
   std::string its, own, where;
   if (!experiment.trial.empty()) {
     if (!experiment.profile.empty()) its = flownWith(trials, experiment, experiment.profile);
@@ -114,9 +172,13 @@ std::string rowOf(const PaperExperiment& experiment, const std::vector<Json>& tr
                      own, where);
 }
 
-std::string page(const Papers& papers, const std::vector<Json>& trials) {
+/// The first line of the page, which marks it as one of ours.
+constexpr const char* kTitle = "# The five papers, flown again";
+
+std::string page(const Papers& papers, const std::vector<FlownTrial>& trials) {
   std::string text =
-      "# The five papers, flown again\n\n"
+      std::string(kTitle) +
+      "\n\n"
       "Printed by `swiftlet papers`: one row for each experiment, table and figure. Figures are medians over flights "
       "in the "
       "simulator,\nin SI units, with the profile of the paper and with our own; an empty cell was not flown for this "
@@ -135,6 +197,14 @@ std::string page(const Papers& papers, const std::vector<Json>& trials) {
   return text;
 }
 
+/// Of results that are not those of the papers' trials, or of other profiles, nothing is shown.
+void tellUnused(const std::vector<FlownTrial>& trials) {
+  for (const FlownTrial& trial : trials)
+    if (!trial.used)
+      showError(fmt::format("note: {}: trials[{}]: no row is of `{}` with the profile `{}`\n", trial.file, trial.index,
+                            trial.json.value("name", ""), trial.json.value("system", "")));
+}
+
 }  // namespace
 
 void addPapers(Command& program) {
@@ -148,7 +218,10 @@ void addPapers(Command& program) {
   command.option("--write", options->write, "Page to write instead of printing it.");
   command.footer("Example: swiftlet papers --results runs/papers/results.json --write docs/papers.md");
   command.runs([options] {
-    const std::string text = page(readPapers(), readResults(options->results));
+    if (!options->write.empty()) requireWritable(options->write, "--write", kTitle);
+    const std::vector<FlownTrial> trials = readResults(options->results);
+    const std::string text = page(readPapers(), trials);
+    tellUnused(trials);
     if (options->write.empty())
       show(text);
     else

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "apps/system.hpp"
 #include "common/error.hpp"
+#include "common/median_step.hpp"
+#include "common/vehicle.hpp"
 #include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::apps {
@@ -18,21 +21,67 @@ common::InputError unusableRun(const fs::path& place, const std::string& message
   return common::InputError(common::Problem{{place.string()}, "", message, hint});
 }
 
+/// A name alone does not tell: a sheet of the user may have that of another one.
+void refuseOtherVehicle(const fs::path& config, const FlownVehicle& vehicle) {
+  const System system = loadSystem(config.string());
+  const common::VehicleConfig &flew = system.vehicle, &given = vehicle.sheet;
+  const auto own = system.own_files.find("vehicle");
+  const std::string hint =
+      fmt::format("give {} {}", vehicle.option, own == system.own_files.end() ? system.config.vehicle : own->second);
+  if (flew.name != given.name)
+    throw unusableRun(config, fmt::format("`{}` flew, not `{}`", flew.name, given.name), hint);
+  struct Value {
+    const char* key;
+    double flew, given;
+  };
+  for (const Value& value : {Value{"mass_kg", flew.mass_kg, given.mass_kg},
+                             {"max_thrust_n", flew.max_thrust_n, given.max_thrust_n},
+                             {"battery_full_v", flew.battery_full_v, given.battery_full_v},
+                             {"battery_empty_v", flew.battery_empty_v, given.battery_empty_v},
+                             {"battery_capacity_ah", flew.battery_capacity_ah, given.battery_capacity_ah}})
+    if (value.flew != value.given)
+      throw unusableRun(
+          config, fmt::format("another `{}` flew: its {} is {}, not {}", flew.name, value.key, value.flew, value.given),
+          hint);
+}
+
+/// One row a tick: with stamps in another unit no step of a fit would be right.
+void refuseOtherRate(const fs::path& log, const std::vector<interfaces::ControlRow>& rows) {
+  constexpr double kMostOff = 2.0;
+  const double tick_s = common::kControlPeriod.seconds();
+  const double period_s = common::medianStep_s(rows, [](const interfaces::ControlRow& row) { return row.stamp; });
+  if (rows.size() < 2 || (period_s > tick_s / kMostOff && period_s < tick_s * kMostOff)) return;
+  throw unusableRun(log,
+                    fmt::format("its rows are {:g} s apart, and a flight writes one each {:g} s", period_s, tick_s),
+                    "the column t has seconds");
+}
+
 }  // namespace
 
-std::vector<interfaces::ControlRow> readControlRows(const std::string& run, const common::VehicleConfig& vehicle,
-                                                    Truth truth) {
+void refuseRunsGivenTwice(const std::vector<std::string>& runs, const std::string& argument) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code failure;
+      if (fs::equivalent(runs[i], runs[j], failure))
+        throw common::InputError(common::Problem{{},
+                                                 argument,
+                                                 fmt::format("{} is given twice, and counts as one flight", runs[i]),
+                                                 "give each flight once"});
+    }
+}
+
+std::vector<interfaces::ControlRow> readControlRows(const std::string& run, const FlownVehicle& vehicle, Truth truth) {
   const fs::path folder = run, log = folder / "control.tsv";
-  if (!fs::is_directory(folder))
+  std::error_code failure;
+  if (!fs::is_directory(folder, failure))
     throw unusableRun(folder, "is no folder of a run", "give the folder that a flight wrote");
   if (!interfaces::saysAtStart(folder / "mission.json", "swiftlet mission", 200))
     throw unusableRun(folder, "is not the folder of a run", "a run has a mission.json");
-  if (!fs::exists(log)) throw unusableRun(folder, "has no control.tsv", "fly it with --control-log");
-  const System system = loadSystem((folder / "config.yaml").string());
-  if (system.vehicle.name != vehicle.name)
-    throw unusableRun(folder / "config.yaml", fmt::format("`{}` flew, not `{}`", system.vehicle.name, vehicle.name),
-                      fmt::format("give --vehicle {}", system.config.vehicle));
+  if (!fs::exists(log, failure) && !failure)
+    throw unusableRun(folder, "has no control.tsv", "fly it with --control-log");
+  refuseOtherVehicle(folder / "config.yaml", vehicle);
   std::vector<interfaces::ControlRow> rows = interfaces::readControlLog(log);
+  refuseOtherRate(log, rows);
   const bool flew = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.flying; });
   if (!flew) throw unusableRun(log, "the vehicle never flew in it", "a flight of a minute and more is needed");
   const auto blind =
@@ -45,7 +94,8 @@ std::vector<interfaces::ControlRow> readControlRows(const std::string& run, cons
 
 std::vector<perception::FilterInput> readFilterTape(const std::string& run) {
   const fs::path file = fs::path(run) / "fusion.tsv";
-  if (!fs::exists(file)) throw unusableRun(run, "has no fusion.tsv", "fly it with --control-log");
+  std::error_code failure;
+  if (!fs::exists(file, failure) && !failure) throw unusableRun(run, "has no fusion.tsv", "fly it with --control-log");
   std::vector<perception::FilterInput> inputs;
   interfaces::LineReader reader(file);
   std::vector<interfaces::Word> words;
@@ -60,7 +110,7 @@ std::vector<perception::FilterInput> readFilterTape(const std::string& run) {
   return inputs;
 }
 
-perception::TapedFlight readTapedFlight(const std::string& run, const common::VehicleConfig& vehicle, double least_s) {
+perception::TapedFlight readTapedFlight(const std::string& run, const FlownVehicle& vehicle, double least_s) {
   perception::TapedFlight flight;
   for (const interfaces::ControlRow& row : readControlRows(run, vehicle, Truth::kNeeded))
     if (row.flying)

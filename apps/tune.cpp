@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
@@ -35,11 +36,14 @@ std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const
   // As long as `identify` asks for: the filter converges in some seconds, which would be all that is learned from.
   const double least_s = control::AxisFitOptions{}.shortest_s;
   std::vector<TapedFlight> flights;
-  for (const std::string& run : runs) flights.push_back(readTapedFlight(run, vehicle, least_s));
+  for (const std::string& run : runs) flights.push_back(readTapedFlight(run, {vehicle, kSystemOfVehicle}, least_s));
   return flights;
 }
 
-void refuseRunsGivenTwice(const TuneOptions& options) {
+/// What is judged must not have been learned from.
+void refuseRepeatedFlights(const TuneOptions& options) {
+  refuseRunsGivenTwice(options.runs, "run");
+  refuseRunsGivenTwice(options.held_out, "--held-out");
   for (const std::string& run : options.held_out)
     for (const std::string& learned : options.runs) {
       std::error_code error;
@@ -55,9 +59,11 @@ std::vector<const TapedFlight*> pointersTo(const std::vector<TapedFlight>& fligh
   return pointers;
 }
 
+/// What marks a file as settings of ours.
+constexpr const char* kSettingsLine = "# Learned by `swiftlet tune`: put it into a system profile.";
+
 std::string settingsYaml(const FusionConfig& config) {
-  std::string text =
-      "# Learned by `swiftlet tune`: put it into a system profile.\nautonomy:\n  estimator:\n    fusion:\n";
+  std::string text = fmt::format("{}\nautonomy:\n  estimator:\n    fusion:\n", kSettingsLine);
   for (const perception::NoiseParameter& parameter : perception::noiseParameters())
     text += fmt::format("      {}: {:.4g}\n", parameter.name, config.*parameter.value);
   return text;
@@ -65,13 +71,14 @@ std::string settingsYaml(const FusionConfig& config) {
 
 int tuneNoise(const TuneOptions& options) {
   const System system = loadSystem(options.system);
+  if (!options.out.empty()) requireWritable(options.out, "--out", kSettingsLine);
   if (options.runs.empty())
     throw common::InputError(
         common::Problem{{}, "run", "names no flight", "give flights to learn from, or --gains with a trial to fly"});
   if (options.held_out.empty())
     throw common::InputError(common::Problem{
         {}, "--held-out", "names no flight", "parameters are judged on flights that they were not learned from"});
-  refuseRunsGivenTwice(options);
+  refuseRepeatedFlights(options);
   const std::vector<TapedFlight> learned_from = readFlights(options.runs, system.vehicle);
   const std::vector<TapedFlight> held_out = readFlights(options.held_out, system.vehicle);
   const FusionConfig& start = system.config.autonomy.estimator.fusion;

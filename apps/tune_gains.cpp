@@ -1,13 +1,14 @@
 #include "apps/tune_gains.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/core.h>
 
 #include "apps/command_line.hpp"
 #include "apps/flights_in_parallel.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
@@ -49,6 +50,11 @@ TrialConfig trialToFly(const TuneGainsOptions& options) {
   return one;
 }
 
+/// What marks a file as a tuned profile of ours.
+constexpr const char* kProfileLine = "# Tuned by `swiftlet tune --gains`: a profile for --system.";
+
+struct SearchStopped {};
+
 /// Flies sets of gains, each with the same seeds. What a flight leaves is removed, the profiles stay.
 class GainFlights {
  public:
@@ -56,21 +62,28 @@ class GainFlights {
       : trial_(std::move(trial)), system_(std::move(system)), options_(options), folder_(std::move(folder)) {}
 
   System systemWith(const std::vector<Gain>& gains) const {
-    System system = system_;
+    System system = system_.namingSheetsByPath();
     system.config.autonomy.control = control::withGains(system.config.autonomy.control, gains);
     return system;
   }
 
+  /// Throws SearchStopped if the user stops the flights.
   double cost(const std::vector<Gain>& gains) {
     const fs::path profile = folder_ / fmt::format("set-{:03}.yaml", ++sets_);
-    required(interfaces::writeAtomically(profile, systemWith(gains).toYaml(false)));
+    const std::string yaml = systemWith(gains).toYaml(false);
+    required(interfaces::writeAtomically(profile, yaml));
     TrialConfig trial = trial_;
     trial.system = profile.string();
     const double cost = evaluation::gainCost(flown(trial));
-    best_ = sets_ == 1 ? cost : std::min(best_, cost);
-    show(fmt::format("set {:3}  cost {:.4f}  best {:.4f}\n", sets_, cost, best_));
+    required(interfaces::writeAtomically(profile, fmt::format("# cost {:.6g}\n{}", cost, yaml)));
+    if (!best_ || cost < best_->after) best_ = control::GainSearch{gains, best_ ? best_->before : cost, cost, sets_};
+    best_->evaluations = sets_;
+    show(fmt::format("set {:3}  cost {:.4f}  best {:.4f}\n", sets_, cost, best_->after));
     return cost;
   }
+
+  /// What has been found so far; none before the first set has flown.
+  const std::optional<control::GainSearch>& best() const { return best_; }
 
  private:
   std::vector<FlightScore> flown(const TrialConfig& trial) {
@@ -81,7 +94,7 @@ class GainFlights {
       scores[static_cast<std::size_t>(i)] = flyOne(trial, nullptr, options_.seed + i, run, stop);
       fs::remove_all(run);
     });
-    if (stop) throw common::InputError(common::Problem{{}, "", "was stopped before the search was over", ""});
+    if (stop) throw SearchStopped();
     std::vector<FlightScore> all;
     for (auto& of_one : scores) all.insert(all.end(), of_one.begin(), of_one.end());
     return all;
@@ -92,7 +105,7 @@ class GainFlights {
   const TuneGainsOptions& options_;
   fs::path folder_;
   int sets_ = 0;
-  double best_ = 0.0;
+  std::optional<control::GainSearch> best_;
 };
 
 std::vector<Gain> gainsToSearch(const System& system, const std::string& only) {
@@ -116,6 +129,7 @@ std::string comparison(const std::vector<Gain>& before, const std::vector<Gain>&
 
 int tuneGains(const TuneGainsOptions& options) {
   const System system = loadSystem(options.system);
+  if (!options.out.empty()) requireWritable(options.out, "--out", kProfileLine);
   const std::vector<Gain> start = gainsToSearch(system, options.only);
   if (options.flights < 2 * options.seeds)
     throw common::InputError(
@@ -125,18 +139,28 @@ int tuneGains(const TuneGainsOptions& options) {
   GainFlights flights(trial, system, options, folder);
   control::GainSearchOptions search_options;
   search_options.evaluations = options.flights / options.seeds;
-  const control::GainSearch search =
-      control::searchGains(start, search_options, [&](const std::vector<Gain>& gains) { return flights.cost(gains); });
+  std::optional<control::GainSearch> found;
+  try {
+    found = control::searchGains(start, search_options,
+                                 [&](const std::vector<Gain>& gains) { return flights.cost(gains); });
+  } catch (const SearchStopped&) {
+    show("stopped before the search was over\n");
+  }
+  const bool stopped = !found;
+  if (stopped) found = flights.best();
+  if (!found) return kFailed;
+  const control::GainSearch& search = *found;
   show(fmt::format("\n{} of {}, {} sets of gains in {} flights, seeds {} to {}\ncost {:.4f} -> {:.4f}\n{}",
                    control::sectionOfGains(system.config.autonomy.control.controller.kind), system.name,
                    search.evaluations, search.evaluations * options.seeds, options.seed,
                    options.seed + options.seeds - 1, search.before, search.after, comparison(start, search.gains)));
   if (!options.out.empty()) {
-    required(interfaces::writeAtomically(options.out, flights.systemWith(search.gains).toYaml(false)));
+    required(interfaces::writeAtomically(
+        options.out, fmt::format("{}\n{}", kProfileLine, flights.systemWith(search.gains).toYaml(false))));
     show(fmt::format("profile {}\n", options.out));
   }
   show(fmt::format("sets    {}\n", folder.string()));
-  return search.after < search.before ? kDone : kFailed;
+  return !stopped && search.after < search.before ? kDone : kFailed;
 }
 
 }  // namespace swiftlet::apps

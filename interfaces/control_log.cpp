@@ -9,6 +9,7 @@ namespace {
 
 /// No quantity of a flight has a greater number, in the units of the log.
 constexpr double kGreatest = 1e6;
+constexpr double kMostBattery_v = 100.0;
 
 }  // namespace
 
@@ -61,17 +62,17 @@ std::vector<ControlRow> readControlLog(const std::filesystem::path& file) {
     row.stamp = fields.stamp(0);
     if (!rows.empty() && row.stamp <= rows.back().stamp)
       throw fields.problemAt(0, "t", "is not later than the line before");
-    row.flying = number(1) != 0.0;
+    row.flying = fields.flag(1);
     row.roll_rad = number(2);
     row.pitch_rad = number(3);
     row.yaw_rate_rad_s = number(4);
-    row.thrust = number(5);
-    row.tilt_cos = number(6);
+    row.thrust = fields.numberWithin(5, 0.0, 1.0);
+    row.tilt_cos = fields.numberWithin(6, -1.0, 1.0);
     row.yaw_odom_rad = number(7);
     row.position_odom_m = vector(8);
     row.velocity_odom_m_s = vector(11);
-    row.battery_v = number(14);
-    row.has_truth = number(15) != 0.0;
+    row.battery_v = fields.numberWithin(14, 0.0, kMostBattery_v);
+    row.has_truth = fields.flag(15);
     row.true_position_map_m = vector(16);
     row.true_velocity_map_m_s = vector(19);
     row.true_yaw_map_rad = number(22);

@@ -28,4 +28,7 @@ struct FlightSample {
 /// One flight; its samples come at one rate.
 using FlightSamples = std::vector<FlightSample>;
 
+/// The median step between samples: the first one alone may be another. 0 for fewer than two samples.
+double periodOf_s(const FlightSamples& flight);
+
 }  // namespace swiftlet::control

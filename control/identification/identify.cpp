@@ -19,7 +19,7 @@ std::vector<AxisSeries> seriesOf(const std::vector<FlightSamples>& flights,
   std::vector<AxisSeries> all;
   for (const FlightSamples& flight : flights) {
     if (flight.size() < 2) continue;
-    const double period_s = (flight[1].stamp - flight[0].stamp).seconds();
+    const double period_s = periodOf_s(flight);
     AxisSeries series{period_s, {}, {}, {}};
     const auto close = [&] {
       if (!series.command.empty()) all.push_back(std::move(series));
@@ -65,6 +65,15 @@ double hoverAt(const ThrustPoints& points, double voltage_v) {
                    (voltage_v - below->voltage_v) / (above->voltage_v - below->voltage_v));
 }
 
+/// C(U), or why there is none that a flight of the vehicle could start from.
+tl::expected<ThrustEm, std::string> usableThrust(const std::vector<FlightSamples>& flights,
+                                                 const common::VehicleConfig& vehicle) {
+  auto thrust = thrustByVoltage(flights, vehicle);
+  if (!thrust) return thrust;
+  if (const auto problem = problemOfRows(thrust->points, vehicle, {})) return tl::unexpected(problem->message);
+  return thrust;
+}
+
 }  // namespace
 
 Identification identify(const std::vector<FlightSamples>& flights, const common::VehicleConfig& vehicle,
@@ -80,6 +89,8 @@ Identification identify(const std::vector<FlightSamples>& flights, const common:
   const auto keep = [&](const char* name, const tl::expected<AxisModel, std::string>& fitted, double longest_lag_s,
                         AxisModel& axis) {
     if (!fitted) return result.problems.push_back(std::string(name) + ": " + fitted.error());
+    if (const auto unfit = problemsOfAxis(name, *fitted); !unfit.empty())
+      return result.problems.push_back(unfit.front() + "; no vehicle is like that");
     axis = *fitted;
     if (lagIsAtBound(axis, longest_lag_s, options))
       result.doubts.push_back(
@@ -94,8 +105,7 @@ Identification identify(const std::vector<FlightSamples>& flights, const common:
        model.forward, result.damped_forward);
   both("left", seriesOf(flights, [&](const auto& sample, auto& series) { left.add(sample, series); }), model.left,
        result.damped_left);
-  const auto thrust = thrustByVoltage(flights, vehicle);
-  if (thrust) {
+  if (const auto thrust = usableThrust(flights, vehicle)) {
     result.thrust = *thrust;
     model.thrust = thrust->points;
     both("up",

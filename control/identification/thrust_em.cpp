@@ -21,7 +21,7 @@ struct HoverSample {
 /// The commands of one flight, each divided by what it did: u cos(tilt) / (1 + a / g).
 void addHovers(const FlightSamples& flight, const ThrustEmOptions& options, std::vector<HoverSample>& hovers) {
   if (flight.size() < 2) return;
-  const double period_s = (flight[1].stamp - flight[0].stamp).seconds();
+  const double period_s = periodOf_s(flight);
   if (!(period_s > 0.0)) return;
   const auto half = static_cast<std::size_t>(std::max(1L, std::lround(0.5 * options.smooth_s / period_s)));
   for (std::size_t i = half; i + half < flight.size(); ++i) {

@@ -46,11 +46,18 @@ double LineFields::coordinate_m(std::size_t field) const {
   throw problemAt(field, std::string(format_.fields[field]), fmt::format("is farther away than {} m", kFarthest_m));
 }
 
-double LineFields::numberWithin(std::size_t field, double greatest) const {
+double LineFields::numberWithin(std::size_t field, double least, double greatest) const {
   const double value = number(field);
-  if (std::abs(value) <= greatest) return value;
+  if (value >= least && value <= greatest) return value;
   throw problemAt(field, std::string(format_.fields[field]),
-                  fmt::format("`{}` is not from {} to {}", words_[field].text, -greatest, greatest));
+                  fmt::format("`{}` is not from {} to {}", words_[field].text, least, greatest));
+}
+
+bool LineFields::flag(std::size_t field) const {
+  const double value = number(field);
+  if (value == 0.0 || value == 1.0) return value == 1.0;
+  throw problemAt(field, std::string(format_.fields[field]),
+                  fmt::format("`{}` is neither 0 nor 1", words_[field].text));
 }
 
 common::InputError LineFields::problemAt(std::size_t field, std::string element, std::string message,

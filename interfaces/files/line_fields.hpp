@@ -32,8 +32,11 @@ class LineFields {
   /// Throw InputError if the word is not a time in seconds, or not a finite number.
   common::Time stamp(std::size_t field) const;
   double number(std::size_t field) const;
-  /// Throws InputError also if the magnitude of the value is above `greatest`.
-  double numberWithin(std::size_t field, double greatest) const;
+  /// Throw InputError also if the magnitude of the value is above `greatest`, or if it is not within the two.
+  double numberWithin(std::size_t field, double greatest) const { return numberWithin(field, -greatest, greatest); }
+  double numberWithin(std::size_t field, double least, double greatest) const;
+  /// 1 or 0. Throws InputError for anything else.
+  bool flag(std::size_t field) const;
   /// Throws InputError also if the value is beyond kFarthest_m.
   double coordinate_m(std::size_t field) const;
 

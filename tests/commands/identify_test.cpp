@@ -56,6 +56,7 @@ TEST_F(Identify, RefusesWhatIsNoFlightOfThatVehicle) {
   const std::string run = hop("run");
   expectRefused(runSwiftlet({"identify", run, "--vehicle", "pelican"}),
                 "`cobra` flew, not `pelican`, give --vehicle cobra");
+  expectRefused(runSwiftlet({"consistency", run, "--system", "dlr"}), "flew, not .*give a --system whose vehicle is");
   fs::remove(run + "/control.tsv");
   expectRefused(runSwiftlet({"identify", run}), "has no control.tsv, fly it with --control-log");
   expectRefused(runSwiftlet({"tune", run}), "--held-out: names no flight");
@@ -150,12 +151,97 @@ TEST_F(Identify, AProfileWhoseControllerOrModelDoesNotFitIsRefusedWithItsPlace) 
   model.vehicle = "pelican";
   model.battery_full_v = 16.8;
   model.thrust = {{11.0, 0.6, 9.0}, {12.0, 0.5, 9.0}};
-  write("model.yaml", common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model));
+  const auto put = [&] {
+    write("model.yaml", common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model));
+  };
+  put();
   const ProgramEnd end = fly("vehicle_model: model.yaml\n");
-  expectRefused(end,
-                "mine.yaml:3:16: vehicle_model: model.yaml: vehicle: the model is of `pelican`, but `cobra` flies");
+  expectRefused(
+      end, "mine.yaml:3:16: vehicle_model: .*model.yaml:2:10: vehicle: the model is of `pelican`, but `cobra` flies");
   expectRefused(end, "a battery of 16.8 V, but that of `cobra` has 12.6 V");
+  model.vehicle = "cobra";
+  model.battery_full_v = 12.6;
+  model.battery_empty_v = 10.2;
+  model.battery_capacity_ah = 5;
+  model.thrust = {{21.0, 0.6, 9.0}, {22.0, 0.5, 9.0}};
+  put();
+  expectRefused(
+      fly("vehicle_model: model.yaml\n"),
+      "mine.yaml:3:16: vehicle_model: .*model.yaml:[0-9]+:[0-9]+: thrust\\[0\\].voltage_v: 21 V is of another");
+  model.thrust.clear();
+  model.bench_roll = {{-180, 59}, {180, 60}};
+  put();
+  expectRefused(fly("vehicle_model: model.yaml\n"),
+                "model.yaml:[0-9]+:[0-9]+: bench_roll\\[1\\].angle_deg: changes by");
+  model.bench_roll.clear();
+  model.forward.gain = -8.4;
+  put();
+  expectRefused(fly("vehicle_model: model.yaml\n"),
+                "model.yaml:[0-9]+:[0-9]+: forward.gain: -8.4 is not within 3 and 30");
   EXPECT_FALSE(fs::exists(path("run")));
+}
+
+/// Without a model of its axes no operator may switch to lqr either.
+TEST_F(Identify, ATrialThatSwitchesToLqrNeedsItsModel) {
+  control::VehicleModel model;
+  model.version = 1;
+  model.vehicle = "cobra";
+  write("model.yaml", common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model));
+  const std::string trial =
+      write("switch.yaml", "mission: " + write("hop.xml", missionWith(kHop)) +
+                               "\nsystem: " + profile("vehicle_model: model.yaml\n") +
+                               "\noperator:\n  - {command: controller, controller: lqr, at_s: 3}\n");
+  expectRefused(runSwiftlet({"trial", trial, "--out", path("out")}),
+                "switch.yaml:4:15: trial switch: operator: controller: profile .*lqr needs every axis, but model.yaml");
+}
+
+TEST_F(Identify, NoFileOfAnythingElseIsReplaced) {
+  const std::string run = hop("run"), mission = path("hop.xml"), before = readText(mission);
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& option) {
+    const auto with = [&](const std::string& out) {
+      std::vector<std::string> all = arguments;
+      all.insert(all.end(), {option, out});
+      return runSwiftlet(all);
+    };
+    expectRefused(with(mission), "hop.xml: " + option + ": is there already, and does not begin with `# ");
+    expectRefused(with(path("nowhere/x.yaml")), option + ": its folder does not exist, make the folder first");
+    expectRefused(with(path(".")), option + ": is a folder");
+  };
+  refused({"identify", run}, "--out");
+  refused({"tune", run, "--held-out", run}, "--out");
+  refused({"tune", "--gains", "trials/papers/gains.yaml", "--system", "unb"}, "--out");
+  refused({"papers"}, "--write");
+  EXPECT_EQ(readText(mission), before);
+  const std::string page = path("page.md");
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(runSwiftlet({"papers", "--write", page}).exit_code, 0) << time;
+}
+
+TEST_F(Identify, AFlightGivenTwiceIsRefused) {
+  const std::string run = hop("run"), again = path("./run/");
+  expectRefused(runSwiftlet({"identify", run, again}), "run: .*run/ is given twice, and counts as one flight");
+  expectRefused(runSwiftlet({"tune", run, again, "--held-out", "other"}), "run: .* is given twice");
+  expectRefused(runSwiftlet({"tune", "other", "--held-out", run, "--held-out", again}),
+                "--held-out: .* is given twice");
+  expectRefused(runSwiftlet({"consistency", run, again}), "run: .* is given twice");
+}
+
+TEST_F(Identify, ALogWithStampsInAnotherUnitIsRefused) {
+  const std::string run = hop("run");
+  std::istringstream lines(readText(run + "/control.tsv"));
+  std::string slow;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find(' ');
+    slow += (line[0] == '#' ? line : std::to_string(1000.0 * std::stod(line.substr(0, end))) + line.substr(end)) + "\n";
+  }
+  write("run/control.tsv", slow);
+  expectRefused(runSwiftlet({"identify", run}),
+                "control.tsv: its rows are 10 s apart, and a flight writes one each 0.01 s");
+}
+
+TEST_F(Identify, TheBenchNeedsThePlantThatFlew) {
+  const std::string run = hop("run");
+  fs::remove(run + "/nature.yaml");
+  expectRefused(runSwiftlet({"identify", run, "--bench"}), "run: --bench: has no nature.yaml");
 }
 
 TEST_F(Identify, ThePageOfThePapersHasARowForEachExperiment) {
@@ -175,6 +261,23 @@ TEST_F(Identify, ThePageOfThePapersHasARowForEachExperiment) {
   EXPECT_EQ(firstCells(readText(fs::path(SWIFTLET_SOURCE_DIR) / "docs/papers.md")), firstCells(printed.out))
       << "update it: swiftlet papers --results RESULTS --write docs/papers.md";
   expectRefused(runSwiftlet({"papers", "--results", write("results.json", "{}")}), "is not the results.json of trials");
+}
+
+TEST_F(Identify, ResultsThatNoTrialWroteAreRefusedWithTheirPlace) {
+  const auto refused = [&](const std::string& trials, const std::string& pattern) {
+    expectRefused(runSwiftlet({"papers", "--results", write("r.json", R"({"trials": [)" + trials + "]}")}), pattern);
+  };
+  refused("", "r.json: trials: is empty");
+  refused("5", R"(r.json: trials\[0\]: is no object)");
+  refused(R"({"name": 7})", R"(r.json: trials\[0\].name: is no text)");
+  refused(R"({}, {"flights": 5})", R"(r.json: trials\[1\].flights: is no list)");
+  refused(R"({"flights": [{"phases": []}]})", R"(trials\[0\].flights\[0\].phases: is no object)");
+  refused(R"({"runs": -3})", R"(trials\[0\].runs: -3 is no number of flights)");
+  refused(R"({"name": "mit_hover", "system": "mit", "flights": [{"phases": {"hover": {"position_rms_m": 1e308}}}]})",
+          R"(trials\[0\].flights\[0\].phases.hover.position_rms_m: 1e\+308 is no figure)");
+  const ProgramEnd unused = runSwiftlet({"papers", "--results", write("r.json", R"({"trials": [{"name": "mine"}]})")});
+  EXPECT_EQ(unused.exit_code, 0) << describe(unused);
+  EXPECT_THAT(unused.err, ContainsRegex(R"(note: .*r.json: trials\[0\]: no row is of `mine`)"));
 }
 
 TEST_F(Identify, ThePageOfThePapersShowsEveryNatureAndWhatFallsShort) {

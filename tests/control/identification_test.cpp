@@ -71,6 +71,27 @@ TEST(Identify, FindsTheModelOfMit) {
               found.damped_forward.damping_1_s, found.damped_forward.damping_interval_1_s, found.model.forward.lag_s);
 }
 
+TEST(Identify, AShortFirstStepSpoilsNoFlight) {
+  FlightSamples flight = flightOf(1, 60);
+  const double gain = identify({flight}, {}).model.forward.gain;
+  flight[0].stamp = flight[1].stamp - common::Duration::fromMilliseconds(1);
+  EXPECT_NEAR(identify({flight}, {}).model.forward.gain, gain, 0.1);
+}
+
+// Stamps in another unit, or a log with exchanged columns, give numbers that no vehicle has.
+TEST(Identify, LeavesOutAnAxisThatNoVehicleHas) {
+  FlightSamples flight = flightOf(1, 60);
+  for (FlightSample& sample : flight) {
+    sample.pitch_rad = -sample.pitch_rad;
+    sample.battery_v *= 2.0;
+  }
+  const Identification found = identify({flight}, {});
+  EXPECT_EQ(found.model.forward.gain, 0.0);
+  EXPECT_THAT(found.problems, Contains(testing::ContainsRegex("forward.gain: -[0-9.]+ is not within 3 and 30")));
+  EXPECT_THAT(found.problems, Contains(HasSubstr("V is of another battery")));
+  EXPECT_THAT(found.model.thrust, IsEmpty());
+}
+
 TEST(Identify, ItsIntervalsHoldTheTruth) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 10; seed < 20; ++seed) {

@@ -1,4 +1,6 @@
 // control.tsv reads back as it was written, and tells where it is damaged.
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,6 +60,21 @@ TEST_F(ControlLog, TellsWhereItIsDamaged) {
   absurd.replace(absurd.find(" 0.010000 "), 10, " 1e300 ");
   EXPECT_THAT(problemOf(absurd), testing::HasSubstr("pitch: `1e300` is not from -1000000 to 1000000"));
   EXPECT_EQ(problemOf("# nothing\n"), "");
+}
+
+TEST_F(ControlLog, EachColumnHasBounds) {
+  const auto with = [&](std::size_t column, const std::string& word) {
+    std::istringstream words(toLine(rowAt(1)));
+    std::string line, next;
+    for (std::size_t i = 0; words >> next; ++i) line += (i == column ? word : next) + " ";
+    return problemOf(line + "\n");
+  };
+  EXPECT_EQ(with(1, "1"), "");
+  EXPECT_THAT(with(1, "2"), testing::HasSubstr("control.tsv:1:13: flying: `2` is neither 0 nor 1"));
+  EXPECT_THAT(with(5, "1.5"), testing::HasSubstr("thrust: `1.5` is not from 0 to 1"));
+  EXPECT_THAT(with(6, "1e5"), testing::HasSubstr("tilt_cos: `1e5` is not from -1 to 1"));
+  EXPECT_THAT(with(14, "-3"), testing::HasSubstr("battery: `-3` is not from 0 to 100"));
+  EXPECT_THAT(with(15, "7"), testing::HasSubstr("truth: `7` is neither 0 nor 1"));
 }
 
 }  // namespace
