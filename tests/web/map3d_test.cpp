@@ -85,15 +85,20 @@ struct HubStory : ::testing::Test {
                                            const std::shared_ptr<const StreamFrame>& last = nullptr) {
     const auto view = hub.watch(viewOf(target));
     kept.push_back(view);
-    return hub.frame(*view, last, common::Duration::fromMilliseconds(100), common::Time::fromSeconds(now_s));
+    const FrameHub::Watcher watcher{
+        .last = last, .period = common::Duration::fromMilliseconds(100), .sent = common::Time::fromSeconds(now_s)};
+    if (hub.due(*view, watcher)) hub.draw(*view, watcher);
+    return hub.frame(*view, watcher);
   }
 
   double now_s = 1000.0;
+  double step_s = 0.0;  ///< What each look at the clock takes.
   common::LatestValue<common::World> world;
   common::LatestValue<common::CameraFrame> camera;
   common::LosslessQueue<common::OperatorCommand> commands;
   common::LosslessQueue<common::CommandResult> results;
-  Telemetry telemetry{{world, camera, commands, results}, [this] { return common::Time::fromSeconds(now_s); }};
+  Telemetry telemetry{{world, camera, commands, results},
+                      [this] { return common::Time::fromSeconds(now_s += step_s); }};
   FrameHub hub{telemetry, 0.55};
   std::vector<std::shared_ptr<FrameHub::View>> kept;
 };
@@ -109,6 +114,20 @@ TEST_F(HubStory, OnePictureIsDrawnForAllWhoWatchFromTheSameViewpoint) {
   const auto before = frame(there);
   post(flight.advance(1.0));
   EXPECT_NE(frame(there, before), before);
+}
+
+TEST_F(HubStory, TheOperatorsPictureDoesNotWaitForThoseOfViewers) {
+  testing::ExampleFlight flight;
+  post(flight.advance(2.0));
+  const auto own = hub.watch(viewOf("/stream/map.mjpg?width=80"));
+  const FrameHub::Watcher by_operator{.period = common::Duration::fromMilliseconds(100), .by_operator = true};
+  hub.draw(*own, by_operator);
+  step_s = 1.0;  // A slow machine.
+  for (const char* width : {"81", "82", "83", "84"}) frame("/stream/map.mjpg?width=" + std::string(width));
+  step_s = 0.0;
+  post(flight.advance(1.0));
+  EXPECT_TRUE(hub.due(*own, by_operator));
+  EXPECT_FALSE(hub.due(*hub.watch(viewOf("/stream/map.mjpg?width=84")), {.period = by_operator.period}));
 }
 
 TEST_F(HubStory, AFlightWithoutACameraShowsOneNotice) {

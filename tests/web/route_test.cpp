@@ -49,6 +49,7 @@ TEST(RouteTest, ClampsLargeParametersAndRefusesInvalidOnes) {
                           "scheme=pink", "width=1&width=2", "width=%zz"})
     EXPECT_EQ(statusOf(route(get(std::string("/stream/map.mjpg?") + bad), kPolicy)), 400) << bad;
   EXPECT_THAT(reasonOf(route(get("/stream/map.mjpg?widht=3"), kPolicy)), ::testing::HasSubstr("did you mean `width`"));
+  EXPECT_EQ(reasonOf(route(get("/stream/map.mjpg?width=1&width=2"), kPolicy)), "`width` is given twice");
 }
 
 TEST(RouteTest, SaysWhoIsAnOperator) {
@@ -160,6 +161,9 @@ TEST(RouteTest, GoalsAreReadStrictly) {
                           R"({"x_m":null,"y_m":2})", R"({"x_m":1,"y_m":2}x)", "\xff\xfe"})
     EXPECT_EQ(statusOf(route(post("/api/goal", bad), kPolicy)), 400) << bad;
   EXPECT_EQ(statusOf(route(post("/api/goal", std::string(4000, '[')), kPolicy)), 400);
+  for (const char* endless : {R"({"x_m":NaN,"y_m":2})", R"({"x_m":1e400,"y_m":2})"})
+    EXPECT_THAT(reasonOf(route(post("/api/goal", endless), kPolicy)), ::testing::HasSubstr("numbers must be finite"));
+  EXPECT_THAT(reasonOf(route(post("/api/goal", "[]"), kPolicy)), ::testing::HasSubstr("not a JSON object"));
 }
 
 TEST(RouteTest, PlacesMayLieInTheGivenMap) {
@@ -194,6 +198,9 @@ TEST(RouteTest, MissionsAreStartedByTheirFileAndParameters) {
   for (const char* bad : {"", "[]", "{}", R"({"file": 3})", R"({"file": "a", "more": {}})",
                           R"({"file": "a", "parameters": []})", R"({"file": "a", "parameters": {"x": 1.2}})"})
     EXPECT_EQ(statusOf(route(post("/api/mission", bad), kPolicy)), 400) << bad;
+  EXPECT_THAT(reasonOf(route(post("/api/mission", R"({"file": "a", "parameters": []})"), kPolicy)),
+              ::testing::HasSubstr("parameters: expected an object of texts"));
+  EXPECT_EQ(statusOf(route(post("/api/mission", R"({"file": "a", "parameters": null})"), kPolicy)), 200);
   const auto stop = std::get<GiveCommand>(route(post("/api/stop"), kPolicy));
   EXPECT_TRUE(std::holds_alternative<common::StopMissionCommand>(stop.kind));
   Request foreign = post("/api/mission", R"({"file": "a"})");
@@ -215,10 +222,30 @@ TEST(RouteTest, NamesTheAllowedMethod) {
   EXPECT_EQ(statusOf(route(get("/api/ws"), kPolicy)), 426);
 }
 
+TEST(RouteTest, HeadIsGetWhereTheAnswerHasAnEnd) {
+  const auto head = [](Request request) {
+    request.method = "HEAD";
+    return route(request, kPolicy);
+  };
+  for (const char* target : {"/", "/page.js", "/api/state", "/api/map.png"})
+    EXPECT_EQ(statusOf(head(get(target))), 200) << target;
+  EXPECT_EQ(statusOf(head(get("/stream/map.mjpg"))), 405);
+  EXPECT_EQ(std::get<Refuse>(route(post("/api/state"), kPolicy)).allow, "GET, HEAD");
+}
+
+TEST(RouteTest, AnAbsoluteTargetBringsItsOwnHost) {
+  EXPECT_TRUE(std::holds_alternative<SendState>(route(get("http://127.0.0.1:8080/api/state"), kPolicy)));
+  EXPECT_EQ(std::get<ServeFile>(route(get("HTTP://cobra.local"), kPolicy)).name, "index.html");
+  EXPECT_TRUE(hasToken(get("http://localhost/?token=secret-token"), kPolicy));
+  EXPECT_TRUE(hasToken(get("http://localhost?token=secret-token"), kPolicy));
+  EXPECT_EQ(statusOf(route(get("http://evil.example/api/state"), kPolicy)), 403);
+  EXPECT_EQ(statusOf(route(get("http:///api/state"), kPolicy)), 403);
+}
+
 TEST(RouteTest, ServesNothingElse) {
   for (const char* target : {"/etc/passwd", "/api", "/api/", "/index", "//", "/api/state/"})
     EXPECT_EQ(statusOf(route(get(target), kPolicy)), 404) << target;
-  for (const char* target : {"", "x", "http://127.0.0.1/", "*", "/../page.js", "/%2e%2e/page.js", "/page.js%00", "/%"})
+  for (const char* target : {"", "x", "https://127.0.0.1/", "*", "/../page.js", "/%2e%2e/page.js", "/page.js%00", "/%"})
     EXPECT_EQ(statusOf(route(get(target), kPolicy)), 400) << target;
 }
 

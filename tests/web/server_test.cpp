@@ -51,6 +51,15 @@ TEST(ServerTest, AnswersStateAndMap) {
   EXPECT_EQ(map.body.substr(1, 3), "PNG");
 }
 
+TEST(ServerTest, HeadAnswersAsGetWithoutTheBody) {
+  FakeBackend backend({});
+  const std::string size = request(backend.port(), "GET", "/icon.svg").headers.at("content-length");
+  RawClient client(backend.port());
+  client.send("HEAD /icon.svg HTTP/1.1\r\nHost: localhost\r\n\r\nHEAD /api/state HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_THAT(client.readUntil("\r\n\r\n"), HasSubstr("Content-Length: " + size + "\r\n"));
+  EXPECT_THAT(client.readUntil("\r\n"), HasSubstr("HTTP/1.1 200")) << "the next answer follows at once";
+}
+
 TEST(ServerTest, TheFirstRequestGetsTheRealtimeFactor) {
   FakeBackend backend({});
   std::this_thread::sleep_for(1500ms);

@@ -1,5 +1,7 @@
 // Many viewers and one operator: slots and bandwidth are kept for the operator.
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -47,6 +49,40 @@ TEST(ViewersTest, SilentConnectionsLockNobodyOut) {
   for (int i = 0; i < 300; ++i) silent.push_back(std::make_unique<RawClient>(backend.port()));
   EXPECT_EQ(request(backend.port(), "POST", "/api/land", bearer()).status, 200);
   EXPECT_EQ(request(backend.port(), "GET", "/").status, 200);
+}
+
+/// One picture is drawn for viewers in a tick, and their time for drawing is bounded; the rest is refused at once.
+TEST(ViewersTest, LargePicturesForViewersKeepNoOperatorWaiting) {
+  FakeBackend backend({});
+  const std::string picture = "/api/map.png?width=1920&height=1920";
+  std::vector<std::unique_ptr<RawClient>> viewers;
+  for (int i = 0; i < 24; ++i) {
+    viewers.push_back(std::make_unique<RawClient>(backend.port()));
+    viewers.back()->send("GET " + picture + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  EXPECT_EQ(request(backend.port(), "POST", "/api/hold", bearer()).status, 200);
+  std::map<int, int> answers;
+  for (const auto& viewer : viewers) ++answers[viewer->readReply().status];
+  EXPECT_GE(answers[200], 1);
+  EXPECT_GE(answers[503], 12);
+  EXPECT_EQ(answers[200] + answers[503], 24);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(request(backend.port(), "GET", picture, bearer()).status, 200);
+  EXPECT_TRUE(eventually([&] { return request(backend.port(), "GET", "/api/map.png").status == 200; }));
+}
+
+TEST(ViewersTest, FreshViewsOfViewersTakeABoundedShareOfTheThread) {
+  FakeBackend backend({});
+  std::vector<std::unique_ptr<RawClient>> viewers;
+  for (int i = 0; i < 64; ++i) {
+    viewers.push_back(std::make_unique<RawClient>(backend.port()));
+    viewers.back()->send("GET /stream/map.mjpg?height=1920&width=" + std::to_string(1900 - i) +
+                         " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  const double before_s = backend.serverCpu_s();
+  const common::Time begin = unixTime();
+  while ((unixTime() - begin).seconds() < 1.0)
+    EXPECT_EQ(request(backend.port(), "POST", "/api/hold", bearer()).status, 200);
+  EXPECT_LT(backend.serverCpu_s() - before_s, 0.75 * (unixTime() - begin).seconds());
 }
 
 TEST(ViewersTest, ViewersShareTheirBandwidthAndTheOperatorHasItsOwn) {

@@ -15,6 +15,14 @@ namespace {
 constexpr std::ptrdiff_t kMostForRequests = 64;
 /// Viewers may save this much of their bandwidth, for a map or a picture at once.
 constexpr double kSavedBandwidth_s = 0.25;
+/// Share of the thread's time in which pictures are drawn for viewers. The operator's pictures take half of it at most
+/// (FrameHub), which leaves a quarter for everything else.
+constexpr double kViewersShareOfThread = 0.25;
+/// Time for drawing that viewers may save: about two pictures of the greatest size.
+constexpr double kSavedDrawing_s = 0.25;
+
+/// The clock may have been set, so times are bounded.
+double boundedSeconds(common::Duration time, double most_s) { return std::clamp(time.seconds(), 0.0, most_s); }
 
 }  // namespace
 
@@ -30,7 +38,8 @@ Core::Core(boost::asio::io_context& io, WebServerOptions options_in, const std::
     : options(std::move(options_in)),
       policy(std::move(policy_in)),
       timer_(io),
-      viewer_credit_bytes_(kSavedBandwidth_s * options.viewers_bytes_per_s) {
+      viewer_credit_bytes_(kSavedBandwidth_s * options.viewers_bytes_per_s),
+      viewer_credit_s_(kSavedDrawing_s) {
   for (const WebServerSources& vehicle : sources)
     vehicles_.push_back(std::make_unique<WatchedVehicle>(options, vehicle));
 }
@@ -61,10 +70,19 @@ void Core::sent(const Connection& to, std::size_t bytes) {
   if (!to.byOperator()) viewer_credit_bytes_ -= static_cast<double>(bytes);
 }
 
-/// The clock may have been set, so the time is bounded.
+/// Wakes the ticks, with which the next viewer may be drawn for.
+void Core::drew(const Connection& to, common::Duration time) {
+  if (to.byOperator()) return;
+  viewer_credit_s_ -= boundedSeconds(time, 1.0);
+  drew_for_viewer_ = true;
+  wake();
+}
+
 void Core::refill(common::Time now) {
-  const double elapsed_s = std::clamp((now - refilled_).seconds(), 0.0, kSavedBandwidth_s);
+  const double elapsed_s = boundedSeconds(now - refilled_, kSavedBandwidth_s);
   refilled_ = now;
+  viewer_credit_s_ = std::min(viewer_credit_s_ + elapsed_s * kViewersShareOfThread, kSavedDrawing_s);
+  drew_for_viewer_ = false;
   const double rate = options.viewers_bytes_per_s;
   viewer_credit_bytes_ = std::min(viewer_credit_bytes_ + elapsed_s * rate, kSavedBandwidth_s * rate);
 }
@@ -102,8 +120,8 @@ void Core::tick() {
   schedule();
 }
 
-/// The operators first, then the viewers in turn until their bandwidth is used up. A watcher may close while it is
-/// told, and another may come.
+/// The operators first, then the viewers in turn until their bandwidth is used up; the turn goes on behind the last one
+/// that was drawn for. A watcher may close while it is told, and another may come.
 void Core::tickWatchers(common::Time now) {
   refill(now);
   std::vector<std::shared_ptr<Connection>> viewers;
@@ -115,8 +133,13 @@ void Core::tickWatchers(common::Time now) {
     else
       viewers.push_back(std::move(watcher));
   }
-  for (std::size_t i = 0; i < viewers.size() && viewersMaySend(); ++i)
-    viewers[first_viewer_++ % viewers.size()]->tick(now);
+  std::size_t next = first_viewer_;
+  for (std::size_t i = 0; i < viewers.size() && viewersMaySend(); ++i) {
+    const bool drew_before = drew_for_viewer_;
+    viewers[next++ % viewers.size()]->tick(now);
+    if (drew_for_viewer_ && !drew_before) first_viewer_ = next;
+  }
+  if (!drew_for_viewer_) first_viewer_ = next;
 }
 
 void Core::close() {

@@ -58,8 +58,9 @@ struct WatchedVehicle {
   std::atomic<int> camera_watchers = 0;
 };
 
-/// Slots and bandwidth are kept for the operator: viewers (who show no token) have `max_connections` slots and
-/// `viewers_bytes_per_s` together, operators have no limit and their turn comes first.
+/// Slots, bandwidth and the thread's time are kept for the operator: viewers (who show no token) have
+/// `max_connections` slots, `viewers_bytes_per_s` and a share of the time for drawing together, and one picture is
+/// drawn for them in a tick. Operators have no limit and their turn comes first.
 class Core : public std::enable_shared_from_this<Core> {
  public:
   /// `sources`: one for each vehicle, at least one.
@@ -79,6 +80,10 @@ class Core : public std::enable_shared_from_this<Core> {
   bool viewersMaySend() const { return viewer_credit_bytes_ > 0.0; }
   /// Counts what is sent to a connection.
   void sent(const Connection& to, std::size_t bytes);
+  /// False for a viewer while the viewers have used up their time for drawing, or one was drawn for in this tick.
+  bool mayDraw(const Connection& to) const { return to.byOperator() || viewersMayDraw(); }
+  /// Counts the time that a picture for a connection took.
+  void drew(const Connection& to, common::Duration time);
   void close();
   bool closed() const { return closed_; }
 
@@ -95,6 +100,7 @@ class Core : public std::enable_shared_from_this<Core> {
 
   void tickWatchers(common::Time now);
   void refill(common::Time now);
+  bool viewersMayDraw() const { return viewer_credit_s_ > 0.0 && !drew_for_viewer_; }
   bool anyWaiting() const;
 
   std::vector<std::unique_ptr<WatchedVehicle>> vehicles_;
@@ -103,6 +109,8 @@ class Core : public std::enable_shared_from_this<Core> {
   std::vector<std::weak_ptr<Connection>> watchers_;
   std::size_t first_viewer_ = 0;  ///< The one whose turn is next.
   double viewer_credit_bytes_;
+  double viewer_credit_s_;        ///< Of drawing.
+  bool drew_for_viewer_ = false;  ///< Since the last tick.
   common::Time refilled_;
   bool ticking_ = false;
   bool closed_ = false;

@@ -63,31 +63,42 @@ std::shared_ptr<FrameHub::View> FrameHub::watch(const PictureView& asked) {
   return view;
 }
 
-std::shared_ptr<const StreamFrame> FrameHub::frame(View& view, const std::shared_ptr<const StreamFrame>& last,
-                                                   common::Duration period, common::Time sent) {
+/// A watcher that comes between the ticks of the others gets their picture, unless it is older than its own period.
+bool FrameHub::due(const View& view, const Watcher& watcher) const {
+  if (!view.frame_) return true;
+  const common::Duration age = telemetry_.now() - view.frame_->encoded_unix_time;
+  return age >= (watcher.by_operator ? least_period_for_operator_ : least_period_) &&
+         view.frame_->source_sequence != newest(view.asked_.source) &&
+         (view.frame_ == watcher.last || age > watcher.period);
+}
+
+void FrameHub::draw(View& view, const Watcher& watcher) {
   const common::Time now = telemetry_.now();
-  // A watcher that comes between the ticks of the others gets their picture, unless it is older than its own period.
-  const bool due = view.frame_ && now - view.frame_->encoded_unix_time >= least_period_ &&
-                   view.frame_->source_sequence != newest(view.asked_.source) &&
-                   (view.frame_ == last || now - view.frame_->encoded_unix_time > period);
-  if (!view.frame_ || due) {
-    view.frame_ = encode(view, now);
-    view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0,
-                              1.0);  // The clock may have been set, so the time is bounded.
-    shareTime();
-  }
-  if (view.frame_ != last || now - sent > common::Duration::fromMilliseconds(1000)) return view.frame_;
-  return nullptr;
+  view.frame_ = encode(view, now);
+  view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0,
+                            1.0);  // The clock may have been set, so the time is bounded.
+  view.for_operator_ = watcher.by_operator;
+  shareTime();
+}
+
+std::shared_ptr<const StreamFrame> FrameHub::frame(const View& view, const Watcher& watcher) const {
+  const bool silent = telemetry_.now() - watcher.sent > common::Duration::fromMilliseconds(1000);
+  return view.frame_ != watcher.last || silent ? view.frame_ : nullptr;
 }
 
 /// Half of the thread's time is kept for everything else, so that Hold and Land never wait for pictures. With many
-/// views of different sizes each is drawn less often.
+/// views of different sizes each is drawn less often; those of operators do not wait for those of viewers.
 void FrameHub::shareTime() {
   constexpr double kShareOfThread = 0.5;
-  double total_s = 0.0;
-  for (const auto& [asked, known] : views_)
-    if (const auto view = known.lock()) total_s += view->cost_s_;
+  double total_s = 0.0, for_operator_s = 0.0;
+  for (const auto& [asked, known] : views_) {
+    const auto view = known.lock();
+    if (!view) continue;
+    total_s += view->cost_s_;
+    if (view->for_operator_) for_operator_s += view->cost_s_;
+  }
   least_period_ = common::Duration::fromSeconds(total_s / kShareOfThread);
+  least_period_for_operator_ = common::Duration::fromSeconds(for_operator_s / kShareOfThread);
 }
 
 std::uint64_t FrameHub::newest(PictureView::Source source) const {
@@ -109,7 +120,7 @@ std::uint64_t FrameHub::newest(PictureView::Source source) const {
 std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now) {
   auto frame = std::make_shared<StreamFrame>();
   frame->source_sequence = newest(view.asked_.source);
-  const auto [jpeg, stamp, seen] = draw(view, now);
+  const auto [jpeg, stamp, seen] = drawn(view, now);
   frame->encoded_unix_time = now;
   frame->bytes = fmt::format(
       "Content-Type: image/jpeg\r\nContent-Length: {}\r\nX-Timestamp: {:.6f}\r\nX-Flight-Time: {:.6f}\r\n\r\n",
@@ -119,7 +130,7 @@ std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now
   return frame;
 }
 
-FrameHub::Drawn FrameHub::draw(View& view, common::Time now) {
+FrameHub::Drawn FrameHub::drawn(View& view, common::Time now) {
   switch (view.asked_.source) {
     case PictureView::Source::kMap:
       return drawMap(view, now);

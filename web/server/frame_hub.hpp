@@ -33,10 +33,22 @@ class FrameHub {
   class View;
   std::shared_ptr<View> watch(const PictureView& view);
 
-  /// The frame to send to a watcher that sent `last` before: a new one if the source has changed, the last one again
-  /// after a second without change (so that a client can tell silence from a broken link), otherwise null.
-  std::shared_ptr<const StreamFrame> frame(View& view, const std::shared_ptr<const StreamFrame>& last,
-                                           common::Duration period, common::Time sent);
+  /// Someone who watches a view at a rate, and the frame that was sent last; null before the first.
+  struct Watcher {
+    std::shared_ptr<const StreamFrame> last = nullptr;
+    common::Duration period;
+    common::Time sent = {};
+    bool by_operator = false;
+  };
+
+  /// Whether a new picture is to be drawn for the watcher: the source has changed, and the views of all watchers, for
+  /// an operator those of operators, leave time for it.
+  bool due(const View& view, const Watcher& watcher) const;
+  /// Draws and encodes the view's next frame.
+  void draw(View& view, const Watcher& watcher);
+  /// The frame to send to the watcher: the view's frame if it has another one, or after a second without change (so
+  /// that a client can tell silence from a broken link); otherwise null.
+  std::shared_ptr<const StreamFrame> frame(const View& view, const Watcher& watcher) const;
 
   /// A single picture as PNG. A world must have been seen.
   std::vector<std::uint8_t> png(const PictureView& view) const;
@@ -52,7 +64,7 @@ class FrameHub {
   std::shared_ptr<const StreamFrame> encode(View& view, common::Time now);
   /// Rises when there is something new to show.
   std::uint64_t newest(PictureView::Source source) const;
-  Drawn draw(View& view, common::Time now);
+  Drawn drawn(View& view, common::Time now);
   Drawn drawMap(View& view, common::Time now);
   Drawn drawCamera(const PictureView& asked, common::Time now);
   Drawn drawMap3d(View& view, common::Time now);
@@ -63,8 +75,9 @@ class FrameHub {
   double hull_diameter_m_;
   common::JpegEncoder jpeg_;
   std::map<PictureView, std::weak_ptr<View>> views_;
-  common::Duration least_period_;  ///< Least period between two pictures of a view, so that all views together use a
-                                   ///< bounded share of the time.
+  /// Least period between two pictures of a view, so that all views together use a bounded share of the time.
+  common::Duration least_period_;
+  common::Duration least_period_for_operator_;  ///< The same for the views that were drawn for operators.
 };
 
 class FrameHub::View {
@@ -77,7 +90,8 @@ class FrameHub::View {
   rendering::MapRenderer renderer_;
   rendering::Map3dRenderer renderer3d_;
   std::shared_ptr<const StreamFrame> frame_;
-  double cost_s_ = 0.0;  ///< Time to draw its last picture.
+  double cost_s_ = 0.0;        ///< Time to draw its last picture.
+  bool for_operator_ = false;  ///< Its last picture was.
 };
 
 }  // namespace swiftlet::web

@@ -68,6 +68,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     if (core_->closed()) return close();
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
     keep_alive_ = false;
+    head_only_ = false;
     if (error == http::error::body_limit) return sendError(413, "the body is too large");
     if (error == http::error::header_limit || error == http::error::buffer_overflow)
       return sendError(431, "the headers are too large");
@@ -76,6 +77,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     if (error) return close();
     request_ = parser_->release();
     keep_alive_ = request_.keep_alive();
+    head_only_ = request_.method() == http::verb::head;
     act();
   }
 
@@ -123,8 +125,11 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     WatchedVehicle& vehicle = core_->vehicle(picture.vehicle);
     vehicle.telemetry.look();
     if (!vehicle.telemetry.world().value) return sendError(503, "there is no map yet");
-    if (!byOperator() && !core_->viewersMaySend()) return sendError(503, "too many viewers; try again");
+    if (!core_->mayDraw(*this) || (!byOperator() && !core_->viewersMaySend()))
+      return sendError(503, "too many viewers; try again");
+    const common::Time begin = core_->now();
     const std::vector<std::uint8_t> png = vehicle.hub.png(picture.view);
+    core_->drew(*this, core_->now() - begin);
     Response response = make(200, "image/png");
     response.body().assign(png.begin(), png.end());
     core_->sent(*this, png.size());
@@ -215,6 +220,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   void send(Response response) {
     response.keep_alive(keep_alive_);
     response.prepare_payload();
+    if (head_only_) response.body().clear();  // Content-Length stays that of the answer to GET.
     auto shared = std::make_shared<Response>(std::move(response));
     stream_.expires_after(kRequestTimeout);
     http::async_write(stream_, *shared, [self = shared_from_this(), shared](const error_code& error, std::size_t) {
@@ -249,6 +255,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   std::optional<http::request_parser<http::string_body>> parser_;
   http::request<http::string_body> request_;
   bool keep_alive_ = false;
+  bool head_only_ = false;
 };
 
 }  // namespace

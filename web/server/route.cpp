@@ -38,6 +38,12 @@ void checkMethod(const Request& request, const std::string& wanted) {
   if (request.method != wanted) refuse(405, fmt::format("use {} here, not {}", wanted, shown(request.method)), wanted);
 }
 
+/// HEAD is GET without the body (RFC 9110, 9.1).
+void checkGetOrHead(const Request& request) {
+  if (request.method == "GET" || request.method == "HEAD") return;
+  refuse(405, fmt::format("use GET here, not {}", shown(request.method)), "GET, HEAD");
+}
+
 /// Browsers send the origin of a page that posts or opens a socket; only Swiftlet's own page may.
 void checkOrigin(const Request& request) {
   if (request.origin.empty() || request.origin == "http://" + request.host) return;
@@ -94,9 +100,20 @@ bool inGivenMap(const nlohmann::json& body) {
   refuse(400, "frame: expected \"map\", the frame of the flight, or \"given\", that of the given map");
 }
 
+/// The object in the body of a request; `example` is what it may send.
+nlohmann::json objectIn(const Request& request, const std::string& example) {
+  nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
+  if (body.is_object()) return body;
+  const std::size_t begin = request.body.find_first_not_of(" \t\r\n");
+  const bool broken = body.is_discarded() && begin != std::string::npos && request.body[begin] == '{';
+  refuse(400,
+         (broken ? "the body is not JSON: its numbers must be finite, its names and texts in quotation marks; send "
+                 : "the body is not a JSON object; send ") +
+             example);
+}
+
 Action goal(const Request& request, std::size_t vehicle) {
-  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
-  if (!body.is_object()) refuse(400, "the body is not a JSON object; send {\"x_m\": 1.0, \"y_m\": 2.0}");
+  const nlohmann::json body = objectIn(request, R"({"x_m": 1.0, "y_m": 2.0})");
   for (const auto& [key, value] : body.items())
     if (key != "x_m" && key != "y_m" && key != "frame")
       refuse(400, fmt::format("unknown key {}; send x_m, y_m and perhaps frame", shown(key)));
@@ -105,20 +122,27 @@ Action goal(const Request& request, std::size_t vehicle) {
   return GiveCommand{common::GoalCommand{place}, vehicle};
 }
 
+std::map<std::string, std::string> parametersIn(const nlohmann::json& given) {
+  if (given.is_null()) return {};
+  if (!given.is_object()) refuse(400, R"(parameters: expected an object of texts, {"KEY": "VALUE"})");
+  std::map<std::string, std::string> parameters;
+  for (const auto& [name, text] : given.items()) {
+    if (!text.is_string()) refuse(400, fmt::format("{}: the value is not a text", shown(name)));
+    parameters[name] = text;
+  }
+  return parameters;
+}
+
 /// {"file": "missions/patrol.xml", "parameters": {"Main/Sequence/TakeOff.height_m": "1.2"}}.
 Action mission(const Request& request, std::size_t vehicle) {
-  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
-  if (!body.is_object() || !body.contains("file") || !body["file"].is_string())
-    refuse(400, "send {\"file\": \"a file of /api/missions\", \"parameters\": {}}");
+  constexpr const char* kExample = R"({"file": "a file of /api/missions", "parameters": {}})";
+  const nlohmann::json body = objectIn(request, kExample);
+  if (!body.contains("file") || !body["file"].is_string()) refuse(400, fmt::format("send {}", kExample));
   StartMission start{body["file"], {}, vehicle};
   for (const auto& [key, value] : body.items()) {
     if (key == "file") continue;
-    if (key != "parameters" || !value.is_object())
-      refuse(400, fmt::format("unknown key {}; send file and parameters", shown(key)));
-    for (const auto& [name, text] : value.items()) {
-      if (!text.is_string()) refuse(400, fmt::format("{}: the value is not a text", shown(name)));
-      start.parameters[name] = text;
-    }
+    if (key != "parameters") refuse(400, fmt::format("unknown key {}; send file and parameters", shown(key)));
+    start.parameters = parametersIn(value);
   }
   return start;
 }
@@ -130,10 +154,11 @@ Eigen::Vector2d corner(const nlohmann::json& pair) {
 }
 
 Action keepOut(const Request& request, std::size_t vehicle) {
-  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
-  const std::size_t keys = body.is_object() && body.contains("frame") ? 2 : 1;
-  if (!body.is_object() || body.size() != keys || !body.contains("corners_m") || !body["corners_m"].is_array())
-    refuse(400, "send {\"corners_m\": [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]]}");
+  constexpr const char* kExample = R"({"corners_m": [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]]})";
+  const nlohmann::json body = objectIn(request, kExample);
+  const std::size_t keys = body.contains("frame") ? 2 : 1;
+  if (body.size() != keys || !body.contains("corners_m") || !body["corners_m"].is_array())
+    refuse(400, fmt::format("send {}", kExample));
   if (body["corners_m"].size() > common::kMostCorners)
     refuse(400, fmt::format("corners_m: more than {} corners", common::kMostCorners));
   common::KeepOutCommand zone;
@@ -157,7 +182,10 @@ Action command(const Request& request, const std::string& name, std::size_t vehi
 }
 
 Action read(const Request& request, const Target& target, std::size_t vehicle) {
-  checkMethod(request, "GET");
+  if (target.path == "/api/map.png" || target.path == "/api/state")
+    checkGetOrHead(request);
+  else
+    checkMethod(request, "GET");  // What has no end has no length to tell.
   const auto stream = [&](const PictureQuery& asked) { return StreamPictures{asked.view, asked.fps, vehicle}; };
   if (target.path == "/stream/map.mjpg") return stream(mapStream(target));
   if (target.path == "/stream/camera.mjpg") return stream(cameraStream(target));
@@ -187,7 +215,7 @@ Action decide(const Request& request, const Policy& policy) {
   };
   checkHost(request, policy);
   const auto target = parseTarget(request.target);
-  if (!target) refuse(400, fmt::format("the address {} is malformed", shown(request.target)));
+  if (!target) refuse(400, target.error());
   if (in(kReads, target->path)) return read(request, *target, vehicleOf(*target, policy));
   if (in(kCommands, target->path)) {
     const std::size_t vehicle = vehicleOf(*target, policy);
@@ -205,20 +233,30 @@ Action decide(const Request& request, const Policy& policy) {
   const std::string file = target->path == "/" ? "index.html" : target->path.substr(1);
   if (!in(policy.files, file)) refuse(404, fmt::format("there is no {} here", shown(target->path)));
   (void)vehicleOf(*target, policy);
-  checkMethod(request, "GET");
+  checkGetOrHead(request);
   return ServeFile{file};
+}
+
+/// With the target as a path, and its own host if it is in the absolute form.
+Request inOriginForm(Request request) {
+  if (auto absolute = absoluteTarget(request.target)) {
+    request.host = std::move(absolute->authority);
+    request.target = std::move(absolute->target);
+  }
+  return request;
 }
 
 }  // namespace
 
 bool hasToken(const Request& request, const Policy& policy) {
-  const auto target = parseTarget(request.target);
-  return target && isToken(shownToken(request, *target), policy);
+  const Request asked = inOriginForm(request);
+  const auto target = parseTarget(asked.target);
+  return target && isToken(shownToken(asked, *target), policy);
 }
 
 Action route(const Request& request, const Policy& policy) {
   try {
-    return decide(request, policy);
+    return decide(inOriginForm(request), policy);
   } catch (const Refused& refused) {
     return Refuse{refused.status, refused.reason, refused.allow};
   }

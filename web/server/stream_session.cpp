@@ -20,7 +20,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
         vehicle_(core_->vehicle(asked.vehicle)),
         socket_(std::move(socket)),
         view_(vehicle_.hub.watch(asked.view)),
-        period_(common::Duration::fromSeconds(1.0 / asked.fps)),
+        watcher_{.period = common::Duration::fromSeconds(1.0 / asked.fps), .by_operator = by_operator},
         beat_(asked.fps),
         watches_camera_(asked.view.source == PictureView::Source::kCamera) {
     if (watches_camera_) ++vehicle_.camera_watchers;
@@ -58,7 +58,8 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
     }
     stalled_ticks_ = 0;
     if (!beat_.due(now)) return;
-    const auto frame = vehicle_.hub.frame(*view_, last_, period_, sent_);
+    if (vehicle_.hub.due(*view_, watcher_) && core_->mayDraw(*this)) draw();
+    const auto frame = vehicle_.hub.frame(*view_, watcher_);
     // Without something new the client stays due, so that it need not wait for the next beat when it comes.
     if (!frame) return;
     beat_.done(now);
@@ -66,10 +67,16 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   }
 
  private:
+  void draw() {
+    const common::Time begin = core_->now();
+    vehicle_.hub.draw(*view_, watcher_);
+    core_->drew(*this, core_->now() - begin);
+  }
+
   void send(const std::shared_ptr<const StreamFrame>& frame, common::Time now) {
     writing_ = true;
-    last_ = frame;
-    sent_ = now;
+    watcher_.last = frame;
+    watcher_.sent = now;
     core_->sent(*this, frame->bytes.size());
     const std::array<boost::asio::const_buffer, 2> buffers{boost::asio::buffer(head_),
                                                            boost::asio::buffer(frame->bytes)};
@@ -94,13 +101,11 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   WatchedVehicle& vehicle_;
   boost::asio::ip::tcp::socket socket_;
   std::shared_ptr<FrameHub::View> view_;
-  common::Duration period_;
+  FrameHub::Watcher watcher_;
   Beat beat_;
   bool watches_camera_;
   std::shared_ptr<StreamSession> self_;  ///< Keeps the session alive until it is closed.
   std::string head_;
-  std::shared_ptr<const StreamFrame> last_;
-  common::Time sent_;
   bool writing_ = false;
   int stalled_ticks_ = 0;
   std::array<char, 64> ignored_{};

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+
+#include "web/server/refusal.hpp"
+
 namespace swiftlet::web {
 namespace {
 
@@ -41,7 +45,13 @@ bool climbs(std::string_view path) {
   return false;
 }
 
-bool parseQuery(std::string_view text, std::map<std::string, std::string>& query) {
+char lowerCase(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+std::string malformed(std::string_view target) { return fmt::format("the address {} is malformed", shown(target)); }
+
+/// What is wrong with it; empty if nothing is.
+std::string parseQuery(std::string_view target, std::map<std::string, std::string>& query) {
+  std::string_view text = target.substr(target.find('?') + 1);
   while (!text.empty()) {
     const std::string_view pair = text.substr(0, text.find('&'));
     text.remove_prefix(std::min(pair.size() + 1, text.size()));
@@ -49,21 +59,36 @@ bool parseQuery(std::string_view text, std::map<std::string, std::string>& query
     const std::size_t equals = pair.find('=');
     const auto key = decoded(pair.substr(0, equals), true);
     const auto value = equals == std::string_view::npos ? std::string() : decoded(pair.substr(equals + 1), true);
-    if (!key || !value || !query.emplace(*key, *value).second) return false;
+    if (!key || !value) return malformed(target);
+    if (!query.emplace(*key, *value).second) return fmt::format("{} is given twice", shown(*key));
   }
-  return true;
+  return {};
 }
 
 }  // namespace
 
-std::optional<Target> parseTarget(std::string_view target) {
-  if (target.empty() || target.front() != '/') return std::nullopt;
+tl::expected<Target, std::string> parseTarget(std::string_view target) {
+  if (target.empty() || target.front() != '/') return tl::unexpected(malformed(target));
   const std::size_t question = target.find('?');
   const auto path = decoded(target.substr(0, question), false);
-  if (!path || climbs(*path)) return std::nullopt;
+  if (!path || climbs(*path)) return tl::unexpected(malformed(target));
   Target result{*path, {}};
-  if (question != std::string_view::npos && !parseQuery(target.substr(question + 1), result.query)) return std::nullopt;
+  if (question == std::string_view::npos) return result;
+  if (std::string problem = parseQuery(target, result.query); !problem.empty())
+    return tl::unexpected(std::move(problem));
   return result;
+}
+
+std::optional<AbsoluteTarget> absoluteTarget(std::string_view target) {
+  constexpr std::string_view kScheme = "http://";
+  const std::string_view begin = target.substr(0, kScheme.size());
+  if (!std::equal(begin.begin(), begin.end(), kScheme.begin(), kScheme.end(),
+                  [](char given, char wanted) { return lowerCase(given) == wanted; }))
+    return std::nullopt;
+  target.remove_prefix(kScheme.size());
+  const std::string_view authority = target.substr(0, target.find_first_of("/?"));
+  target.remove_prefix(authority.size());
+  return AbsoluteTarget{std::string(authority), (target.starts_with('/') ? "" : "/") + std::string(target)};
 }
 
 std::optional<std::string> hostName(std::string_view host_header) {
@@ -82,8 +107,7 @@ std::optional<std::string> hostName(std::string_view host_header) {
   const auto sound = [](unsigned char c) { return std::isalnum(c) || c == '.' || c == '-' || c == ':' || c == '_'; };
   if (name.empty() || !std::all_of(name.begin(), name.end(), sound)) return std::nullopt;
   std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(lower.begin(), lower.end(), lower.begin(), lowerCase);
   return lower;
 }
 
