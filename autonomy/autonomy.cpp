@@ -294,7 +294,13 @@ common::Intent Autonomy::nextIntent(Time now) {
   if (!airborne) return context_.intent.value_or(common::Intent{});
   if (missionOver()) return SupervisorIntents::land();
   const SupervisedFlight flight{now, *world_, intent_, executor_.status(), executor_.desk().home_m().has_value()};
-  if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) return *intent;
+  if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) {
+    if (missions_.waits()) {  // Without a mission the status is that of the supervisor's flight.
+      mission_status_.phase = toString(*intent, world_->map->names());
+      mission_status_.reason = supervision.hold_reason;
+    }
+    return *intent;
+  }
   if (missions_.waits() || (supervision.hold && mission_status_.state != MissionState::kHeld))
     return SupervisorIntents::hold();
   return context_.intent.value_or(common::Intent{});

@@ -23,14 +23,16 @@ void Autonomy::take(const common::OperatorCommand& asked, Time now) {
   if (const auto* other = std::get_if<common::ControllerCommand>(&command.kind))
     return answer(command, switchController(command.id, *other), now);
   if (auto result = supervisor_.take(command, now)) {
-    const auto next = missions_.mission().waitingCommand();
+    const auto next = missions_.waitingCommand();
     if (result->accepted && next && std::holds_alternative<common::ResumeCommand>(command.kind))
       result->reason = "next: " + toString(*next, world_->map->names());
     return answer(command, std::move(*result), now);
   }
   if (auto result = requests_.take(command, *world_)) return answer(command, std::move(*result), now);
-  if (std::holds_alternative<common::HomeCommand>(command.kind) && !missions_.mission().acceptsGoals())
-    return answer(command, supervisor_.goHome(command), now);
+  if (std::holds_alternative<common::HomeCommand>(command.kind)) {
+    if (missions_.noneFollows()) return answer(command, supervisor_.goHome(command, AtHome::kWaitForMission), now);
+    if (!missions_.mission().acceptsGoals()) return answer(command, supervisor_.goHome(command), now);
+  }
   context_.commands.push_back(command);
 }
 
@@ -59,7 +61,10 @@ std::optional<common::CommandResult> Autonomy::takeMission(const common::Operato
   const MapShelf before = map_shelf_;
   map_shelf_.offer(mission->maps);
   auto result = missions_.take(command);
-  if (!result->accepted) map_shelf_ = before;
+  if (!result->accepted)
+    map_shelf_ = before;
+  else if (const std::string hold = supervisor_.holdReason(); !hold.empty())
+    result->reason += (result->reason.empty() ? "" : ", ") + behaviors::flownAfterHold(hold);
   return result;
 }
 

@@ -48,7 +48,7 @@ void Autonomy::takeSnapshot(Time now) {
 
 /// What the mission flies to after the hold, as long as nothing else is flown to.
 void Autonomy::showWaiting(common::MissionLayer& layer) const {
-  const auto command = missions_.mission().waitingCommand();
+  const auto command = missions_.waitingCommand();
   if (mission_status_.state != MissionState::kHeld || !command) return;
   layer.waiting = toString(*command, world_->map->names());
   if (layer.goal_map_m) return;

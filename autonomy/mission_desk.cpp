@@ -31,6 +31,10 @@ common::CommandResult MissionDesk::stop(std::uint64_t id) {
   return {id, true, "the vehicle holds until a mission is started, or it lands"};
 }
 
+std::optional<common::OperatorCommand> MissionDesk::waitingCommand() const {
+  return waits_ || leaves_ ? std::nullopt : mission_.waitingCommand();
+}
+
 behaviors::TickResult MissionDesk::tick(behaviors::Context& context) {
   if (leaves_) {
     refuseCommands(context, "the mission is being changed");

@@ -29,6 +29,10 @@ class MissionDesk {
   void mapIsGiven() { limits_.has_map = true; }
   /// Nothing is flown until the operator starts a mission.
   bool waits() const { return waits_; }
+  /// Nothing is flown, or will be once the vehicle has stopped, until the operator starts a mission.
+  bool noneFollows() const { return (waits_ || leaves_) && !next_; }
+  /// As Mission::waitingCommand(); none of a mission that has been stopped.
+  std::optional<common::OperatorCommand> waitingCommand() const;
 
   /// Answers the commands to start and to stop a mission; nothing for any other.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command);

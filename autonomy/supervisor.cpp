@@ -39,15 +39,17 @@ common::CommandResult Supervisor::resume(std::uint64_t id) {
   return {id, true, {}};
 }
 
-common::CommandResult Supervisor::goHome(const common::OperatorCommand& command) {
+common::CommandResult Supervisor::goHome(const common::OperatorCommand& command, AtHome then) {
   if (flight_ != common::FlightState::kFlying)
     return {command.id, false, fmt::format("the vehicle is not flying: {}", common::toString(flight_))};
-  startHome(home_.reason);
-  return {command.id, true, "the mission holds meanwhile, and goes on after Resume"};
+  startHome(home_.reason, then);
+  return {command.id, true,
+          then == AtHome::kHold ? "the mission holds meanwhile, and goes on after Resume"
+                                : "the vehicle holds there until a mission is started"};
 }
 
-void Supervisor::startHome(std::string reason) {
-  home_ = {true, std::move(reason), home_.count + 1};
+void Supervisor::startHome(std::string reason, AtHome then) {
+  home_ = {true, std::move(reason), home_.count + 1, then};
   operator_holds_ = false;
 }
 
@@ -55,9 +57,11 @@ void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
   home_.active = false;
   if (!home_.reason.empty())
     return land(now, reached ? "home again, " + home_.reason : home_.reason + "; home not reached: " + reason);
-  operator_holds_ = true;
+  operator_holds_ = home_.then == AtHome::kHold;
+  const std::string holds = operator_holds_ ? "the vehicle holds until Resume or Land"
+                                            : "the vehicle holds until a mission is started, or it lands";
   say(now, reached ? Severity::kInfo : Severity::kWarning, reached ? "home reached" : "home not reached",
-      reached ? "the vehicle holds until Resume or Land" : std::move(reason));
+      reached ? holds : std::move(reason));
 }
 
 std::string Supervisor::refusal() const {
@@ -121,7 +125,6 @@ WatchRequest Supervisor::obey(Time now, WatchRequest request) {
   return request;
 }
 
-/// Empty if nothing holds the mission.
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
   if (!blind_.empty()) return blind_;

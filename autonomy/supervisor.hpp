@@ -33,6 +33,10 @@ struct Supervision {
   std::string land_reason;
 };
 
+/// What the vehicle does once the operator's flight home is over: it holds until Resume, or it waits with the desk for
+/// a mission, and a mission that is started then, or meanwhile, is flown.
+enum class AtHome { kHold, kWaitForMission };
+
 /// One thread.
 ///
 ///             hold command, SightWatch, the pilot takes over
@@ -50,14 +54,16 @@ class Supervisor {
 
   /// Handles and answers hold, resume and land; every other command is for the mission.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
-  /// Handles and answers home for a mission that does not fly it itself. At home the vehicle holds until resume.
-  common::CommandResult goHome(const common::OperatorCommand& command);
+  /// Handles and answers home for a mission that does not fly it itself, and for a flight without a mission.
+  common::CommandResult goHome(const common::OperatorCommand& command, AtHome then = AtHome::kHold);
   void homeEnded(common::Time now, bool reached, std::string reason);
   /// The flight back has reached the start of the trail, or failed. The vehicle lands if it still does not know its
   /// height or position.
   void backEnded(common::Time now);
   /// Why every command but land is refused while the vehicle lands; empty if it does not land.
   std::string refusal() const;
+  /// Why the mission holds, or would; empty if nothing holds it.
+  std::string holdReason() const;
   /// Why the vehicle must not take off, with the figure; empty if it may.
   std::string takeOffRefusal(const common::EnergyLayer& energy) const { return energy_.takeOffRefusal(energy); }
   /// A sensor of obstacles saw the surroundings: today a usable scan of the laser.
@@ -79,15 +85,14 @@ class Supervisor {
     bool active = false;
     std::string reason;
     unsigned count = 0;
+    AtHome then = AtHome::kHold;
 
     bool forced() const { return active && !reason.empty(); }
   };
   /// Does what a request asks for at once, and returns it for the rest.
   WatchRequest obey(common::Time now, WatchRequest request);
-  void startHome(std::string reason);
+  void startHome(std::string reason, AtHome then = AtHome::kHold);
   common::CommandResult resume(std::uint64_t id);
-  /// Empty if nothing holds the mission.
-  std::string holdReason() const;
   void watchPilot(common::Time now);
   void land(common::Time now, std::string reason);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason);

@@ -72,6 +72,8 @@ tree::Tree flyable(tree::ParseResult parsed, const MissionLimits& limits) {
 
 }  // namespace
 
+std::string flownAfterHold(const std::string& hold_reason) { return "flown after the hold: " + hold_reason; }
+
 Mission::Mission(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
   for (const tree::NodeRecord& record : impl_->tree.nodes()) {
     if (const auto* taker = dynamic_cast<const OperatorCommand*>(record.node)) impl_->takers.push_back(taker);
@@ -162,7 +164,7 @@ void Mission::Impl::answerCommands(Context& context) {
     std::string reason = refusal(context, command);
     const bool accepted = reason.empty();
     const bool goes_on = std::holds_alternative<common::GoOnCommand>(command.kind);
-    if (accepted && context.hold && !goes_on) reason = "flown after the hold: " + context.hold_reason;
+    if (accepted && context.hold && !goes_on) reason = flownAfterHold(context.hold_reason);
     context.results.push_back({command.id, accepted, std::move(reason)});
     if (accepted && goes_on) memory.go_on = true;
     if (accepted && !goes_on) memory.pending_command = command;

@@ -22,6 +22,9 @@ struct TickResult {
   std::string reason;  ///< Why the mission failed or holds.
 };
 
+/// The answer to what is accepted during a hold.
+std::string flownAfterHold(const std::string& hold_reason);
+
 class Mission {
  public:
   /// Throws common::InputError with every problem of the XML.

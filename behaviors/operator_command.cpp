@@ -35,6 +35,12 @@ void OperatorCommand::onStart(tree::TickContext& context) {
   goal_.reset();
 }
 
+tree::Release OperatorCommand::onHalt(tree::TickContext& context) {
+  command_.reset();
+  goal_.reset();
+  return FlightLeaf::onHalt(context);
+}
+
 tree::Status OperatorCommand::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   if (!tolerance_m_.get()) return fail(context, tolerance_m_.problem());

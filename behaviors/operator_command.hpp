@@ -6,6 +6,7 @@
 //   a goal in the given map: followed when the localization moves the map; given up, then hold, when it loses the place
 //   a goal is reached, or cannot be reached: an event, then hold
 //   suspended and resumed: continues to its goal
+//   halted: has no goal any more
 #pragma once
 
 #include <optional>
@@ -31,6 +32,7 @@ class OperatorCommand final : public FlightLeaf {
  private:
   tree::Status act(tree::TickContext& context) override;
   void onStart(tree::TickContext& context) override;
+  tree::Release onHalt(tree::TickContext& context) override;
   void take(FlightTick& tick);
   void finish(FlightTick& tick);
   void shift(FlightTick& tick);

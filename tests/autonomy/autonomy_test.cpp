@@ -158,6 +158,45 @@ TEST(Autonomy, AGoalGivenWhileHeldIsShownAndNamedByResume) {
   EXPECT_EQ(story.world().mission->waiting, "");
 }
 
+TEST(Autonomy, HomeAfterAStopIsFlownWhateverMissionWasStopped) {
+  for (const char* leaves :
+       {R"(<TakeOff/><MoveToGoal goal="2.5;0"/><MoveToGoal goal="-2;0"/>)", R"(<TakeOff/><OperatorCommand/>)"}) {
+    AutonomyStory story(leaves);
+    ASSERT_TRUE(story.isFlying());
+    const auto fromHome_m = [&] { return story.world().vehicle->state.T_map_body().position_m.head<2>().norm(); };
+    (void)story.order(common::GoalCommand{{1.5, 0.0}});  // Refused by the mission without an OperatorCommand.
+    ASSERT_TRUE(story.until([&] { return fromHome_m() > 1.0; }, 20.0));
+    EXPECT_TRUE(story.order(common::StopMissionCommand{}).accepted);
+    ASSERT_TRUE(story.fly(3.0));
+    EXPECT_EQ(story.autonomy().missionStatus().phase, "wait for a mission");
+
+    EXPECT_TRUE(story.order(common::HoldCommand{}).accepted);
+    EXPECT_EQ(story.order(common::ResumeCommand{}).reason, "") << "nothing is next";
+    const common::CommandResult home = story.order(common::HomeCommand{});
+    EXPECT_TRUE(home.accepted);
+    EXPECT_EQ(home.reason, "the vehicle holds there until a mission is started");
+    ASSERT_TRUE(story.fly(1.0));
+    EXPECT_NE(story.autonomy().missionStatus().phase, "wait for a mission");
+    EXPECT_EQ(story.autonomy().missionStatus().reason, "the operator wants it home");
+    ASSERT_TRUE(story.until([&] { return story.event("supervisor", "home reached") != story.events.end(); }, 40.0));
+    EXPECT_LT(fromHome_m(), 0.1);
+    ASSERT_TRUE(story.fly(1.0));
+    EXPECT_EQ(story.autonomy().missionStatus().phase, "wait for a mission");
+    EXPECT_FALSE(story.order(common::ResumeCommand{}).accepted) << "nothing is on hold";
+  }
+}
+
+TEST(Autonomy, AMissionStartedDuringAHoldSaysThatItIsFlownAfterIt) {
+  AutonomyStory story(R"(<TakeOff/><OperatorCommand/>)");
+  ASSERT_TRUE(story.isFlying());
+  EXPECT_TRUE(story.order(common::HoldCommand{}).accepted);
+  const common::CommandResult start = story.order(common::StartMissionCommand{
+      "next.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="Next"><Sequence><TakeOff/><Land/></Sequence>)"
+                  "</BehaviorTree></root>"});
+  EXPECT_TRUE(start.accepted) << start.reason;
+  EXPECT_EQ(start.reason, "when the vehicle has stopped, flown after the hold: the operator holds");
+}
+
 TEST(Autonomy, TheFirstScanThatComesTooLateIsAnEventAndAllAreCounted) {
   AutonomyStory story(R"(<TakeOff height_m="1.0"/>)");
   ASSERT_TRUE(story.isFlying());

@@ -84,7 +84,9 @@ TEST_F(MissionDeskStory, AfterAStopItWaits) {
   EXPECT_EQ(tick(), "ready - wait for a mission");
   ASSERT_EQ(context_.results.size(), 1U) << "each command is answered";
   EXPECT_FALSE(context_.results[0].accepted);
+  EXPECT_TRUE(desk_.noneFollows());
   EXPECT_EQ(start("<GoHome/>"), "accepted");
+  EXPECT_FALSE(desk_.noneFollows());
   EXPECT_THAT(tick(), HasSubstr("take off"));
 }
 

@@ -146,6 +146,17 @@ TEST_F(SupervisorStory, GoesHomeAndHoldsThereUntilResume) {
   EXPECT_FALSE(at(10.0).hold);
 }
 
+TEST_F(SupervisorStory, WithoutAMissionItWaitsAtHomeAndHoldsNothing) {
+  at(1.0);
+  EXPECT_EQ(supervisor_.goHome({1, common::HomeCommand{}}, AtHome::kWaitForMission).reason,
+            "the vehicle holds there until a mission is started");
+  EXPECT_EQ(at(1.1).home, 1u);
+  EXPECT_EQ(supervisor_.holdReason(), "the operator wants it home") << "for a mission that is started meanwhile";
+  supervisor_.homeEnded(Time::fromSeconds(9), true, {});
+  EXPECT_FALSE(at(9.1).hold) << "a mission that is started is flown without Resume";
+  EXPECT_EQ(supervisor_.takeEvents().back().reason, "the vehicle holds until a mission is started, or it lands");
+}
+
 TEST_F(SupervisorStory, HoldStopsTheFlightHome) {
   at(1.0);
   EXPECT_TRUE(supervisor_.goHome({1, common::HomeCommand{}}).accepted);

@@ -127,6 +127,15 @@ TEST(OperatorCommand, ResumesAGoalAfterAHold) {
   EXPECT_EQ(flight.holds(false).tick(), "RUNNING 6 go to (1.00, 2.00)");
 }
 
+TEST(OperatorCommand, HasNoGoalAnyMoreOnceItIsHalted) {
+  Flight flight = waiting();
+  flight.goal(1.0, 2.0).tick();
+  EXPECT_TRUE(flight.mission.waitingCommand());
+  flight.runs();
+  (void)flight.mission.letGo(flight.context);
+  EXPECT_FALSE(flight.mission.waitingCommand());
+}
+
 TEST(OperatorCommand, ReleasesTheVehicleAtOnceWhenItHoldsAlready) {
   Flight flight = waiting();
   EXPECT_EQ(flight.stops().holds(true).tick(), "HELD 3 hold");
