@@ -42,6 +42,8 @@ Nature Nature::calm() { return {"calm", nullptr}; }
 
 Nature Nature::load(const std::string& name) {
   namespace fs = std::filesystem;
+  if (name.empty())
+    throw common::InputError(common::Problem{{}, "nature", "has an empty name", "give calm, real, harsh, or a file"});
   const fs::path given(name);
   const fs::path file =
       given.has_extension() ? common::findData(given) : common::findData(fs::path("config/nature") / (name + ".yaml"));

@@ -39,6 +39,22 @@ std::set<std::string> wholeNumberKeys() {
   return keys;
 }
 
+/// The text without the mark with which some editors begin a file.
+std::string_view withoutMark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
+/// The `]` of the range that begins at `from`, and none in a comment.
+std::size_t closeOf(std::string_view text, std::size_t from) {
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (text[i] == ']') return i;
+    if (text[i] == '#') i = std::min(text.find('\n', i), text.size() - 1);
+  }
+  return text.size();
+}
+
 bool isWhole(double value) { return std::floor(value) == value; }
 
 /// The node below `root` at "quadrotor.battery.capacity_ah", made where there is none.
@@ -92,7 +108,9 @@ class NatureRanges::Reader {
       return end.IsScalar() && YAML::convert<double>::decode(end, value) && std::isfinite(value);
     };
     entry.from = static_cast<std::size_t>(node.Mark().pos);
-    const std::size_t close = text_.find(']', entry.from);
+    const std::size_t close = closeOf(text_, entry.from);
+    if (text_[entry.from] == '&')
+      return report(node, key, "is a range with an anchor", "write the range out as [low, high], without anchors");
     if (node.size() != 2 || !number(node[0], entry.low) || !number(node[1], entry.high) || text_[entry.from] != '[')
       return report(node, key, "is not a range [low, high] of two numbers", "a range is drawn from uniformly");
     if (entry.low > entry.high)
@@ -114,14 +132,22 @@ class NatureRanges::Reader {
   std::vector<Problem> problems_;
 };
 
+/// The number, and behind it the blanks and lines that keep what follows in its place.
+std::string NatureRanges::inPlaceOf(const Entry& entry, std::string_view text, const std::string& number) {
+  const std::string_view range = text.substr(entry.from, entry.size);
+  const auto lines = static_cast<std::size_t>(std::count(range.begin(), range.end(), '\n'));
+  return lines > 0 ? number + std::string(lines, '\n') : fmt::format("{:<{}}", number, entry.size);
+}
+
 std::string NatureRanges::Entry::drawn(const Choose& choose) const {
   if (!isRange()) return value;
   if (whole) return fmt::format("{}", std::min(high, std::floor(choose(key, low, high + 1.0))));
   return fmt::format("{}", choose(key, low, high));
 }
 
-NatureRanges::NatureRanges(const std::string& text, const std::string& file)
-    : file_(file), entries_(Reader(text, file).entries) {
+NatureRanges::NatureRanges(const std::string& given, const std::string& file) : file_(file) {
+  const std::string text(withoutMark(given));
+  entries_ = Reader(text, file).entries;
   // The file is read with the lower and with the upper end of each range in its place, so that everything that is wrong
   // is told now, with its line, and not in some draw.
   for (const bool low : {true, false}) {
@@ -129,7 +155,7 @@ NatureRanges::NatureRanges(const std::string& text, const std::string& file)
     std::string with_numbers = text;
     for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)  // From behind, so that places stay.
       if (entry->isRange())
-        with_numbers.replace(entry->from, entry->size, fmt::format("{:<{}}", entry->drawn(end_of), entry->size));
+        with_numbers.replace(entry->from, entry->size, inPlaceOf(*entry, text, entry->drawn(end_of)));
     NatureKeys keys;
     common::config::YamlReader::fromText(with_numbers, file).read(keys);
     least_thrust_over_weight_ = keys.least_thrust_over_weight;

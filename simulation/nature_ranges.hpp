@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulation/nature_range.hpp"
@@ -14,10 +15,10 @@ namespace swiftlet::simulation {
 /// Const calls are safe from several threads.
 class NatureRanges {
  public:
-  /// `file` stands for the file in messages. Throws common::InputError with file, line and key: not YAML, unknown keys,
-  /// keys that describe the flight and not the plant (`world`, `walkers`), ranges that are upside down, values out of
-  /// bounds.
-  NatureRanges(const std::string& text, const std::string& file);
+  /// `given` is the text; `file` stands for the file in messages. Throws common::InputError with file, line and key:
+  /// not YAML, unknown keys, keys that describe the flight and not the plant (`world`, `walkers`), ranges that are
+  /// upside down, values out of bounds.
+  NatureRanges(const std::string& given, const std::string& file);
 
   /// Nothing is drawn and nothing is set.
   bool empty() const { return entries_.empty(); }
@@ -57,6 +58,7 @@ class NatureRanges {
     std::string drawn(const Choose& choose) const;
   };
   class Reader;
+  static std::string inPlaceOf(const Entry& entry, std::string_view text, const std::string& number);
 
   std::string file_;
   std::vector<Entry> entries_;

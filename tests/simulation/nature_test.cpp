@@ -228,7 +228,25 @@ TEST(Nature, MistakesAreToldWithFileLineAndKey) {
   EXPECT_THAT(problemOf("world: a.sdf\n"), HasSubstr("odd.yaml:1:1: unknown key `world`"))
       << "a nature is the plant, not the flight";
   EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9\n"), HasSubstr("odd.yaml"));
+  EXPECT_THAT(problemOf("quadrotor: {mass_share: &r [0.9, 1.1], thrust_share: *r}\n"),
+              AllOf(HasSubstr("odd.yaml:1:25: quadrotor.mass_share: is a range with an anchor"),
+                    HasSubstr("write the range out as [low, high], without anchors")));
+  EXPECT_THAT(problemOf("quadrotor:\n  mass_share: [0.9, # low\n    1.1]\n  mass_shar: 1\n"),
+              HasSubstr("odd.yaml:4:3: "))
+      << "behind a range of two lines";
 }
+
+TEST(Nature, AMarkOfTheByteOrderAndCommentsInRangesAreNoMistakes) {
+  for (const char* text : {"\xEF\xBB\xBFquadrotor:\n  mass_share: [0.9, 1.1]\n",
+                           "quadrotor:\n  mass_share: [0.9, # [low]\n    1.1] # high ]\n"}) {
+    const auto range = Nature::fromText(text, "odd.yaml").rangeOf("quadrotor.mass_share");
+    ASSERT_TRUE(range) << text;
+    EXPECT_EQ(range->low, 0.9);
+    EXPECT_EQ(range->high, 1.1);
+  }
+}
+
+TEST(Nature, WithoutANameIsRefused) { EXPECT_THROW((void)Nature::load(""), common::InputError); }
 
 TEST(Nature, RecordsItsValuesAsANatureThatDrawsThemAgain) {
   const Nature real = shipped("real");
