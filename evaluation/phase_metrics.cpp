@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/error.hpp"
 #include "common/validation.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
@@ -21,6 +22,16 @@ namespace {
 
 /// Ticks of 10 ms; an estimate older than they are is stale, not wrong.
 constexpr std::size_t kTruths = 10;
+
+/// "level_1_height_m".
+bool isHeightOfALevel(std::string_view figure) {
+  constexpr std::string_view kBegin = "level_", kEnd = "_height_m";
+  if (figure.size() <= kBegin.size() + kEnd.size() || !figure.starts_with(kBegin) || !figure.ends_with(kEnd))
+    return false;
+  figure.remove_prefix(kBegin.size());
+  figure.remove_suffix(kEnd.size());
+  return figure.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 }  // namespace
 
@@ -53,8 +64,12 @@ void PhaseConfig::describe(common::config::Fields& fields) {
 }
 
 std::vector<std::string> PhaseConfig::validate() const {
-  return common::Validation()
-      .require(!name.empty(), "name", "is missing")
+  common::Validation validation;
+  for (const PhaseBound& bound : criteria) {
+    const std::string problem = bound.figure.empty() ? "" : phaseFigureProblem(*this, bound.figure);
+    validation.require(problem.empty(), "criteria", problem);
+  }
+  return validation.require(!name.empty(), "name", "is missing")
       .require(place_map_m.empty() || place_map_m.size() == 2, "place_map_m", "is not one place x, y")
       .atMost("from_s", from_s, "to_s", to_s)
       .problems();
@@ -93,6 +108,18 @@ std::vector<std::string> phaseFigureNames(const PhaseConfig& config) {
   for (const auto& [name, value] : recorder.finish().figures)
     if (!name.starts_with("level_")) names.push_back(name);
   return names;
+}
+
+std::string phaseFigureProblem(const PhaseConfig& config, const std::string& name) {
+  PhaseConfig with_place = config;
+  with_place.place_map_m = {0.0, 0.0};
+  const std::vector<std::string> names = phaseFigureNames(with_place);
+  const bool known = std::find(names.begin(), names.end(), name) != names.end() || isHeightOfALevel(name);
+  if (!known)
+    return toString(
+        common::Problem{{}, "", fmt::format("`{}` is not a figure of a phase", name), common::didYouMean(name, names)});
+  const bool needs_place = name == "position_rms_m" || name == "position_max_m";
+  return needs_place && config.place_map_m.empty() ? fmt::format("`{}` needs a place_map_m", name) : std::string();
 }
 
 void PhaseRecorder::world(const common::World& world) {

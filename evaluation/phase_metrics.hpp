@@ -47,6 +47,10 @@ struct PhaseConfig {
   std::vector<std::string> validate() const;
 };
 
+/// Why such a phase has no figure of that name, with the most similar one; empty if it has one. It may have a height of
+/// any number of levels.
+std::string phaseFigureProblem(const PhaseConfig& config, const std::string& name);
+
 /// By their names: position_mean_x_m, height_std_m ...
 using PhaseFigures = std::vector<std::pair<std::string, double>>;
 

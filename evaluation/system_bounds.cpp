@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "common/config_fields.hpp"
 #include "common/validation.hpp"
 #include "evaluation/trial_figures.hpp"
@@ -32,11 +30,10 @@ void SystemBounds::describe(common::config::Fields& fields) {
 std::vector<std::string> SystemBounds::validate() const {
   common::Validation validation;
   validation.require(!system.empty(), "system", "is missing");
-  const auto& known = trialFigures();
-  for (const PhaseBound& bound : figures)
-    validation.require(
-        std::any_of(known.begin(), known.end(), [&](const TrialFigure& figure) { return bound.figure == figure.name; }),
-        "figures", fmt::format("`{}` is not a figure over all flights", bound.figure));
+  for (const PhaseBound& bound : figures) {
+    const std::string problem = trialFigureProblem(bound.figure);
+    validation.require(problem.empty(), "figures", problem);
+  }
   return validation.problems();
 }
 

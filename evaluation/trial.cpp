@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "common/config_fields.hpp"
 #include "common/error.hpp"
 #include "common/validation.hpp"
+#include "evaluation/trial_figures.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -27,6 +29,45 @@ bool canBeSeen(const std::string& name) {
          std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
 }
 
+bool hasEmpty(const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), "") != names.end();
+}
+
+/// A step for a vehicle that does not fly would never be given.
+void checkVehicles(const TrialConfig& trial, common::Validation& validation) {
+  std::vector<std::string> names;
+  for (const simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles) names.push_back(vehicle.name);
+  for (const OperatorStep& step : trial.operator_steps) {
+    const bool flies = step.vehicle.empty() || std::find(names.begin(), names.end(), step.vehicle) != names.end();
+    const std::string message = fmt::format("there is no vehicle `{}`", step.vehicle);
+    const std::string hint = names.empty() ? "the one that flies has no name" : common::didYouMean(step.vehicle, names);
+    validation.require(flies, "operator", toString(Problem{{}, "", message, hint}));
+  }
+}
+
+void checkPhases(const std::vector<PhaseConfig>& phases, common::Validation& validation) {
+  std::set<std::string> names;
+  for (const PhaseConfig& phase : phases)
+    validation.require(names.insert(phase.name).second, "phases",
+                       fmt::format("`{}` is the name of two of them", phase.name));
+}
+
+/// What is asked of one of the systems is of phases and figures that there are.
+void checkBounds(const TrialConfig& trial, const SystemBounds& of_one, common::Validation& validation) {
+  validation.require(trial.flies(of_one.system), "asked_of",
+                     fmt::format("`{}` is not one of the systems", of_one.system));
+  for (const PhaseBounds& of_phase : of_one.phases) {
+    const auto phase = std::find_if(trial.phases.begin(), trial.phases.end(),
+                                    [&](const PhaseConfig& one) { return one.name == of_phase.phase; });
+    validation.require(phase != trial.phases.end(), "asked_of", fmt::format("there is no phase `{}`", of_phase.phase));
+    if (phase == trial.phases.end()) continue;
+    for (const PhaseBound& bound : of_phase.criteria) {
+      const std::string problem = phaseFigureProblem(*phase, bound.figure);
+      validation.require(problem.empty(), "asked_of", problem);
+    }
+  }
+}
+
 }  // namespace
 
 void PaperFigure::describe(common::config::Fields& fields) {
@@ -35,7 +76,8 @@ void PaperFigure::describe(common::config::Fields& fields) {
 }
 
 std::vector<std::string> PaperFigure::validate() const {
-  return common::Validation().require(!figure.empty(), "figure", "is missing").problems();
+  const std::string problem = figure.empty() ? "is missing" : trialFigureProblem(figure);
+  return common::Validation().require(problem.empty(), "figure", problem).problems();
 }
 
 void TrialMap::describe(common::config::Fields& fields) {
@@ -87,19 +129,16 @@ void TrialConfig::describe(common::config::Fields& fields) {
 
 std::vector<std::string> TrialConfig::validate() const {
   common::Validation validation;
-  for (const SystemBounds& one : asked_of) {
-    validation.require(flies(one.system), "asked_of", fmt::format("`{}` is not one of the systems", one.system));
-    for (const PhaseBounds& of_phase : one.phases)
-      validation.require(std::any_of(phases.begin(), phases.end(),
-                                     [&](const PhaseConfig& phase) { return phase.name == of_phase.phase; }),
-                         "asked_of", fmt::format("there is no phase `{}`", of_phase.phase));
-  }
+  for (const SystemBounds& one : asked_of) checkBounds(*this, one, validation);
+  checkVehicles(*this, validation);
+  checkPhases(phases, validation);
   return validation.require(name.find('/') == std::string::npos, "name", "holds a `/`, but names folders")
       .require(canBeSeen(name), "name", "is longer than 100 characters or holds some that cannot be seen")
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
-      .require(std::find(systems.begin(), systems.end(), "") == systems.end(), "systems", "has an empty name")
+      .require(!hasEmpty(systems), "systems", "has an empty name")
       .require(!natures.empty(), "natures", "is empty")
+      .require(!hasEmpty(natures), "natures", "has an empty name")
       .require(!each_fault || !scenario.faults.empty(), "each_fault", "is set, but the scenario has no faults")
       .require(!scenario.world.empty(), "scenario", "names no `world`")
       .problems();
@@ -163,10 +202,14 @@ std::vector<TrialConfig> TrialConfig::byCharge() const {
 std::vector<TrialConfig> TrialConfig::byFault() const {
   if (!each_fault) return {*this};
   std::vector<TrialConfig> trials;
+  std::map<std::string, int> named;
   for (const simulation::FaultConfig& fault : scenario.faults) {
     trials.push_back(*this);
     trials.back().scenario.faults = {fault};
-    if (scenario.faults.size() > 1) trials.back().name += "-" + nameOf(fault);
+    if (scenario.faults.size() == 1) continue;
+    const std::string what = nameOf(fault);
+    const int number = ++named[what];
+    trials.back().name += "-" + what + (number > 1 ? fmt::format("-{}", number) : "");
   }
   return trials;
 }

@@ -69,7 +69,8 @@ struct TrialConfig {
 
   /// One trial for each of its systems, with each of them for each of its natures, in each of them for each of its
   /// batteries and, with `each_fault`, for each of these for each fault: these are then the only ones, and part of its
-  /// name where there are several. The charge is that of every vehicle, as if the scenario had written it out.
+  /// name where there are several; the second of two faults with the same name has a 2 behind it. The charge is that of
+  /// every vehicle, as if the scenario had written it out.
   std::vector<TrialConfig> byCondition() const;
 
   /// Whether one of its flights is with that profile.

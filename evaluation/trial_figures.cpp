@@ -4,7 +4,10 @@
 #include <limits>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "common/check.hpp"
+#include "common/error.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
@@ -114,6 +117,14 @@ const std::vector<TrialFigure>& trialFigures() {
       {"frame_growth_max", kMax, frameGrowth},
   };
   return figures;
+}
+
+std::string trialFigureProblem(const std::string& name) {
+  std::vector<std::string> names;
+  for (const TrialFigure& figure : trialFigures()) names.emplace_back(figure.name);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return {};
+  return toString(common::Problem{
+      {}, "", fmt::format("`{}` is not a figure over all flights", name), common::didYouMean(name, names)});
 }
 
 std::optional<double> valueOf(const TrialFigure& figure, const std::vector<FlightScore>& flights) {

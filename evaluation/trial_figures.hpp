@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct TrialFigure {
 
 /// In the order of results.json.
 const std::vector<TrialFigure>& trialFigures();
+
+/// Why there is no figure of that name, with the most similar one; empty if there is.
+std::string trialFigureProblem(const std::string& name);
 
 /// None if no flight has the figure.
 std::optional<double> valueOf(const TrialFigure& figure, const std::vector<FlightScore>& flights);

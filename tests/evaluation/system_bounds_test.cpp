@@ -21,7 +21,9 @@ TrialConfig twoSystems() {
   trial.mission = "missions/a.xml";
   trial.scenario.world = "worlds/w.sdf";
   trial.systems = {"mit", "swiftlet"};
-  trial.phases = {{.name = "hover", .criteria = {{"position_rms_m", -PhaseBound{}.max, 0.06}, {"time_s", 50.0}}}};
+  trial.phases = {{.name = "hover",
+                   .place_map_m = {0.0, 0.0},
+                   .criteria = {{"position_rms_m", -PhaseBound{}.max, 0.06}, {"time_s", 50.0}}}};
   trial.asked_of = {{"swiftlet",
                      {{"estimate_rms_median_m", -PhaseBound{}.max, 0.01}},
                      {{"hover", {{"position_rms_m", -PhaseBound{}.max, 0.03}, {"speed_std_m_s", 0.0, 0.025}}}}}};
@@ -66,6 +68,10 @@ TEST(SystemBounds, OfWhatThereIsNotAreRefused) {
   trial.asked_of[0].system = "dlr";
   trial.asked_of[0].phases[0].phase = "landing";
   trial.asked_of[0].figures[0].figure = "estimate_rms_m";
+  TrialConfig other = twoSystems();
+  other.asked_of[0].phases[0].criteria[0].figure = "position_rsm_m";
+  EXPECT_THAT(common::config::problemsOf(other),
+              Contains(HasSubstr("`position_rsm_m` is not a figure of a phase, did you mean `position_rms_m`?")));
   const auto problems = common::config::problemsOf(trial);
   EXPECT_THAT(problems, Contains(HasSubstr("`dlr` is not one of the systems")));
   EXPECT_THAT(problems, Contains(HasSubstr("there is no phase `landing`")));

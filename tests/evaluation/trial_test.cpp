@@ -129,6 +129,43 @@ TEST_F(Trials, WithSeveralSystemsAreOneTrialForEachInEachNature) {
   EXPECT_EQ(readTrials(folder_).at(0).byCondition().at(0).system, "dlr");
   put("hover.yaml", std::string(kSmallest) + "systems: [dlr, '']\n");
   EXPECT_THAT(problemOf(folder_), HasSubstr("systems: has an empty name"));
+  put("hover.yaml", std::string(kSmallest) + "natures: ['']\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("natures: has an empty name"));
+}
+
+TEST_F(Trials, FaultsWithTheSameNameAreNumbered) {
+  put("bad.yaml",
+      "mission: m.xml\neach_fault: true\nscenario:\n  world: w.sdf\n  faults:\n"
+      "    - {sensor: imu, kind: silent, place_world_m: [1, 1], lasts_s: 9}\n"
+      "    - {sensor: imu, kind: silent, place_world_m: [2, 2], lasts_s: 9}\n");
+  const auto trials = readTrials(folder_).at(0).byCondition();
+  ASSERT_EQ(trials.size(), 2u);
+  EXPECT_EQ(trials[0].name, "bad-imu-silent-place");
+  EXPECT_EQ(trials[1].name, "bad-imu-silent-place-2");
+}
+
+TEST_F(Trials, StepsOfVehiclesThatDoNotFlyAreRefused) {
+  const std::string two = "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: beta}]}\n";
+  EXPECT_EQ(problemOf(put("two.yaml", two + "operator: [{command: hold, vehicle: beta}]\n")), "");
+  EXPECT_THAT(problemOf(put("two.yaml", two + "operator: [{command: hold, vehicle: betta}]\n")),
+              HasSubstr("operator: there is no vehicle `betta`, did you mean `beta`?"));
+  EXPECT_THAT(problemOf(put("two.yaml", std::string(kSmallest) + "operator: [{command: hold, vehicle: alpha}]\n")),
+              HasSubstr("operator: there is no vehicle `alpha`, the one that flies has no name"));
+}
+
+TEST_F(Trials, FiguresThatThereAreNotAreRefused) {
+  const auto problem = [&](const std::string& more) { return problemOf(put("t.yaml", kSmallest + more)); };
+  EXPECT_THAT(problem("paper: [{figure: goal_eror_max_m, value: 1}]\n"),
+              HasSubstr("`goal_eror_max_m` is not a figure over all flights, did you mean `goal_error_max_m`?"));
+  EXPECT_THAT(problem("phases: [{name: a, criteria: [{figure: position_sdt_m, max: 1}]}]\n"),
+              HasSubstr("`position_sdt_m` is not a figure of a phase, did you mean `position_std_m`?"));
+  EXPECT_THAT(problem("phases: [{name: a, criteria: [{figure: position_rms_m, max: 1}]}]\n"),
+              HasSubstr("`position_rms_m` needs a place_map_m"));
+  EXPECT_THAT(problem("phases: [{name: a, criteria: [{figure: level_x_height_m, max: 1}]}]\n"),
+              HasSubstr("`level_x_height_m` is not a figure of a phase"));
+  EXPECT_EQ(problem("phases: [{name: a, criteria: [{figure: level_12_height_m, max: 1}, {figure: levels, min: 1}]}]\n"),
+            "");
+  EXPECT_THAT(problem("phases: [{name: a}, {name: a}]\n"), HasSubstr("phases: `a` is the name of two of them"));
 }
 
 TEST_F(Trials, WithEachFaultAreOneTrialForEach) {
