@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/command_line.hpp"
 #include "apps/envelope_page.hpp"
@@ -56,14 +57,29 @@ void keepOnly(const std::string& keys, evaluation::EnvelopeConfig& config) {
   });
 }
 
+/// The one condition of the trial that is flown. The envelope's base takes the place of its natures.
+TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, const fs::path& file) {
+  const auto refused = [&](const char* element, const std::string& message, const char* hint) {
+    return common::InputError(common::Problem{{file.string()}, element, message, hint});
+  };
+  if (trial.each_fault)
+    throw refused("each_fault", "does not go with --envelope, which flies one condition", "leave it out");
+  if (!trial.batteries.empty())
+    throw refused("batteries", "does not go with --envelope, which pins the plant", "leave it out");
+  if (!options.system.empty()) trial.systems = {options.system};
+  if (trial.systems.size() > 1)
+    throw refused("systems", fmt::format("names several: {}", fmt::join(trial.systems, ", ")), "give --system");
+  trial.natures.resize(1);
+  return trial.byCondition().front();
+}
+
 /// The trial with everything pinned, ready to be flown.
 TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature& base) {
   const fs::path file = common::findData(options.trial);
   if (fs::is_directory(file))
     throw common::InputError(
         common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});
-  std::vector<TrialConfig> trials = {evaluation::readTrial(file)};
-  if (!options.system.empty()) trials.front().system = options.system;
+  std::vector<TrialConfig> trials = {onlyCondition(evaluation::readTrial(file), options, file)};
   prepare(trials, file);
   TrialConfig trial = std::move(trials.front());
   trial.scenario = evaluation::pinned(trial.scenario, base);
@@ -89,6 +105,8 @@ evaluation::EnvelopeResults emptyResults(const EnvelopeOptions& options, evaluat
   results.config = std::move(config);
   return results;
 }
+
+fs::path baseFolder(const fs::path& out, int seed) { return out / "base" / fmt::format("{}", seed); }
 
 /// Flies an envelope. Each thread takes one quantity after the other, so that the values of a quantity, of which each
 /// depends on those before it, are the same however many threads there are.
@@ -151,7 +169,7 @@ class EnvelopeRun {
 
   void flyBase(int number) {
     const int seed = results_.first_seed + number;
-    auto flight = fly(trial_, seed, out_ / "base" / fmt::format("{}", seed));
+    auto flight = fly(trial_, seed, baseFolder(out_, seed));
     const std::scoped_lock lock(mutex_);
     base_.resize(static_cast<std::size_t>(results_.config.seeds));
     base_[static_cast<std::size_t>(number)] = std::move(flight);
@@ -250,7 +268,12 @@ int flyEnvelope(const EnvelopeOptions& options) {
   if (!options.write.empty()) checkPage(options.write);
   TrialConfig trial = pinnedTrial(options, simulation::Nature::load(config.base));
   evaluation::EnvelopeResults results = emptyResults(options, std::move(config), trial);
-  const fs::path out = trialFolder(options.out, "envelope", {"envelope.json", "\"envelope\""});
+  checkSeeds(results.first_seed, results.config.seeds);
+  const TrialResultsProof proof{"envelope.json", "\"envelope\""};
+  const fs::path out = trialFolder(options.out, "envelope", proof);
+  for (int i = 0; i < results.config.seeds; ++i)
+    checkFlightFolder(baseFolder(out, results.first_seed + i), trial.scenario);
+  clearOfOlderResults(out, proof);
   EnvelopeRun run(std::move(trial), std::move(results), out, options, stop);
   run.run();
   if (options.json)

@@ -15,20 +15,13 @@
 #include "apps/vehicle_flight.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/data_paths.hpp"
+#include "interfaces/run_files.hpp"
 #include "simulation/arena.hpp"
 
 namespace swiftlet::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-void requireCamera(const FlightSetup& setup) {
-  if (!setup.record_rgbd || setup.system.rgbd_camera) return;
-  throw common::InputError(common::Problem{{},
-                                           "--record-rgbd",
-                                           "the vehicle of `" + setup.system.name + "` has no RGB-D camera",
-                                           "`--system swiftlet_3d` has one"});
-}
 
 std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
   simulation::Scenario scenario = setup.scenario;
@@ -44,12 +37,7 @@ std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
 fs::path folderOf(const FlightSetup& setup) {
   if (setup.out.empty())
     return interfaces::freshRunFolder("runs", setup.started, fs::path(setup.mission_file).stem().string());
-  const bool several = !setup.scenario.vehicles.empty();
-  if (several && fs::exists(setup.out / "mission.json"))
-    throw common::InputError(common::Problem{{setup.out.string()},
-                                             "--out",
-                                             "holds the run of one vehicle, among whose files several would be lost",
-                                             "give an empty or new folder"});
+  checkFlightFolder(setup.out, setup.scenario);
   return setup.out;
 }
 
@@ -58,7 +46,7 @@ class Flight {
  public:
   Flight(const FlightSetup& setup, std::vector<FlightMission> missions, const FlightHooks& hooks)
       : setup_(setup), hooks_(hooks) {
-    requireCamera(setup);
+    if (setup.record_rgbd) requireCamera(setup.system);
     const auto arena = makeArena(setup);
     folder_ = folderOf(setup);
     const std::vector<std::string> names = vehicleNames(setup.scenario);
@@ -154,6 +142,24 @@ std::vector<std::string> vehicleNames(const simulation::Scenario& scenario) {
   std::vector<std::string> names;
   for (const simulation::ScenarioVehicle& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   return names;
+}
+
+void checkFlightFolder(const fs::path& folder, const simulation::Scenario& scenario) {
+  if (scenario.vehicles.empty()) return interfaces::checkRunFolder(folder);
+  if (fs::exists(folder / "mission.json"))
+    throw common::InputError(common::Problem{{folder.string()},
+                                             "--out",
+                                             "holds the run of one vehicle, among whose files several would be lost",
+                                             "give an empty or new folder"});
+  for (const std::string& name : vehicleNames(scenario)) interfaces::checkRunFolder(folder / name);
+}
+
+void requireCamera(const System& system) {
+  if (system.rgbd_camera) return;
+  throw common::InputError(common::Problem{{},
+                                           "--record-rgbd",
+                                           "the vehicle of `" + system.name + "` has no RGB-D camera",
+                                           "`--system swiftlet_3d` has one"});
 }
 
 std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map) {

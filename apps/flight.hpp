@@ -26,6 +26,12 @@ std::vector<std::string> vehicleNames(const simulation::Scenario& scenario);
 /// The mission of each vehicle of the scenario, read and checked. Throws common::InputError with all problems.
 std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map);
 
+/// Throws common::InputError if the vehicles of a flight cannot write their runs to `folder`; changes nothing.
+void checkFlightFolder(const std::filesystem::path& folder, const simulation::Scenario& scenario);
+
+/// Throws common::InputError if its vehicle has no camera for --record-rgbd.
+void requireCamera(const System& system);
+
 /// Flies it to the end of its last vehicle, with the missions of soundMissions(). Throws common::InputError for a world
 /// or folder that cannot be used, before anything moves. Flights may run in several threads at once, each with a folder
 /// of its own.

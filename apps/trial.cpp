@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include <fmt/core.h>
 
@@ -47,18 +48,36 @@ struct TrialOptions {
   std::string out;
   bool json = false;
   bool envelope = false;
-  std::string quantities = EnvelopeOptions().quantities;
+  std::string quantities;  ///< Empty: those of EnvelopeOptions.
   std::string only;
   std::string write;
 };
 
-/// The envelope pins what these options choose.
+void refuseIf(bool given, const char* option, const char* message) {
+  if (given) throw common::InputError(common::Problem{{}, option, message, ""});
+}
+
 EnvelopeOptions envelopeOptions(const TrialOptions& options) {
-  if (!options.nature.empty() || options.battery)
-    throw common::InputError(common::Problem{
-        {}, options.battery ? "--battery" : "--nature", "does not go with --envelope, which pins the plant", ""});
-  return {options.trials, options.quantities, options.only, options.repeat, options.seed,
-          options.jobs,   options.system,     options.out,  options.write,  options.json};
+  constexpr const char* kPinned = "does not go with --envelope, which pins the plant";
+  constexpr const char* kNotKept =
+      "does not go with --envelope, which keeps only the runs that fail, for their reports";
+  refuseIf(options.battery.has_value(), "--battery", kPinned);
+  refuseIf(!options.nature.empty(), "--nature", kPinned);
+  refuseIf(!options.vehicle_memory.empty(), "--vehicle-memory",
+           "does not go with --envelope, which starts from the data sheet");
+  refuseIf(options.control_log, "--control-log", kNotKept);
+  refuseIf(options.record_rgbd, "--record-rgbd", kNotKept);
+  EnvelopeOptions envelope{.trial = options.trials,
+                           .only = options.only,
+                           .repeat = options.repeat,
+                           .seed = options.seed,
+                           .jobs = options.jobs,
+                           .system = options.system,
+                           .out = options.out,
+                           .write = options.write,
+                           .json = options.json};
+  if (!options.quantities.empty()) envelope.quantities = options.quantities;
+  return envelope;
 }
 
 std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
@@ -71,25 +90,45 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
   return line;
 }
 
+struct Seeds {
+  int first = 1, count = 1;
+};
+
+Seeds seedsOf(const TrialConfig& trial, const TrialOptions& options) {
+  return {options.seed.value_or(trial.scenario.seed), options.repeat.value_or(trial.repeat)};
+}
+
+fs::path runFolder(const TrialConfig& trial, int seed, const fs::path& out) {
+  return out / fmt::format("{}-{:03}", trial.name, seed);
+}
+
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds. What stops a flight from
 /// being flown at all ends the trial, and is thrown once `result` has the others.
 void flyAll(const TrialConfig& trial, const TrialOptions& options, const VehicleMemorySetup& memory,
             const fs::path& out, const std::atomic<bool>& stop, TrialResult& result) {
-  const int count = options.repeat.value_or(trial.repeat);
-  const int first_seed = options.seed.value_or(trial.scenario.seed);
+  const auto [first_seed, count] = seedsOf(trial, options);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::vector<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::mutex mutex;
-  flyInParallel(count, options.jobs, stop, [&](int i) {
-    const int seed = first_seed + i;
-    auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop,
-                        {memory, options.control_log, options.record_rgbd});
+  const auto fly = [&, first = first_seed](int i) {
+    const int seed = first + i;
+    auto flown =
+        flyOne(trial, map, seed, runFolder(trial, seed, out), stop, {memory, options.control_log, options.record_rgbd});
     const std::scoped_lock lock(mutex);
     if (!options.json)
       for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
     scores[static_cast<std::size_t>(i)] = std::move(flown);
-  });
-  for (auto& flown : scores) std::move(flown.begin(), flown.end(), std::back_inserter(result.flights));
+  };
+  const auto collect = [&] {
+    for (auto& flown : scores) std::move(flown.begin(), flown.end(), std::back_inserter(result.flights));
+  };
+  try {
+    flyInParallel(count, options.jobs, stop, fly);
+  } catch (...) {
+    collect();
+    throw;
+  }
+  collect();
 }
 
 interfaces::TrialReport reportOf(const TrialResults& results) {
@@ -116,6 +155,17 @@ void writeResults(const TrialResults& results, const fs::path& out) {
     required(interfaces::writeAtomically(out / name, text));
 }
 
+/// Runs of the same name would lie in the same folders.
+void refuseSameNames(const std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
+  std::set<std::string> names;
+  for (const TrialConfig& trial : trials)
+    if (!names.insert(trial.name).second)
+      throw common::InputError(common::Problem{{file_or_folder.string()},
+                                               "",
+                                               fmt::format("two conditions to fly in are named `{}`", trial.name),
+                                               "name each of systems, natures and batteries once"});
+}
+
 /// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial
 /// is told before the first flight.
 std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
@@ -127,7 +177,13 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
     if (!options.system.empty()) trial.systems = {options.system};
     for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
+  refuseSameNames(trials, file_or_folder);
   prepare(trials, file_or_folder);
+  for (const TrialConfig& trial : trials) {
+    const Seeds seeds = seedsOf(trial, options);
+    checkSeeds(seeds.first, seeds.count);
+    if (options.record_rgbd) requireCamera(loadSystem(trial.system));
+  }
   for (TrialConfig& trial : trials)
     trial.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(trial.natures.front()));
   return trials;
@@ -143,12 +199,27 @@ VehicleMemorySetup memoryFor(const std::vector<TrialConfig>& trials, const Trial
   return memory;
 }
 
+/// Throws if a run could not be written, before the results of an older trial are removed.
+void checkRunFolders(const std::vector<TrialConfig>& trials, const TrialOptions& options, const fs::path& out) {
+  for (const TrialConfig& trial : trials) {
+    const Seeds seeds = seedsOf(trial, options);
+    for (int i = 0; i < seeds.count; ++i) checkFlightFolder(runFolder(trial, seeds.first + i, out), trial.scenario);
+  }
+}
+
+bool anyFlown(const TrialResults& results) {
+  return std::any_of(results.trials.begin(), results.trials.end(),
+                     [](const TrialResult& trial) { return !trial.flights.empty(); });
+}
+
 int trial(const TrialOptions& options) {
   const std::atomic<bool>& stop = stopOnSignals().first;
   outliveReaders();
   const std::vector<TrialConfig> trials = preparedTrials(options);
   const VehicleMemorySetup memory = memoryFor(trials, options);
-  const fs::path out = trialFolder(options.out, "trial", {"results.json", "\"trials\""});
+  const fs::path out = trialFolder(options.out, "trial", kTrialResults);
+  checkRunFolders(trials, options, out);
+  clearOfOlderResults(out, kTrialResults);
   TrialResults results;
   for (const TrialConfig& trial : trials) {
     if (stop) break;
@@ -156,7 +227,7 @@ int trial(const TrialOptions& options) {
     try {
       flyAll(trial, options, memory, out, stop, results.trials.back());
     } catch (...) {
-      writeResults(results, out);
+      if (anyFlown(results)) writeResults(results, out);
       throw;
     }
     writeResults(results, out);
@@ -197,13 +268,22 @@ void addTrial(Command& program) {
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
   command.flag("--envelope", options->envelope,
                "Turn up each quantity of the plant alone until flights fail; --repeat is then flights at each value.");
-  command.option("--quantities", options->quantities, "With --envelope: what is turned up, and how far.");
+  command.option(
+      "--quantities", options->quantities,
+      fmt::format("With --envelope: what is turned up, and how far. Default: {}.", EnvelopeOptions().quantities));
   command.option("--only", options->only, "With --envelope: keys of the quantities to turn up, separated by commas.");
   command.option("--write", options->write, "With --envelope: page (Markdown) that gets the table and the picture.");
   command.footer(
       "Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20\n"
       "Example: swiftlet trial trials/papers/unb_case1.yaml --envelope --jobs 2");
-  command.runs([options] { return options->envelope ? flyEnvelope(envelopeOptions(*options)) : trial(*options); });
+  command.runs([options] {
+    if (options->envelope) return flyEnvelope(envelopeOptions(*options));
+    constexpr const char* kOnlyThere = "goes only with --envelope";
+    refuseIf(!options->quantities.empty(), "--quantities", kOnlyThere);
+    refuseIf(!options->only.empty(), "--only", kOnlyThere);
+    refuseIf(!options->write.empty(), "--write", kOnlyThere);
+    return trial(*options);
+  });
 }
 
 }  // namespace swiftlet::apps

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/command_line.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/trial_world.hpp"
@@ -69,16 +70,7 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   return evaluation::scoreOf(record, truth, trial.criteria, seed, end.wall_time_s.value_or(0.0), end.machine);
 }
 
-/// What another trial left there would look like this one's until its last flight; what is not a trial's is kept.
-void clearOfOlderResults(const fs::path& out, const TrialResultsProof& proof) {
-  const fs::path results = out / proof.file, report = out / "report.html";
-  if (!fs::exists(results) && !fs::exists(report)) return;
-  if (!interfaces::saysAtStart(results, proof.text, 16))
-    throw common::InputError(common::Problem{
-        {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
-  fs::remove(results);
-  fs::remove(report);
-}
+fs::path reportIn(const fs::path& out) { return out / "report.html"; }
 
 /// A controller that the operator switches to in flight must exist and have its model.
 void checkControllers(const TrialConfig& trial, const System& system, std::vector<common::Problem>& problems) {
@@ -179,8 +171,26 @@ fs::path trialFolder(const std::string& given, const std::string& noun, const Tr
   std::error_code failure;
   fs::create_directories(out, failure);
   if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
-  clearOfOlderResults(out, proof);
+  const fs::path results = out / proof.file;
+  if ((fs::exists(results) || fs::exists(reportIn(out))) && !interfaces::saysAtStart(results, proof.text, 16))
+    throw common::InputError(common::Problem{
+        {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
   return out;
+}
+
+void clearOfOlderResults(const fs::path& out, const TrialResultsProof& proof) {
+  fs::remove(out / proof.file);
+  fs::remove(reportIn(out));
+}
+
+void checkSeeds(int first, int count) {
+  const std::int64_t last = std::int64_t{first} + count - 1;
+  if (static_cast<double>(last) <= kGreatestSeed) return;
+  throw common::InputError(common::Problem{
+      {},
+      "--seed",
+      fmt::format("{} flights from seed {} on would end with seed {}, above {:.0f}", count, first, last, kGreatestSeed),
+      "begin with a lower one"});
 }
 
 }  // namespace swiftlet::apps

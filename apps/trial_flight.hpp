@@ -44,9 +44,17 @@ struct TrialResultsProof {
   std::string text;  ///< Text near the beginning of that file.
 };
 
-/// Makes the folder for results: `given`, or if that is empty a new one, runs/TIME-NOUN. Older results and their report
-/// are removed, so that they are not mistaken for new ones. Throws common::InputError if the folder holds results of
-/// something else.
+inline const TrialResultsProof kTrialResults{"results.json", "\"trials\""};
+
+/// Makes the folder for results: `given`, or if that is empty a new one, runs/TIME-NOUN. Throws common::InputError if
+/// the folder holds results of something else.
 std::filesystem::path trialFolder(const std::string& given, const std::string& noun, const TrialResultsProof& proof);
+
+/// Removes the results and the report that another trial left in a folder of trialFolder(): they would look like this
+/// one's until its last flight. Call it once nothing keeps the flights on the ground.
+void clearOfOlderResults(const std::filesystem::path& out, const TrialResultsProof& proof);
+
+/// Throws common::InputError if the seeds of so many flights would go beyond kGreatestSeed.
+void checkSeeds(int first, int count);
 
 }  // namespace swiftlet::apps

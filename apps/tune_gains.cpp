@@ -135,7 +135,7 @@ int tuneGains(const TuneGainsOptions& options) {
     throw common::InputError(
         common::Problem{{}, "--flights", "is too few for two sets of gains", "each is flown with all --seeds"});
   const TrialConfig trial = trialToFly(options);
-  const fs::path folder = trialFolder("", "tune", {"results.json", "\"trials\""});
+  const fs::path folder = trialFolder("", "tune", kTrialResults);
   GainFlights flights(trial, system, options, folder);
   control::GainSearchOptions search_options;
   search_options.evaluations = options.flights / options.seeds;

@@ -1,7 +1,6 @@
 #include "interfaces/run_folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -16,12 +15,11 @@
 #include "common/world/mission_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
-#include "interfaces/files/folder_lock.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
-#include "interfaces/files/text_file.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/rgbd/rgbd_calibration.hpp"
+#include "interfaces/run_files.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -37,87 +35,6 @@ using common::Time;
 constexpr Duration kMapPeriod = Duration::fromMilliseconds(3000);
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Between two poses of trajectory.tum.
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
-
-/// Every file that a run may leave; no other file is ever removed.
-constexpr const char* kMemoryRead = "vehicle_memory_read.yaml";
-constexpr const char* kMemoryLearned = "vehicle_memory_learned.yaml";
-constexpr std::array<const char*, 24> kFiles = {"mission.json",
-                                                "events.jsonl",
-                                                "trajectory.tum",
-                                                "trajectory_given.tum",
-                                                "trajectory_camera.tum",
-                                                "map.pgm",
-                                                "map.yaml",
-                                                "map.png",
-                                                "map.bt",
-                                                "map.ot",
-                                                "cloud.ply",
-                                                "report.html",
-                                                "config.yaml",
-                                                "nature.yaml",
-                                                "vehicle.yaml",
-                                                "laser.yaml",
-                                                "rgbd_camera.yaml",
-                                                "vertical_laser.yaml",
-                                                "vehicle_model.yaml",
-                                                kMemoryRead,
-                                                kMemoryLearned,
-                                                "ground_truth.tum",
-                                                "control.tsv",
-                                                "fusion.tsv"};
-
-bool isRunFile(const std::string& name) {
-  const auto isNamed = [&](const char* begin, const char* end) {
-    return name.starts_with(begin) && name.ends_with(end);
-  };
-  if (isNamed("map-", ".pgm") || isNamed("map-", ".yaml") || isNamed("photo-", ".jpg") || isNamed("photo-", ".json"))
-    return true;
-  // A `.part` file is left of a Swiftlet file if the process was killed.
-  return std::any_of(kFiles.begin(), kFiles.end(), [&](const std::string& file) {
-    return name == file || (name.starts_with(file + ".") && name.ends_with(".part"));
-  });
-}
-
-/// Whether mission.json is that of a run. A profile or a map of another program may have the same name as a file of a
-/// run.
-bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.json", "swiftlet mission", 200); }
-
-constexpr const char* kAskForAnother = "give an empty or new folder";
-
-InputError unusable(const fs::path& path, const std::string& message, const std::string& hint = kAskForAnother) {
-  return InputError(Problem{{path.string()}, "", message, hint});
-}
-
-/// Makes the folder if there is none.
-FolderLock claimed(const fs::path& path) {
-  try {
-    if (fs::exists(path) && !fs::is_directory(path))
-      throw unusable(path, "is not a folder", "give a folder for the run");
-    fs::create_directories(path);
-  } catch (const fs::filesystem_error& e) {
-    throw unusable(path, fmt::format("cannot be used: {}", e.code().message()), "");
-  }
-  FolderLock lock(path);
-  if (lock.refused()) throw unusable(path, "is being written by another flight");
-  return lock;
-}
-
-/// Removes the files of an older run.
-const fs::path& cleared(const fs::path& path) {
-  try {
-    std::vector<fs::path> old;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-      if (!entry.is_regular_file() || !isRunFile(entry.path().filename().string()))
-        throw unusable(path, fmt::format("holds `{}`, which is no file of a run", entry.path().filename().string()));
-      old.push_back(entry.path());
-    }
-    if (!old.empty() && !holdsRun(path)) throw unusable(path, "holds no run, and what it holds would be lost");
-    for (const fs::path& file : old) fs::remove(file);
-  } catch (const fs::filesystem_error& e) {
-    throw unusable(path, fmt::format("cannot be used: {}", e.code().message()), "");
-  }
-  return path;
-}
 
 template <typename Writer>
 Writer opened(tl::expected<Writer, FileError> writer) {
@@ -176,9 +93,9 @@ fs::path freshRunFolder(const fs::path& parent, const std::string& started, cons
 struct RunFolder::Impl {
   Impl(fs::path folder, RunInfo info, std::string yaml)
       : path(std::move(folder)),
-        lock(claimed(path)),
+        lock(claimedRunFolder(path)),
         config_yaml(std::move(yaml)),
-        events_file(opened(EventWriter::create(cleared(path) / "events.jsonl"))),
+        events_file(opened(EventWriter::create(clearedRunFolder(path) / "events.jsonl"))),
         trajectory_file(opened(TumWriter::create(path / "trajectory.tum"))),
         trajectory_due(kTrajectoryPeriod),
         sample_due(kSamplePeriod),
@@ -291,7 +208,7 @@ RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
   for (const RunText& sheet : impl_->summary.info.sheets) impl_->write(sheet.file.c_str(), sheet.text);
   if (!impl_->summary.info.nature_yaml.empty()) impl_->write("nature.yaml", impl_->summary.info.nature_yaml);
   if (!impl_->summary.info.vehicle_memory_yaml.empty())
-    impl_->write(kMemoryRead, impl_->summary.info.vehicle_memory_yaml);
+    impl_->write(kMemoryReadFile, impl_->summary.info.vehicle_memory_yaml);
   impl_->writeSummary();
   if (impl_->failure) throw InputError(Problem{{}, "", *impl_->failure, ""});
 }
@@ -378,7 +295,7 @@ void RunFolder::finish(const FlightEnd& end) {
   if (run.grid) run.keep(writeMap(run.path, "map", *run.grid, Durability::kPower));
   if (!run.pictures.map_png.empty()) run.write("map.png", run.pictures.map_png, Durability::kPower);
   run.writeTruth(end.ground_truth_map);
-  if (!end.vehicle_memory_yaml.empty()) run.write(kMemoryLearned, end.vehicle_memory_yaml);
+  if (!end.vehicle_memory_yaml.empty()) run.write(kMemoryLearnedFile, end.vehicle_memory_yaml);
   run.writeSummary(Durability::kPower);
 }
 

@@ -291,6 +291,31 @@ TEST_F(BadInput, ATrialDoesNotReplaceForeignResults) {
   EXPECT_EQ(readText(path("thesis/report.html")), "a thesis");
 }
 
+TEST_F(BadInput, ARefusedTrialKeepsTheResultsOfTheEarlierOne) {
+  const std::string trial =
+      write("t.yaml", "mission: " + hop() + "\nrepeat: 2\nscenario: {world: worlds/unb_case1.sdf}\n");
+  fs::create_directories(path("run/t-002"));
+  const std::string results = "{\n  \"trials\": []\n}\n";
+  write("run/results.json", results);
+  write("run/report.html", "its report");
+  write("run/t-002/notes.txt", "mine");
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--out", path("run")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("t-002: holds `notes.txt`, which is no file of a run"));
+  EXPECT_EQ(readText(path("run/results.json")), results);
+  EXPECT_EQ(readText(path("run/report.html")), "its report");
+  EXPECT_FALSE(fs::exists(path("run/t-001"))) << "nothing was flown";
+}
+
+TEST_F(BadInput, ConditionsOfTheSameNameAreRefused) {
+  const std::string sound = "mission: missions/explore_and_return.xml\nscenario: {world: worlds/unb_case1.sdf}\n";
+  for (const auto& [more, name] : {std::pair{"natures: [calm, calm]\n", "t-calm"},
+                                   {"batteries: [0.5, 0.5]\n", "t-charge50"},
+                                   {"systems: [swiftlet, swiftlet]\n", "t-swiftlet"}})
+    expectRefused(runSwiftlet({"trial", write("t.yaml", sound + more), "--out", path("run")}),
+                  std::string("two conditions to fly in are named `") + name + "`");
+}
+
 TEST_F(BadInput, InvalidTextInNamesStillGivesValidJson) {
   const ProgramEnd end = runSwiftlet({"check", "--json", write("odd\xff.xml", "<root>")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -386,6 +411,16 @@ INSTANTIATE_TEST_SUITE_P(
         Usage{"huge_time", {"fly", "missions/explore_and_return.xml", "--time-limit", "1e400"}, "0.01 to 1000000"},
         Usage{"negative_seed", {"fly", "missions/explore_and_return.xml", "--seed", "-1"}, "`-1`"},
         Usage{"seed_out_of_range", {"trial", "trials", "--seed", "2147483647"}, "2147483647"},
+        Usage{"seeds_out_of_range",
+              {"trial", "trials/unb_case1_calm.yaml", "--seed", "1000000000", "--repeat", "2"},
+              "--seed: 2 flights from seed 1000000000 on would end with seed 1000000001"},
+        Usage{"only_without_envelope", {"trial", "trials", "--only", "wind"}, "--only: goes only with --envelope"},
+        Usage{"quantities_without_envelope",
+              {"trial", "trials", "--quantities", "q.yaml"},
+              "--quantities: goes only with --envelope"},
+        Usage{"write_without_envelope", {"trial", "trials", "--write", "p.md"}, "--write: goes only with --envelope"},
+        Usage{"empty_nature", {"fly", "missions/explore_and_return.xml", "--nature", ""}, "--nature"},
+        Usage{"empty_system", {"trial", "trials", "--system", ""}, "--system"},
         Usage{"no_repeat", {"trial", "trials", "--repeat", "0"}, "1 to 10000"},
         Usage{"no_jobs", {"trial", "trials", "--jobs", "0"}, "1 to 64"},
         Usage{"trials_into_a_file", {"trial", "trials", "--out", "/dev/null"}, "/dev/null: --out"},

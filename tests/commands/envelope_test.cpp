@@ -96,6 +96,10 @@ TEST_F(Envelope, WhatCannotBeTurnedUpIsRefusedBeforeAnyFlight) {
                 "--only: no quantity has the key `quadrotor.motor_lag`, did you mean");
   expectRefused({"--nature", "real"}, "--nature: does not go with --envelope");
   expectRefused({"--battery", "0.5"}, "--battery: does not go with --envelope");
+  expectRefused({"--vehicle-memory", "m.yaml"}, "--vehicle-memory: does not go with --envelope");
+  expectRefused({"--control-log"}, "--control-log: does not go with --envelope");
+  expectRefused({"--record-rgbd"}, "--record-rgbd: does not go with --envelope");
+  expectRefused({"--seed", "1000000000", "--repeat", "2"}, "--seed: 2 flights from seed 1000000000 on");
   expectRefused({"--write", write("empty.md", "# Mine\n")}, "empty.md: --write: the page has no place");
   expectRefused({"--write", path("none.md")}, "none.md");
 
@@ -107,6 +111,11 @@ TEST_F(Envelope, WhatCannotBeTurnedUpIsRefusedBeforeAnyFlight) {
   };
   EXPECT_THAT(refused(write("empty.yaml", ""), quantities()), ContainsRegex("empty.yaml:.*mission: is missing"));
   EXPECT_THAT(refused("trials/papers", quantities()), HasSubstr("give the file of one trial"));
+  EXPECT_THAT(refused("trials/papers/mit_hover.yaml", quantities()),
+              HasSubstr("mit_hover.yaml: systems: names several: mit, swiftlet, give --system"));
+  EXPECT_THAT(refused("trials/faults/laser.yaml", quantities()), HasSubstr("each_fault: does not go with --envelope"));
+  EXPECT_THAT(refused(write("half.yaml", readText(trial()) + "batteries: [0.5]\n"), quantities()),
+              HasSubstr("batteries: does not go with --envelope"));
   EXPECT_THAT(refused(trial(), write("odd.yaml", "quantities:\n  - {key: quadrotor.thrust_shere, to: 0.5}\n")),
               ContainsRegex("odd.yaml:2:11: .*did you mean `quadrotor.thrust_share`"));
   EXPECT_THAT(
