@@ -25,6 +25,12 @@ CLI::Validator numberWithin(Within bounds) {
   return {check, description};
 }
 
+/// An empty text would count as an option that is not given.
+CLI::Validator notEmpty() {
+  return {[](std::string& text) { return text.empty() ? "is empty: give a text, or leave it out" : std::string(); },
+          ""};
+}
+
 /// "swiftlet evaluate ate".
 std::string fullName(const CLI::App& app) {
   const CLI::App* parent = app.get_parent();
@@ -108,7 +114,7 @@ void Command::optionalArguments(const std::string& name, std::vector<std::string
 }
 
 void Command::option(const std::string& name, std::string& value, const std::string& description) {
-  CLI::Option* option = app_->add_option(name, value, description);
+  CLI::Option* option = app_->add_option(name, value, description)->check(notEmpty());
   if (!value.empty()) option->capture_default_str();
 }
 

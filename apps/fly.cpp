@@ -38,7 +38,7 @@ struct FlyOptions {
   std::string world;
   std::string scenario;
   std::string map;
-  std::string system = "swiftlet";
+  std::string system;  ///< Empty: the first of the scenario's trial, or swiftlet.
   std::string nature;  ///< Empty: the first of the scenario, or real.
   std::optional<double> battery;
   std::optional<int> seed;
@@ -56,26 +56,36 @@ struct FlyOptions {
   bool json = false;
 };
 
-FlightSetup setupOf(const FlyOptions& options) {
-  FlightSetup setup;
-  setup.system = loadSystem(options.system);
-  setup.mission_file = common::findData(options.mission).string();
-  std::string nature = "real";
+/// Of several systems, natures and batteries the first counts.
+evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
+  evaluation::TrialConfig trial;
   if (!options.scenario.empty() && !options.world.empty())
     throw common::InputError(common::Problem{{}, "--scenario", "the scenario says which world", "leave out --world"});
   if (options.scenario.empty()) {
-    setup.scenario.world = common::findData(options.world.empty() ? kWorld : options.world).string();
+    trial.scenario.world = common::findData(options.world.empty() ? kWorld : options.world).string();
   } else {
-    evaluation::TrialConfig trial = evaluation::readTrial(common::findData(options.scenario));
+    trial = evaluation::readTrial(common::findData(options.scenario));
     findWorld(trial);
-    setup.scenario = trial.scenario;
-    nature = trial.natures.front();
   }
-  if (!options.nature.empty()) nature = options.nature;
+  if (!options.system.empty())
+    trial.system = options.system;
+  else if (!trial.systems.empty())
+    trial.system = trial.systems.front();
+  if (!options.nature.empty()) trial.natures = {options.nature};
+  return trial;
+}
+
+FlightSetup setupOf(const FlyOptions& options) {
+  FlightSetup setup;
+  setup.mission_file = common::findData(options.mission).string();
+  const evaluation::TrialConfig trial = conditionsOf(options);
+  setup.system = loadSystem(trial.system);
+  setup.scenario = trial.scenario;
   if (options.seed) setup.scenario.seed = *options.seed;
   // A battery is charged before a flight, unless the scenario or the option says otherwise.
   setup.scenario.nature =
-      std::make_shared<const simulation::Nature>(simulation::Nature::load(nature).withCharge(0.9, 1.0));
+      std::make_shared<const simulation::Nature>(simulation::Nature::load(trial.natures.front()).withCharge(0.9, 1.0));
+  if (!trial.batteries.empty()) setup.scenario.setCharge(trial.batteries.front());
   if (options.battery) setup.scenario.setCharge(*options.battery);
   if (!options.vehicle_memory.empty())
     setup.memory = setupOfMemory(options.vehicle_memory, setup.system.vehicle, setup.scenario.vehicles.size(),
@@ -255,14 +265,17 @@ void addFly(Command& program) {
   command.argument("mission", options->mission, "Mission file (XML).");
   command.option("--world", options->world, fmt::format("World to fly in (SDF). Default: {}.", kWorld));
   command.option("--scenario", options->scenario,
-                 "A trial file whose scenario is flown: world, start, people, weather, several vehicles.");
+                 "A trial file whose scenario is flown: world, start, people, weather, several vehicles; with its "
+                 "profile, nature and charge.");
   command.option("--map", options->map,
                  "A map of the place (YAML of map_server): the flight finds out where it is in it.");
-  command.option("--system", options->system, "A profile of config/systems, or a file.");
+  command.option("--system", options->system,
+                 "A profile of config/systems, or a file. Default: the scenario's, or swiftlet.");
   command.option(
       "--nature", options->nature,
       "How far the vehicle is from its data sheet: calm, real, harsh, or a file. Default: the scenario's, or real.");
-  command.option("--battery", options->battery, {0.01, 1}, "Charge at the start, as a share of the full one.");
+  command.option("--battery", options->battery, {0.01, 1},
+                 "Charge at the start, as a share of the full one. Default: the scenario's, or that of the nature.");
   command.option("--vehicle-memory", options->vehicle_memory,
                  "File with what earlier flights learned of the vehicle: read at the start, written at the end.");
   command.flag("--control-log", options->control_log,

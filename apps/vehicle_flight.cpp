@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "apps/flight_sinks.hpp"
 #include "apps/groot_link.hpp"
 #include "apps/web_link.hpp"
@@ -9,6 +11,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "evaluation/knowable_frame.hpp"
+#include "interfaces/run_files.hpp"
 #include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
@@ -269,7 +272,8 @@ void VehicleFlight::keepMemory(interfaces::FlightEnd& end) {
   end.vehicle_memory_yaml = toYaml(learned);
   if (setup_.memory.file.empty() || outcome_ == Outcome::kCrashed) return;
   if (const auto written = writeVehicleMemory(setup_.memory.file, learned); !written)
-    memory_failure_ = written.error().message;
+    memory_failure_ = fmt::format("--vehicle-memory: cannot be written: {}; what was learned is in {}",
+                                  written.error().message, (folder_.path() / interfaces::kMemoryLearnedFile).string());
 }
 
 void VehicleFlight::showEnd() const {

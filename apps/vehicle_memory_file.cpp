@@ -35,6 +35,10 @@ VehicleMemorySetup setupOfMemory(const std::filesystem::path& file, const common
   const std::filesystem::path folder = file.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw unusable("its folder does not exist", "make the folder first");
+  if (writes)
+    if (const auto written = interfaces::tryToWrite(file); !written)
+      throw common::InputError(
+          common::Problem{{}, "--vehicle-memory", "cannot be written: " + written.error().message, ""});
   VehicleMemorySetup setup;
   setup.kept = true;
   if (memory) setup.read = std::make_shared<const autonomy::VehicleMemory>(std::move(*memory));

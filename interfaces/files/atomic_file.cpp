@@ -42,11 +42,24 @@ int syncFolder(const std::filesystem::path& folder) {
   return failure;
 }
 
+std::filesystem::path temporaryOf(std::filesystem::path file) {
+  file += fmt::format(".{}.part", ::getpid());
+  return file;
+}
+
 }  // namespace
 
+Written tryToWrite(const std::filesystem::path& file) {
+  const std::filesystem::path temporary = temporaryOf(file);
+  const int descriptor = openAnew(temporary, 0);
+  if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
+  ::close(descriptor);
+  ::unlink(temporary.c_str());
+  return {};
+}
+
 Written writeAtomically(const std::filesystem::path& file, std::string_view bytes, Durability durability) {
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}.part", ::getpid());
+  const std::filesystem::path temporary = temporaryOf(file);
   const int descriptor = openAnew(temporary, 0);
   if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
 

@@ -25,6 +25,9 @@ enum class Durability { kProcess, kPower };
 [[nodiscard]] Written writeAtomically(const std::filesystem::path& file, std::string_view bytes,
                                       Durability durability = Durability::kProcess);
 
+/// Whether writeAtomically() could replace `file` now: makes its temporary file and removes it again.
+[[nodiscard]] Written tryToWrite(const std::filesystem::path& file);
+
 /// A file that grows by whole records. Each record is handed to the kernel before `append` returns. A record that does
 /// not fit on the disk is removed again. Used by one thread.
 class AppendFile {

@@ -44,5 +44,26 @@ TEST_F(ScriptedTrial, AHoverHasTheFiguresOfItsPhase) {
   EXPECT_EQ(flight.at("verdict_reason"), "the operator's order: land");
 }
 
+TEST_F(ScriptedTrial, FlyTakesItsSystemAndChargeUnlessTheOptionsSayOtherwise) {
+  const std::string trial = write("t.yaml",
+                                  "mission: missions/explore_and_return.xml\nsystems: [swiftlet_urg, swiftlet]\n"
+                                  "batteries: [0.5, 1.0]\nscenario: {world: worlds/unb_case1.sdf}\n");
+  const auto flown = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        "fly",      "missions/explore_and_return.xml", "--headless", "--scenario", trial, "--time-limit", "1", "--out",
+        path("run")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramEnd end = runSwiftlet(arguments);
+    EXPECT_NE(end.exit_code, 2) << describe(end);
+    return nlohmann::json::parse(test_support::readText(path("run/mission.json")));
+  };
+  const auto own = flown({});
+  EXPECT_EQ(own.at("system"), "swiftlet_urg");
+  EXPECT_NEAR(own.at("battery_remaining").get<double>(), 0.5, 0.05);
+  const auto other = flown({"--system", "swiftlet", "--battery", "0.8"});
+  EXPECT_EQ(other.at("system"), "swiftlet");
+  EXPECT_NEAR(other.at("battery_remaining").get<double>(), 0.8, 0.05);
+}
+
 }  // namespace
 }  // namespace swiftlet::commands

@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::describe;
 using test_support::ProgramEnd;
+using test_support::ProgramOptions;
 using test_support::readText;
 using test_support::runSwiftlet;
 using testing::ContainsRegex;
@@ -83,6 +84,25 @@ TEST_F(VehicleMemoryFile, AWrongOneIsRefusedWithItsPlace) {
   refused(with("voltage_v: 12.5", "voltage: 12.5"), "memory\\.yaml:5:[0-9]+: .*did you mean `voltage_v`");
   refused("{", "memory\\.yaml:");
   expectRefused(hop(path("nowhere/memory.yaml"), "run"), "nowhere/memory\\.yaml: --vehicle-memory: its folder");
+}
+
+TEST_F(VehicleMemoryFile, OneThatCannotBeWrittenIsToldBeforeTheFlight) {
+  expectRefused(hop("/proc/memory.yaml", "run"), "--vehicle-memory: cannot be written: /proc/memory\\.yaml: ");
+}
+
+TEST_F(VehicleMemoryFile, WhatWasLearnedIsInTheRunIfItCannotBeWrittenAnyMore) {
+  fs::create_directories(path("gone"));
+  ProgramOptions options;
+  options.while_running = [&](pid_t, const std::string& out) {
+    if (out.find("take") != std::string::npos) fs::remove_all(path("gone"));
+  };
+  const ProgramEnd end = runSwiftlet({"fly", write("hop.xml", missionWith(kHop)), "--headless", "--speed", "4",
+                                      "--vehicle-memory", path("gone/cobra.yaml"), "--out", path("run")},
+                                     options);
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, ContainsRegex("--vehicle-memory: cannot be written: .*gone/cobra\\.yaml: No such file or "
+                                     "directory; what was learned is in .*run/vehicle_memory_learned\\.yaml"));
+  EXPECT_THAT(readText(path("run/vehicle_memory_learned.yaml")), HasSubstr("thrust:"));
 }
 
 TEST_F(VehicleMemoryFile, IsOfOneVehicle) {
