@@ -99,7 +99,6 @@ TEST_F(Envelope, WhatCannotBeTurnedUpIsRefusedBeforeAnyFlight) {
   expectRefused({"--vehicle-memory", "m.yaml"}, "--vehicle-memory: does not go with --envelope");
   expectRefused({"--control-log"}, "--control-log: does not go with --envelope");
   expectRefused({"--record-rgbd"}, "--record-rgbd: does not go with --envelope");
-  expectRefused({"--seed", "1000000000", "--repeat", "2"}, "--seed: 2 flights from seed 1000000000 on");
   expectRefused({"--write", write("empty.md", "# Mine\n")}, "empty.md: --write: the page has no place");
   expectRefused({"--write", path("none.md")}, "none.md");
 
@@ -110,6 +109,10 @@ TEST_F(Envelope, WhatCannotBeTurnedUpIsRefusedBeforeAnyFlight) {
     return end.err;
   };
   EXPECT_THAT(refused(write("empty.yaml", ""), quantities()), ContainsRegex("empty.yaml:.*mission: is missing"));
+  EXPECT_THAT(runSwiftlet({"trial", "--envelope", trial(), "--quantities", quantities(), "--seed", "1000000000",
+                           "--repeat", "2", "--out", path("run")})
+                  .err,
+              HasSubstr("--seed: 2 flights from seed 1000000000 on"));
   EXPECT_THAT(refused("trials/papers", quantities()), HasSubstr("give the file of one trial"));
   EXPECT_THAT(refused("trials/papers/mit_hover.yaml", quantities()),
               HasSubstr("mit_hover.yaml: systems: names several: mit, swiftlet, give --system"));
