@@ -187,12 +187,12 @@ TEST_F(Identify, ATrialThatSwitchesToLqrNeedsItsModel) {
   model.version = 1;
   model.vehicle = "cobra";
   write("model.yaml", common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model));
-  const std::string trial =
-      write("switch.yaml", "mission: " + write("hop.xml", missionWith(kHop)) +
-                               "\nsystem: " + profile("vehicle_model: model.yaml\n") +
-                               "\noperator:\n  - {command: controller, controller: lqr, at_s: 3}\n");
+  const std::string trial = write("switch.yaml", "mission: " + write("hop.xml", missionWith(kHop)) +
+                                                     "\nsystem: " + profile("vehicle_model: model.yaml\n") +
+                                                     "\nscenario: {world: worlds/unb_case1.sdf}\noperator:\n  - "
+                                                     "{command: controller, controller: lqr, at_s: 3}\n");
   expectRefused(runSwiftlet({"trial", trial, "--out", path("out")}),
-                "switch.yaml:4:15: trial switch: operator: controller: profile .*lqr needs every axis, but model.yaml");
+                "switch.yaml:5:15: trial switch: operator: controller: profile .*lqr needs every axis, but model.yaml");
 }
 
 TEST_F(Identify, NoFileOfAnythingElseIsReplaced) {
