@@ -334,8 +334,8 @@ TEST(VehicleModel, TheRowsOfItsThrustAreOfTheVehicle) {
   EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[1].voltage_v: 21 V is of another battery: that of `cobra` "
                                                   "has 9.18 to 12.60 V in flight")));
   model.thrust = {{11.0, 5.0, 10.0}, {12.0, 5.0, 10.0}};
-  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[0].hover_command: 5 at 11 V is too far from the 0.735 of the "
-                                                  "data sheet of `cobra`: 0.294 to 1.176 would fit")));
+  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[0].hover_command: 5 at 11 V is too far from the 0.736 of the "
+                                                  "data sheet of `cobra`: 0.294 to 1.177 would fit")));
 }
 
 TEST(VehicleModel, AnAxisIsOneThatAMultirotorCanHave) {
