@@ -1,11 +1,16 @@
 #include "planning/costs/landing_place.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
+
+#include "common/geometry.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -16,6 +21,8 @@ using Eigen::Vector2d;
 constexpr double kUnseen_m = std::numeric_limits<double>::quiet_NaN();
 /// Beyond the hull and its margin, so far cells are looked for that show the surface to go on.
 constexpr double kBeyond_m = 0.2;
+/// Where the way straight on is not free, as beside a wall, the vehicle looks past what is in the way.
+constexpr std::array kLooks_deg = {0.0, 30.0, -30.0, 60.0, -60.0};
 /// A cell counts from this much overlap on, far above the rounding of its place.
 constexpr double kTouching_m = 1e-6;
 
@@ -109,7 +116,17 @@ std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& plac
       surfaces.extentOf(place_map_m, needs.aside_m() + kBeyond_m, height_m, needs.step_m).toBothSides_m();
   const bool raised = height_m >= needs.step_m, unseen = seen_to_m < needs.aside_m();
   if (raised && seen_to_m < needs.hull_radius_m) return std::nullopt;
-  return length_m + (raised ? needs.upper_cost_m : 0.0) + (unseen ? needs.unseen_cost_m : 0.0);
+  const bool clear = surfaces.isLevel(place_map_m, needs.asideAskew_m(), height_m, needs.step_m);
+  return length_m + (raised ? needs.upper_cost_m : 0.0) + (unseen ? needs.unseen_cost_m : 0.0) +
+         (clear ? 0.0 : needs.askew_cost_m);
+}
+
+/// Whether the vehicle may be anywhere on that straight line, but for its start.
+bool isFree(const CostMap& map, const Vector2d& from_map_m, const Vector2d& to_map_m) {
+  const Vector2d line_m = to_map_m - from_map_m;
+  for (double at_m = map.resolution_m(); at_m < line_m.norm(); at_m += map.resolution_m())
+    if (map.isLethalAt(from_map_m + at_m * line_m.normalized())) return false;
+  return true;
 }
 
 }  // namespace
@@ -118,7 +135,8 @@ std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap&
                                      const LandingNeeds& needs) {
   const CellIndex start = map.cellAt(from_map_m);
   if (!map.contains(start) || levels.levels.empty()) return std::nullopt;
-  const SurfaceWindow surfaces(levels, from_map_m, needs.reach_m + needs.aside_m() + kBeyond_m);
+  const SurfaceWindow surfaces(levels, from_map_m,
+                               needs.reach_m + std::max(needs.aside_m() + kBeyond_m, needs.asideAskew_m()));
 
   // Dijkstra by length. Where the vehicle is already it may be nearer to an obstacle than a plan would go.
   using Entry = std::pair<double, int>;
@@ -168,9 +186,11 @@ std::optional<Vector2d> placeToLookFrom(const CostMap& map, const common::LevelM
   const auto extent = surfaces.extentOf(from_map_m, reach_m, height_m, needs.step_m);
   if (extent.toBothSides_m() >= needs.aside_m() || extent.farthest_m.isZero()) return std::nullopt;
   const Vector2d ahead = -extent.farthest_m.normalized();
-  for (double at_m = map.resolution_m(); at_m < reach_m; at_m += map.resolution_m())
-    if (map.isLethalAt(from_map_m + at_m * ahead)) return std::nullopt;
-  return from_map_m + reach_m * ahead;
+  for (const double turn_deg : kLooks_deg) {
+    const Vector2d place = from_map_m + reach_m * (Eigen::Rotation2Dd(turn_deg * common::kRadPerDeg) * ahead);
+    if (isFree(map, from_map_m, place)) return place;
+  }
+  return std::nullopt;
 }
 
 }  // namespace swiftlet::planning

@@ -2,6 +2,7 @@
 // down, and the edge of a table or a step beside the place tips the vehicle over.
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include <Eigen/Core>
@@ -20,8 +21,12 @@ struct LandingNeeds {
   /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen to both sides of
   /// the hull is farther away by this path length.
   double unseen_cost_m = 1.0;
+  /// A place whose margin holds only if no edge runs askew is chosen only if a clearer one is farther away by this.
+  double askew_cost_m = 1.0;
 
   double aside_m() const { return hull_radius_m + margin_m; }
+  /// An edge that runs at 45 deg past the nearest of its points that was seen is nearer by the root of 2.
+  double asideAskew_m() const { return std::numbers::sqrt2 * aside_m(); }
 };
 
 /// `levels` are the surfaces that were seen; a cell may be in several of them.
@@ -32,8 +37,8 @@ std::optional<Eigen::Vector2d> landingPlace(const CostMap& map, const common::Le
                                             const Eigen::Vector2d& from_map_m, const LandingNeeds& needs);
 
 /// Where the floor at `from_map_m` was seen to one side only, as at the end of the trail: the place beyond from which
-/// the beams that look down see it to the other side too. nullopt if it was seen to both sides, if a surface of another
-/// height was seen, or if the straight line to that place is not free.
+/// the beams that look down see it to the other side too, straight on or up to 60 deg aside. nullopt if it was seen to
+/// both sides, if a surface of another height was seen, or if no straight line to such a place is free.
 std::optional<Eigen::Vector2d> placeToLookFrom(const CostMap& map, const common::LevelMap& levels,
                                                const Eigen::Vector2d& from_map_m, const LandingNeeds& needs);
 

@@ -61,6 +61,9 @@ TEST_F(LandingPlaceStory, AtTheEndOfTheTrailTheVehicleLooksBeyondIt) {
   EXPECT_NEAR(look(3.9)->y(), 2.0, 0.1);
   test::fill(grid_, {{88, 30}, {90, 50}}, test::kWallCell);
   EXPECT_FALSE(look(3.9)) << "a wall is there";
+  test::fill(grid_, {{88, 30}, {90, 44}}, test::kFreeCell);
+  ASSERT_TRUE(look(3.9));
+  EXPECT_LT(look(3.9)->y(), 1.9) << "past the wall";
   levels_.levels.clear();
   see(0.0, {1, 1.9}, {4, 2.1});
   see(0.3, {4, 1.9}, {4.2, 2.1});
@@ -72,8 +75,11 @@ TEST_F(LandingPlaceStory, AnEdgeIsLeftByTheHullAndItsMargin) {
   see(0.3, {4, 1.9}, {4.5, 2.1});
   const auto place = from(4.0, 2.0);
   ASSERT_TRUE(place);
-  EXPECT_LT(place->x(), 4.0 - needs_.hull_radius_m - needs_.margin_m + 0.01);
+  EXPECT_LT(place->x(), 4.0 - needs_.asideAskew_m() + 0.01) << "the edge may run askew";
   EXPECT_GT(place->x(), 3.3) << "no farther than needed";
+  needs_.reach_m = 0.45;
+  ASSERT_TRUE(from(4.0, 2.0));
+  EXPECT_LT(from(4.0, 2.0)->x(), 4.0 - needs_.aside_m() + 0.01) << "better than none";
 }
 
 TEST_F(LandingPlaceStory, ATableOfUnknownWidthIsNoPlaceButARaisedFloorIs) {
