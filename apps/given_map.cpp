@@ -53,9 +53,7 @@ interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
 }
 
 fs::path missionMap(const std::string& map, const std::string& mission_file) {
-  const fs::path beside = fs::path(mission_file).parent_path() / map;
-  std::error_code failure;  // What is there and cannot be followed is not looked for elsewhere.
-  return fs::exists(beside, failure) || failure ? beside : common::findData(map);
+  return common::findBeside(fs::path(mission_file).parent_path(), map);
 }
 
 std::vector<autonomy::OfferedMap> offeredMaps(const std::vector<std::string>& maps, const std::string& mission_file,

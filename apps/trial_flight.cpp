@@ -24,10 +24,9 @@ using evaluation::TrialConfig;
 /// The file of the map that its flights are given: beside the trials, or where data is.
 void findMap(TrialConfig& trial, const fs::path& trials) {
   if (trial.map.file.empty()) return;
-  const fs::path beside = (fs::is_directory(trials) ? trials : trials.parent_path()) / trial.map.file;
-  std::error_code failure;  // What is there and cannot be followed is not looked for elsewhere.
+  const fs::path folder = fs::is_directory(trials) ? trials : trials.parent_path();
   try {
-    trial.map.file = (fs::exists(beside, failure) || failure ? beside : common::findData(trial.map.file)).string();
+    trial.map.file = common::findBeside(folder, trial.map.file).string();
   } catch (const common::InputError& e) {
     throw common::InputError(
         common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});

@@ -167,8 +167,8 @@ class Walk {
   void walkNextRound(const tree::Node& node, std::string_view id, const Exits& first) {
     const bool after_failure = id == "RetryUntilSuccessful";
     const bool repeats = after_failure || id == "Repeat" || id == "KeepRunningUntilFailure" || id.starts_with("Loop");
-    const bool once = tree::isAlways(tree_, recordOf(node), after_failure ? "num_attempts" : "num_cycles", 1);
-    if (!repeats || once || in_next_round_) return;
+    if (!repeats || in_next_round_) return;
+    if (tree::isAlways(tree_, recordOf(node), after_failure ? "num_attempts" : "num_cycles", 1)) return;
     in_next_round_ = true;
     walk(*node.children().front(), after_failure ? first.failure : first.success);
     in_next_round_ = false;

@@ -56,4 +56,10 @@ fs::path findData(const fs::path& name) {
   throw InputError(Problem{{name.string()}, "", message, didYouMean(name.string(), siblingsOf(name, folders))});
 }
 
+fs::path findBeside(const fs::path& folder, const fs::path& name) {
+  const fs::path beside = folder / name;
+  std::error_code failure;
+  return fs::exists(beside, failure) || failure ? beside : findData(name);
+}
+
 }  // namespace swiftlet::common

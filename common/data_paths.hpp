@@ -16,4 +16,8 @@ std::vector<std::filesystem::path> dataFolders();
 /// Throws InputError if it does not exist, with the folders searched and the most similar name that exists.
 std::filesystem::path findData(const std::filesystem::path& name);
 
+/// The path of `name` in `folder` if it is there, else that by findData. What is there and cannot be followed, such as
+/// a loop of links, is not searched elsewhere: reading it says why.
+std::filesystem::path findBeside(const std::filesystem::path& folder, const std::filesystem::path& name);
+
 }  // namespace swiftlet::common

@@ -13,9 +13,8 @@
 //   photo-NN-NAME.jpg, photo-NN-NAME.json    each photograph of the mission, and where the camera was
 //   report.html      the same in one page
 //   config.yaml      the settings in force
-//   vehicle.yaml, laser.yaml, rgbd_camera.yaml, vertical_laser.yaml, vehicle_model.yaml    what config.yaml names, if
-//   it
-//                    is not shipped
+//   vehicle.yaml, laser.yaml, rgbd_camera.yaml, vertical_laser.yaml, vehicle_model.yaml
+//                    what config.yaml names and is not shipped
 //   vehicle_memory_read.yaml, vehicle_memory_learned.yaml    of a flight with a vehicle's memory: before and after it
 //   control.tsv      with --control-log: commands, motion and battery at 100 Hz (interfaces/control_log.hpp)
 //   rgbd/            with --record-rgbd: the frames of the RGB-D camera (interfaces/rgbd/rgbd_recorder.hpp)

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "tests/commands/missions.hpp"
+#include "tests/commands/refusals.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/scratch.hpp"
 
 namespace swiftlet::commands {
 namespace {
@@ -27,7 +27,7 @@ using test_support::runSwiftlet;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-class BadInput : public test_support::Scratch {
+class BadInput : public RefusalsBeforeWriting {
  protected:
   std::string hop() const { return write("hop.xml", missionWith(kHop)); }
 
@@ -38,13 +38,6 @@ class BadInput : public test_support::Scratch {
       if (std::find(more.begin(), more.end(), option) == more.end()) arguments.insert(arguments.end(), {option, value});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runSwiftlet(arguments, options);
-  }
-
-  /// Expects a refusal with a message like this before anything was written.
-  void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
-    EXPECT_EQ(end.exit_code, 2) << describe(end);
-    EXPECT_THAT(end.err, ContainsRegex(pattern));
-    EXPECT_FALSE(fs::exists(path("run"))) << "something was written: " << describe(end);
   }
 
   /// A wrong mission is refused by `check` and by `fly` in the same words.

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "tests/commands/missions.hpp"
+#include "tests/commands/refusals.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/scratch.hpp"
 
 namespace swiftlet::commands {
 namespace {
@@ -17,18 +17,9 @@ using test_support::describe;
 using test_support::ProgramEnd;
 using test_support::readText;
 using test_support::runSwiftlet;
-using testing::ContainsRegex;
 using testing::HasSubstr;
 
-class BadTrial : public test_support::Scratch {
- protected:
-  /// Expects a refusal with a message like this before anything was written.
-  void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
-    EXPECT_EQ(end.exit_code, 2) << describe(end);
-    EXPECT_THAT(end.err, ContainsRegex(pattern));
-    EXPECT_FALSE(fs::exists(path("run"))) << "something was written: " << describe(end);
-  }
-};
+class BadTrial : public RefusalsBeforeWriting {};
 
 TEST_F(BadTrial, ABadTrialOfAFolderIsRefusedBeforeTheFirstFlight) {
   const std::string sound = "mission: missions/explore_and_return.xml\nscenario: {world: worlds/unb_case1.sdf}\n";

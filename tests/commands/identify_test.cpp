@@ -8,8 +8,8 @@
 #include "common/config.hpp"
 #include "control/vehicle_model.hpp"
 #include "tests/commands/missions.hpp"
+#include "tests/commands/refusals.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/scratch.hpp"
 
 namespace swiftlet::commands {
 namespace {
@@ -22,7 +22,7 @@ using test_support::runSwiftlet;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-class Identify : public test_support::Scratch {
+class Identify : public Refusals {
  protected:
   /// A short flight with everything that identify and tune read.
   std::string hop(const std::string& run, const std::string& mission = kHop) const {
@@ -30,10 +30,6 @@ class Identify : public test_support::Scratch {
                                         "--seed", "4", "--control-log", "--out", path(run)});
     EXPECT_EQ(end.exit_code, 0) << describe(end);
     return path(run);
-  }
-  static void expectRefused(const ProgramEnd& end, const std::string& pattern) {
-    EXPECT_EQ(end.exit_code, 2) << describe(end);
-    EXPECT_THAT(end.err, ContainsRegex(pattern));
   }
   std::string profile(const std::string& lines) const {
     return write("mine.yaml", "vehicle: cobra\nlaser: utm_30lx\n" + lines);

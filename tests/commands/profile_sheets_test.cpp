@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/commands/missions.hpp"
+#include "tests/commands/refusals.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/scratch.hpp"
 
 namespace swiftlet::commands {
 namespace {
@@ -18,16 +18,9 @@ using test_support::describe;
 using test_support::ProgramEnd;
 using test_support::readText;
 using test_support::runSwiftlet;
-using testing::ContainsRegex;
 using testing::HasSubstr;
 
-class ProfileSheets : public test_support::Scratch {
- protected:
-  static void expectRefused(const ProgramEnd& end, const std::string& pattern) {
-    EXPECT_EQ(end.exit_code, 2) << describe(end);
-    EXPECT_THAT(end.err, ContainsRegex(pattern));
-  }
-};
+class ProfileSheets : public Refusals {};
 
 /// The base and what it names lie in one folder, the profile that is based on it in another.
 TEST_F(ProfileSheets, DataSheetsAreFoundBesideTheProfileThatNamesThemNotTheOneBasedOnIt) {

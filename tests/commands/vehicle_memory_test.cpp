@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/commands/missions.hpp"
+#include "tests/commands/refusals.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/scratch.hpp"
 
 namespace swiftlet::commands {
 namespace {
@@ -28,16 +28,11 @@ constexpr const char* kMemory =
     "  - {voltage_v: 10.0, hover_command: 0.95, seen_s: 10}\n"
     "  - {voltage_v: 12.5, hover_command: 0.66, seen_s: 20}\n";
 
-class VehicleMemoryFile : public test_support::Scratch {
+class VehicleMemoryFile : public RefusalsBeforeWriting {
  protected:
   ProgramEnd hop(const std::string& memory, const std::string& run) const {
     return runSwiftlet({"fly", write("hop.xml", missionWith(kHop)), "--headless", "--nature", "real", "--seed", "4",
                         "--vehicle-memory", memory, "--out", path(run)});
-  }
-  void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
-    EXPECT_EQ(end.exit_code, 2) << describe(end);
-    EXPECT_THAT(end.err, ContainsRegex(pattern));
-    EXPECT_FALSE(fs::exists(path("run"))) << "something was written";
   }
 };
 

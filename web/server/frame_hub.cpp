@@ -72,13 +72,14 @@ bool FrameHub::due(const View& view, const Watcher& watcher) const {
          (view.frame_ == watcher.last || age > watcher.period);
 }
 
-void FrameHub::draw(View& view, const Watcher& watcher) {
+common::Duration FrameHub::draw(View& view, const Watcher& watcher) {
   const common::Time now = telemetry_.now();
   view.frame_ = encode(view, now);
-  view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0,
-                            1.0);  // The clock may have been set, so the time is bounded.
+  // The clock may have been set, so the time is bounded.
+  view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0, 1.0);
   view.for_operator_ = watcher.by_operator;
   shareTime();
+  return common::Duration::fromSeconds(view.cost_s_);
 }
 
 std::shared_ptr<const StreamFrame> FrameHub::frame(const View& view, const Watcher& watcher) const {

@@ -44,8 +44,8 @@ class FrameHub {
   /// Whether a new picture is to be drawn for the watcher: the source has changed, and the views of all watchers, for
   /// an operator those of operators, leave time for it.
   bool due(const View& view, const Watcher& watcher) const;
-  /// Draws and encodes the view's next frame.
-  void draw(View& view, const Watcher& watcher);
+  /// Draws and encodes the view's next frame. Returns the time that it took, at most a second.
+  common::Duration draw(View& view, const Watcher& watcher);
   /// The frame to send to the watcher: the view's frame if it has another one, or after a second without change (so
   /// that a client can tell silence from a broken link); otherwise null.
   std::shared_ptr<const StreamFrame> frame(const View& view, const Watcher& watcher) const;

@@ -58,7 +58,8 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
     }
     stalled_ticks_ = 0;
     if (!beat_.due(now)) return;
-    if (vehicle_.hub.due(*view_, watcher_) && core_->mayDraw(*this)) draw();
+    if (vehicle_.hub.due(*view_, watcher_) && core_->mayDraw(*this))
+      core_->drew(*this, vehicle_.hub.draw(*view_, watcher_));
     const auto frame = vehicle_.hub.frame(*view_, watcher_);
     // Without something new the client stays due, so that it need not wait for the next beat when it comes.
     if (!frame) return;
@@ -67,12 +68,6 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   }
 
  private:
-  void draw() {
-    const common::Time begin = core_->now();
-    vehicle_.hub.draw(*view_, watcher_);
-    core_->drew(*this, core_->now() - begin);
-  }
-
   void send(const std::shared_ptr<const StreamFrame>& frame, common::Time now) {
     writing_ = true;
     watcher_.last = frame;
