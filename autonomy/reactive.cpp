@@ -1,30 +1,12 @@
 #include "autonomy/reactive.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
-
-namespace {
-
-/// The points of both in the order of their bearing; empty if the camera adds nothing.
-std::vector<Eigen::Vector2f> withCamera(const ReactiveInput& input) {
-  if (input.camera_points_level_m.empty()) return {};
-  std::vector<Eigen::Vector2f> points = input.scan.points_level_m;
-  points.insert(points.end(), input.camera_points_level_m.begin(), input.camera_points_level_m.end());
-  const auto bearing = [](const Eigen::Vector2f& point) { return std::atan2(point.y(), point.x()); };
-  std::erase_if(points, [](const Eigen::Vector2f& point) { return !point.allFinite(); });
-  std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return bearing(a) < bearing(b); });
-  return points;
-}
-
-}  // namespace
 
 void ReactiveConfig::describe(common::config::Fields& fields) {
   fields.section("avoidance", avoidance, "Braking and retreat.");
@@ -40,8 +22,8 @@ const planning::AvoidanceDecision& Reactive::update(const ReactiveInput& input) 
   seen.stamp = input.scan.stamp;
   seen.age_s = input.age_s;
   seen.position_sigma_m = input.drift_m;
-  const std::vector<Eigen::Vector2f> merged = withCamera(input);
-  seen.points_level_m = merged.empty() ? std::span<const Eigen::Vector2f>(input.scan.points_level_m) : merged;
+  seen.points_level_m = input.scan.points_level_m;
+  seen.map3d_points_level_m = input.map3d_points_level_m;
   seen.velocity_level_m_s = level_from_map * Eigen::Vector2d(input.state.velocity_map_m_s().head<2>());
   seen.wanted_level_m_s = level_from_map * input.wanted_map_m_s;
   seen.T_map_level = input.T_map_body;

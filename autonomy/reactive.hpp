@@ -34,8 +34,8 @@ struct ReactiveInput {
   /// The velocity that the intent asks for; zero if it holds.
   Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
   const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
-  /// Obstacles that only a camera has seen, in the level frame of the body.
-  std::vector<Eigen::Vector2f> camera_points_level_m = {};
+  /// Obstacles that only the 3D map has, in the level frame of the body.
+  std::vector<Eigen::Vector2f> map3d_points_level_m = {};
   /// Of the edges of keep-out zones, in the level frame of the body.
   std::vector<Eigen::Vector2d> keep_out_points_level_m = {};
 };

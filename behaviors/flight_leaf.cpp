@@ -13,11 +13,12 @@ using tree::Status;
 void FlightLeaf::emitIntent(FlightTick& tick, common::IntentKind kind) {
   if (intent_id_ == 0) intent_id_ = tick.newIntentId();
   hold_id_ = 0;
-  tick.emit(intent_id_, std::move(kind));
+  tick.emit(intent_id_, std::move(kind), interrupted_id_);
 }
 
 void FlightLeaf::emitHold(FlightTick& tick) {
   if (hold_id_ == 0) hold_id_ = tick.newIntentId();
+  if (intent_id_ != 0) interrupted_id_ = intent_id_;
   intent_id_ = 0;
   tick.emit(hold_id_, common::HoldIntent{});
 }
@@ -27,7 +28,7 @@ common::IntentState FlightLeaf::intentState(const FlightTick& tick) const {
   return intent_id_ != 0 && status.id == intent_id_ ? status.state : common::IntentState::kRunning;
 }
 
-void FlightLeaf::onStart(tree::TickContext&) { intent_id_ = hold_id_ = 0; }
+void FlightLeaf::onStart(tree::TickContext&) { intent_id_ = hold_id_ = interrupted_id_ = 0; }
 
 void FlightLeaf::onResume(tree::TickContext&) { intent_id_ = hold_id_ = 0; }
 

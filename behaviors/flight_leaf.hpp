@@ -1,7 +1,8 @@
 // A behaviour: a leaf that emits an Intent at each tick and watches the IntentStatus of that intent.
 //
 // To let go, it emits hold until the vehicle has stopped (IntentStatus::released of that hold), or until the reactive
-// layer has the vehicle anyway. When it resumes, it emits its intent again with a new id.
+// layer has the vehicle anyway. When it resumes, it emits its intent again with a new id, as
+// one that goes on with the one before (Intent::resumes).
 #pragma once
 
 #include <cstdint>
@@ -22,8 +23,8 @@ class FlightLeaf : public tree::Leaf {
  protected:
   /// Emits the intent, with the same id until something interrupts it. `kind` may change only after renewIntent().
   void emitIntent(FlightTick& tick, common::IntentKind kind);
-  /// The next emitIntent() gets a new id.
-  void renewIntent() { intent_id_ = 0; }
+  /// The next emitIntent() gets a new id and begins anew.
+  void renewIntent() { intent_id_ = interrupted_id_ = 0; }
   /// Status of the present intent; running until it is answered.
   common::IntentState intentState(const FlightTick& tick) const;
   /// Emits hold, as the same intent from tick to tick.
@@ -41,6 +42,7 @@ class FlightLeaf : public tree::Leaf {
  private:
   std::uint64_t intent_id_ = 0;  ///< 0 if there is none yet.
   std::uint64_t hold_id_ = 0;
+  std::uint64_t interrupted_id_ = 0;  ///< The intent that a hold interrupted last; 0: none, or it is to begin anew.
 };
 
 /// A behaviour with a single intent: SUCCESS and FAILURE are those of the intent.

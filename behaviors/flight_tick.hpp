@@ -38,7 +38,9 @@ class FlightTick final : public tree::TickContext {
         last_intent_id_(memory.last_intent_id) {}
 
   std::uint64_t newIntentId() { return ++last_intent_id_; }
-  void emit(std::uint64_t id, common::IntentKind kind) { flight.intent = common::Intent{id, std::move(kind)}; }
+  void emit(std::uint64_t id, common::IntentKind kind, std::uint64_t resumes = 0) {
+    flight.intent = common::Intent{id, std::move(kind), resumes};
+  }
 
   /// Asks for it; the id of the request, to find its answer.
   std::uint64_t request(common::MissionRequestKind kind) {

@@ -99,6 +99,7 @@ using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIn
 struct Intent {
   std::uint64_t id = 0;  ///< 0: no behaviour has emitted one; the vehicle holds.
   IntentKind kind;
+  std::uint64_t resumes = 0;  ///< The intent that was interrupted and that this one goes on with; 0: none.
 };
 
 enum class IntentState { kRunning, kSucceeded, kFailed };

@@ -30,6 +30,8 @@ struct FollowMemory {
   common::Time watched;                 ///< When it was last updated.
 };
 
+struct TourState;
+
 struct FlightMemory {
   /// Height of paths over the take-off floor: that of the take-off until a goal names another.
   double cruise_height_m = 1.0;
@@ -43,7 +45,8 @@ struct FlightMemory {
   bool told_laser_alone = false;  ///< An event has said that a laser cannot know whether there is room below.
   ExplorationMemory exploration;
   FollowMemory follow;
-  std::optional<Eigen::Vector2d> person_map_m;  ///< Where the person who is, or was, followed was last believed.
+  std::vector<std::shared_ptr<TourState>> tours;  ///< Those that have not ended, see Tour; the newest last.
+  std::optional<Eigen::Vector2d> person_map_m;    ///< Where the person who is, or was, followed was last believed.
   std::vector<common::Event> events;
 
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {}) {

@@ -17,6 +17,8 @@ constexpr double kOnCircle_m = 0.15;
 /// From then on the vehicle may leave its first place: well within half of a camera's opening angle, and above the
 /// yaw's error in a hover, 1 deg.
 constexpr double kFacesPoint_rad = 3.0 * common::kRadPerDeg;
+/// And for so long: a heading that swings through is beside the point again.
+constexpr double kFacesFor_s = 0.4;
 
 /// The height of the body from which the camera's axis meets the point.
 double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pose3& T_body_camera) {
@@ -83,7 +85,12 @@ bool Inspect::isOnCircle(const ManeuverInput& input) const {
 bool Inspect::ready(const ManeuverInput& input) {
   if (passed() != 1) return true;
   const double yaw_rad = input.state.T_map_body_planar().yaw_rad;
-  return std::abs(common::wrapAngle(headingToSee_rad(input) - yaw_rad)) < kFacesPoint_rad;
+  const bool faces = std::abs(common::wrapAngle(headingToSee_rad(input) - yaw_rad)) < kFacesPoint_rad;
+  if (!faces)
+    faces_since_.reset();
+  else if (!faces_since_)
+    faces_since_ = input.now;
+  return faces && (input.now - *faces_since_).seconds() >= kFacesFor_s;
 }
 
 }  // namespace swiftlet::autonomy

@@ -2,6 +2,8 @@
 // and turns to the point. Parts of the circle that are not free are left out.
 #pragma once
 
+#include <optional>
+
 #include "autonomy/maneuvers/tour.hpp"
 
 namespace swiftlet::autonomy {
@@ -21,6 +23,7 @@ class Inspect final : public Tour {
   std::string doing(const ManeuverInput& input) const override;
 
   common::InspectIntent intent_;
+  std::optional<common::Time> faces_since_;  ///< At its first place; none while it looks elsewhere.
 };
 
 }  // namespace swiftlet::autonomy

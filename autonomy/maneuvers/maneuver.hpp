@@ -7,6 +7,7 @@
 // One thread. A new maneuver is a file of its own and a line in table.cpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -34,6 +35,7 @@ struct ManeuverSetup {
   const RetreatFlight& retreat;
   FlightMemory& memory;
   PlanningClient client;                             ///< The client in whose name it asks for plans.
+  std::uint64_t resumes = 0;                         ///< Intent::resumes.
   const common::RgbdCameraConfig* camera = nullptr;  ///< Null without one.
 };
 

@@ -87,8 +87,15 @@ std::vector<Eigen::Vector2d> Survey::lay(const planning::CostMap&, const Maneuve
   return places;
 }
 
-std::optional<Eigen::Vector2d> Survey::instead(const planning::CostMap& map, const Eigen::Vector2d& place_map_m) const {
-  return planning::nearestFree(map, place_map_m, 0.5 * spacing_m_);
+/// The vehicle stops where a lane ends at an obstacle: where it has room for that, if there is room.
+std::optional<Eigen::Vector2d> Survey::standFor(const planning::CostMap& map,
+                                                const Eigen::Vector2d& place_map_m) const {
+  const double reach_m = 0.5 * spacing_m_;
+  const auto roomy = planning::nearestPlace(map, place_map_m, reach_m, [&](common::CellIndex cell) {
+    return map.costAt(cell) != planning::CostMap::kLethal &&
+           map.obstacleDistance_m(cell) >= map.footprint().stopRadius_m();
+  });
+  return roomy ? roomy : planning::nearestFree(map, place_map_m, reach_m);
 }
 
 }  // namespace swiftlet::autonomy

@@ -12,8 +12,8 @@ class Survey final : public Tour {
 
  private:
   std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
-  std::optional<Eigen::Vector2d> instead(const planning::CostMap& map,
-                                         const Eigen::Vector2d& place_map_m) const override;
+  std::optional<Eigen::Vector2d> standFor(const planning::CostMap& map,
+                                          const Eigen::Vector2d& place_map_m) const override;
   std::string doing(const ManeuverInput&) const override { return "surveying"; }
 
   common::SurveyIntent intent_;

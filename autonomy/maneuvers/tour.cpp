@@ -12,16 +12,35 @@ namespace {
 
 /// A station to which the vehicle has set out so often is left: something that is not mapped keeps it away.
 constexpr int kMostTries = 5;
+/// So many interrupted tours are kept. A mission that halts a tour for good never asks for it again.
+constexpr std::size_t kMostTours = 8;
+
+/// That of the intent, or of the one that it resumes, or a new one.
+std::shared_ptr<TourState> stateFor(const ManeuverSetup& setup) {
+  auto& tours = setup.memory.tours;
+  auto found = std::find_if(tours.begin(), tours.end(), [&](const auto& tour) {
+    return tour->intent_id == setup.client.intent_id || (setup.resumes != 0 && tour->intent_id == setup.resumes);
+  });
+  if (found == tours.end()) {
+    if (tours.size() >= kMostTours) tours.erase(tours.begin());
+    found = tours.insert(tours.end(), std::make_shared<TourState>());
+  }
+  (*found)->intent_id = setup.client.intent_id;
+  return *found;
+}
 
 }  // namespace
 
 using common::Time;
 
 Tour::Tour(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode, double corner_m)
-    : PathManeuver(setup, std::move(purpose), mode), corner_m_(corner_m) {}
+    : PathManeuver(setup, std::move(purpose), mode),
+      corner_m_(corner_m),
+      state_(stateFor(setup)),
+      stations_(state_->stations) {}
 
-std::optional<Eigen::Vector2d> Tour::instead(const planning::CostMap&, const Eigen::Vector2d&) const {
-  return std::nullopt;
+std::optional<Eigen::Vector2d> Tour::standFor(const planning::CostMap& map, const Eigen::Vector2d& place_map_m) const {
+  return map.isLethalAt(place_map_m) ? std::nullopt : std::optional(place_map_m);
 }
 
 std::optional<Eigen::Vector2d> Tour::goal_map_m() const {
@@ -50,7 +69,7 @@ Progress Tour::fly(const ManeuverInput& input) {
   }
   pass(input.position_map_m());
   leaveBlocked(*map);
-  if (!next() && !std::exchange(second_look_, true)) open(*map);
+  if (!next() && !std::exchange(state_->second_look, true)) open(*map);
   const auto station = next();
   if (!station) {
     flight_.abandon();
@@ -68,8 +87,7 @@ Progress Tour::fly(const ManeuverInput& input) {
 void Tour::open(const planning::CostMap& map) {
   for (Station& station : stations_) {
     if (station.state == State::kPassed) continue;
-    const bool free = !map.isLethalAt(station.wanted_map_m);
-    const auto place = free ? std::optional(station.wanted_map_m) : instead(map, station.wanted_map_m);
+    const auto place = standFor(map, station.wanted_map_m);
     station.state = place ? State::kOpen : State::kLeft;
     station.tries = 0;
     if (place) station.place_map_m = *place;
@@ -133,7 +151,8 @@ Progress Tour::answered(const PlanningAnswer& answer, Time now, const common::Ve
   return Progress::running();
 }
 
-Progress Tour::ended() const {
+Progress Tour::ended() {
+  std::erase(setup_.memory.tours, state_);
   if (passed() == 0)
     return Progress::failed(no_path_.empty() ? "none of its places is free"
                                              : "none of its places is reached: " + no_path_);

@@ -1,9 +1,12 @@
 // Tour: flies through a series of stations in their order, for maneuvers whose stations are given by a pattern.
 // Stations in reach along straight lines are flown in one go; to others the planner finds a path. What cannot be
-// reached is left out.
+// reached is left out. A tour that was interrupted, by avoiding an obstacle for example, goes on with the stations that
+// it has not passed.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +14,20 @@
 #include "autonomy/maneuvers/path_maneuver.hpp"
 
 namespace swiftlet::autonomy {
+
+/// What a tour has done. It outlives the maneuver, which an interruption ends.
+struct TourState {
+  enum class StationState { kOpen, kPassed, kLeft };
+  struct Station {
+    Eigen::Vector2d wanted_map_m, place_map_m;
+    StationState state = StationState::kOpen;
+    int tries = 0;
+  };
+
+  std::uint64_t intent_id = 0;  ///< The newest intent of this tour.
+  std::vector<Station> stations;
+  bool second_look = false;
+};
 
 /// One thread.
 ///
@@ -30,9 +47,9 @@ class Tour : public PathManeuver {
   /// The places to fly to, in order; a place that is not free is left out. Called when there is a map, and for those
   /// that were left out a second time.
   virtual std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) = 0;
-  /// Where a place that is not free may be replaced; none: nowhere.
-  virtual std::optional<Eigen::Vector2d> instead(const planning::CostMap& map,
-                                                 const Eigen::Vector2d& place_map_m) const;
+  /// Where the vehicle flies for a place; none: the place is left out. Here: the place itself, if it is free.
+  virtual std::optional<Eigen::Vector2d> standFor(const planning::CostMap& map,
+                                                  const Eigen::Vector2d& place_map_m) const;
   /// Whether it may fly on from where it is.
   virtual bool ready(const ManeuverInput&) { return true; }
   /// Whether it looks at what it was sent to look at.
@@ -43,12 +60,8 @@ class Tour : public PathManeuver {
   std::size_t passed() const;
 
  private:
-  enum class State { kOpen, kPassed, kLeft };
-  struct Station {
-    Eigen::Vector2d wanted_map_m, place_map_m;
-    State state = State::kOpen;
-    int tries = 0;
-  };
+  using State = TourState::StationState;
+  using Station = TourState::Station;
 
   Progress fly(const ManeuverInput& input) final;
   void open(const planning::CostMap& map);
@@ -57,11 +70,11 @@ class Tour : public PathManeuver {
   std::optional<std::size_t> next() const;
   void flyOn(const planning::CostMap& map, const ManeuverInput& input, std::size_t station);
   planning::Path straightRun(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, std::size_t first) const;
-  Progress ended() const;
+  Progress ended();
 
   double corner_m_;
-  std::vector<Station> stations_;
-  bool second_look_ = false;
+  std::shared_ptr<TourState> state_;
+  std::vector<Station>& stations_;    ///< Of `state_`.
   std::optional<std::size_t> asked_;  ///< The station that a path is asked for.
   std::string no_path_;               ///< Why the last station that was not reached was not.
 };

@@ -58,13 +58,15 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   // Since the scan the vehicle has flown on, as it will until the command acts.
   const double latency_s = config_.latency_s + std::max(0.0, input.age_s);
   const Points returns = smoothed(config_, input.points_level_m);
-  const std::vector<Bin> sectors = bins(config_, returns);
+  std::vector<Bin> sectors = bins(config_, returns);
   Points points = returns;
   if (config_.bin_range == BinRange::kMean) {
     points.clear();
     for (const Bin& bin : sectors)
       if (std::isfinite(bin.range_m)) points.push_back(bin.nearest_level_m);
   }
+  for (const Eigen::Vector2f& p : input.map3d_points_level_m) points.push_back(p.cast<double>());
+  shorten(config_, input.map3d_points_level_m, sectors);
   const auto seen_points = static_cast<std::ptrdiff_t>(points.size());
   points.insert(points.end(), input.keep_out_points_level_m.begin(), input.keep_out_points_level_m.end());
   const std::vector<Threat> around = threats(input, sectors);

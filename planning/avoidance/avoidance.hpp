@@ -39,6 +39,9 @@ struct AvoidanceInput {
   /// is near, and the velocity may be wrong, too: the vehicle also retreats from what the map has, when it is very
   /// near.
   double position_sigma_m = 0.0;
+  /// Obstacles that only the 3D map has, where the beams pass above or below them. Each stands alone among the returns
+  /// of what is behind it, so they are not smoothed: the map has made sure of them.
+  std::span<const Eigen::Vector2f> map3d_points_level_m = {};
   /// Points of the edges of keep-out zones. The vehicle brakes before them, and no retreat leads across them, but they
   /// are never a reason to retreat.
   std::span<const Eigen::Vector2d> keep_out_points_level_m = {};
@@ -83,6 +86,8 @@ class Avoidance {
   /// The returns after the sliding window, and the sectors of a scan. Pure functions.
   static std::vector<Eigen::Vector2d> smoothed(const Config& config, std::span<const Eigen::Vector2f> points_level_m);
   static std::vector<Bin> bins(const Config& config, const std::vector<Eigen::Vector2d>& smoothed_level_m);
+  /// Sectors with a point nearer than their return end at the point.
+  static void shorten(const Config& config, std::span<const Eigen::Vector2f> points_level_m, std::vector<Bin>& bins);
 
  private:
   using Points = std::vector<Eigen::Vector2d>;

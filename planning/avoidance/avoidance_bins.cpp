@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "common/config_fields.hpp"
 #include "planning/avoidance/avoidance.hpp"
@@ -40,6 +41,21 @@ std::vector<Point> medianOfThree(const std::vector<Point>& points) {
   return result;
 }
 
+/// The sector that a point lies in; none outside the field of view.
+std::optional<std::size_t> sectorOf(const AvoidanceConfig& config, const Point& p) {
+  const double view_rad = config.field_of_view_deg * std::numbers::pi / 180.0, width_rad = view_rad / config.bins;
+  const auto slot = static_cast<int>(std::floor((std::atan2(p.y(), p.x()) + 0.5 * view_rad) / width_rad));
+  return slot < 0 || slot >= config.bins ? std::nullopt : std::optional(static_cast<std::size_t>(slot));
+}
+
+/// The point shortens the sector if it is the nearest.
+void take(Bin& bin, const Point& p) {
+  const double range_m = p.norm();
+  if (range_m >= bin.range_m) return;
+  bin.range_m = range_m;
+  bin.nearest_level_m = p;
+}
+
 }  // namespace
 
 std::vector<Point> Avoidance::smoothed(const Config& config, std::span<const Eigen::Vector2f> points_level_m) {
@@ -59,15 +75,11 @@ std::vector<Bin> Avoidance::bins(const Config& config, const std::vector<Point>&
     bins[i] = {-0.5 * view_rad + (static_cast<double>(i) + 0.5) * width_rad, std::numeric_limits<double>::infinity(),
                Point::Zero()};
   for (const Point& p : smoothed_level_m) {
-    const auto slot = static_cast<int>(std::floor((std::atan2(p.y(), p.x()) + 0.5 * view_rad) / width_rad));
-    if (slot < 0 || slot >= config.bins) continue;
-    const auto i = static_cast<std::size_t>(slot);
-    const double range_m = p.norm();
-    sums[i] += range_m;
-    ++counts[i];
-    if (range_m >= bins[i].range_m) continue;
-    bins[i].range_m = range_m;
-    bins[i].nearest_level_m = p;
+    const auto sector = sectorOf(config, p);
+    if (!sector) continue;
+    sums[*sector] += p.norm();
+    ++counts[*sector];
+    take(bins[*sector], p);
   }
   if (config.bin_range == BinRange::kMean) {
     for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -77,6 +89,11 @@ std::vector<Bin> Avoidance::bins(const Config& config, const std::vector<Point>&
     }
   }
   return bins;
+}
+
+void Avoidance::shorten(const Config& config, std::span<const Eigen::Vector2f> points_level_m, std::vector<Bin>& bins) {
+  for (const Eigen::Vector2f& p : points_level_m)
+    if (const auto sector = sectorOf(config, p.cast<double>())) take(bins[*sector], p.cast<double>());
 }
 
 }  // namespace swiftlet::planning

@@ -59,6 +59,10 @@ class ManeuverStory : public testing::Test {
   }
 
   void want(const common::IntentKind& kind) { intent_ = {intent_.id + 1, kind}; }
+  /// Goes on with an intent that was interrupted.
+  void wantAgain(const common::IntentKind& kind, std::uint64_t resumed_id) {
+    intent_ = {intent_.id + 1, kind, resumed_id};
+  }
   static common::GoToIntent to(double x_m, double y_m) {
     common::GoToIntent intent;
     intent.goal_map_m = {x_m, y_m};

@@ -187,6 +187,19 @@ TEST(Hold, ReleasedEarlyTheInterruptedBehaviourContinues) {
               ElementsAre("Explore lets go for Hold (the operator holds)", "Explore goes on (Hold no longer asks)"));
 }
 
+TEST(Hold, TheInterruptedIntentIsNamedByTheOneThatGoesOnWithIt) {
+  Flight flight = exploring();
+  EXPECT_EQ(flight.context.intent->resumes, 0U);
+  flight.holds(true).tick();
+  flight.stops().tick();
+  EXPECT_EQ(flight.context.intent->resumes, 0U) << "the hold itself";
+  EXPECT_EQ(flight.stops().holds(false).tick(), "RUNNING 5 explore");
+  EXPECT_EQ(flight.context.intent->resumes, 2U);
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 5 explore");
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 6 land");
+  EXPECT_EQ(flight.context.intent->resumes, 0U) << "another leaf";
+}
+
 TEST(Hold, IgnoresAnswersForAnotherIntent) {
   Flight flight = exploring();
   flight.stops().holds(true);

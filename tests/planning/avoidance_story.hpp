@@ -106,8 +106,11 @@ class Story {
     const Eigen::Rotation2Dd to_level(-at.yaw_rad);
     std::vector<Point> edges_level_m;
     for (const Point& edge : keep_out_map_m) edges_level_m.push_back(at.inverse() * edge);
+    std::vector<Eigen::Vector2f> below_level_m;
+    for (const Point& point : below_the_beams_map_m) below_level_m.push_back((at.inverse() * point).cast<float>());
     return avoidance_.update({stamp, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, at, &map_,
-                              dynamic_.obstacles(), (now - stamp).seconds(), position_sigma_m, edges_level_m});
+                              dynamic_.obstacles(), (now - stamp).seconds(), position_sigma_m, below_level_m,
+                              edges_level_m});
   }
 
   /// Senses, obeys with its acceleration, and lets time pass. Returns the smallest gap to any person.
@@ -140,7 +143,8 @@ class Story {
   double position_sigma_m = 0.0;
   std::vector<Person> people;
   std::vector<Person> poles;
-  std::vector<Point> keep_out_map_m;  ///< Of the edges of keep-out zones.
+  std::vector<Point> keep_out_map_m;         ///< Of the edges of keep-out zones.
+  std::vector<Point> below_the_beams_map_m;  ///< Of obstacles that the 3D map has and no beam meets.
   Time now = Time::fromSeconds(10.0);
   double least_gap_m = 1e9;
   double least_wall_m = 1e9;

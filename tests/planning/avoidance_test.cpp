@@ -57,6 +57,20 @@ TEST(Avoidance, StopsBeforeAWallWithScansThatAreLate) {
   }
 }
 
+/// The beams that pass above it end on the wall behind it, at both sides of each of its points.
+TEST(Avoidance, StopsBeforeATableThatTheBeamsPassAbove) {
+  for (const AvoidanceBinRange range : {AvoidanceBinRange::kRobustMinimum, AvoidanceBinRange::kMean}) {
+    Avoidance::Config config;
+    config.bin_range = range;
+    Story story(200, 160, config);
+    for (double y = 3.6; y <= 4.4; y += 0.05) story.below_the_beams_map_m.emplace_back(7.0, y);
+    for (int i = 0; i < 400; ++i) story.tick({1.0, 0});
+    EXPECT_LT(story.velocity_map_m_s.norm(), 0.02);
+    EXPECT_GT(7.0 - story.pose.x_m - kHull_m, 0.02);
+    EXPECT_LT(7.0 - story.pose.x_m - kHull_m, 0.15);
+  }
+}
+
 TEST(Avoidance, ALateScanTakesSpeedAheadButNoRoomAtTheSides) {
   double last_m_s = 10.0;
   for (const double age_s : {0.0, 0.1, 0.2}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "tests/autonomy/maneuver_story.hpp"
 
@@ -61,6 +62,56 @@ TEST_F(TourInFlight, ASurveyGoesAroundAPillarAndLeavesOutWhatItStandsOn) {
   EXPECT_GT(least_m, 0.25);
   EXPECT_EQ(executor_.status().reason.find("48 of 48"), std::string::npos);
   EXPECT_THAT(executor_.status().reason, HasSubstr(" of 48 places"));
+}
+
+TEST_F(TourInFlight, ASurveyStopsWhereItHasRoom) {
+  fill(grid_, {{70, 30}, {90, 50}}, kWallCell);
+  want(common::SurveyIntent{kArea, 1.0, std::nullopt, 0.10, common::FlightMode::kFast});
+  double least_m = 1e9;
+  int stops = 0;
+  runUntil(
+      [&] {
+        const Eigen::Vector2d beside = (position_m() - Eigen::Vector2d(4.0, 2.0)).cwiseAbs().array() - 0.5;
+        if (controller_.pathFinished() && executor_.status().reason.starts_with("surveying")) {
+          ++stops;
+          least_m = std::min(least_m, beside.cwiseMax(0.0).norm());
+        }
+        return ended();
+      },
+      120.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
+  EXPECT_GT(stops, 0);
+  EXPECT_GT(least_m, executor_.costMapHere()->footprint().stopRadius_m() - 0.05) << "but for a cell";
+}
+
+TEST_F(TourInFlight, ASurveyThatWasInterruptedGoesOn) {
+  const common::SurveyIntent survey{kArea, 1.0, std::nullopt, 0.10, common::FlightMode::kFast};
+  want(survey);
+  run(20.0);
+  int passed = 0;
+  ASSERT_EQ(std::sscanf(executor_.status().reason.c_str(), "surveying, %d of 48 places", &passed), 1);
+  ASSERT_GT(passed, 5);
+  const std::uint64_t first = executor_.status().id;
+  want(common::HoldIntent{});
+  run(2.0);
+  wantAgain(survey, first);
+  run(0.1);
+  int passed_again = 0;
+  ASSERT_EQ(std::sscanf(executor_.status().reason.c_str(), "surveying, %d of 48 places", &passed_again), 1);
+  EXPECT_GE(passed_again, passed);
+  EXPECT_LE(passed_again, passed + 3) << "those that it passed while it stopped";
+  const std::uint64_t second = executor_.status().id;
+  want(common::AvoidIntent{});
+  run(1.0);
+  wantAgain(survey, second);
+  run(0.1);
+  ASSERT_EQ(std::sscanf(executor_.status().reason.c_str(), "surveying, %d of 48 places", &passed_again), 1);
+  EXPECT_GE(passed_again, passed);
+  EXPECT_EQ(runToTheEnd(120.0), IntentState::kSucceeded);
+  want(survey);
+  run(0.1);
+  ASSERT_EQ(std::sscanf(executor_.status().reason.c_str(), "surveying, %d of 48 places", &passed_again), 1);
+  EXPECT_LT(passed_again, 4) << "one that resumes none begins anew";
 }
 
 TEST_F(TourInFlight, ASurveyWithoutAFreePlaceFails) {
