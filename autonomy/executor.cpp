@@ -60,7 +60,8 @@ void Executor::begin(const common::Intent& intent) {
   status_ = {intent.id, IntentState::kRunning, toString(intent, names_), false};
   if (controller_.state() == common::FlightState::kFlying && !retreat_.active()) controller_.hold();
   controller_.lookAt(std::nullopt);
-  maneuver_ = makeManeuver(intent.kind, {config_, controller_, desk_, retreat_, memory_, client(), intent.resumes, camera_});
+  maneuver_ =
+      makeManeuver(intent.kind, {config_, controller_, desk_, retreat_, memory_, client(), intent.resumes, camera_});
 }
 
 void Executor::note(const Progress& progress) {

@@ -7,7 +7,7 @@ namespace swiftlet::mapping3d {
 
 struct SubmapConfig {
   double cube_m = 0.02;
-  double point_range_m = 4.0;
+  double point_range_m = 5.0;
   double reach_m = 2.5;
   int points_max = 4'000'000;
   int submaps_max = 200;

@@ -93,7 +93,7 @@ std::vector<Submap3d> SubmapStore::snapshot() {
   for (const Kept& kept : kept_) submaps.push_back(kept.submap);
   if (growing_) {
     Submap3d& submap = submaps[growing_->index];
-    submap.points = std::make_shared<const std::vector<common::SurfacePoint>>(growing_->points.points());
+    submap.points = growing_->points.points().points;
     submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   }
   return submaps;
@@ -123,21 +123,22 @@ std::size_t SubmapStore::add(const Eigen::Vector3d& sensor_map_m, int scan, cons
   Submap3d submap{scan, scans.T_map_level(scan).inverse() * T_map_submap,
                   std::make_shared<const std::vector<common::SurfacePoint>>(),
                   std::make_shared<const common::VoxelMap>(voxels_.resolution_m)};
-  kept_.push_back({std::move(submap), {}, config_.cube_m, {}});
+  kept_.push_back({std::move(submap), {}, 0, config_.cube_m, {}});
   return kept_.size() - 1;
 }
 
 void SubmapStore::grow(std::size_t index) {
   const Kept& kept = kept_[index];
   growing_.emplace(Growing{index, VoxelMapper(voxels_, *kept.submap.voxels), PointGrid(kept.cube_m)});
-  growing_->points.add(WeightedPoints{kept.submap.points, kept.weights});
+  growing_->points.add(WeightedPoints{kept.submap.points, kept.weights, kept.fine});
 }
 
 void SubmapStore::leave() {
   Kept& kept = kept_[growing_->index];
-  WeightedPoints points = growing_->points.weightedPoints();
+  WeightedPoints points = growing_->points.points();
   kept.submap.points = std::move(points.points);
   kept.weights = std::move(points.weights);
+  kept.fine = points.fine;
   kept.submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   growing_.reset();
   forgetOldest();
@@ -163,10 +164,11 @@ void SubmapStore::thinOldest() {
         std::min_element(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.cube_m < b.cube_m; });
     const std::size_t before = dense->submap.points->size();
     dense->cube_m *= 2.0;
-    WeightedPoints fewer = thinned({dense->submap.points, std::move(dense->weights)}, dense->cube_m);
+    WeightedPoints fewer = thinned({dense->submap.points, std::move(dense->weights), dense->fine}, dense->cube_m);
     points -= before - fewer.points->size();
     dense->submap.points = std::move(fewer.points);
     dense->weights = std::move(fewer.weights);
+    dense->fine = fewer.fine;
   }
 }
 

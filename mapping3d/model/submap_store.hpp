@@ -38,7 +38,7 @@ struct PlacedSweep {
   std::vector<Ray> rays_scan;  ///< In the level frame of the key scan. Each has the origin of its own time.
   int scan = 0;                ///< As in PlacedFrame.
   std::vector<common::Disc> people;
-  float weight_1_m2 = 1.0F;  ///< The inverse variance of a range.
+  float weight_1_m2 = 1e4F;  ///< The inverse variance of a range.
 };
 
 /// One thread.
@@ -57,7 +57,8 @@ class SubmapStore {
  private:
   struct Kept {
     common::Submap3d submap;     ///< As it was when it was left.
-    std::vector<float> weights;  ///< One for each of its points.
+    std::vector<float> weights;  ///< WeightedPoints of its points.
+    std::size_t fine = 0;
     double cube_m = 0.0;
     std::set<int> scans;  ///< The key scans of the frames that were drawn into it.
   };

@@ -19,11 +19,20 @@ void CostMap::applyLayers(const CostLayers& layers) {
   cost_ = static_cost_;
   for (std::size_t i = 1; i < layers.flown_map_m.size(); ++i)
     applyFlown(layers.flown_map_m[i - 1], layers.flown_map_m[i]);
+  closeBorder();
+  by_disc_.assign(layers.discs.empty() ? 0 : size(), 0);
   for (const common::Disc& disc : layers.discs) applyDisc(disc);
   kept_out_.assign(layers.keep_out.empty() ? 0 : size(), 0);
   for (const common::Polygon& zone : layers.keep_out) applyKeepOut(zone);
   applyHeights(layers.levels);
 
+  if (size() == 0) return;
+  const double greatest_cell = kOpenCost * (1.0 + config_.comfort_weight) + 1.0;
+  max_edge_cost_ = static_cast<std::int32_t>(2 * kDiagonalEdge * greatest_cell) +
+                   (height_cm_.empty() ? 0 : height_edge_ * static_cast<int>(kMaxStep_m * 100.0));
+}
+
+void CostMap::closeBorder() {
   const int width = rect_.width(), height = rect_.height();
   if (size() == 0) return;
   std::fill_n(cost_.begin(), width, kLethal);
@@ -32,9 +41,6 @@ void CostMap::applyLayers(const CostLayers& layers) {
     cost_[static_cast<std::size_t>(y) * width] = kLethal;
     cost_[static_cast<std::size_t>(y) * width + width - 1] = kLethal;
   }
-  const double greatest_cell = kOpenCost * (1.0 + config_.comfort_weight) + 1.0;
-  max_edge_cost_ = static_cast<std::int32_t>(2 * kDiagonalEdge * greatest_cell) +
-                   (height_cm_.empty() ? 0 : height_edge_ * static_cast<int>(kMaxStep_m * 100.0));
 }
 
 void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
@@ -65,8 +71,9 @@ void CostMap::applyDisc(const common::Disc& disc) {
   for (int y = std::max(low.y, rect_.begin.y); y <= std::min(high.y, rect_.end.y - 1); ++y) {
     for (int x = std::max(low.x, rect_.begin.x); x <= std::min(high.x, rect_.end.x - 1); ++x) {
       const double margin_m = (centerOf({x, y}) - disc.center_map_m).norm() - lethal_m;
-      Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
-      cost = std::max(cost, costOfMargin(margin_m));
+      const auto i = static_cast<std::size_t>(indexOf({x, y}));
+      if (margin_m < 0.0 && cost_[i] != kLethal) by_disc_[i] = 1;
+      cost_[i] = std::max(cost_[i], costOfMargin(margin_m));
     }
   }
 }

@@ -105,6 +105,8 @@ class CostMap {
   CellState stateAt(common::CellIndex c) const { return contains(c) ? state(indexOf(c)) : CellState::kUnknown; }
   /// The hull with its clearance would reach into a keep-out zone there.
   bool isKeptOut(int index) const { return !kept_out_.empty() && kept_out_[static_cast<std::size_t>(index)] != 0; }
+  /// Only a disc of CostLayers makes it lethal.
+  bool isLethalByDisc(int index) const { return !by_disc_.empty() && by_disc_[static_cast<std::size_t>(index)] != 0; }
   const std::vector<Cost>& costs() const { return cost_; }
   const std::vector<CellState>& states() const { return state_; }
   /// Height of the surface below in cm; empty if there are no levels.
@@ -142,6 +144,7 @@ class CostMap {
   void updateDistances(const Changes& changes, bool all);
   void costTile(int x0, int y0);
   void applyLayers(const CostLayers& layers);
+  void closeBorder();
   void applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
   void applyDisc(const common::Disc& disc);
   void applyKeepOut(const common::Polygon& zone);
@@ -167,6 +170,7 @@ class CostMap {
   std::vector<Cost> cost_;         ///< Cost with the layers.
   std::vector<std::int16_t> height_cm_;
   std::vector<std::uint8_t> kept_out_;  ///< 1 in keep-out zones; empty without any.
+  std::vector<std::uint8_t> by_disc_;   ///< 1 where only a disc is lethal; empty without any.
 };
 
 }  // namespace swiftlet::planning

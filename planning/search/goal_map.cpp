@@ -15,8 +15,8 @@ struct KeptGoalMap {
 };
 
 bool mayBeAt(const CostMap& map, common::CellIndex cell, double clearance_m) {
-  const bool lethal = map.costAt(cell) == CostMap::kLethal;
-  if (map.contains(cell) && map.isKeptOut(map.indexOf(cell))) return false;
+  if (!map.contains(cell) || map.isKeptOut(map.indexOf(cell))) return false;
+  const bool lethal = map.isLethal(map.indexOf(cell)) && !map.isLethalByDisc(map.indexOf(cell));
   const Footprint& own = map.footprint();
   if (clearance_m == own.clearance_m) return !lethal;
   const double radius_m = std::min(own.hull_radius_m + clearance_m, map.reach_m());

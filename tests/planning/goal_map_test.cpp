@@ -30,8 +30,7 @@ TEST_F(GoalMapTest, GivesTheStateOfAPlace) {
 
 TEST_F(GoalMapTest, AgreesWithThePlannerInEveryCell) {
   test::fill(grid, {{20, 20}, {30, 30}}, common::occupancy::kUnknown);
-  const std::vector<common::Disc> people{{{6.5, 2.0}, 0.4}};
-  const CostMap map = test::mapOf(grid, {}, {}, {.discs = people});
+  const CostMap map = test::mapOf(grid);
   const CostGoalMap goals(map);
   DStarLite planner;
   for (double y_m = -0.5; y_m < 4.5; y_m += 0.13) {
@@ -40,6 +39,17 @@ TEST_F(GoalMapTest, AgreesWithThePlannerInEveryCell) {
       const bool refused = !path && path.error().reason != PlanFailure::Reason::kUnreachable;
       EXPECT_EQ(goals.stateAt({x_m, y_m}, 0.10) == PlaceState::kFree, !refused) << x_m << ", " << y_m;
     }
+  }
+}
+
+/// A path is planned when the person has gone.
+TEST_F(GoalMapTest, PeopleRefuseNoGoal) {
+  const std::vector<common::Disc> people{{{6.5, 2.0}, 0.4}, {{4.5, 2.0}, 0.4}};
+  const CostMap map = test::mapOf(grid, {}, {}, {.discs = people});
+  const CostGoalMap goals(map);
+  for (const double clearance_m : {0.05, 0.10, 0.20}) {
+    EXPECT_EQ(goals.stateAt({6.5, 2.0}, clearance_m), PlaceState::kFree) << clearance_m;
+    EXPECT_EQ(goals.stateAt({4.2, 2.0}, clearance_m), PlaceState::kTooClose) << "to the wall, too: " << clearance_m;
   }
 }
 
