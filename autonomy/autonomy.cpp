@@ -291,7 +291,8 @@ common::Intent Autonomy::nextIntent(Time now) {
   }
   if (missionOver()) return SupervisorIntents::land();
   tickMission();
-  if (!airborne) return context_.intent.value_or(common::Intent{});
+  if (!airborne)
+    return waitsToTakeOff(supervision) ? SupervisorIntents::hold() : context_.intent.value_or(common::Intent{});
   if (missionOver()) return SupervisorIntents::land();
   const SupervisedFlight flight{now, *world_, intent_, executor_.status(), executor_.desk().home_m().has_value()};
   if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) {
@@ -304,6 +305,11 @@ common::Intent Autonomy::nextIntent(Time now) {
   if (missions_.waits() || (supervision.hold && mission_status_.state != MissionState::kHeld))
     return SupervisorIntents::hold();
   return context_.intent.value_or(common::Intent{});
+}
+
+/// A hold keeps the vehicle on the ground whatever the mission does; TakeOff goes on when it ends.
+bool Autonomy::waitsToTakeOff(const Supervision& supervision) const {
+  return supervision.hold && context_.intent && std::holds_alternative<common::TakeOffIntent>(context_.intent->kind);
 }
 
 void Autonomy::fillContext(const Supervision& supervision, Time now) {

@@ -160,6 +160,7 @@ class Autonomy {
     return executor_.dip_m() > 0.0 ? lower_obstacles_ : camera_obstacles_;
   }
   common::Intent nextIntent(common::Time now);
+  bool waitsToTakeOff(const Supervision& supervision) const;
   void fillContext(const Supervision& supervision, common::Time now);
   void endMission(const std::string& reason, common::Time now);
   VehicleCondition condition(common::Time now) const;

@@ -28,7 +28,7 @@ common::Intent SupervisorIntents::hold() { return {kHold, common::HoldIntent{}};
 common::Intent SupervisorIntents::land() { return {kLand, common::LandIntent{}}; }
 
 std::optional<common::Intent> SupervisorIntents::flight(const Supervision& asked, const SupervisedFlight& flight,
-                                                        Supervisor& supervisor) const {
+                                                        Supervisor& supervisor) {
   const bool stopped = flight.present.id >= kHome || flight.status.released;
   if (!stopped) return std::nullopt;
   if (asked.back > 0) return back(kBack + asked.back - 1, flight, supervisor);
@@ -59,8 +59,9 @@ common::Intent SupervisorIntents::home(unsigned count, const SupervisedFlight& f
 }
 
 /// The path back is the whole trail; the supervisor ends the flight where height and position are known again.
-common::Intent SupervisorIntents::back(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const {
-  if (flight.status.id != id) return {id, common::RetraceIntent{trailBack_map_m(flight.world), wanted_to_see_map_m_}};
+common::Intent SupervisorIntents::back(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) {
+  if (back_.id != id) back_ = {id, common::RetraceIntent{trailBack_map_m(flight.world), wanted_to_see_map_m_}};
+  if (flight.status.id != id) return back_;
   if (flight.status.state == common::IntentState::kRunning) return flight.present;
   supervisor.backEnded(flight.now);
   return hold();

@@ -38,15 +38,17 @@ class SupervisorIntents {
   /// The flight that is asked for; none while the mission flies, or while it still has to release the vehicle. Tells
   /// the supervisor when a flight has ended. Call it while airborne.
   std::optional<common::Intent> flight(const Supervision& asked, const SupervisedFlight& flight,
-                                       Supervisor& supervisor) const;
+                                       Supervisor& supervisor);
 
  private:
   common::Intent home(unsigned count, const SupervisedFlight& flight, Supervisor& supervisor) const;
-  common::Intent back(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const;
+  common::Intent back(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor);
 
   double clearance_m_;
   /// The unknown place that was explored when the supervisor began to hold the mission.
   std::optional<Eigen::Vector2d> wanted_to_see_map_m_;
+  /// The newest flight back. It keeps its path: after an interruption the trail has the way back in it, too.
+  common::Intent back_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -44,6 +44,7 @@ Release FlightLeaf::onHalt(tree::TickContext& context) { return onSuspend(contex
 void IntentLeaf::onStart(tree::TickContext& context) {
   FlightLeaf::onStart(context);
   kind_.reset();
+  ended_.reset();
 }
 
 void IntentLeaf::onResume(tree::TickContext& context) {
@@ -51,8 +52,15 @@ void IntentLeaf::onResume(tree::TickContext& context) {
   kind_.reset();
 }
 
+Release IntentLeaf::onSuspend(tree::TickContext& context) {
+  const FlightTick& tick = flightTick(context);
+  if (intentState(tick) != common::IntentState::kRunning) ended_ = tick.flight.status;
+  return FlightLeaf::onSuspend(context);
+}
+
 Status IntentLeaf::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
+  if (const auto ended = std::exchange(ended_, std::nullopt)) return outcomeOf(context, ended->state, ended->reason);
   if (kind_ && isOutdated(tick)) {
     kind_.reset();
     renewIntent();
@@ -63,13 +71,17 @@ Status IntentLeaf::act(tree::TickContext& context) {
     kind_ = *std::move(made);
   }
   emitIntent(tick, *kind_);
-  switch (intentState(tick)) {
+  return outcomeOf(context, intentState(tick), tick.flight.status.reason);
+}
+
+Status IntentLeaf::outcomeOf(tree::TickContext& context, common::IntentState state, const std::string& reason) {
+  switch (state) {
     case common::IntentState::kRunning:
       return Status::kRunning;
     case common::IntentState::kSucceeded:
       return Status::kSuccess;
     case common::IntentState::kFailed:
-      return fail(context, tick.flight.status.reason);
+      return fail(context, reason);
   }
   return Status::kRunning;
 }

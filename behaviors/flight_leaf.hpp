@@ -60,11 +60,15 @@ class IntentLeaf : public FlightLeaf {
 
   void onStart(tree::TickContext& context) override;
   void onResume(tree::TickContext& context) override;
+  tree::Release onSuspend(tree::TickContext& context) override;
 
  private:
   tree::Status act(tree::TickContext& context) final;
+  tree::Status outcomeOf(tree::TickContext& context, common::IntentState state, const std::string& reason);
 
   std::optional<common::IntentKind> kind_;
+  /// The intent had ended in the tick in which something interrupted it.
+  std::optional<common::IntentStatus> ended_;
 };
 
 }  // namespace swiftlet::behaviors

@@ -134,6 +134,7 @@ class FlightController {
 
   /// Greatest height over the take-off floor. A take-off to more is refused, and paths stay below.
   void setMaxHeight(double height_m) { max_height_m_ = height_m; }
+  double maxHeight_m() const { return max_height_m_; }
 
   common::Setpoint tick(const FlightTick& tick);
 

@@ -185,7 +185,7 @@ void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map
   const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < config_.replan_m;
   if ((under_way && same) || !flight_.mayAsk()) return;
   target_map_m_ = target_map_m;
-  flight_.ask(input, GoalRequest{target_map_m, config_.tolerance_m});
+  flight_.ask(planningInput(input), GoalRequest{target_map_m, config_.tolerance_m});
 }
 
 Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "common/geometry.hpp"
 #include "common/goal.hpp"
 
@@ -17,6 +19,8 @@ constexpr double kOnCircle_m = 0.15;
 /// From then on the vehicle may leave its first place: well within half of a camera's opening angle, and above the
 /// yaw's error in a hover, 1 deg.
 constexpr double kFacesPoint_rad = 3.0 * common::kRadPerDeg;
+/// The axis passes by the point in height.
+constexpr double kPassesBy_m = 0.05;
 /// And for so long: a heading that swings through is beside the point again.
 constexpr double kFacesFor_s = 0.4;
 
@@ -52,10 +56,18 @@ void Inspect::watch(const ManeuverInput& input) {
                            intent_.radius_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
 }
 
+/// That from which the camera's axis meets the point, within the bounds of the flight.
+void Inspect::chooseHeight(const ManeuverInput& input) {
+  const double wanted_m = heightToSee_m({intent_.radius_m, *intent_.point_height_m}, T_body_camera(input));
+  const double greatest_m = setup_.controller.maxHeight_m();
+  setup_.memory.cruise_height_m = std::clamp(wanted_m, std::min(common::kLeastFlightHeight_m, greatest_m), greatest_m);
+  if (std::abs(setup_.memory.cruise_height_m - wanted_m) > kPassesBy_m)
+    setup_.memory.say(input.now, common::Severity::kWarning, "the camera's axis passes by the point",
+                      fmt::format("it would meet it from a height of {:.2f} m, which is out of bounds", wanted_m));
+}
+
 std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const ManeuverInput& input) {
-  if (!intent_.height_m && setup_.camera != nullptr && intent_.point_height_m)
-    setup_.memory.cruise_height_m = std::max(
-        common::kLeastFlightHeight_m, heightToSee_m({intent_.radius_m, *intent_.point_height_m}, T_body_camera(input)));
+  if (!intent_.height_m && setup_.camera != nullptr && intent_.point_height_m) chooseHeight(input);
   const Eigen::Vector2d from_point = input.position_map_m() - intent_.point_map_m;
   const auto placeAt = [&](double angle_rad) -> Eigen::Vector2d {
     return intent_.point_map_m + intent_.radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
@@ -75,22 +87,23 @@ std::string Inspect::doing(const ManeuverInput& input) const {
   return isOnCircle(input) ? "inspecting" : "flying around what stands on the circle";
 }
 
-/// At the first place it turns to the point; it has left that place when it passes the second.
-bool Inspect::inspecting(const ManeuverInput& input) const { return passed() > 1 && isOnCircle(input); }
+/// It has turned to the point, at the first place or where it goes on after an interruption, and left that place.
+bool Inspect::inspecting(const ManeuverInput& input) const { return faced_ && passed() > 1 && isOnCircle(input); }
 
 bool Inspect::isOnCircle(const ManeuverInput& input) const {
   return std::abs((input.position_map_m() - intent_.point_map_m).norm() - intent_.radius_m) < kOnCircle_m;
 }
 
 bool Inspect::ready(const ManeuverInput& input) {
-  if (passed() != 1) return true;
+  if (passed() == 0 || faced_) return true;
   const double yaw_rad = input.state.T_map_body_planar().yaw_rad;
   const bool faces = std::abs(common::wrapAngle(headingToSee_rad(input) - yaw_rad)) < kFacesPoint_rad;
   if (!faces)
     faces_since_.reset();
   else if (!faces_since_)
     faces_since_ = input.now;
-  return faces && (input.now - *faces_since_).seconds() >= kFacesFor_s;
+  faced_ = faces && (input.now - *faces_since_).seconds() >= kFacesFor_s;
+  return faced_;
 }
 
 }  // namespace swiftlet::autonomy

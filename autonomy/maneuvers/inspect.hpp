@@ -19,11 +19,13 @@ class Inspect final : public Tour {
   std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
   bool ready(const ManeuverInput& input) override;
   bool inspecting(const ManeuverInput& input) const override;
+  void chooseHeight(const ManeuverInput& input);
   bool isOnCircle(const ManeuverInput& input) const;
   std::string doing(const ManeuverInput& input) const override;
 
   common::InspectIntent intent_;
-  std::optional<common::Time> faces_since_;  ///< At its first place; none while it looks elsewhere.
+  std::optional<common::Time> faces_since_;  ///< None while it looks elsewhere.
+  bool faced_ = false;                       ///< It has turned to the point since it began, or was interrupted.
 };
 
 }  // namespace swiftlet::autonomy

@@ -110,11 +110,12 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
   return (input.now - *within_since_).seconds() >= config_.arrival_s;
 }
 
-/// A plan whose goal is free only at the lower height ends there.
+/// A plan whose goal is free only at the lower height ends there. The height of paths may be above the greatest: the
+/// mission that took the place of another may allow less.
 double PathFlight::endHeight_m() const {
   const planning::Path* flown = plan();
   const bool lower = flown != nullptr && !flown->lowered.empty() && flown->lowered.back();
-  return lower ? flown->lower_height_m : memory_.cruise_height_m;
+  return lower ? flown->lower_height_m : std::min(memory_.cruise_height_m, controller_.maxHeight_m());
 }
 
 std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {

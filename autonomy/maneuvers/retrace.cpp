@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "autonomy/maneuvers/path_flight.hpp"
 #include "common/segment.hpp"
 
@@ -44,9 +46,19 @@ Progress Retrace::step(const ManeuverInput& input) {
   if (intent_.path_map_m.empty()) return Progress::done("it is there already");
   if (input.keep_out) keepOut(*input.keep_out);
   if (following_ && setup_.controller.pathFinished())
-    return Progress::done(cut_ ? "stopped before a keep-out zone" : "back where it came from");
+    return cut_ ? Progress::failed("stopped before a keep-out zone") : Progress::done("back where it came from");
+  if (isStuck(input))
+    return Progress::failed(fmt::format("something is in the way for {:.0f} s", setup_.config.give_up_s));
   if (!setup_.controller.followsPath()) follow(input);
   return Progress::running("flying back along the trail");
+}
+
+/// Without a plan there is no detour: what stands in the way, a closed door for example, stops the vehicle for good.
+bool Retrace::isStuck(const ManeuverInput& input) {
+  constexpr double kMoved_m = 0.3;  // More than a hover sways.
+  if (!moved_ || (input.position_map_m() - moved_->to_map_m).norm() > kMoved_m)
+    moved_ = Moved{input.now, input.position_map_m()};
+  return (input.now - moved_->at).seconds() > setup_.config.give_up_s;
 }
 
 /// A zone may be newer than the trail that leads through it. Of a zone that the vehicle is in, the path leads out.

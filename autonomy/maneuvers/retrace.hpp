@@ -1,6 +1,6 @@
 // Retrace: flies back along a path that was flown before. It needs no map and no plan, so it works where the map or the
-// position cannot be trusted; the reactive layer brakes as everywhere. It ends before a keep-out zone that was made
-// after the trail.
+// position cannot be trusted; the reactive layer brakes as everywhere. It fails before a keep-out zone that was made
+// after the trail, and where something is in the way for long.
 #pragma once
 
 #include <optional>
@@ -23,12 +23,18 @@ class Retrace final : public Maneuver {
   std::span<const Eigen::Vector2d> remaining(const Eigen::Vector2d& from_map_m) const;
   void follow(const ManeuverInput& input);
   Eigen::Vector3d atItsHeight(const Eigen::Vector2d& point_map_m) const;
+  bool isStuck(const ManeuverInput& input);
   void keepOut(const std::vector<common::Polygon>& zones);
 
   ManeuverSetup setup_;
   common::RetraceIntent intent_;
   bool following_ = false;
   bool cut_ = false;  ///< The path was cut before a keep-out zone.
+  struct Moved {
+    common::Time at;
+    Eigen::Vector2d to_map_m;
+  };
+  std::optional<Moved> moved_;  ///< When it last got on.
 };
 
 }  // namespace swiftlet::autonomy

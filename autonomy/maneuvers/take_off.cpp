@@ -33,8 +33,8 @@ Progress TakeOff::step(const ManeuverInput& input) {
 
 void TakeOff::begin(const ManeuverInput& input) {
   begun_ = true;
+  memory_.cruise_height_m = intent_.height_m;  // In flight, too: the next path leads to it.
   if (controller_.state() == FlightState::kFlying || controller_.state() == FlightState::kTakingOff) return;
-  memory_.cruise_height_m = intent_.height_m;
   memory_.stood_map_m = input.state.horizontal_valid ? std::optional(input.position_map_m()) : std::nullopt;
   commanded_ = controller_.command(control::TakeOff{intent_.height_m});
 }

@@ -83,10 +83,12 @@ class AutonomyStory {
  public:
   /// `leaves` as for storyMission.
   explicit AutonomyStory(const std::string& leaves, const GivenMap* given = nullptr)
+      : AutonomyStory(storyMission(leaves), given) {}
+  explicit AutonomyStory(behaviors::Mission mission, const GivenMap* given = nullptr)
       : vehicle_(storyRoom(), storyScenario()),
         autonomy_({.vehicle = vehicle_.scenario().vehicle,
                    .laser = vehicle_.scenario().laser,
-                   .mission = storyMission(leaves),
+                   .mission = std::move(mission),
                    .jobs = common::makeLockstepJobs(0),
                    .given = given}) {}
 

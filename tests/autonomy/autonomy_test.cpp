@@ -111,6 +111,18 @@ TEST(Autonomy, TheOperatorLandsAndLaterCommandsAreRefused) {
   EXPECT_FALSE(story.order(common::HomeCommand{}).accepted);
 }
 
+TEST(Autonomy, AHoldOnTheGroundHoldsThereEvenIfTheMissionHasNoHold) {
+  AutonomyStory story(behaviors::Mission::fromText(
+      R"(<root BTCPP_format="4" main_tree_to_execute="M"><BehaviorTree ID="M"><Sequence><TakeOff height_m="1.0"/>)"
+      R"(<Land/></Sequence></BehaviorTree></root>)",
+      "no_hold.xml"));
+  EXPECT_TRUE(story.order(common::HoldCommand{}).accepted);
+  ASSERT_TRUE(story.fly(5.0));
+  EXPECT_EQ(story.world().vehicle->flight_state, FlightState::kPoweredOff);
+  EXPECT_TRUE(story.order(common::ResumeCommand{}).accepted);
+  EXPECT_TRUE(story.isFlying());
+}
+
 TEST(Autonomy, HoldDuringALandingIsRefusedWithItsReason) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());

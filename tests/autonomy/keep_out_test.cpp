@@ -74,7 +74,7 @@ TEST_F(ManeuverInFlight, AFlightBackStopsBeforeAZoneThatIsNewerThanTheTrail) {
   want(common::RetraceIntent{trail, {}});
   run(0.5);
   keep_out_ = std::make_shared<const std::vector<common::Polygon>>(1, square(4, 1.5, 1));
-  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kFailed) << "it is not back";
   EXPECT_EQ(executor_.status().reason, "stopped before a keep-out zone");
   EXPECT_LT(position_m().x(), 4.0 - 0.27);
   EXPECT_GT(position_m().x(), 3.3);

@@ -200,6 +200,18 @@ TEST(Hold, TheInterruptedIntentIsNamedByTheOneThatGoesOnWithIt) {
   EXPECT_EQ(flight.context.intent->resumes, 0U) << "another leaf";
 }
 
+TEST(Hold, WhatEndsInTheTickOfTheInterruptionHasEnded) {
+  Flight flight = exploring();
+  EXPECT_EQ(flight.succeeds().holds(true).tick(), "HELD 3 hold");
+  flight.stops().tick();
+  EXPECT_EQ(flight.stops().holds(false).tick(), "RUNNING 5 land") << "Explore was done";
+  Flight failing = exploring();
+  failing.fails("no map").holds(true).tick();
+  failing.stops().tick();
+  failing.stops().holds(false).tick();
+  EXPECT_EQ(failing.cause(), "Explore: no map");
+}
+
 TEST(Hold, IgnoresAnswersForAnotherIntent) {
   Flight flight = exploring();
   flight.stops().holds(true);

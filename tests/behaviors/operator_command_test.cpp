@@ -58,6 +58,8 @@ TEST(OperatorCommand, ReportsAnUnreachableGoalAndTheMissionContinues) {
 TEST(OperatorCommand, GoesHome) {
   Flight flight = waiting();
   EXPECT_EQ(flight.home(0.5, 0.25).homeCommand().tick(), "RUNNING 3 go to (0.50, 0.25)");
+  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).instead_within_m, common::kHomeWithin_m)
+      << "beside it, if something stands there: as GoHome";
   flight.succeeds().tick();
   EXPECT_THAT(flight.events(), ElementsAre("home reached"));
 }

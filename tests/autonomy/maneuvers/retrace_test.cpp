@@ -18,6 +18,18 @@ TEST_F(ManeuverInFlight, RetraceFliesThePathToItsEnd) {
   EXPECT_LT(distanceTo_m(end), 0.05);
 }
 
+TEST_F(ManeuverInFlight, ARetraceFailsWhereSomethingIsInTheWayForLong) {
+  const Eigen::Vector2d here = state_.T_map_body_planar().position_m();
+  want(common::RetraceIntent{{here, here + Eigen::Vector2d(2.0, 0.0)}, {}});
+  run(1.5);
+  decision_.speed_limit_m_s = 0.0;
+  executor_.react(decision_, state_);
+  run(10.0);
+  EXPECT_FALSE(ended());
+  EXPECT_EQ(runToTheEnd(5.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "something is in the way for 12 s");
+}
+
 TEST_F(ManeuverInFlight, ARetraceWithoutAPathIsDoneAtOnce) {
   want(common::RetraceIntent{});
   EXPECT_EQ(runToTheEnd(0.5), IntentState::kSucceeded);

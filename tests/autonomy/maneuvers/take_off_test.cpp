@@ -34,14 +34,25 @@ TEST_F(TakeOffManeuver, FailsWhenItIsRefusedOrAborted) {
   EXPECT_EQ(executor_.status().reason, "cannot take off: landing because not hovering after 17 s");
 }
 
-TEST_F(TakeOffManeuver, SucceedsAtOnceInFlightAndKeepsTheHeight) {
+TEST_F(TakeOffManeuver, SucceedsAtOnceInFlightAndGivesTheHeightOfTheNextPath) {
   want(common::TakeOffIntent{kHeight_m});
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
-  want(common::TakeOffIntent{2.0});
+  want(common::TakeOffIntent{1.4});
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kSucceeded);
+  EXPECT_NEAR(state_.T_odom_body.position_m.z(), kHeight_m, 0.05);
   want(to(2.0, 2.0));
   EXPECT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
-  EXPECT_NEAR(state_.T_odom_body.position_m.z(), kHeight_m, 0.05);
+  EXPECT_NEAR(state_.T_odom_body.position_m.z(), 1.4, 0.05);
+}
+
+/// Of a mission that took the place of one that may fly higher.
+TEST_F(TakeOffManeuver, PathsEndAtTheGreatestHeightIfTheyWereHigher) {
+  want(common::TakeOffIntent{kHeight_m});
+  ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  controller_.setMaxHeight(0.7);
+  want(to(2.0, 2.0));
+  EXPECT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  EXPECT_NEAR(state_.T_odom_body.position_m.z(), 0.7, 0.05);
 }
 
 TEST_F(TakeOffManeuver, ContinuesWhenItIsRequestedAgainDuringTheClimb) {

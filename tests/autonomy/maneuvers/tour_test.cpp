@@ -161,6 +161,33 @@ TEST_F(InspectionInFlight, OrbitsWithTheAxisOfTheCameraOnThePointAsTheFlightHasE
   EXPECT_LT(worstAngle_rad(kYaw_rad), 4.0 * common::kRadPerDeg);
 }
 
+TEST_F(InspectionInFlight, TurnsToThePointAgainBeforeItGoesOnAfterAnInterruption) {
+  common::InspectIntent intent;
+  intent.point_map_m = {4.0, 2.0};
+  intent.radius_m = 1.2;
+  want(intent);
+  int passed = 0, passed_again = 0;
+  const auto count = [&](int& places) {
+    return std::sscanf(executor_.status().reason.c_str(), "inspecting, %d of 25", &places) == 1;
+  };
+  runUntil([&] { return count(passed) && passed >= 6; }, 60.0);
+  ASSERT_EQ(passed, 6);
+  const std::uint64_t first = executor_.status().id;
+  const auto here = state_.T_map_body_planar();
+  want(common::HoldIntent{});
+  run(2.0);
+  follows_ = false;
+  place(here.x_m, here.y_m, here.yaw_rad + 2.0);
+  wantAgain(intent, first);
+  run(3.0);
+  ASSERT_TRUE(count(passed_again)) << executor_.status().reason;
+  EXPECT_LE(passed_again, passed + 1) << "the place where it was";
+  EXPECT_FALSE(executor_.status().inspecting);
+  place(here.x_m, here.y_m, here.yaw_rad);
+  run(0.6);
+  EXPECT_TRUE(executor_.status().inspecting);
+}
+
 TEST_F(TourInFlight, APartOfTheCircleThatIsNotFreeIsLeftOut) {
   common::InspectIntent intent;
   intent.point_map_m = {4.0, 3.6};  // Its circle reaches beyond the wall at y = 4 m.
