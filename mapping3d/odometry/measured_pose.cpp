@@ -1,5 +1,6 @@
 #include "mapping3d/odometry/measured_pose.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "common/config_fields.hpp"
@@ -12,12 +13,26 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Standard deviation along a direction that was not seen: as good as none against any state in flight.
 constexpr double kUnseenSigma_m = 100.0;
 
+/// The information without what noise gives. In directions of which more than `most_noise` is noise there is none.
+Matrix6d withoutNoise(const Matrix6d& information, const Matrix6d& noise, double most_noise) {
+  // Both are diagonal in the same coordinates, in which all of the information is 1.
+  const Matrix6d root = information.llt().matrixL();
+  const Matrix6d half = root.triangularView<Eigen::Lower>().solve(noise);
+  const Matrix6d share = root.triangularView<Eigen::Lower>().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(0.5 * (share + share.transpose()));
+  const Vector6d left = solver.eigenvalues().unaryExpr([&](double s) { return s > most_noise ? 0.0 : 1.0 - s; });
+  const Matrix6d axes = root * solver.eigenvectors();
+  return axes * left.asDiagonal() * axes.transpose();
+}
+
 }  // namespace
 
 void MeasuredPoseConfig::describe(common::config::Fields& fields) {
   fields("least_share", least_share, {0.0, 1.0},
          "A direction counts as seen with this share of the information of the one seen best. On a wall the noise of "
          "normals seems to tell 0.3 % of it along the wall.");
+  fields("most_noise", most_noise, {0.0, 1.0},
+         "A direction of whose information more than this share may be the noise of grey values counts as not seen.");
   fields("sigma_factor", sigma_factor, {0.1, 100},
          "Standard deviation of a measured pose, in those that follow from independent points.");
   fields("floor_m", floor_m, {0, 1}, "Least standard deviation of a measured position.");
@@ -29,7 +44,9 @@ MeasuredPose withoutPrior(const Alignment& fit, const PosePrior& prior, double d
   // In these units the six unknowns move points equally far.
   Vector6d unit;
   unit << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / depth_m);
-  const Matrix6d information = unit.asDiagonal() * fit.measured_information * unit.asDiagonal();
+  const Matrix6d information = unit.asDiagonal() *
+                               withoutNoise(fit.measured_information, fit.noise_information, config.most_noise) *
+                               unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
   const common::Pose3 error = prior.T_map_camera.inverse() * fit.T_map_camera;
   Vector6d from_prior;

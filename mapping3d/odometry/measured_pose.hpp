@@ -4,6 +4,8 @@
 // prior solves (H + L) x = H m + L p, with the information H of the frame and L of the prior p. So the measurement is
 // m = x + H^-1 L (x - p), with the covariance H^-1. In directions that the frame hardly sees, H cannot be inverted;
 // there nothing was measured.
+//
+// Noise looks like texture: it has gradients, which move with the camera. What they would give is taken out of H, too.
 #pragma once
 
 #include <optional>
@@ -16,6 +18,7 @@ namespace swiftlet::mapping3d {
 
 struct MeasuredPoseConfig {
   double least_share = 0.02;
+  double most_noise = 0.5;
   double sigma_factor = 1.0;
   double floor_m = 0.004;
   double floor_rad = 0.002;

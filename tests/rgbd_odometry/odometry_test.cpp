@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "tests/rgbd_odometry/textured_room.hpp"
 #include "tests/rgbd_odometry/walk.hpp"
@@ -90,6 +92,34 @@ TEST(RgbdOdometry, ElsewhereItIsLostAndIsFoundAgainWhereItWasBefore) {
   const RgbdPose pose = odometry.process(room.seen(there, time_s + 1.0));
   EXPECT_EQ(pose.state, TrackState::kFoundAgain);
   EXPECT_LT(distance_m(pose.T_map_camera, walk(0.0).inverse() * there), 0.01);
+}
+
+/// Noise looks like texture that moves with the camera. Taken for a measurement, it tells the filter that it does not
+/// move, which the seed said.
+TEST(RgbdOdometry, TheNoiseOfABareWallMeasuresNoMotionAlongIt) {
+  for (const bool bare : {true, false}) {
+    TexturedRoom room;
+    room.contrast = bare ? 0.0 : 1.0;
+    room.gray_noise = bare ? 2.0 : 1.0;
+    room.vignetting = 0.2;
+    RgbdOdometry odometry({});
+    for (int i = 0; i < 12; ++i) {
+      const double time_s = i / 15.0, sinks_m = bare ? 0.2 * time_s : 0.0;
+      Pose3 truth, rest;
+      rest.position_m = {1.4, 0.0, 0.2};
+      truth.position_m = {1.4, 0.0, 0.2 - sinks_m};
+      const RgbdPose pose = odometry.process(room.seen(truth, time_s), CameraSeed{rest});
+      if (i == 0) continue;
+      ASSERT_EQ(pose.state, TrackState::kTracked) << i;
+      // Of each axis alone, with the others known.
+      const Eigen::Matrix<double, 6, 1> variance = pose.measured->covariance.inverse().diagonal().cwiseInverse();
+      EXPECT_LT(variance[0], 1e-4) << "the distance to the wall: " << i;
+      if (bare)
+        EXPECT_GT(variance[2], 0.01) << i;
+      else
+        EXPECT_LT(variance[2], 1e-4) << i;
+    }
+  }
 }
 
 /// A first frame with surfaces beyond the range only, as a dropout gives it, must not cost the recording.

@@ -1,6 +1,7 @@
 // A box-shaped room with textured walls, as an RGB-D camera sees it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -37,6 +38,9 @@ struct TexturedRoom {
   bool is_symmetric = false;  ///< It looks the same after half a turn about the vertical.
   common::PinholeCamera camera{320, 240, 290.0, 290.0, 159.5, 119.5};
   double noise_per_m2 = 1.45e-3;
+  double contrast = 1.0;    ///< Of the texture; 0: bare walls.
+  double gray_noise = 0.0;  ///< Standard deviation, in grey levels.
+  double vignetting = 0.0;  ///< By this share the corners are darker.
 
   /// The picture from a pose inside, at a time; `gain` is that of the exposure.
   common::RgbdFrame seen(const common::Pose3& T_map_camera, double time_s, double gain = 1.0) const {
@@ -46,6 +50,7 @@ struct TexturedRoom {
     frame.color = {camera.width_px, camera.height_px, {}};
     frame.depth = {camera.width_px, camera.height_px, {}};
     common::RandomStream random(11, "depth", static_cast<std::uint64_t>(1e3 * time_s));
+    common::RandomStream gray_random(11, "gray", static_cast<std::uint64_t>(1e3 * time_s));
     for (int v = 0; v < camera.height_px; ++v)
       for (int u = 0; u < camera.width_px; ++u) {
         const Eigen::Vector3d ray = T_map_camera.rotation * camera.point_camera_m(u, v, 1.0);
@@ -65,9 +70,12 @@ struct TexturedRoom {
         // Half a turn about the vertical changes the signs of x and y.
         const auto along = [&](int i) { return half_turned && i < 2 ? -hit[i] : hit[i]; };
         const double a = along((axis + 1) % 3), b = along((axis + 2) % 3);
-        const double gray =
-            gain * (30.0 + 120.0 * textureAt(a, b, wall, 0.25) + 60.0 * textureAt(a, b, wall + 50, 0.07));
-        const auto value = static_cast<std::uint8_t>(std::min(gray, 255.0));
+        const double texture = 120.0 * textureAt(a, b, wall, 0.25) + 60.0 * textureAt(a, b, wall + 50, 0.07);
+        const double aside = std::hypot((u - camera.cx_px) / camera.cx_px, (v - camera.cy_px) / camera.cy_px);
+        const double light = gain * (1.0 - 0.5 * vignetting * aside * aside);
+        const double noise = gray_noise > 0.0 ? gray_random.gaussian(gray_noise) : 0.0;
+        const double gray = light * (contrast > 0.0 ? 30.0 + contrast * texture : 120.0) + noise;
+        const auto value = static_cast<std::uint8_t>(std::clamp(gray, 0.0, 255.0));
         frame.color.rgb.insert(frame.color.rgb.end(), {value, value, value});
         frame.depth.depth_m.push_back(static_cast<float>(depth_m + random.gaussian(noise_per_m2 * depth_m * depth_m)));
       }
