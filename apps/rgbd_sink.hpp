@@ -1,6 +1,7 @@
 // Records what the RGB-D camera of a simulated flight saw, with its true poses, in the folder rgbd of the run.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ class RgbdSink final : public autonomy::FlightSink {
 
   /// Why something could not be written; none if nothing failed. Nothing is written after that.
   const std::optional<std::string>& failure() const { return failure_; }
+  /// See RgbdRecorder::add.
+  std::size_t leftOut() const { return recorder_ ? recorder_->leftOut() : 0; }
 
  private:
   void note(const interfaces::Written& written);

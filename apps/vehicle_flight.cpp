@@ -248,6 +248,8 @@ void VehicleFlight::finish(double wall_s, MemoryWatch& memory) {
   if (hooks_.score) hooks_.score(record, *vehicle_, end);
   end.figures.push_back({"late_scans", static_cast<double>(autonomy_.lateScans())});
   addFrameFigures(autonomy_, loop_.now(), end.figures);
+  if (rgbd_ && rgbd_->leftOut() > 0)
+    end.figures.push_back({"rgbd_frames_not_recorded", static_cast<double>(rgbd_->leftOut())});
   if (const auto& map3d = autonomy_.world()->map3d; map3d && map3d->frame) addCameraFigures(map3d->camera, end.figures);
   keepMemory(end);
   folder_.finish(end);

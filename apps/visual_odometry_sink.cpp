@@ -3,6 +3,8 @@
 #include <memory>
 #include <variant>
 
+#include "common/whole_frame.hpp"
+
 namespace swiftlet::apps {
 
 void VisualOdometrySink::input(const autonomy::Input& input) {
@@ -11,6 +13,7 @@ void VisualOdometrySink::input(const autonomy::Input& input) {
   const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(event);
   if (frame == nullptr) return;
   ++frames_;
+  if (!isWhole(**frame)) return;  // It counts as lost.
   const mapping3d::MappedFrame mapped = mapper_.add(**frame, {});
   if (mapped.pose.isTracked()) tracked_.push_back({mapped.pose.stamp, mapped.pose.scan, mapped.T_scan_camera});
 }

@@ -99,8 +99,7 @@ void Autonomy::take(const common::SensorEvent& event) {
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
-    estimator_.addFrame(*frame);
-    requests_.addFrame(*frame, estimator_.state());
+    if (estimator_.addFrame(*frame)) requests_.addFrame(*frame, estimator_.state());
   } else if (const auto* sweep = std::get_if<std::shared_ptr<const common::VerticalScan>>(&event)) {
     estimator_.addSweep(*sweep);
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {

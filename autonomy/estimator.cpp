@@ -60,8 +60,9 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       vertical_laser_(vertical_laser && !camera
                           ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs)
                           : nullptr),
-      targets_(camera && !config.targets.classes.empty() ? std::make_unique<TargetPipeline>(config.targets, jobs)
-                                                         : nullptr) {}
+      targets_(camera && !config.targets.classes.empty()
+                   ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m)
+                   : nullptr) {}
 
 void Estimator::addImu(const common::ImuSample& sample, bool predicted) {
   if (predicted != filter_.predicted()) tell(perception::TapedPredicted{predicted});
@@ -142,10 +143,11 @@ bool Estimator::forgetPlace() {
   return localizer_ != nullptr;
 }
 
-void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
-  if (!rgbd_ || !rgbd_->add(frame)) return;
+bool Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
+  if (!rgbd_ || !rgbd_->add(frame)) return false;
   lookAtGround(*frame);
   if (targets_) targets_->add(std::move(frame));
+  return true;
 }
 
 void Estimator::addSweep(std::shared_ptr<const common::VerticalScan> sweep) {

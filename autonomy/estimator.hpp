@@ -96,8 +96,8 @@ class Estimator {
   /// The place in the given map is looked for anew; false if there is none.
   bool forgetPlace();
 
-  /// Without a camera the frame is ignored.
-  void addFrame(std::shared_ptr<const common::RgbdFrame> frame);
+  /// Whether the frame can be used, by whoever uses it: it is judged here alone. Without a camera it is ignored.
+  [[nodiscard]] bool addFrame(std::shared_ptr<const common::RgbdFrame> frame);
   /// Without an upright laser the sweep is ignored.
   void addSweep(std::shared_ptr<const common::VerticalScan> sweep);
   /// Maps frames and sweeps that wait as soon as the poses at their times are known, and looks for targets in frames.

@@ -15,6 +15,8 @@ using common::Time;
 constexpr const char* kFusion3d = "mapping3d fusion";
 /// A submap reaches about so far: a turn moves what is there.
 constexpr double kSubmapReach_m = 5.0;
+/// A sensor whose work has not copied the submaps for so many periods has stopped.
+constexpr double kLatePeriods = 2.0;
 
 }  // namespace
 
@@ -32,7 +34,15 @@ Map3dPublisher::Map3dPublisher(const Map3dPublisherConfig& config, double resolu
 bool Map3dPublisher::begin(Time now) {
   const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
   if (publish) submaps_stamp_ = now;
+  behind_ = !publish;
   return publish;
+}
+
+bool Map3dPublisher::beginLate(Time now) {
+  if (!behind_ || (now - *submaps_stamp_).seconds() < kLatePeriods * config_.publish_period_s) return false;
+  submaps_stamp_ = now;
+  behind_ = false;
+  return true;
 }
 
 void Map3dPublisher::setSubmaps(std::vector<common::Submap3d> submaps) {

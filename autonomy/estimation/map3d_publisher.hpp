@@ -31,6 +31,9 @@ class Map3dPublisher {
 
   /// Whether the submaps are to be copied by the work that begins now; they are then as of `now`.
   bool begin(common::Time now);
+  /// Whether the submaps are to be copied though no work begins, because the sensor has stopped since the last copy and
+  /// what it saw last is in none; they are then as of `now`.
+  bool beginLate(common::Time now);
   void setSubmaps(std::vector<common::Submap3d> submaps);
   /// Fuses all submaps again: every `fusion_period_s`, and at once when a loop closure has moved one by a voxel or
   /// more. To be called at every tick.
@@ -53,6 +56,7 @@ class Map3dPublisher {
   std::shared_ptr<common::Map3dLayer> layer_;  ///< The next one to be published.
   std::shared_ptr<const common::Map3dLayer> published_;
   bool changed_ = false;
+  bool behind_ = false;                                 ///< Work has begun after the last copy of the submaps.
   std::optional<common::Time> submaps_stamp_;           ///< When the submaps of the layer were taken.
   std::optional<common::Time> fused_from_;              ///< When those that are fused were.
   std::shared_ptr<const common::KeyPoses> fused_keys_;  ///< Where they were.

@@ -1,6 +1,8 @@
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "autonomy/arrivals/stamp_check.hpp"
 #include "common/blank_picture.hpp"
 #include "common/vehicle_config.hpp"
+#include "common/whole_frame.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -17,15 +20,6 @@ using common::Severity;
 using common::Time;
 
 constexpr const char* kMapping3d = "mapping3d";
-
-/// Whether its images have the size of its camera.
-bool isWhole(const common::RgbdFrame& frame) {
-  const auto& [width_px, height_px, fx_px, fy_px, cx_px, cy_px] = frame.camera;
-  const auto pixels = static_cast<std::size_t>(frame.camera.pixels());
-  return width_px > 0 && height_px > 0 && fx_px > 0.0 && fy_px > 0.0 && frame.color.width_px == width_px &&
-         frame.color.height_px == height_px && frame.color.rgb.size() == 3 * pixels &&
-         frame.depth.width_px == width_px && frame.depth.height_px == height_px && frame.depth.depth_m.size() == pixels;
-}
 
 const char* pictureFault(const common::Image& picture) {
   switch (common::blankOf(picture)) {
@@ -39,13 +33,22 @@ const char* pictureFault(const common::Image& picture) {
   return nullptr;
 }
 
+/// The noise of the depths makes each frame differ from the one before, unless nothing was measured. Bytes are
+/// compared, because some drivers write NaN for a hole.
+bool repeats(const common::DepthImage& depth, const common::DepthImage& last) {
+  const std::vector<float>&a = depth.depth_m, &b = last.depth_m;
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0 &&
+         std::any_of(a.begin(), a.end(), common::isMeasured);
+}
+
 }  // namespace
 
 RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdCameraConfig& camera,
                            common::JobRunner& jobs)
     : config_(config),
       calibration_(config.calibration, camera.mount.pose()),
-      silence_(Duration::fromSeconds(config.silent_s)),
+      has_noise_(camera.inverse_depth_noise_1_m > 0.0),
+      silence_("camera", "frame", config.silent_s),
       jobs_(jobs),
       mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)),
       publisher_(config.publisher, config.mapper.voxels.resolution_m, jobs) {
@@ -53,27 +56,33 @@ RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdC
 }
 
 bool RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
-  const common::Stamps& stamps = frame->stamps;
-  last_arrived_ = stamps.arrived;
-  if (silent_) say(stamps.arrived, Severity::kInfo, "camera sends again");
-  silent_ = false;
-  const char* fault = stampFault(stamps, last_measured_);
-  if (fault == nullptr && !isWhole(*frame)) fault = "its images do not have the size of the camera";
-  if (fault == nullptr) {
-    fault = pictureFault(frame->color);
-    counts_.blank += fault != nullptr ? 1 : 0;
-  }
-  if (fault != nullptr) {
-    skip(fault, stamps.arrived);
+  const Time arrived = frame->stamps.arrived;
+  if (const char* fault = faultOf(*frame)) {
+    silence_.unusableArrived(arrived, fault);
+    skip(fault, arrived);
     return false;
   }
+  keep(silence_.usableArrived(arrived));
   ++counts_.frames;
-  last_measured_ = stamps.measured;
+  last_ = frame;
   if (radio_)
     radio_->offer(std::move(frame));
   else
     waiting_ = std::move(frame);
   return true;
+}
+
+/// Null for a frame that can be used.
+const char* RgbdPipeline::faultOf(const common::RgbdFrame& frame) {
+  if (const char* fault = stampFault(frame.stamps, last_ ? std::optional(last_->stamps.measured) : std::nullopt))
+    return fault;
+  if (!isWhole(frame)) return "its images do not have the size of the camera";
+  if (const char* fault = pictureFault(frame.color)) {
+    ++counts_.blank;
+    return fault;
+  }
+  if (has_noise_ && last_ && repeats(frame.depth, last_->depth)) return "it repeats the last picture with a new stamp";
+  return nullptr;
 }
 
 void RgbdPipeline::skip(const char* fault, Time now) {
@@ -205,13 +214,16 @@ std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_
 void RgbdPipeline::watch(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   publisher_.fuse(keys, now);
   if (radio_) watchRadio(now);
-  if (silent_ || !last_arrived_ || now - *last_arrived_ < silence_) return;
-  silent_ = true;
-  say(now, Severity::kWarning, "camera is silent", fmt::format("no frame for {:.1f} s", config_.silent_s));
+  keep(silence_.watch(now));
+  if (waiting_ || !jobs_.idle(kMapping3d) || !publisher_.beginLate(now)) return;
+  jobs_.submit(kMapping3d, now, Duration::fromSeconds(config_.latency_s),
+               [this, mapper = mapper_]() -> common::JobRunner::Deliver {
+                 return [this, submaps = mapper->submaps()](Time) { publisher_.setSubmaps(submaps); };
+               });
 }
 
 void RgbdPipeline::watchRadio(Time now) {
-  if (!through_at_) through_at_ = last_arrived_;
+  if (!through_at_) through_at_ = silence_.since();
   while (auto frame = radio_->take(now)) {
     waiting_ = std::move(frame);
     through_at_ = now;
@@ -225,7 +237,7 @@ void RgbdPipeline::watchRadio(Time now) {
             "fewer pixels or a faster radio loses none",
             config_.radio.oldest_s, halvings == 1 ? "a quarter" : "a sixteenth"));
   }
-  if (!through_at_ || stuck_said_ || now - *through_at_ < silence_ || now - *last_arrived_ >= silence_) return;
+  if (!through_at_ || stuck_said_ || (now - *through_at_).seconds() < config_.silent_s || silence_.isDue(now)) return;
   stuck_said_ = true;
   say(now, Severity::kWarning, "no frame comes through the radio",
       fmt::format("each takes longer than {:.2f} s, so there is no 3D map; use a faster radio or a camera with fewer "
@@ -248,6 +260,10 @@ void RgbdPipeline::reportTrack(bool tracked, Time now) {
 
 void RgbdPipeline::say(Time now, Severity severity, std::string text, std::string reason) {
   events_.push_back({now, severity, "mapping3d", std::move(text), std::move(reason)});
+}
+
+void RgbdPipeline::keep(std::optional<common::Event> event) {
+  if (event) events_.push_back(std::move(*event));
 }
 
 std::vector<common::Event> RgbdPipeline::takeEvents() { return std::exchange(events_, {}); }

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "autonomy/arrivals/silence_watch.hpp"
 #include "autonomy/estimation/odometry_step.hpp"
 #include "autonomy/estimation/rgbd_pipeline_config.hpp"
 #include "common/disc.hpp"
@@ -48,7 +49,8 @@ struct FrameSituation {
 
 struct RgbdCounts {
   std::uint64_t frames = 0;  ///< Frames that arrived and could be used.
-  /// Frames that are repeated, late, of the future, without images of the camera's size, or blank.
+  /// Frames that are repeated (also as a picture with a new stamp), late, of the future, without images of the camera's
+  /// size, or blank.
   std::uint64_t skipped = 0;
   std::uint64_t blank = 0;   ///< Skipped frames with a black or a white picture.
   std::uint64_t mapped = 0;  ///< Frames that were aligned to the map and drawn.
@@ -76,8 +78,8 @@ class RgbdPipeline {
   std::optional<CameraStep> takeStep() { return std::exchange(step_, std::nullopt); }
   /// The filter no longer has the clone from which the measurements start.
   void forgetClone() { reference_.reset(); }
-  /// Notices that the camera is silent, takes what has come over the radio, and fuses the submaps if it is time. To be
-  /// called at every tick.
+  /// Notices that the camera sends nothing usable, takes what has come over the radio, and fuses the submaps if it is
+  /// time. To be called at every tick.
   void watch(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 
   /// Mount and clock as they are used now, and how well they are known.
@@ -104,6 +106,7 @@ class RgbdPipeline {
     std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.
   };
   void take(Outcome outcome, common::Time delivered);
+  const char* faultOf(const common::RgbdFrame& frame);
   void skip(const char* fault, common::Time now);
   common::Time timeOf(const common::RgbdFrame& frame) const;
   CameraStep stepOf(const Outcome& outcome);
@@ -112,19 +115,21 @@ class RgbdPipeline {
   void watchRadio(common::Time now);
   void reportTrack(bool tracked, common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
+  void keep(std::optional<common::Event> event);
 
   RgbdPipelineConfig config_;
   mapping3d::CameraCalibration calibration_;
   bool mount_said_ = false, clock_said_ = false;
-  common::Duration silence_;
+  bool has_noise_;  ///< By the data sheet; otherwise equal pictures are right ones while nothing moves.
+  SilenceWatch silence_;
   common::JobRunner& jobs_;
   std::shared_ptr<mapping3d::Mapper3d> mapper_;  ///< Belongs to the job while one is outstanding.
 
   std::optional<mapping3d::RadioLink> radio_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
-  std::optional<common::Time> last_measured_, last_arrived_;
-  bool has_begun_ = false;  ///< The first frame was placed.
-  bool silent_ = false, lost_said_ = false;
+  std::shared_ptr<const common::RgbdFrame> last_;     ///< The last usable one; null before it.
+  bool has_begun_ = false;                            ///< The first frame was placed.
+  bool lost_said_ = false;
   std::set<std::string> faults_said_;
   std::optional<common::Time> through_at_;  ///< When a frame last came through the radio.
   bool stuck_said_ = false;                 ///< An event has said that no frame comes through the radio.

@@ -12,7 +12,7 @@ void RgbdPipelineConfig::describe(common::config::Fields& fields) {
   fields("latency_s", latency_s, {0.001, 2}, "Declared time for mapping one frame.");
   fields("wait_s", wait_s, {0, 1}, "Greatest wait of a frame for a scan that is not older.");
   publisher.describe(fields);
-  fields("silent_s", silent_s, {0.1, 60}, "A camera that sends no frame for so long is silent.");
+  fields("silent_s", silent_s, {0.1, 60}, "A camera that sends no usable frame for so long is silent.");
   fields("lost_s", lost_s, {0, 60}, "The track counts as lost when no frame has fitted for so long.");
 }
 

@@ -43,11 +43,11 @@ std::vector<std::string> TargetPipelineConfig::names() const {
   return names;
 }
 
-TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs)
+TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs, double range_m)
     : config_(config),
       jobs_(jobs),
       detector_(std::make_shared<const perception::TargetDetector>(config.classes, config.detector)),
-      tracker_(config.tracker, config.classes) {}
+      tracker_(config.tracker, config.classes, range_m) {}
 
 void TargetPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
   if (last_taken_ && frame->stamps.measured < *last_taken_ + Duration::fromSeconds(config_.period_s)) return;

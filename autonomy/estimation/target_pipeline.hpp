@@ -40,7 +40,8 @@ struct TargetPipelineConfig {
 /// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
 class TargetPipeline {
  public:
-  TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs);
+  /// `range_m` is that of the camera.
+  TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs, double range_m);
   TargetPipeline(const TargetPipeline&) = delete;
   TargetPipeline& operator=(const TargetPipeline&) = delete;
 

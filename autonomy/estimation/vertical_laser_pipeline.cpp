@@ -38,7 +38,7 @@ void VerticalLaserPipelineConfig::describe(common::config::Fields& fields) {
          "Returns nearer to the body's origin come from the vehicle itself and are left out.");
   fields("latency_s", latency_s, {0.001, 2}, "Declared time for drawing the sweeps that have come since the last job.");
   fields("wait_s", wait_s, {0, 1}, "Greatest wait of a sweep for a scan of the first laser that is not older.");
-  fields("silent_s", silent_s, {0.1, 60}, "A laser that sends no sweep for so long is silent.");
+  fields("silent_s", silent_s, {0.1, 60}, "A laser that sends no usable sweep for so long is silent.");
 }
 
 VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& config,
@@ -46,20 +46,21 @@ VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& 
     : config_(config),
       laser_(laser),
       jobs_(jobs),
+      silence_("upright laser", "sweep", config.silent_s),
       submaps_(std::make_shared<mapping3d::SubmapStore>(config.submaps, config.voxels)),
       publisher_(config.publisher, config.voxels.resolution_m, jobs) {}
 
 void VerticalLaserPipeline::add(std::shared_ptr<const common::VerticalScan> sweep) {
   const common::Stamps& stamps = sweep->stamps;
-  last_arrived_ = stamps.arrived;
-  if (std::exchange(silent_, false)) say(stamps.arrived, Severity::kInfo, "upright laser sends again");
   if (const char* fault = stampFault(stamps, last_measured_)) {
+    silence_.unusableArrived(stamps.arrived, fault);
     ++counts_.skipped;
     if (!std::exchange(fault_said_, true))
       say(stamps.arrived, Severity::kWarning, "a sweep of the upright laser cannot be used",
           std::string(fault) + "; further ones are only counted");
     return;
   }
+  keep(silence_.usableArrived(stamps.arrived));
   ++counts_.sweeps;
   last_measured_ = stamps.measured;
   waiting_.push_back(std::move(sweep));
@@ -97,11 +98,11 @@ void VerticalLaserPipeline::place(const std::optional<SweepSituation>& situation
 }
 
 void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
-  watch(now);
+  keep(silence_.watch(now));
   publisher_.fuse(keys, now);
-  if (placed_.empty() || !jobs_.idle(kDrawing)) return;
+  if (!jobs_.idle(kDrawing) || (placed_.empty() && !publisher_.beginLate(now))) return;
   counts_.drawn += placed_.size();
-  const bool publish = publisher_.begin(now);
+  const bool publish = placed_.empty() || publisher_.begin(now);
   jobs_.submit(
       kDrawing, now, Duration::fromSeconds(config_.latency_s),
       [this, submaps = submaps_, sweeps = std::exchange(placed_, {}), keys, publish]() -> common::JobRunner::Deliver {
@@ -111,14 +112,12 @@ void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& 
       });
 }
 
-void VerticalLaserPipeline::watch(Time now) {
-  if (silent_ || !last_arrived_ || (now - *last_arrived_).seconds() < config_.silent_s) return;
-  silent_ = true;
-  say(now, Severity::kWarning, "upright laser is silent", fmt::format("no sweep for {:.1f} s", config_.silent_s));
-}
-
 void VerticalLaserPipeline::say(Time now, Severity severity, std::string text, std::string reason) {
   events_.push_back({now, severity, "mapping3d", std::move(text), std::move(reason)});
+}
+
+void VerticalLaserPipeline::keep(std::optional<common::Event> event) {
+  if (event) events_.push_back(std::move(*event));
 }
 
 std::vector<common::Event> VerticalLaserPipeline::takeEvents() { return std::exchange(events_, {}); }

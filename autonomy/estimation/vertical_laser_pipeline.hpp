@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/arrivals/silence_watch.hpp"
 #include "autonomy/estimation/map3d_publisher.hpp"
 #include "common/config_fwd.hpp"
 #include "common/disc.hpp"
@@ -75,7 +76,7 @@ class VerticalLaserPipeline {
   common::Time waitUntil() const;
   /// Places the next sweep; without a situation it is left out.
   void place(const std::optional<SweepSituation>& situation);
-  /// Draws what was placed, in a job, and notices that the laser is silent. To be called at every tick.
+  /// Draws what was placed, in a job, and notices that the laser sends nothing usable. To be called at every tick.
   void draw(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 
   /// See Map3dPublisher::layer.
@@ -87,18 +88,19 @@ class VerticalLaserPipeline {
 
  private:
   using Sweeps = std::vector<mapping3d::PlacedSweep>;
-  void watch(common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
+  void keep(std::optional<common::Event> event);
 
   VerticalLaserPipelineConfig config_;
   common::LaserConfig laser_;
   common::JobRunner& jobs_;
+  SilenceWatch silence_;
   std::shared_ptr<mapping3d::SubmapStore> submaps_;  ///< Belongs to the job while one is outstanding.
   Map3dPublisher publisher_;
   std::deque<std::shared_ptr<const common::VerticalScan>> waiting_;  ///< In the order of their times.
   Sweeps placed_;
-  std::optional<common::Time> last_measured_, last_arrived_;
-  bool silent_ = false, fault_said_ = false;
+  std::optional<common::Time> last_measured_;
+  bool fault_said_ = false;
   VerticalLaserCounts counts_;
   std::vector<common::Event> events_;
 };

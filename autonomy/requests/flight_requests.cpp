@@ -80,7 +80,8 @@ std::string FlightRequests::addZone(const common::Polygon& zone, KeepOutZones::O
 
 std::vector<common::MissionAnswer> FlightRequests::takeAnswers(common::Time now) {
   if (photograph_ && (now - photograph_->asked).seconds() > kFrameComes_s) {
-    answers_.push_back({photograph_->id, false, fmt::format("no frame of the camera for {:.0f} s", kFrameComes_s)});
+    answers_.push_back(
+        {photograph_->id, false, fmt::format("no usable frame of the camera for {:.0f} s", kFrameComes_s)});
     photograph_.reset();
   }
   return std::exchange(answers_, {});

@@ -33,11 +33,12 @@ class FlightRequests {
   /// An answer of somebody else, with its event.
   void answered(common::MissionAnswer answer, common::Time now);
 
-  /// A photograph that is asked for is taken of it if it was measured after that.
+  /// A photograph that is asked for is taken of it if it was measured after that. Only of frames that
+  /// Estimator::addFrame accepts.
   void addFrame(const std::shared_ptr<const common::RgbdFrame>& frame, const common::VehicleState& state);
 
   const KeepOutZones& keepOut() const { return keep_out_; }
-  /// Gives up photographs for which no frame came.
+  /// Gives up photographs for which no usable frame came.
   std::vector<common::MissionAnswer> takeAnswers(common::Time now);
   std::vector<RunFile> takeFiles();
   std::vector<common::Event> takeEvents();

@@ -10,6 +10,7 @@
 
 #include "common/config.hpp"
 #include "common/png_encoder.hpp"
+#include "common/whole_frame.hpp"
 #include "interfaces/rgbd/rgbd_calibration.hpp"
 
 namespace swiftlet::interfaces {
@@ -60,6 +61,10 @@ tl::expected<RgbdRecorder, FileError> RgbdRecorder::create(const std::filesystem
 }
 
 Written RgbdRecorder::add(const common::RgbdFrame& frame) {
+  if (!isWhole(frame.color) || !isWhole(frame.depth)) {
+    ++left_out_;
+    return {};
+  }
   if (frames_ == 0) {
     if (Written written = writeAtomically(folder_ / "calibration.yaml", calibrationOf(frame.camera)); !written)
       return written;

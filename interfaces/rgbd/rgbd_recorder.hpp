@@ -23,13 +23,15 @@ class RgbdRecorder {
   /// Makes the folder, whose parent must exist.
   [[nodiscard]] static tl::expected<RgbdRecorder, FileError> create(const std::filesystem::path& folder);
 
-  /// Frames by rising stamps, all of the same camera.
+  /// Frames by rising stamps, all of the same camera. One whose images have fewer or more pixels than they say is left
+  /// out and counted.
   [[nodiscard]] Written add(const common::RgbdFrame& frame);
   /// The true pose of the camera (frame `camera`) in the map. The file has it as the format does: x right, y down, z
   /// along the view.
   [[nodiscard]] Written addTruth(common::Time time, const common::Pose3& T_map_camera);
 
   std::size_t frames() const { return frames_; }
+  std::size_t leftOut() const { return left_out_; }
 
  private:
   RgbdRecorder(std::filesystem::path folder, AppendFile colors, AppendFile depths)
@@ -39,7 +41,7 @@ class RgbdRecorder {
   AppendFile colors_;
   AppendFile depths_;
   std::optional<TumWriter> truth_;
-  std::size_t frames_ = 0;
+  std::size_t frames_ = 0, left_out_ = 0;
 };
 
 }  // namespace swiftlet::interfaces

@@ -1,12 +1,12 @@
 #include "perception/targets/target_detector.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "common/whole_frame.hpp"
 #include "perception/targets/blob_outline.hpp"
 #include "perception/targets/colored_blobs.hpp"
 
@@ -46,12 +46,6 @@ Extent extentOf(const ColoredBlob& blob, const common::RgbdFrame& frame) {
 
 bool touchesTheEdge(const ColoredBlob& blob, const common::PinholeCamera& camera) {
   return blob.left == 0 || blob.top == 0 || blob.right == camera.width_px - 1 || blob.bottom == camera.height_px - 1;
-}
-
-bool isWhole(const common::RgbdFrame& frame) {
-  const auto pixels = static_cast<std::size_t>(std::max(0, frame.camera.pixels()));
-  return pixels > 0 && frame.camera.fx_px > 0.0 && frame.camera.fy_px > 0.0 && frame.color.rgb.size() == 3 * pixels &&
-         frame.depth.width_px == frame.camera.width_px && frame.depth.depth_m.size() == pixels;
 }
 
 }  // namespace

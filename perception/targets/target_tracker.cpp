@@ -45,8 +45,12 @@ PointEstimate::SharedCovariance sharedCovariance(const TargetTrackerConfig& conf
 
 }  // namespace
 
-TargetTracker::TargetTracker(const TargetTrackerConfig& config, std::vector<TargetClassConfig> classes)
-    : config_(config), classes_(std::move(classes)), shared_(sharedCovariance(config)), last_number_(classes_.size()) {}
+TargetTracker::TargetTracker(const TargetTrackerConfig& config, std::vector<TargetClassConfig> classes, double range_m)
+    : config_(config),
+      range_m_(range_m),
+      classes_(std::move(classes)),
+      shared_(sharedCovariance(config)),
+      last_number_(classes_.size()) {}
 
 void TargetTracker::add(const std::vector<TargetSighting>& sightings, const TargetView& view) {
   const bool known_key = view.key >= 0 && static_cast<std::size_t>(view.key) < view.keys.keys.size();
@@ -151,7 +155,8 @@ void TargetTracker::dropViolated(const TargetView& view) {
         !(pixel.y() < camera.height_px - rim_px))
       return false;
     const float depth_m = view.frame.depth.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
-    if (common::isMeasured(depth_m) && static_cast<double>(depth_m) > p.x() + kThrough_m) ++track.misses;
+    const double seen_m = depth_m == common::DepthImage::kTooFar ? range_m_ : static_cast<double>(depth_m);
+    if (seen_m > p.x() + kThrough_m) ++track.misses;
     return track.misses >= config_.misses_max;
   });
 }

@@ -33,7 +33,8 @@ struct TargetView {
 /// One thread. The same frames in the same order give the same bits.
 class TargetTracker {
  public:
-  TargetTracker(const TargetTrackerConfig& config, std::vector<TargetClassConfig> classes);
+  /// The camera reports what is beyond `range_m` as too far.
+  TargetTracker(const TargetTrackerConfig& config, std::vector<TargetClassConfig> classes, double range_m);
 
   /// Sightings that are not finite are left out, and so is a view whose pose is not.
   void add(const std::vector<TargetSighting>& sightings, const TargetView& view);
@@ -62,6 +63,7 @@ class TargetTracker {
   void dropViolated(const TargetView& view);
 
   TargetTrackerConfig config_;
+  double range_m_;
   std::vector<TargetClassConfig> classes_;
   PointEstimate::SharedCovariance shared_;
   std::vector<Track> tracks_;  ///< In the order of their ids.

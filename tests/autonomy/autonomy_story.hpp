@@ -14,6 +14,7 @@
 #include "autonomy/autonomy.hpp"
 #include "autonomy/loop/flight_loop.hpp"
 #include "autonomy/loop/flight_sink.hpp"
+#include "autonomy/requests/run_files.hpp"
 #include "common/config.hpp"
 #include "common/mailbox.hpp"
 #include "common/world.hpp"
@@ -61,13 +62,14 @@ inline simulation::WorldModel storyRoom() {
   world.shapes.push_back(simulation::boxShape("shelf", {-4.9, -1.0, 0}, {-4.4, 1.0, 2.5}));
   return world;
 }
-inline simulation::Scenario storyScenario() {
+inline simulation::Scenario storyScenario(const common::RgbdCameraConfig* camera = nullptr) {
   using common::config::readFile;
   simulation::Scenario scenario;
   scenario.seed = 1;
   scenario.start.from_world = false;
   scenario.vehicle = readFile<common::VehicleConfig>(SWIFTLET_SOURCE_DIR "/config/vehicles/cobra.yaml");
   scenario.laser = readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
+  if (camera != nullptr) scenario.rgbd_camera = *camera;
   return scenario;
 }
 /// `leaves` are flown one after the other, below AvoidObstacle and Hold.
@@ -81,16 +83,19 @@ inline behaviors::Mission storyMission(const std::string& leaves) {
 
 class AutonomyStory {
  public:
-  /// `leaves` as for storyMission.
-  explicit AutonomyStory(const std::string& leaves, const GivenMap* given = nullptr)
-      : AutonomyStory(storyMission(leaves), given) {}
-  explicit AutonomyStory(behaviors::Mission mission, const GivenMap* given = nullptr)
-      : vehicle_(storyRoom(), storyScenario()),
+  /// `leaves` as for storyMission; without `camera` the vehicle has none.
+  explicit AutonomyStory(const std::string& leaves, const GivenMap* given = nullptr,
+                         const common::RgbdCameraConfig* camera = nullptr)
+      : AutonomyStory(storyMission(leaves), given, camera) {}
+  explicit AutonomyStory(behaviors::Mission mission, const GivenMap* given = nullptr,
+                         const common::RgbdCameraConfig* camera = nullptr)
+      : vehicle_(storyRoom(), storyScenario(camera)),
         autonomy_({.vehicle = vehicle_.scenario().vehicle,
                    .laser = vehicle_.scenario().laser,
                    .mission = std::move(mission),
                    .jobs = common::makeLockstepJobs(0),
-                   .given = given}) {}
+                   .given = given,
+                   .camera = camera}) {}
 
   double thrust_share = 1.0;  ///< Of each commanded thrust that reaches the motors.
   /// Is called with every sensor event before the autonomy gets it; false drops the event.
@@ -136,12 +141,14 @@ class AutonomyStory {
 
   std::vector<common::Event> events;
   std::vector<common::CommandResult> results;
+  std::vector<RunFile> files;
 
  private:
   /// Collects the events of the flight.
   struct Listener final : FlightSink {
     explicit Listener(AutonomyStory& heard) : story(heard) {}
     void event(const common::Event& event) override { story.events.push_back(event); }
+    void file(const RunFile& file) override { story.files.push_back(file); }
     void result(const common::CommandResult& result) override { story.results.push_back(result); }
     AutonomyStory& story;
   };

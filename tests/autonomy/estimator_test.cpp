@@ -176,7 +176,7 @@ TEST(Estimator, BeforeABareWallTheCameraMeasuresNoPositionAlongIt) {
       if (++scans % 8 == 0 && now.seconds() > 4.0) {
         common::RgbdFrame frame = room.seen(story.truthAt(now), now.seconds());
         if (bare) frame.color.rgb.assign(frame.color.rgb.size(), 120);
-        story.estimator.addFrame(std::make_shared<const common::RgbdFrame>(frame));
+        EXPECT_TRUE(story.estimator.addFrame(std::make_shared<const common::RgbdFrame>(frame)));
       }
       story.estimator.updateMap3d(now);
     };

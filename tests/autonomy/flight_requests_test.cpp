@@ -76,7 +76,7 @@ TEST(FlightRequests, GivesUpAPhotographWithoutFramesOrCamera) {
   EXPECT_TRUE(requests.takeAnswers(timeAt(4.9)).empty());
   const auto late = requests.takeAnswers(timeAt(5.1));
   ASSERT_EQ(late.size(), 1u);
-  EXPECT_EQ(late[0].reason, "no frame of the camera for 2 s");
+  EXPECT_EQ(late[0].reason, "no usable frame of the camera for 2 s");
   FlightRequests blind(0.275);
   blind.take({6, common::PhotographRequest{"door"}}, worldAt(3.0));
   EXPECT_EQ(blind.takeAnswers(timeAt(3.0)).at(0).reason, "the vehicle has no RGB-D camera");

@@ -169,6 +169,82 @@ TEST_F(RgbdStory, ASilentCameraIsReportedOnceAndSoIsItsReturn) {
   EXPECT_THAT(texts(), testing::ElementsAre("camera sends again"));
 }
 
+/// A camera whose clock has jumped back, or one behind a lens cap, sends all the time.
+TEST_F(RgbdStory, ACameraThatSendsNothingUsableIsReported) {
+  see(20.0);
+  double time_s = 20.1;
+  const auto watchUntil = [&](double end_s, double behind_s) {
+    for (; time_s < end_s; time_s += 0.1) {
+      common::RgbdFrame frame = *frameAt(time_s);
+      frame.stamps.measured = Time::fromSeconds(time_s - behind_s);
+      pipeline_.add(std::make_shared<const common::RgbdFrame>(frame));
+      pipeline_.watch(keys_, Time::fromSeconds(time_s));
+    }
+  };
+  watchUntil(20.95, 10.0);
+  EXPECT_THAT(texts(), testing::ElementsAre("a frame cannot be used"));
+  watchUntil(23.0, 10.0);
+  const auto events = pipeline_.takeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "camera sends nothing usable");
+  EXPECT_EQ(events[0].reason,
+            "no frame that can be used for 1.0 s; of the last one: it was not measured after the last");
+  EXPECT_LT(events[0].stamp.seconds(), 21.15);
+  watchUntil(23.2, 0.0);
+  EXPECT_THAT(texts(), testing::ElementsAre("camera sends again"));
+}
+
+TEST_F(RgbdStory, APictureThatIsRepeatedWithNewStampsIsRefused) {
+  see(1.0);
+  for (const double time_s : {1.1, 1.2}) {
+    common::RgbdFrame repeated = *frameAt(1.0);
+    repeated.stamps = frameAt(time_s)->stamps;
+    EXPECT_FALSE(pipeline_.add(std::make_shared<const common::RgbdFrame>(repeated)));
+    EXPECT_FALSE(pipeline_.next());
+  }
+  EXPECT_EQ(pipeline_.counts().skipped, 2u);
+  const auto events = pipeline_.takeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_THAT(events[0].reason, testing::HasSubstr("repeats the last picture"));
+  see(1.3);
+  EXPECT_EQ(pipeline_.counts().mapped, 2u);
+}
+
+/// The holes of some drivers are NaN, which equals nothing.
+TEST_F(RgbdStory, HolesDoNotHideARepeatedPictureAndAreNone) {
+  const auto add = [this](double time_s, auto change) {
+    common::RgbdFrame frame = *frameAt(1.0);
+    frame.stamps = frameAt(time_s)->stamps;
+    change(frame.depth.depth_m);
+    return pipeline_.add(std::make_shared<const common::RgbdFrame>(frame));
+  };
+  const auto pierce = [](std::vector<float>& depth_m) { depth_m[7] = NAN; };
+  EXPECT_TRUE(add(1.0, pierce));
+  EXPECT_FALSE(add(1.1, pierce));
+  const auto hide = [](std::vector<float>& depth_m) { depth_m.assign(depth_m.size(), common::DepthImage::kUnknown); };
+  EXPECT_TRUE(add(1.2, hide));
+  EXPECT_TRUE(add(1.3, hide)) << "where nothing is measured there is no noise";
+}
+
+/// What is seen within 0.4 s of the last copy of the submaps reaches the others with the next frame, if one comes.
+TEST_F(RgbdStory, WhatWasSeenLastIsPublishedWhenTheCameraStops) {
+  see(1.0);
+  const auto first = pipeline_.layer(keys_)->submaps;
+  see(1.2);
+  EXPECT_EQ(pipeline_.layer(keys_)->submaps, first);
+  const auto watch = [this](double time_s) {
+    pipeline_.watch(keys_, Time::fromSeconds(time_s));
+    jobs_->deliverDue(Time::fromSeconds(time_s + 0.1));
+  };
+  watch(1.7);
+  EXPECT_EQ(pipeline_.layer(keys_)->submaps, first) << "a frame may come";
+  watch(1.9);
+  const auto last = pipeline_.layer(keys_)->submaps;
+  EXPECT_NE(last, first);
+  watch(4.0);
+  EXPECT_EQ(pipeline_.layer(keys_)->submaps, last) << "nothing was drawn since";
+}
+
 TEST_F(RgbdStory, ATrackThatIsLostAndFoundIsReported) {
   for (int i = 0; i < 3; ++i) see(1.0 + 0.1 * i);
   room_.walls = 100;

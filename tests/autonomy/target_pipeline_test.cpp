@@ -48,7 +48,7 @@ class TargetStory : public testing::Test {
   std::shared_ptr<const common::KeyPoses> keys_ =
       std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {{{}, {}}}});
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
-  TargetPipeline pipeline_{config(), *jobs_};
+  TargetPipeline pipeline_{config(), *jobs_, 5.0};
 };
 
 TEST_F(TargetStory, ATargetIsPlacedAndSaidOnceWhenItIsFound) {

@@ -151,5 +151,27 @@ TEST_F(VerticalLaserStory, ASilentLaserIsReportedOnceAndSoIsItsReturn) {
   EXPECT_THAT(texts(), testing::ElementsAre("upright laser sends again"));
 }
 
+TEST_F(VerticalLaserStory, ALaserWhoseClockHasJumpedBackSendsNothingUsable) {
+  see(20.0);
+  for (int i = 1; i < 50; ++i) {
+    common::VerticalScan sweep = *sweepAt(10.0 + 0.025 * i);
+    sweep.stamps.arrived = Time::fromSeconds(20.0 + 0.025 * i);
+    pipeline_.add(std::make_shared<const common::VerticalScan>(sweep));
+    pipeline_.draw(keys_, sweep.stamps.arrived);
+  }
+  EXPECT_THAT(texts(), testing::ElementsAre("a sweep of the upright laser cannot be used",
+                                            "upright laser sends nothing usable"));
+}
+
+TEST_F(VerticalLaserStory, WhatWasSeenLastIsPublishedWhenTheLaserStops) {
+  see(1.0);
+  see(1.025);
+  const auto first = pipeline_.layer(keys_)->submaps;
+  pipeline_.draw(keys_, Time::fromSeconds(2.0));
+  jobs_->deliverDue(Time::fromSeconds(2.1));
+  EXPECT_NE(pipeline_.layer(keys_)->submaps, first);
+  EXPECT_EQ(pipeline_.counts().drawn, 2u);
+}
+
 }  // namespace
 }  // namespace swiftlet::autonomy

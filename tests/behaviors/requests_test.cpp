@@ -112,9 +112,9 @@ TEST(Photograph, StopsThenAsksAndWaits) {
   flight.context.requests.clear();
   flight.stops().tick();
   EXPECT_TRUE(flight.context.requests.empty()) << "once";
-  flight.context.answers = {{id, false, "no frame of the camera for 2 s"}};
+  flight.context.answers = {{id, false, "no usable frame of the camera for 2 s"}};
   EXPECT_EQ(flight.stops().tick(), "FAILED");
-  EXPECT_EQ(flight.cause(), "Photograph: no frame of the camera for 2 s");
+  EXPECT_EQ(flight.cause(), "Photograph: no usable frame of the camera for 2 s");
 }
 
 TEST(Photograph, TheCheckRefusesItWithoutACamera) {

@@ -66,5 +66,14 @@ TEST(VisualOdometrySink, TracksAFlightByItsCameraAloneAndCountsWhatItLoses) {
   EXPECT_LT(blind.record().frames, record.frames);
 }
 
+TEST(VisualOdometryOfTornFrames, CountsThemAsLost) {
+  VisualOdometrySink sink({}, common::Pose3{});
+  auto torn = std::make_shared<common::RgbdFrame>();
+  torn->camera = {160, 120, 145.0, 145.0, 79.5, 59.5};
+  sink.input(common::SensorEvent(std::shared_ptr<const common::RgbdFrame>(torn)));
+  EXPECT_EQ(sink.record().frames, 1u);
+  EXPECT_EQ(sink.record().lost, 1u);
+}
+
 }  // namespace
 }  // namespace swiftlet::apps

@@ -73,6 +73,17 @@ TEST_F(RgbdRecorders, WhereNothingCanBeWrittenItSaysWhy) {
   EXPECT_THAT(made.error().message, testing::HasSubstr("rgbd/rgb: "));
 }
 
+TEST_F(RgbdRecorders, AFrameThatWasCutShortIsLeftOutAndCounted) {
+  RgbdRecorder recorder = record();
+  common::RgbdFrame color = frameAt(1.0), depth = frameAt(1.1);
+  color.color.rgb.pop_back();
+  depth.depth.depth_m.pop_back();
+  for (const common::RgbdFrame& frame : {color, depth, frameAt(1.2)}) EXPECT_TRUE(recorder.add(frame));
+  EXPECT_EQ(recorder.leftOut(), 2u);
+  EXPECT_EQ(recorder.frames(), 1u);
+  EXPECT_EQ(open().next()->stamps.measured, common::Time::fromSeconds(1.2));
+}
+
 TEST_F(RgbdRecorders, AnImageThatCannotBeWrittenIsInNoList) {
   RgbdRecorder recorder = record();
   ASSERT_TRUE(recorder.add(frameAt(1.0)));

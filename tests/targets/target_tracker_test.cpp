@@ -20,7 +20,7 @@ using ::testing::SizeIs;
 /// A camera that sees targets at known places, with the errors that the test gives it.
 class Watch {
  public:
-  explicit Watch(const TargetTrackerConfig& config = {}) : tracker_(config, redAndGreen()) {
+  explicit Watch(const TargetTrackerConfig& config = {}) : tracker_(config, redAndGreen(), 5.0) {
     keys_.keys = {{{}, {0.0, 0.0, 0.0}}, {{}, {3.0, 0.0, 0.0}}};
     frame_.camera = flyingCamera().camera();
     frame_.depth = {frame_.camera.width_px, frame_.camera.height_px,
@@ -152,6 +152,19 @@ TEST(TargetTracker, ACandidateThatTheCameraLooksThroughIsDropped) {
   watch.seesFarther(4.0F);
   for (int i = 0; i < 20; ++i) watch.add({}, T_map_camera);
   EXPECT_THAT(watch.targets(), IsEmpty());
+}
+
+TEST(TargetTracker, WhatIsTooFarToBeMeasuredIsBehindACandidateInRange) {
+  for (const double from_m : {1.8, 4.8}) {
+    Watch watch;
+    watch.look(around(0), {kPlace});
+    watch.seesFarther(common::DepthImage::kTooFar);
+    const Eigen::Vector2d from = around(10, from_m);
+    const Eigen::Vector2d ahead = kPlace.head<2>() - from;
+    const auto T_map_camera = common::lifted({from.x(), from.y(), std::atan2(ahead.y(), ahead.x())}, 0.0);
+    for (int i = 0; i < 20; ++i) watch.add({}, T_map_camera);
+    EXPECT_THAT(watch.targets(), SizeIs(from_m < 4.0 ? 0 : 1)) << "the camera measures up to 5 m";
+  }
 }
 
 TEST(TargetTracker, BadValuesAreLeftOut) {

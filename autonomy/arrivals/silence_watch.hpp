@@ -1,0 +1,39 @@
+// Notices a sensor that sends nothing, or nothing that can be used.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/event.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. The silence counts from the last usable measurement, or from the first of all while none was usable. A
+/// sensor that has never sent is not silent.
+class SilenceWatch {
+ public:
+  /// For people: "camera" sends a "frame".
+  SilenceWatch(std::string sensor, std::string measurement, double silent_s);
+
+  /// The event that ends a silence.
+  std::optional<common::Event> usableArrived(common::Time now);
+  /// `fault`: why it cannot be used, for people.
+  void unusableArrived(common::Time now, const char* fault);
+  /// The event that begins a silence. To be called at every tick.
+  std::optional<common::Event> watch(common::Time now);
+
+  bool isDue(common::Time now) const { return since_ && now - *since_ >= silence_; }
+  /// From when the silence counts; none before the first measurement.
+  std::optional<common::Time> since() const { return since_; }
+
+ private:
+  std::string sensor_, measurement_;
+  double silent_s_;
+  common::Duration silence_;
+  std::optional<common::Time> since_, unusable_at_;
+  std::string fault_;  ///< Of the last measurement that could not be used.
+  bool said_ = false;
+};
+
+}  // namespace swiftlet::autonomy
