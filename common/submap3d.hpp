@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -24,13 +25,21 @@ struct SurfacePoint {
   std::array<std::uint8_t, 3> rgb{};
 };
 
+/// Where a surface was seen only with much noise, its points are averaged in cubes of so many times the side, and are
+/// as much farther apart (decision 099). It is eight times the least noise that goes there, so that a flat surface is
+/// mostly in one layer of them, and half of what the figures of the cloud call covered.
+inline constexpr double kLargeCube = 4.0;
+
 /// Immutable once published. Coordinates are those of the frame `submap`, whose z axis is vertical.
 struct Submap3d {
   int key = 0;                                              ///< Index into KeyPoses::keys.
   Pose3 T_key_submap;                                       ///< Relative to the level frame of that key scan.
   std::shared_ptr<const std::vector<SurfacePoint>> points;  ///< Never null.
   std::shared_ptr<const VoxelMap> voxels;                   ///< Never null.
+  double cube_m = 0.02;                                     ///< Side of the cubes each of which has one point.
+  std::size_t coarse = 0;  ///< So many points, the last ones, have cubes of kLargeCube times that side.
 
+  std::size_t fine() const { return points->size() - coarse; }
   /// The key scan must be in `keys`.
   Pose3 T_map_submap(const KeyPoses& keys) const { return keys.inMap({key, T_key_submap}); }
 };

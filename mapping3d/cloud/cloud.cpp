@@ -7,7 +7,10 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <pcl/common/centroid.h>
@@ -32,6 +35,10 @@ constexpr float kFarthest_m = 1e5F;
 constexpr int kPlaneNeighbours = 10;
 /// Cubes that must grow do so by at least this factor, so that it does not take many trials.
 constexpr double kLeastGrowth = 1.1;
+/// A noisy point has this many large cubes with points around it, up to so many cubes away. At the end of a row of them
+/// it has two; errors seldom lie three together.
+constexpr int kFewestAround = 2;
+constexpr int kAroundCubes = 2;
 
 PclPoint pclPoint(const SurfacePoint& point) {
   PclPoint result;
@@ -49,12 +56,12 @@ bool isKnown(const Vector3f& normal) { return normal.squaredNorm() > 0.5F; }
 
 /// Points with their pose in the cloud. A list of all points of a large map would take as much memory as the map.
 struct Piece {
-  const std::vector<SurfacePoint>* points;
+  std::span<const SurfacePoint> points;
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Vector3f origin_m = Vector3f::Zero();
 
   SurfacePoint at(std::size_t index) const {
-    const SurfacePoint& point = (*points)[index];
+    const SurfacePoint& point = points[index];
     return {rotation * point.position_m + origin_m, rotation * point.normal, point.rgb};
   }
 };
@@ -81,7 +88,7 @@ struct Share {
 std::map<TileIndex, std::vector<Share>> tilesOf(const std::vector<Piece>& pieces, float cube_m) {
   std::map<TileIndex, std::vector<Share>> tiles;
   for (const Piece& piece : pieces)
-    for (std::size_t i = 0; i < piece.points->size(); ++i) {
+    for (std::size_t i = 0; i < piece.points.size(); ++i) {
       const auto tile = tileOf(piece.at(i), cube_m);
       if (!tile) continue;
       std::vector<Share>& shares = tiles[*tile];
@@ -97,7 +104,7 @@ PclCloud::Ptr cloudOf(const TileIndex& tile, const std::vector<Share>& shares, f
   auto cloud = pcl::make_shared<PclCloud>();
   cloud->reserve(size);
   for (const Share& share : shares)
-    for (std::size_t i = 0; i < share.piece->points->size(); ++i) {
+    for (std::size_t i = 0; i < share.piece->points.size(); ++i) {
       const SurfacePoint point = share.piece->at(i);
       if (tileOf(point, cube_m) == tile) cloud->push_back(pclPoint(point));
     }
@@ -113,7 +120,7 @@ void clearUnknownNormals(PclCloud& cloud) {
 
 std::size_t sizeOf(const std::vector<Piece>& pieces) {
   std::size_t size = 0;
-  for (const Piece& piece : pieces) size += piece.points->size();
+  for (const Piece& piece : pieces) size += piece.points.size();
   return size;
 }
 
@@ -134,17 +141,81 @@ std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, float cube_m
   return all;
 }
 
+/// Points of small cubes and noisy ones of large cubes. Averaged together, the noise would move what was seen well, and
+/// by the spacing of the one kind all points of the other are outliers.
+template <typename Points>
+struct Kinds {
+  Points fine, coarse;
+  float large_m = 0.0F;    ///< The side of the cloud's large cubes.
+  float largest_m = 0.0F;  ///< And of the largest in a submap.
+};
+
 /// Surfaces have a quarter of the points in cubes of twice the size.
-std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, const CloudConfig& config) {
+Kinds<std::vector<SurfacePoint>> thinned(const Kinds<std::vector<Piece>>& pieces, const CloudConfig& config) {
+  Kinds<std::vector<SurfacePoint>> points;
   auto cube_m = static_cast<float>(config.cube_m);
-  std::vector<SurfacePoint> points = thinned(pieces, cube_m);
-  while (points.size() > config.points_max) {
-    const double surplus = static_cast<double>(points.size()) / static_cast<double>(config.points_max);
+  while (true) {
+    const float large_m = static_cast<float>(common::kLargeCube) * cube_m;
+    points = {thinned(pieces.fine, cube_m), thinned(pieces.coarse, large_m), large_m, pieces.largest_m};
+    const std::size_t size = points.fine.size() + points.coarse.size();
+    if (size <= config.points_max) return points;
+    const double surplus = static_cast<double>(size) / static_cast<double>(config.points_max);
     cube_m *= static_cast<float>(std::max(kLeastGrowth, std::sqrt(surplus)));
     points = {};
-    points = thinned(pieces, cube_m);
   }
-  return points;
+}
+
+using LargeCube = Eigen::Matrix<std::int64_t, 3, 1>;
+
+LargeCube largeCubeOf(const SurfacePoint& point, float side_m) {
+  return (point.position_m / side_m).array().floor().cast<std::int64_t>();
+}
+
+/// Cubes with equal keys are a hundred kilometres apart.
+std::uint64_t keyOf(const LargeCube& cube) {
+  const auto part = [](std::int64_t number) { return static_cast<std::uint64_t>(number) & 0x1fffffU; };
+  return part(cube.x()) << 42U | part(cube.y()) << 21U | part(cube.z());
+}
+
+/// Whether `is(key)` for a cube up to `reach` from that one in each direction, itself included.
+template <typename Is>
+bool anyAround(const LargeCube& cube, int reach, const Is& is) {
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -reach; y <= reach; ++y)
+      for (int z = -reach; z <= reach; ++z)
+        if (is(keyOf(cube + LargeCube(x, y, z)))) return true;
+  return false;
+}
+
+/// Leaves out noisy points that are nearer to a better one, of another submap, than to each other. Within a submap
+/// PointGrid has done so.
+void removeSeenBetter(Kinds<std::vector<SurfacePoint>>& cloud) {
+  if (cloud.coarse.empty()) return;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> better;
+  for (std::size_t i = 0; i < cloud.fine.size(); ++i)
+    better[keyOf(largeCubeOf(cloud.fine[i], cloud.large_m))].push_back(static_cast<std::uint32_t>(i));
+  std::erase_if(cloud.coarse, [&](const SurfacePoint& point) {
+    return anyAround(largeCubeOf(point, cloud.large_m), 1, [&](std::uint64_t key) {
+      const auto found = better.find(key);
+      return found != better.end() && std::any_of(found->second.begin(), found->second.end(), [&](std::uint32_t i) {
+               return (cloud.fine[i].position_m - point.position_m).norm() < cloud.large_m;
+             });
+    });
+  });
+}
+
+/// The noisy points that are outliers. They are too few beside the others for statistics of their distances.
+void removeLone(Kinds<std::vector<SurfacePoint>>& cloud) {
+  if (cloud.coarse.empty()) return;
+  const float side_m = std::max(cloud.large_m, cloud.largest_m);
+  std::unordered_set<std::uint64_t> seen;
+  for (const auto* points : {&cloud.fine, &cloud.coarse})
+    for (const SurfacePoint& point : *points) seen.insert(keyOf(largeCubeOf(point, side_m)));
+  std::erase_if(cloud.coarse, [&](const SurfacePoint& point) {
+    int found = 0;  // With its own.
+    return !anyAround(largeCubeOf(point, side_m), kAroundCubes,
+                      [&](std::uint64_t key) { return seen.count(key) > 0 && ++found > kFewestAround; });
+  });
 }
 
 /// A part of a cloud with the points around it, for searches: a tree of a whole large cloud takes as much memory as the
@@ -278,27 +349,35 @@ void addMissingNormals(std::vector<SurfacePoint>& cloud) {
   for (const auto& [point, normal] : found) cloud[point].normal = normal;
 }
 
-std::vector<SurfacePoint> cleaned(const std::vector<Piece>& pieces, const CloudConfig& config) {
-  std::vector<SurfacePoint> cloud = thinned(pieces, config);
-  if (config.neighbours == 0) return cloud;
-  removeOutliers(cloud, config);
-  addMissingNormals(cloud);
+std::vector<SurfacePoint> cleaned(const Kinds<std::vector<Piece>>& pieces, const CloudConfig& config) {
+  Kinds<std::vector<SurfacePoint>> kinds = thinned(pieces, config);
+  if (config.neighbours > 0) removeOutliers(kinds.fine, config);  // First, as a speck is no better view.
+  removeSeenBetter(kinds);
+  if (config.neighbours > 0) removeLone(kinds);
+  std::vector<SurfacePoint> cloud = std::move(kinds.fine);
+  cloud.insert(cloud.end(), kinds.coarse.begin(), kinds.coarse.end());
+  if (config.neighbours > 0) addMissingNormals(cloud);
   return cloud;
 }
 
 }  // namespace
 
 std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
-  return cleaned({{&points}}, config);
+  return cleaned({{{points}}, {}}, config);
 }
 
 std::vector<SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
                                   const CloudConfig& config) {
-  std::vector<Piece> pieces;
+  Kinds<std::vector<Piece>> pieces;
   for (const common::Submap3d& submap : submaps) {
     const common::Pose3 T_map_submap = submap.T_map_submap(keys);
-    pieces.push_back({submap.points.get(), T_map_submap.rotation.toRotationMatrix().cast<float>(),
-                      T_map_submap.position_m.cast<float>()});
+    const Eigen::Matrix3f rotation = T_map_submap.rotation.toRotationMatrix().cast<float>();
+    const Vector3f origin_m = T_map_submap.position_m.cast<float>();
+    const std::span points(*submap.points);
+    pieces.fine.push_back({points.first(submap.fine()), rotation, origin_m});
+    if (submap.coarse == 0) continue;
+    pieces.coarse.push_back({points.last(submap.coarse), rotation, origin_m});
+    pieces.largest_m = std::max(pieces.largest_m, static_cast<float>(common::kLargeCube * submap.cube_m));
   }
   return cleaned(pieces, config);
 }

@@ -10,7 +10,8 @@
 namespace swiftlet::mapping3d {
 
 struct CloudConfig {
-  /// One point is kept in a cube of this size: the mean of positions, normals and colours of all that fell into it.
+  /// One point is kept in a cube of this size: the mean of positions, normals and colours of all that fell into it. Of
+  /// the noisy points of submaps one is kept in a cube of kLargeCube times this size, where there is no better one.
   double cube_m = 0.02;
   /// Greatest number of points: beyond, the cubes are enlarged until the cloud has no more.
   std::size_t points_max = 4'000'000;
@@ -18,7 +19,8 @@ struct CloudConfig {
   /// with that of all points. On a plane with a point in each cube, 20 neighbours are within three cubes. At 0 neither
   /// outliers nor missing normals are looked for, which takes most of the time.
   int neighbours = 20;
-  /// A point is an outlier where it is farther than the mean by this many standard deviations: the usual three.
+  /// A point is an outlier where it is farther than the mean by this many standard deviations: the usual three. A noisy
+  /// point, which has more distant neighbours, is one where it has hardly any.
   double deviations = 3.0;
 };
 

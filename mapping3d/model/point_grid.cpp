@@ -9,10 +9,6 @@ namespace {
 
 /// Bits of each coordinate of a cube: a million cubes each way.
 constexpr int kBits = 21;
-/// The side of a large cube, in small ones: eight times the least noise that goes there, so that a flat surface is
-/// mostly in one layer of them, and half of what the figures of the cloud call covered.
-constexpr double kCoarse = 4.0;
-
 /// A large cube with so many times less weight than one beside it has the noise of that one's points.
 constexpr float kMostlyBeside = 5.0F;
 
@@ -23,7 +19,7 @@ std::uint64_t part(float coordinate) {
 
 }  // namespace
 
-PointGrid::PointGrid(double cube_m) : fine_{cube_m}, coarse_{kCoarse * cube_m} {}
+PointGrid::PointGrid(double cube_m) : fine_{cube_m}, coarse_{common::kLargeCube * cube_m} {}
 
 PointGrid::Key PointGrid::Cubes::keyOf(const Eigen::Vector3f& position_m) const {
   const Eigen::Vector3f cube = position_m / static_cast<float>(side_m);

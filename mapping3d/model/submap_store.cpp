@@ -38,6 +38,12 @@ bool hasNeighbour(const std::set<int>& scans, int scan) {
 
 }  // namespace
 
+void SubmapStore::Kept::take(WeightedPoints points) {
+  submap.coarse = points.points->size() - points.fine;
+  submap.points = std::move(points.points);
+  weights = std::move(points.weights);
+}
+
 SubmapStore::SubmapStore(const ImageSubmapConfig& config, const VoxelConfig& voxels,
                          const vision::DepthNoiseConfig& noise)
     : config_(config), voxels_(voxels), noise_(noise) {}
@@ -93,7 +99,9 @@ std::vector<Submap3d> SubmapStore::snapshot() {
   for (const Kept& kept : kept_) submaps.push_back(kept.submap);
   if (growing_) {
     Submap3d& submap = submaps[growing_->index];
-    submap.points = growing_->points.points().points;
+    WeightedPoints points = growing_->points.points();
+    submap.coarse = points.points->size() - points.fine;
+    submap.points = std::move(points.points);
     submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   }
   return submaps;
@@ -122,23 +130,20 @@ std::size_t SubmapStore::add(const Eigen::Vector3d& sensor_map_m, int scan, cons
     T_map_submap.position_m[i] = std::round(sensor_map_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
   Submap3d submap{scan, scans.T_map_level(scan).inverse() * T_map_submap,
                   std::make_shared<const std::vector<common::SurfacePoint>>(),
-                  std::make_shared<const common::VoxelMap>(voxels_.resolution_m)};
-  kept_.push_back({std::move(submap), {}, 0, config_.cube_m, {}});
+                  std::make_shared<const common::VoxelMap>(voxels_.resolution_m), config_.cube_m};
+  kept_.push_back({std::move(submap), {}, {}});
   return kept_.size() - 1;
 }
 
 void SubmapStore::grow(std::size_t index) {
   const Kept& kept = kept_[index];
-  growing_.emplace(Growing{index, VoxelMapper(voxels_, *kept.submap.voxels), PointGrid(kept.cube_m)});
-  growing_->points.add(WeightedPoints{kept.submap.points, kept.weights, kept.fine});
+  growing_.emplace(Growing{index, VoxelMapper(voxels_, *kept.submap.voxels), PointGrid(kept.submap.cube_m)});
+  growing_->points.add(WeightedPoints{kept.submap.points, kept.weights, kept.submap.fine()});
 }
 
 void SubmapStore::leave() {
   Kept& kept = kept_[growing_->index];
-  WeightedPoints points = growing_->points.points();
-  kept.submap.points = std::move(points.points);
-  kept.weights = std::move(points.weights);
-  kept.fine = points.fine;
+  kept.take(growing_->points.points());
   kept.submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   growing_.reset();
   forgetOldest();
@@ -160,15 +165,12 @@ void SubmapStore::thinOldest() {
   for (const Kept& kept : kept_) points += kept.submap.points->size();
   while (points > static_cast<std::size_t>(config_.points_max)) {
     // The first of those with the smallest cubes.
-    const auto dense =
-        std::min_element(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.cube_m < b.cube_m; });
+    const auto dense = std::min_element(kept_.begin(), kept_.end(),
+                                        [](const Kept& a, const Kept& b) { return a.submap.cube_m < b.submap.cube_m; });
     const std::size_t before = dense->submap.points->size();
-    dense->cube_m *= 2.0;
-    WeightedPoints fewer = thinned({dense->submap.points, std::move(dense->weights), dense->fine}, dense->cube_m);
-    points -= before - fewer.points->size();
-    dense->submap.points = std::move(fewer.points);
-    dense->weights = std::move(fewer.weights);
-    dense->fine = fewer.fine;
+    dense->submap.cube_m *= 2.0;
+    dense->take(thinned({dense->submap.points, std::move(dense->weights), dense->submap.fine()}, dense->submap.cube_m));
+    points -= before - dense->submap.points->size();
   }
 }
 

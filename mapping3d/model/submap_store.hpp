@@ -58,9 +58,9 @@ class SubmapStore {
   struct Kept {
     common::Submap3d submap;     ///< As it was when it was left.
     std::vector<float> weights;  ///< WeightedPoints of its points.
-    std::size_t fine = 0;
-    double cube_m = 0.0;
-    std::set<int> scans;  ///< The key scans of the frames that were drawn into it.
+    std::set<int> scans;         ///< The key scans of the frames that were drawn into it.
+
+    void take(WeightedPoints points);
   };
   /// One of those that are kept, while it grows.
   struct Growing {

@@ -207,6 +207,72 @@ TEST(CloudOfTest, PlacesSubmapsWhereTheirKeyScansAre) {
   EXPECT_LT(furthest(cloudOf({submap}, keys)), 0.02);
 }
 
+/// A grid of points at x that faces the origin, up to 1.5 m high.
+void addWall(std::vector<SurfacePoint>& points, float x, float from_y, float to_y, float apart) {
+  for (float y = from_y + 0.5F * apart; y < to_y; y += apart)
+    for (float z = 0.5F * apart; z < 1.5F; z += apart) points.push_back({{x, y, z}, -Vector3f::UnitX(), {9, 9, 9}});
+}
+
+/// The last points of a submap are of large cubes.
+common::Submap3d submapOf(const std::vector<SurfacePoint>& fine, const std::vector<SurfacePoint>& coarse) {
+  std::vector<SurfacePoint> points = fine;
+  points.insert(points.end(), coarse.begin(), coarse.end());
+  common::Submap3d submap;
+  submap.points = std::make_shared<const std::vector<SurfacePoint>>(std::move(points));
+  submap.coarse = coarse.size();
+  submap.T_key_submap = {common::quaternionFrom({0.0, 0.0, 0.4}), {0.03, 0.01, 0.02}};
+  return submap;
+}
+
+/// Of points of submapOf(), in the submap's frame.
+std::vector<SurfacePoint> cloudInSubmap(const std::vector<common::Submap3d>& submaps) {
+  const common::KeyPoses keys{1, {{}}};
+  std::vector<SurfacePoint> cloud = cloudOf(submaps, keys);
+  const common::Pose3 T_submap_map = submaps[0].T_map_submap(keys).inverse();
+  for (SurfacePoint& point : cloud)
+    point.position_m = (T_submap_map * Vector3d(point.position_m.cast<double>())).cast<float>();
+  return cloud;
+}
+
+float nearest_m(const std::vector<SurfacePoint>& cloud, const Vector3f& place) {
+  float least_m = std::numeric_limits<float>::infinity();
+  for (const SurfacePoint& point : cloud) least_m = std::min(least_m, (point.position_m - place).norm());
+  return least_m;
+}
+
+TEST(CloudOfTest, AWallSeenWithNoiseStaysBesideOneSeenWell) {
+  std::vector<SurfacePoint> fine, coarse;
+  addWall(fine, 1.01F, -1.0F, 1.0F, 0.02F);
+  addWall(coarse, 1.01F, 1.12F, 2.0F, 0.08F);  // PointGrid leaves this gap.
+  const Vector3f speck(0.2F, 0.0F, 0.7F), noisy_speck(0.2F, 1.6F, 0.7F);
+  fine.push_back({speck, Vector3f::Zero(), {}});
+  coarse.push_back({noisy_speck, Vector3f::Zero(), {}});
+  const std::vector<SurfacePoint> cloud = cloudInSubmap({submapOf(fine, coarse)});
+  for (float y = -1.0F; y < 2.0F; y += 0.03F)
+    for (float z = 0.0F; z < 1.5F; z += 0.03F) {
+      const Vector3f place(1.01F, y, z);
+      ASSERT_LT(nearest_m(cloud, place), 0.1F) << place.transpose();
+    }
+  EXPECT_GT(nearest_m(cloud, speck), 0.5F);
+  EXPECT_GT(nearest_m(cloud, noisy_speck), 0.5F);
+}
+
+TEST(CloudOfTest, NoisyPointsAreLeftOutWhereAnotherSubmapSawTheirSurfaceWell) {
+  std::vector<SurfacePoint> fine, coarse;
+  addWall(fine, 1.01F, -1.0F, 1.0F, 0.02F);
+  addWall(coarse, 0.95F, -1.0F, 1.0F, 0.08F);
+  addWall(coarse, 0.95F, 3.0F, 4.0F, 0.08F);
+  const std::vector<SurfacePoint> cloud = cloudInSubmap({submapOf(fine, {}), submapOf({}, coarse)});
+  std::size_t beyond = 0;
+  for (const SurfacePoint& point : cloud) {
+    if (point.position_m.y() > 2.0F)
+      ++beyond;
+    else
+      ASSERT_GT(point.position_m.x(), 1.0F) << point.position_m.transpose();
+  }
+  EXPECT_GT(beyond, 80U) << "of 234 in one submap, thinned in cubes across those";
+}
+
 TEST(CloudOfTest, EqualSubmapsGiveEqualBytes) {
   std::mt19937 random(5);
   const std::vector<SurfacePoint> points = wall(random, 0.01);

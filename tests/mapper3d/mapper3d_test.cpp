@@ -359,6 +359,16 @@ TEST(SubmapStore, GoesOnWhereTheCameraComesBack) {
   }
 }
 
+TEST(SubmapStore, SaysHowManyPointsAreOfLargeCubes) {
+  const Commute commute;
+  for (const double sigma_per_m2 : {1e-3, 1.0}) {
+    SubmapStore store(commute.config, VoxelConfig(), vision::DepthNoiseConfig{sigma_per_m2});
+    commute.fly(store, -0.6, 0.6, 0);
+    for (const Submap3d& submap : store.snapshot())
+      EXPECT_EQ(submap.coarse, sigma_per_m2 < 0.5 ? 0u : submap.points->size());
+  }
+}
+
 TEST(SubmapStore, AfterALongPathANewOneBegins) {
   const Commute commute;
   SubmapStore store = commute.store();
