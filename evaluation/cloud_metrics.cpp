@@ -18,11 +18,12 @@ namespace {
 
 using common::Pose3;
 
-/// Every n-th point, so that at most `most` remain.
-Cloud thinned(const Cloud& cloud, std::size_t most) {
-  const std::size_t step = (cloud.size() + most - 1) / most;
-  Cloud some;
-  for (std::size_t i = 0; i < cloud.size(); i += std::max<std::size_t>(1, step)) some.push_back(cloud[i]);
+/// Every n-th of a list, so that at most `most` remain.
+template <typename Value>
+std::vector<Value> thinned(const std::vector<Value>& all, std::size_t most) {
+  const std::size_t step = (all.size() + most - 1) / most;
+  std::vector<Value> some;
+  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, step)) some.push_back(all[i]);
   return some;
 }
 
@@ -68,9 +69,20 @@ struct Pull {
 }  // namespace
 
 CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
+  Cubes::Map<std::size_t> index;
+  std::vector<Cloud> cubes;  // The map's own order differs between libraries.
+  for (const Eigen::Vector3d& point : cloud_world_m) {
+    const auto [cube, is_new] = index.try_emplace(Cubes::of(point), cubes.size());
+    if (is_new) cubes.emplace_back();
+    cubes[cube->second].push_back(point);
+  }
   std::vector<double> distances_m;
-  for (const Eigen::Vector3d& point : thinned(cloud_world_m, kMostPoints))
-    distances_m.push_back(rays.nearest(point, CloudError::kLimit_m).distance_m);
+  for (const Cloud& cube : thinned(cubes, kMostCubes)) {
+    const Cloud points = thinned(cube, kMostPoints);
+    double sum_m = 0.0;
+    for (const Eigen::Vector3d& point : points) sum_m += rays.nearest(point, CloudError::kLimit_m).distance_m;
+    distances_m.push_back(sum_m / static_cast<double>(points.size()));
+  }
   return {quantile(distances_m, 0.5), quantile(distances_m, 0.95)};
 }
 

@@ -13,17 +13,18 @@ namespace swiftlet::evaluation {
 
 using Cloud = std::vector<Eigen::Vector3d>;
 
-/// Distances of points to the nearest true surface. They are capped at kLimit_m: farther, a point has no surface to be
-/// compared with.
+/// Distances of a cloud to the nearest true surface: of each cube of kSpacing_m with points their mean, so that a
+/// surface counts by its area and not by how many points it has. The distance of a point is capped at kLimit_m:
+/// farther, it has no surface to be compared with.
 struct CloudError {
   double median_m = 0.0;
   double p95_m = 0.0;
   static constexpr double kLimit_m = 1.0;
 };
 
-/// Of at most kMostPoints, evenly spread over the cloud, which must not be empty.
+/// Of at most kMostCubes, evenly spread over the cloud, which must not be empty, and kMostPoints in each.
 CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& rays);
-inline constexpr std::size_t kMostPoints = 50'000;
+inline constexpr std::size_t kMostCubes = 10'000, kMostPoints = 5;
 
 /// The small rigid motion of the cloud, in the world's frame, that brings it nearest to the surfaces: iterated closest
 /// points, each pulled along the normal of its surface [Chen and Medioni 1992]. Points much farther than most do not

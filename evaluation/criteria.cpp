@@ -45,11 +45,13 @@ void describeEstimate(Criteria& c, common::config::Fields& fields) {
   fields("map_wall_error_max_m", c.map_wall_error_max_m, kPositive,
          "Greatest median distance of mapped walls to true ones.");
   fields("map3d_error_max_m", c.map3d_error_max_m, kPositive,
-         "Greatest median distance of the 3D map's points to true surfaces, the map as it stands.");
+         "Greatest median distance of the 3D map's cubes of 10 cm to true surfaces, the map as it stands.");
   fields("map3d_aligned_error_max_m", c.map3d_aligned_error_max_m, kPositive,
-         "Greatest median distance of the 3D map's points to true surfaces, after one rigid motion of all of them.");
-  fields("map3d_aligned_p95_max_m", c.map3d_aligned_p95_max_m, kPositive,
-         "Greatest distance within which 95 % of the 3D map's points are, after one rigid motion of all of them.");
+         "Greatest median distance of the 3D map's cubes of 10 cm to true surfaces, after one rigid motion of all of "
+         "them.");
+  fields(
+      "map3d_aligned_p95_max_m", c.map3d_aligned_p95_max_m, kPositive,
+      "Greatest distance within which 95 % of the 3D map's cubes of 10 cm are, after one rigid motion of all of them.");
   fields("map3d_coverage_min", c.map3d_coverage_min, {0, 1},
          "Least share of the surfaces in view of the RGB-D camera that have points of the 3D map within 10 cm.");
   fields("localized_within_m", c.localized_within_m, kPositive,

@@ -12,10 +12,10 @@ struct FlightRecord;
 
 struct Map3dScore {
   std::size_t points = 0;
-  /// Distance of the cloud's points to the nearest surface, the map where the vehicle can know it to be.
+  /// Distance of the cloud to the nearest surface (CloudError), the map where the vehicle can know it to be.
   double error_median_m = 0.0;
   double error_p95_m = 0.0;
-  /// Distance of the cloud's points to the nearest surface after one rigid motion of the whole cloud.
+  /// Distance of the cloud to the nearest surface after one rigid motion of the whole cloud.
   double aligned_median_m = 0.0;
   double aligned_p95_m = 0.0;
   /// Share of the surfaces in view of the camera that are in the aligned cloud.

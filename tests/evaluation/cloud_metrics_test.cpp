@@ -54,6 +54,27 @@ TEST_F(CloudMetrics, AnErrorIsThePerpendicularDistanceAndOutliersAreTheLast) {
   EXPECT_NEAR(error.p95_m, 0.2, 0.02);
 }
 
+/// The floor of a half of the room, a tenth of which is off.
+Cloud floorWithStepUp(double step_m, double apart_off_m) {
+  Cloud cloud;
+  const auto add = [&](double from_x, double to_x, double z, double apart_m) {
+    for (double x = from_x + 0.5 * apart_m; x < to_x; x += apart_m)
+      for (double y = 0.5 + 0.5 * apart_m; y < 2.5; y += apart_m) cloud.emplace_back(x, y, z);
+  };
+  add(0.3, 1.7, 0.01, 0.02);
+  add(1.5, 1.7, step_m, apart_off_m);
+  std::erase_if(cloud, [&](const Eigen::Vector3d& p) { return p.x() > 1.5 && p.z() < 0.5 * step_m; });
+  return cloud;
+}
+
+TEST_F(CloudMetrics, ASurfaceCountsByItsAreaHoweverFewPointsItHas) {
+  const CloudError dense = cloudError(floorWithStepUp(0.21, 0.02), rays_);
+  const CloudError thinned = cloudError(floorWithStepUp(0.21, 0.08), rays_);
+  EXPECT_NEAR(dense.p95_m, 0.21, 0.01);
+  EXPECT_NEAR(thinned.p95_m, dense.p95_m, 1e-6);
+  EXPECT_NEAR(thinned.median_m, dense.median_m, 1e-6);
+}
+
 TEST_F(CloudMetrics, FarPointsAreCapped) {
   EXPECT_EQ(cloudError({{100.0, 0.0, 50.0}}, rays_).median_m, CloudError::kLimit_m);
 }
