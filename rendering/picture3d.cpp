@@ -17,7 +17,7 @@ Line3d atHeight(std::span<const Eigen::Vector2d> points_map_m, double z_m, Line3
 
 void addMap(const common::Map3dLayer& map3d, Picture3d& picture) {
   for (const common::Submap3d& submap : *map3d.submaps)
-    picture.surfaces.push_back({submap.points, submap.T_map_submap(*map3d.keys)});
+    picture.surfaces.push_back({submap.points, submap.T_map_submap(*map3d.keys), submap.cube_m, submap.coarse});
   if (map3d.frame) picture.camera = PlacedCamera{map3d.T_map_camera, map3d.frame->camera};
 }
 

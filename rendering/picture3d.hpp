@@ -1,6 +1,7 @@
 // The content of a picture of a 3D map. A flight or a mapped recording fills it.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,6 +28,8 @@ enum class PointColor {
 struct PlacedSurface {
   std::shared_ptr<const std::vector<common::SurfacePoint>> points;  ///< Never null.
   common::Pose3 T_map_points;
+  double cube_m = 0.02;    ///< As in Submap3d.
+  std::size_t coarse = 0;  ///< As in Submap3d.
 };
 
 enum class Line3dStyle {

@@ -10,12 +10,13 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The 3D map keeps one point in a cube of 2 cm. Neighbours are then up to the cube's diagonal apart, which a disc of
-/// this diameter bridges.
-constexpr float kDiscDiameter_m = 0.035F;
+/// The 3D map keeps one point in a cube. Neighbours are then up to the cube's diagonal apart, which a disc of so many
+/// times the side bridges.
+constexpr double kDiscDiameter = 1.75;
 /// Nearer points are not drawn: their discs would fill the picture.
 constexpr float kNearest_m = 0.05F;
-constexpr int kMostRadius_px = 16;
+/// Of the discs of small cubes, and of any.
+constexpr int kMostFineRadius_px = 16, kMostRadius_px = 64;
 
 /// Half the width of each row of a disc, by the radius in half pixels.
 class DiscTable {
@@ -80,15 +81,19 @@ void drawSurface(const PlacedSurface& surface, const Eye& eye, PointColor colori
   const auto cx = static_cast<float>(eye.lens.cx_px), cy = static_cast<float>(eye.lens.cy_px);
   const auto right_px = static_cast<float>(buffer.width_px() + kMostRadius_px);
   const auto bottom_px = static_cast<float>(buffer.height_px() + kMostRadius_px);
-  for (const common::SurfacePoint& point : *surface.points) {
+  const double fine_m = kDiscDiameter * surface.cube_m, coarse_m = common::kLargeCube * fine_m;
+  const std::size_t fine = surface.points->size() - surface.coarse;
+  for (std::size_t i = 0; i < surface.points->size(); ++i) {
+    const common::SurfacePoint& point = (*surface.points)[i];
+    const auto disc_m = static_cast<float>(i < fine ? fine_m : coarse_m);
+    const int most_px = 2 * (i < fine ? kMostFineRadius_px : kMostRadius_px);
     if ((point.position_m - eye_points_m).dot(point.normal) > 0.0F) continue;
     const Vector3f at_m = rotation * point.position_m + offset_m;
     if (!(at_m.x() > kNearest_m)) continue;
     const float per_depth = 1.0F / at_m.x();
     const float u = cx - fx * at_m.y() * per_depth, v = cy - fy * at_m.z() * per_depth;
     if (!(u > -kMostRadius_px && v > -kMostRadius_px && u < right_px && v < bottom_px)) continue;
-    const int twice_radius_px =
-        std::min(2 * kMostRadius_px, static_cast<int>(std::ceil(kDiscDiameter_m * fy * per_depth)));
+    const int twice_radius_px = std::min(most_px, static_cast<int>(std::ceil(disc_m * fy * per_depth)));
     const std::uint32_t rgb =
         coloring == PointColor::kMeasured ? packed(point.rgb) : colorOfNormal(map_rotation * point.normal);
     drawDisc(static_cast<int>(std::floor(u + 0.5F)), static_cast<int>(std::floor(v + 0.5F)), twice_radius_px,

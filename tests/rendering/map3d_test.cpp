@@ -27,13 +27,11 @@ PlacedSurface surfaceOf(std::vector<SurfacePoint> points, const common::Pose3& T
   return {std::make_shared<const std::vector<SurfacePoint>>(std::move(points)), T_map_points};
 }
 
-/// A square of 1 m that faces -x, 2 cm between its points.
-PlacedSurface wallAt(double x_m, const Rgb& rgb) {
+/// A square of 1 m that faces -x.
+PlacedSurface wallAt(double x_m, const Rgb& rgb, float apart_m = 0.02F) {
   std::vector<SurfacePoint> points;
-  for (int y = -25; y <= 25; ++y)
-    for (int z = -25; z <= 25; ++z)
-      points.push_back(
-          {Vector3f(0.0F, 0.02F * static_cast<float>(y), 0.02F * static_cast<float>(z)), -Vector3f::UnitX(), rgb});
+  for (float y = -0.5F; y < 0.505F; y += apart_m)
+    for (float z = -0.5F; z < 0.505F; z += apart_m) points.push_back({Vector3f(0.0F, y, z), -Vector3f::UnitX(), rgb});
   return surfaceOf(std::move(points), {Eigen::Quaterniond::Identity(), {x_m, 0.0, 0.0}});
 }
 
@@ -81,15 +79,27 @@ TEST(SurfaceLayerTest, TheNearestSurfaceIsInFrontInWhateverOrderTheyAreDrawn) {
   EXPECT_FLOAT_EQ(drawn({far}, eye).depth_m(160, 120), 3.0F);
 }
 
+/// Nowhere on a wall of wallAt() at that distance is the background seen.
+void expectClosed(const PlacedSurface& surface, double distance_m) {
+  const DepthBuffer buffer = drawn({surface}, eyeAtOrigin());
+  const double half_px = 0.46 * 300.0 / distance_m;
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u)
+      ASSERT_FALSE(std::abs(u - 159.5) < half_px && std::abs(v - 119.5) < half_px && buffer.isEmpty(u, v))
+          << u << " " << v << " at " << distance_m;
+}
+
 TEST(SurfaceLayerTest, AClosedSurfaceHasNoHoles) {
-  const Eye eye = eyeAtOrigin();
-  for (const double distance_m : {0.6, 1.0, 2.5, 6.0}) {
-    const DepthBuffer buffer = drawn({wallAt(distance_m, kRed)}, eye);
-    const double half_px = 0.48 * 300.0 / distance_m;
-    for (int v = 0; v < 240; ++v)
-      for (int u = 0; u < 320; ++u)
-        ASSERT_FALSE(std::abs(u - 159.5) < half_px && std::abs(v - 119.5) < half_px && buffer.isEmpty(u, v))
-            << u << " " << v << " at " << distance_m;
+  for (const double distance_m : {0.6, 1.0, 2.5, 6.0}) expectClosed(wallAt(distance_m, kRed), distance_m);
+}
+
+TEST(SurfaceLayerTest, DiscsBridgeTheDistanceOfNoisyPointsAndOfThinnedOnes) {
+  for (const double distance_m : {0.6, 2.5, 6.0}) {
+    PlacedSurface noisy = wallAt(distance_m, kRed, 0.08F), thinned = wallAt(distance_m, kRed, 0.04F);
+    noisy.coarse = noisy.points->size();
+    expectClosed(noisy, distance_m);
+    thinned.cube_m = 0.04;
+    expectClosed(thinned, distance_m);
   }
 }
 
