@@ -3,18 +3,20 @@
 import { inFrame, poseMatrix, product } from './matrices.js';
 
 /** Bridges the distance of neighbours in a map of 2 cm; as in rendering/surface_layer.cpp. */
-const kDiscDiameter_m = 0.035;
+const kDisc = { diameter_m: 0.035, most_px: 32 };
+/** Noisy points are four times as far apart. */
+const kNoisyDisc = { diameter_m: 0.14, most_px: 128 };
 
 const kPointVertex = `
 attribute vec3 steps, normal, color;
 uniform mat4 clip_from_submap, map_from_submap;
 uniform vec3 eye;
-uniform float step, disc_px, by_normal;
+uniform float step, disc_px, most_px, by_normal;
 varying vec3 shown;
 void main() {
   vec3 position = step * steps;
   gl_Position = clip_from_submap * vec4(position, 1.0);
-  gl_PointSize = clamp(disc_px / gl_Position.w, 1.0, 32.0);
+  gl_PointSize = clamp(disc_px / gl_Position.w, 1.0, most_px);
   shown = mix(color, 0.5 + 0.5 * mat3(map_from_submap) * normal, by_normal);
   if (dot(position - eye, normal) > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
@@ -93,7 +95,6 @@ export class Map3dGl {
   drawSubmaps(store, clipFromMap, eye, focal_px, byNormal) {
     const { gl, points: { made, at, uniform } } = this;
     gl.useProgram(made);
-    gl.uniform1f(uniform.disc_px, kDiscDiameter_m * focal_px);
     gl.uniform1f(uniform.by_normal, byNormal ? 1 : 0);
     for (const name of ['steps', 'normal', 'color']) gl.enableVertexAttribArray(at[name]);
     for (const [number, submap] of store.submaps) {
@@ -104,6 +105,9 @@ export class Map3dGl {
       gl.uniformMatrix4fv(uniform.map_from_submap, false, mapFromSubmap);
       gl.uniform3fv(uniform.eye, inFrame(mapFromSubmap, eye));
       gl.uniform1f(uniform.step, submap.step);
+      const disc = number % 2 === 0 ? kDisc : kNoisyDisc;
+      gl.uniform1f(uniform.disc_px, disc.diameter_m * focal_px);
+      gl.uniform1f(uniform.most_px, disc.most_px);
       gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers.get(number).buffer);
       gl.vertexAttribPointer(at.steps, 3, gl.SHORT, false, 12, 0);
       gl.vertexAttribPointer(at.normal, 3, gl.BYTE, true, 12, 6);

@@ -42,7 +42,7 @@ export class Map3dStore {
   }
 
   reset() {
-    this.submaps = new Map(); // Number -> Points.
+    this.submaps = new Map(); // Number -> Points; two lists for each submap.
     this.poses = [];
     this.camera = null; // {pose, tracked, across, up}
     this.arriving = null;

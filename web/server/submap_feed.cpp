@@ -7,6 +7,8 @@
 namespace swiftlet::web {
 namespace {
 
+using PointSpan = std::span<const common::SurfacePoint>;
+
 /// Points of one message: 48 KiB, so that nothing waits long behind it on a slow link.
 constexpr std::size_t kPartPoints = 4096;
 constexpr std::size_t kPointBytes = 12;
@@ -48,21 +50,30 @@ void put(std::string& bytes, const common::SurfacePoint& point, float step_m) {
   for (const std::uint8_t channel : point.rgb) put(bytes, channel, 1);
 }
 
-/// The greatest finite coordinate of the points from `begin` on.
-float reachOf(const std::vector<common::SurfacePoint>& points, std::size_t begin) {
+/// The greatest finite coordinate.
+float reachOf(PointSpan points) {
   float reach_m = 0.0F;
-  for (std::size_t i = begin; i < points.size(); ++i)
-    if (points[i].position_m.allFinite()) reach_m = std::max(reach_m, points[i].position_m.cwiseAbs().maxCoeff());
+  for (const common::SurfacePoint& point : points)
+    if (point.position_m.allFinite()) reach_m = std::max(reach_m, point.position_m.cwiseAbs().maxCoeff());
   return reach_m;
 }
 
-bool continues(const std::vector<common::SurfacePoint>& next, const std::vector<common::SurfacePoint>& last) {
+bool continues(PointSpan next, PointSpan last) {
   if (next.size() < last.size()) return false;
   const std::size_t step = last.size() / kCompared + 1;
   for (std::size_t i = 0; i < last.size(); i += step)
     if (!((next[i].position_m - last[i].position_m).norm() < kSamePoint_m)) return false;
   return true;
 }
+
+bool samePlaces(PointSpan next, PointSpan last) {
+  const auto same = [](const common::SurfacePoint& a, const common::SurfacePoint& b) {
+    return a.position_m == b.position_m;
+  };
+  return std::equal(next.begin(), next.end(), last.begin(), last.end(), same);
+}
+
+bool isNoisy(std::size_t list) { return list % 2 == 1; }
 
 SharedText cameraMessage(const common::Map3dLayer& map3d) {
   const common::PinholeCamera& lens = map3d.frame->camera;
@@ -77,25 +88,38 @@ SharedText cameraMessage(const common::Map3dLayer& map3d) {
 
 }  // namespace
 
+void SubmapFeed::takePoints(List& known, const Points& all, PointSpan points) {
+  List next{all, points, ++last_version_, last_version_, 0.0F};
+  const bool same = known.all && continues(points, known.points);
+  next.reach_m = std::max(same ? known.reach_m : 0.0F, reachOf(points.subspan(same ? known.points.size() : 0)));
+  if (same && stepFor(next.reach_m) == stepFor(known.reach_m)) next.lineage = known.lineage;
+  known = std::move(next);
+}
+
+void SubmapFeed::takeNoisy(List& known, const Points& all, PointSpan points) {
+  if (!known.all || !samePlaces(points, known.points))
+    known = {all, points, ++last_version_, last_version_, reachOf(points)};
+  known.all = all;
+  known.points = points;
+}
+
 void SubmapFeed::update(const common::Map3dLayer& map3d) {
   const auto& submaps = *map3d.submaps;
-  submaps_.resize(submaps.size());
+  lists_.resize(2 * submaps.size());
   std::string pose_bytes;
   for (std::size_t i = 0; i < submaps.size(); ++i) {
-    Submap& known = submaps_[i];
-    put(pose_bytes, submaps[i].T_map_submap(*map3d.keys));
-    if (known.points == submaps[i].points) continue;
-    Submap next{submaps[i].points, ++last_version_, last_version_, 0.0F};
-    const bool same = known.points && continues(*next.points, *known.points);
-    next.reach_m = std::max(same ? known.reach_m : 0.0F, reachOf(*next.points, same ? known.points->size() : 0));
-    if (same && stepFor(next.reach_m) == stepFor(known.reach_m)) next.lineage = known.lineage;
-    known = std::move(next);
+    const common::Submap3d& submap = submaps[i];
+    for (int list = 0; list < 2; ++list) put(pose_bytes, submap.T_map_submap(*map3d.keys));
+    if (lists_[2 * i].all == submap.points) continue;
+    const PointSpan all(*submap.points);
+    takePoints(lists_[2 * i], submap.points, all.first(submap.fine()));
+    takeNoisy(lists_[2 * i + 1], submap.points, all.last(submap.coarse));
   }
   if (!poses_ || pose_bytes != pose_bytes_) {
     pose_bytes_ = std::move(pose_bytes);
     std::string message;
     put(message, 4, 2);
-    put(message, static_cast<std::uint32_t>(submaps.size()), 2);
+    put(message, static_cast<std::uint32_t>(lists_.size()), 2);
     put(message, ++poses_version_, 4);
     poses_ = std::make_shared<const std::string>(message + pose_bytes_);
   }
@@ -105,35 +129,39 @@ void SubmapFeed::update(const common::Map3dLayer& map3d) {
 }
 
 std::optional<SubmapReader::Transfer> SubmapReader::choose(const SubmapFeed& feed, common::Time now) {
-  const auto& submaps = feed.submaps();
-  for (std::size_t i = submaps.size(); i-- > 0;) {
+  const auto& lists = feed.lists();
+  for (std::size_t i = lists.size(); i-- > 0;) {
     Has& has = has_[i];
-    if (has.lineage == 0) has = {submaps[i].lineage, submaps[i].version, 0};
-    if (has.lineage == submaps[i].lineage && has.points < submaps[i].points->size())
-      return Transfer{submaps[i], i, has.points, true};
+    if (has.lineage == 0) has = {lists[i].lineage, lists[i].version, 0};
+    if (has.lineage == lists[i].lineage && has.points < lists[i].points.size())
+      return Transfer{lists[i], i, has.points, true};
   }
   if (now < refresh_) return std::nullopt;
-  for (std::size_t i = 0; i < submaps.size(); ++i) {
-    const bool settled = i + 1 < submaps.size();
-    if (has_[i].lineage == submaps[i].lineage && !(settled && has_[i].version != submaps[i].version)) continue;
-    const double bytes = static_cast<double>(kPointBytes * submaps[i].points->size());
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const bool settled = i + 2 < lists.size();
+    if (has_[i].lineage == lists[i].lineage && !(settled && has_[i].version != lists[i].version)) continue;
+    if (!settled && isNoisy(i)) {
+      if (now < refresh_noisy_) continue;
+      refresh_noisy_ = now + common::Duration::fromSeconds(kNoisyPeriod_s);
+    }
+    const double bytes = static_cast<double>(kPointBytes * lists[i].points.size());
     refresh_ = now + common::Duration::fromSeconds(bytes / kRefreshBytesPerSecond);
-    has_[i] = {submaps[i].lineage, submaps[i].version, 0};
-    return Transfer{submaps[i], i, 0, false};
+    has_[i] = {lists[i].lineage, lists[i].version, 0};
+    return Transfer{lists[i], i, 0, false};
   }
   return std::nullopt;
 }
 
 SharedText SubmapReader::nextPart() {
-  const auto& points = *transfer_->submap.points;
+  const PointSpan points = transfer_->list.points;
   const std::size_t begin = transfer_->sent, end = std::min(points.size(), begin + kPartPoints);
-  const float step_m = stepFor(transfer_->submap.reach_m);
+  const float step_m = stepFor(transfer_->list.reach_m);
   std::string bytes;
   bytes.reserve(20 + kPointBytes * (end - begin));
   put(bytes, 3, 1);
   put(bytes, transfer_->added ? 1 : 0, 1);
   put(bytes, static_cast<std::uint32_t>(transfer_->number), 2);
-  put(bytes, transfer_->submap.version, 4);
+  put(bytes, transfer_->list.version, 4);
   put(bytes, static_cast<std::uint32_t>(begin), 4);
   put(bytes, static_cast<std::uint32_t>(points.size()), 4);
   put(bytes, static_cast<double>(step_m));
@@ -145,7 +173,7 @@ SharedText SubmapReader::nextPart() {
 
 std::vector<SharedText> SubmapReader::next(const SubmapFeed& feed, common::Time now, std::size_t most_bytes) {
   std::vector<SharedText> messages;
-  has_.resize(feed.submaps().size());
+  has_.resize(feed.lists().size());
   if (transfer_ && transfer_->number >= has_.size()) transfer_.reset();
   for (const auto& [newest, had] : {std::pair(&feed.poses(), &poses_), std::pair(&feed.camera(), &camera_)}) {
     if (!*newest || *newest == *had) continue;
