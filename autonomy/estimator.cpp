@@ -295,7 +295,9 @@ bool Estimator::fuse(const OdometryStep& step) {
 
 void Estimator::fuse(const CameraStep& step, Time now) {
   using perception::Insertion;
-  if (step.measurement && !isCameraDoubted(now)) {
+  // What was measured from before a correction of the height on would take it back.
+  if (isCameraDoubted(now)) return rgbd_->forgetClone();
+  if (step.measurement) {
     const auto taken = tell(*step.measurement);
     if (taken == Insertion::kTaken) {
       const CameraSupport support = supportOf(filter_.state());

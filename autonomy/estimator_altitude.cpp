@@ -14,7 +14,8 @@ namespace {
 constexpr double kGroundPeriod_s = 0.2;
 /// A match no older than this tells the place of an image.
 constexpr double kMatched_s = 0.15;
-/// What the camera measures is not used for so long after the beams down contradicted it: two windows of HeightDrift.
+/// What the camera measures is not used for so long after the beams down contradicted it, or corrected the height: two
+/// windows of HeightDrift, and longer than the filter resists a correction.
 constexpr double kCameraDoubted_s = 1.0;
 
 }  // namespace
@@ -66,11 +67,13 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   if (step.slope_ended_rise_m)
     say(stamp, Severity::kInfo, "altitude", "the slope has ended",
         fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
-  if (step.floor_regained_m)
+  if (step.floor_regained_m) {
+    camera_doubted_ = stamp;
     say(stamp, Severity::kWarning, "altitude", "the floor is below again",
         fmt::format("what was taken for a level covers the floor that was seen before: the height is corrected by "
                     "{:+.2f} m",
                     *step.floor_regained_m));
+  }
   if (step.levels_joined > 0)
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
 }

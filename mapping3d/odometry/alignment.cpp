@@ -210,8 +210,9 @@ Alignment summary(const common::Pose3& T_map_camera, const Sums& sums) {
 }
 
 /// Variance of the gradients that noise alone gives. The noise of the grey values comes from second differences, which
-/// pass over even slopes (J. Immerkaer, "Fast noise variance estimation", CVIU 1996), of the quarter of the picture with
-/// the least texture. A gradient is the difference of two pixels, each the mean of two beside each other: 4/3 on average.
+/// pass over even slopes (J. Immerkaer, "Fast noise variance estimation", CVIU 1996), of the quarter of the picture
+/// with the least texture. A gradient is the difference of two pixels, each the mean of two beside each other: 4/3 on
+/// average.
 double gradientVariance(const vision::GrayImage& gray) {
   constexpr int kStep_px = 3;
   constexpr double kQuarter = 0.3186, kMask = 6.0;  // Of a Gaussian's absolute values; the norm of the mask.

@@ -2,13 +2,9 @@
 #include "autonomy/supervisor.hpp"
 
 #include <cmath>
-#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "autonomy/supervisor_intents.hpp"
-#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -387,33 +383,6 @@ TEST_F(SupervisorStory, EachChangeIsAnEventWithItsReason) {
   EXPECT_EQ(events[0].text, "hold");
   EXPECT_THAT(events[0].reason, HasSubstr("no scan"));
   EXPECT_EQ(events[1].text, "scans are back");
-}
-
-/// The trail of an interrupted flight back has the way back in it, too.
-TEST_F(SupervisorStory, AFlightBackThatWasInterruptedKeepsItsPath) {
-  SupervisorIntents intents(0.1);
-  common::VehicleLayer vehicle;
-  common::TrailRecorder trail;
-  const auto flyTo = [&](double from_m, double to_m) {
-    const double step_m = to_m > from_m ? 0.1 : -0.1;
-    for (int i = 0; i <= std::lround(std::abs(to_m - from_m) / 0.1); ++i) trail.add({from_m + i * step_m, 0.0});
-    vehicle.trail = trail.trail();
-  };
-  const auto intentWith = [&](const common::Intent& present, std::uint64_t answered_id) {
-    common::World world;
-    world.vehicle = std::make_shared<const common::VehicleLayer>(vehicle);
-    const common::IntentStatus status{answered_id, common::IntentState::kRunning, "", true};
-    Supervision asked;
-    asked.back = 1;
-    return intents.flight(asked, {Time::fromSeconds(1), world, present, status, false}, supervisor_).value();
-  };
-  flyTo(0.0, 5.0);
-  const common::Intent back = intentWith(SupervisorIntents::hold(), SupervisorIntents::hold().id);
-  flyTo(5.0, 3.0);
-  const common::Intent again = intentWith(SupervisorIntents::hold(), SupervisorIntents::hold().id);
-  EXPECT_EQ(again.id, back.id);
-  EXPECT_EQ(std::get<common::RetraceIntent>(again.kind).path_map_m,
-            std::get<common::RetraceIntent>(back.kind).path_map_m);
 }
 
 }  // namespace
