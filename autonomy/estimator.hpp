@@ -96,7 +96,7 @@ class Estimator {
   /// The place in the given map is looked for anew; false if there is none.
   bool forgetPlace();
 
-  /// Whether the frame can be used, by whoever uses it: it is judged here alone. Without a camera it is ignored.
+  /// Whether the frame can be used; others that get it ask here instead of judging it again. False without a camera.
   [[nodiscard]] bool addFrame(std::shared_ptr<const common::RgbdFrame> frame);
   /// Without an upright laser the sweep is ignored.
   void addSweep(std::shared_ptr<const common::VerticalScan> sweep);

@@ -1,8 +1,8 @@
 // A behaviour: a leaf that emits an Intent at each tick and watches the IntentStatus of that intent.
 //
 // To let go, it emits hold until the vehicle has stopped (IntentStatus::released of that hold), or until the reactive
-// layer has the vehicle anyway. When it resumes, it emits its intent again with a new id, as
-// one that goes on with the one before (Intent::resumes).
+// layer has the vehicle anyway. When it resumes, it emits its intent again with a new id, as one that goes on with the
+// one before (Intent::resumes).
 #pragma once
 
 #include <cstdint>

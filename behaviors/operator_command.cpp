@@ -64,8 +64,10 @@ void OperatorCommand::take(FlightTick& tick) {
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? *point : common::GoalCommand{tick.flight.world->vehicle->home_map.position_m()});
   goal_->mode = tick.mode;
-  if (point == nullptr) goal_->instead_within_m = common::kHomeWithin_m;
-  if (point != nullptr) shift(tick);
+  if (point != nullptr)
+    shift(tick);
+  else
+    goal_->instead_within_m = common::kHomeWithin_m;
   renewIntent();
 }
 

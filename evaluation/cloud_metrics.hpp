@@ -14,8 +14,8 @@ namespace swiftlet::evaluation {
 using Cloud = std::vector<Eigen::Vector3d>;
 
 /// Distances of a cloud to the nearest true surface: of each cube of kSpacing_m with points their mean, so that a
-/// surface counts by its area and not by how many points it has. The distance of a point is capped at kLimit_m:
-/// farther, it has no surface to be compared with.
+/// surface counts by its area and not by how many points it has. A point farther than kLimit_m has no surface to be
+/// compared with and counts as that far.
 struct CloudError {
   double median_m = 0.0;
   double p95_m = 0.0;

@@ -35,4 +35,9 @@ common::DepthImage halved(const common::DepthImage& depth);
 /// of a new pixel as well.
 common::PinholeCamera halved(const common::PinholeCamera& camera);
 
+/// Variance, in squared grey levels per squared pixel, of the gradients that the noise of the picture alone gives
+/// between interpolated pixels (J. Immerkaer, "Fast noise variance estimation", CVIU 1996). 0 for a picture of less
+/// than 3 x 3.
+double gradientNoiseVariance(const GrayImage& gray);
+
 }  // namespace swiftlet::vision

@@ -19,10 +19,10 @@ constexpr double kOnCircle_m = 0.15;
 /// From then on the vehicle may leave its first place: well within half of a camera's opening angle, and above the
 /// yaw's error in a hover, 1 deg.
 constexpr double kFacesPoint_rad = 3.0 * common::kRadPerDeg;
-/// The axis passes by the point in height.
-constexpr double kPassesBy_m = 0.05;
 /// And for so long: a heading that swings through is beside the point again.
 constexpr double kFacesFor_s = 0.4;
+/// A height that is off by more than this is said.
+constexpr double kPassesBy_m = 0.05;
 
 /// The height of the body from which the camera's axis meets the point.
 double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pose3& T_body_camera) {

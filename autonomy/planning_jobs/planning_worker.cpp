@@ -179,7 +179,7 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
     if (!field.reached(i)) continue;
     const common::CellIndex cell = map_.cellOf(i);
     // The cost of a path into a corner is high, and would count as far away.
-    if (map_.obstacleDistance_m(cell) < map_.footprint().stopRadius_m()) continue;
+    if (!map_.hasRoomToStop(cell)) continue;
     const double away_m = std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
     const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(cell);
     if (score > best.first) best = {score, i};

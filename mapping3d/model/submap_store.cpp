@@ -36,11 +36,15 @@ bool hasNeighbour(const std::set<int>& scans, int scan) {
   return at != scans.end() && *at <= scan + kNeighbouringScans;
 }
 
+void setPoints(const WeightedPoints& points, Submap3d& submap) {
+  submap.points = points.points;
+  submap.coarse = points.points->size() - points.fine;
+}
+
 }  // namespace
 
 void SubmapStore::Kept::take(WeightedPoints points) {
-  submap.coarse = points.points->size() - points.fine;
-  submap.points = std::move(points.points);
+  setPoints(points, submap);
   weights = std::move(points.weights);
 }
 
@@ -99,9 +103,7 @@ std::vector<Submap3d> SubmapStore::snapshot() {
   for (const Kept& kept : kept_) submaps.push_back(kept.submap);
   if (growing_) {
     Submap3d& submap = submaps[growing_->index];
-    WeightedPoints points = growing_->points.points();
-    submap.coarse = points.points->size() - points.fine;
-    submap.points = std::move(points.points);
+    setPoints(growing_->points.points(), submap);
     submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   }
   return submaps;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -66,8 +64,11 @@ struct Sums {
   double gray_squared = 0.0, gray_weight = 0.0, surface_squared_m2 = 0.0, surface_weight = 0.0;
   double absolute_gray = 0.0;
   CorrelationSums grays;
-  /// What gradients of nothing but noise, of variance 1 along both axes, would add to the information.
-  Matrix6d gradient_noise = Matrix6d::Zero();
+  struct Gray {
+    Eigen::Vector3d point_camera_m;
+    double weight;
+  };
+  std::vector<Gray> compared;  ///< The points whose grey values are in the equations.
 };
 
 /// One level of a frame at one pose.
@@ -144,20 +145,9 @@ class LevelErrors {
     ExposureEquations::Vector8d jacobian;
     jacobian << -gradient, gradient.cross(point), -reference_gray, -1.0;
     sums.equations.addGray(jacobian, residual, weight / (sigma * sigma));
-    addGradientNoise(point, weight / (sigma * sigma), sums.gradient_noise);
+    sums.compared.push_back({point, weight / (sigma * sigma)});
     sums.gray_squared += weight * residual * residual;
     sums.gray_weight += weight;
-  }
-
-  void addGradientNoise(const Eigen::Vector3d& point, double weight, Matrix6d& sum) const {
-    const double along_u = level_.camera.fx_px / point.x(), along_v = level_.camera.fy_px / point.x();
-    const Eigen::Vector3d by_u(along_u * point.y() / point.x(), -along_u, 0.0);
-    const Eigen::Vector3d by_v(along_v * point.z() / point.x(), 0.0, -along_v);
-    for (const Eigen::Vector3d& gradient : {by_u, by_v}) {
-      Vector6d jacobian;
-      jacobian << -gradient, gradient.cross(point);
-      sum.noalias() += weight * jacobian * jacobian.transpose();
-    }
   }
 
   /// A point without a normal may be seen on a slope, a pixel beside its place.
@@ -209,25 +199,20 @@ Alignment summary(const common::Pose3& T_map_camera, const Sums& sums) {
   return alignment;
 }
 
-/// Variance of the gradients that noise alone gives. The noise of the grey values comes from second differences, which
-/// pass over even slopes (J. Immerkaer, "Fast noise variance estimation", CVIU 1996), of the quarter of the picture
-/// with the least texture. A gradient is the difference of two pixels, each the mean of two beside each other: 4/3 on
-/// average.
-double gradientVariance(const vision::GrayImage& gray) {
-  constexpr int kStep_px = 3;
-  constexpr double kQuarter = 0.3186, kMask = 6.0;  // Of a Gaussian's absolute values; the norm of the mask.
-  std::vector<int> curvatures;
-  for (int v = 1; v < gray.height_px - 1; v += kStep_px) {
-    const std::uint8_t *above = gray.row(v - 1), *here = gray.row(v), *below = gray.row(v + 1);
-    for (int u = 1; u < gray.width_px - 1; u += kStep_px)
-      curvatures.push_back(std::abs(above[u - 1] + above[u + 1] + below[u - 1] + below[u + 1] + 4 * here[u] -
-                                    2 * (above[u] + below[u] + here[u - 1] + here[u + 1])));
+/// See Alignment::gradient_noise.
+Matrix6d gradientNoise(const std::vector<Sums::Gray>& compared, const common::PinholeCamera& camera) {
+  Matrix6d sum = Matrix6d::Zero();
+  for (const auto& [point, weight] : compared) {
+    const double along_u = camera.fx_px / point.x(), along_v = camera.fy_px / point.x();
+    const Eigen::Vector3d by_u(along_u * point.y() / point.x(), -along_u, 0.0);
+    const Eigen::Vector3d by_v(along_v * point.z() / point.x(), 0.0, -along_v);
+    for (const Eigen::Vector3d& gradient : {by_u, by_v}) {
+      Vector6d jacobian;
+      jacobian << -gradient, gradient.cross(point);
+      sum.noalias() += weight * jacobian * jacobian.transpose();
+    }
   }
-  if (curvatures.empty()) return 0.0;
-  const auto quarter = curvatures.begin() + static_cast<std::ptrdiff_t>(curvatures.size() / 4);
-  std::nth_element(curvatures.begin(), quarter, curvatures.end());
-  const double sigma = *quarter / (kQuarter * kMask);
-  return 4.0 / 3.0 * sigma * sigma;
+  return sum;
 }
 
 /// The mean absolute value of a Gaussian is 0.8 of its standard deviation.
@@ -281,7 +266,7 @@ Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views,
   }
   Alignment alignment = summary(pose, sums);
   alignment.measured_information = measured.poseInformation();
-  alignment.noise_information = gradientVariance(frame.front().gray) * sums.gradient_noise;
+  alignment.gradient_noise = gradientNoise(sums.compared, frame.front().camera);
   alignment.exposure = estimate;
   return alignment;
 }

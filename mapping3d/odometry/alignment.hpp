@@ -56,9 +56,9 @@ struct Alignment {
   Matrix6d information = Matrix6d::Zero();
   /// The part of it that the frame itself gives, without the prior.
   Matrix6d measured_information = Matrix6d::Zero();
-  /// The part of that which the noise of the grey values alone would give: differences of pixels that are equal but for
-  /// noise look like texture.
-  Matrix6d noise_information = Matrix6d::Zero();
+  /// What grey values that are nothing but noise would add to that, if their gradients had variance 1 along both axes:
+  /// noise looks like texture.
+  Matrix6d gradient_noise = Matrix6d::Zero();
   double overlap = 0.0;    ///< Part of the points that lie in the picture.
   double agreement = 0.0;  ///< Part of those, where the depth was measured, whose depth agrees with it.
   double gray_rms = 0.0;   ///< Of the grey values that agree, in levels.

@@ -39,14 +39,14 @@ void MeasuredPoseConfig::describe(common::config::Fields& fields) {
   fields("floor_rad", floor_rad, {0, 1}, "Least standard deviation of a measured attitude, about each axis.");
 }
 
-MeasuredPose withoutPrior(const Alignment& fit, const PosePrior& prior, double depth_m,
+MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const PosePrior& prior, double depth_m,
                           const MeasuredPoseConfig& config) {
   // In these units the six unknowns move points equally far.
   Vector6d unit;
   unit << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / depth_m);
-  const Matrix6d information = unit.asDiagonal() *
-                               withoutNoise(fit.measured_information, fit.noise_information, config.most_noise) *
-                               unit.asDiagonal();
+  const Matrix6d noise = gradient_variance * fit.gradient_noise;
+  const Matrix6d information =
+      unit.asDiagonal() * withoutNoise(fit.measured_information, noise, config.most_noise) * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
   const common::Pose3 error = prior.T_map_camera.inverse() * fit.T_map_camera;
   Vector6d from_prior;

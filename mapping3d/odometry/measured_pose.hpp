@@ -33,8 +33,9 @@ struct MeasuredPose {
   Matrix6d covariance = Matrix6d::Identity();
 };
 
-/// `depth_m` is a typical depth of what is seen: so far away a turn moves points as much as a step does.
-MeasuredPose withoutPrior(const Alignment& fit, const PosePrior& prior, double depth_m,
+/// `gradient_variance` is that of the frame's noise (vision::gradientNoiseVariance). `depth_m` is a typical depth of
+/// what is seen: so far away a turn moves points as much as a step does.
+MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const PosePrior& prior, double depth_m,
                           const MeasuredPoseConfig& config);
 
 }  // namespace swiftlet::mapping3d

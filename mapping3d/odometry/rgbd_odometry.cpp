@@ -225,13 +225,14 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   pose.T_map_camera = fit.alignment.T_map_camera;
   pose.covariance = fit.alignment.information.inverse();
   const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
-  pose.measured = withoutPrior(fit.alignment, fit.prior, depth_m, config_.measured);
+  const double noise = vision::gradientNoiseVariance(pyramid.front().gray);
+  pose.measured = withoutPrior(fit.alignment, noise, fit.prior, depth_m, config_.measured);
   for (const std::size_t key : fit.keys) pose.aligned_to.push_back(keys_.placeOf(key).scan);
   keys_.markUsed(fit.keys);
   const bool has_depth = fit.alignment.measured >= config_.least_points;
   if (has_depth && keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
     const KeyFramePlace place = newPlace(fit, pose, seed);
-    pose.motion = motionSinceKeyFrame(fit, pyramid);
+    pose.motion = motionSinceKeyFrame(fit, pyramid, noise);
     pose.T_map_camera = place.T_map_key;
     addKeyFrame(pose, place, pyramid);
     pose.became_key_frame = true;
@@ -241,7 +242,8 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
 
 /// The places of several key frames follow the seeds, and with them the mount that is believed in. One alone does not.
 /// Without texture nothing is known of the motion along a wall.
-std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid) const {
+std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid,
+                                                                double gradient_variance) const {
   const std::size_t newest = keys_.size() - 1;
   if (std::find(fit.keys.begin(), fit.keys.end(), newest) == fit.keys.end()) return std::nullopt;
   const PosePrior start{fit.alignment.T_map_camera, Matrix6d::Zero()};
@@ -251,7 +253,8 @@ std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, 
   MeasuredPoseConfig every_direction = config_.measured;
   every_direction.least_share = 0.0;
   every_direction.sigma_factor = kMotionSigmaFactor;
-  const MeasuredPose measured = withoutPrior(alone, start, keys_.at(newest).median_depth_m, every_direction);
+  const MeasuredPose measured =
+      withoutPrior(alone, gradient_variance, start, keys_.at(newest).median_depth_m, every_direction);
   return KeyFrameMotion{keys_.at(newest).stamp, keys_.placeOf(newest).T_map_key.inverse() * measured.T_map_camera,
                         measured.covariance};
 }

@@ -115,6 +115,8 @@ class CostMap {
   /// Distance from the centre of the cell to that of the nearest occupied cell of the grid; discs are not counted. At
   /// most reach_m(), which is also the answer if nothing is near and outside the map.
   double obstacleDistance_m(common::CellIndex c) const;
+  /// Far enough from obstacles for a vehicle that stops there (Footprint::stopRadius_m).
+  bool hasRoomToStop(common::CellIndex c) const { return obstacleDistance_m(c) >= footprint().stopRadius_m(); }
   double reach_m() const { return reach_cells_ * resolution_m(); }
 
   /// The cost of moving between two 8-neighbours, neither of them lethal. A diagonal is forbidden (kNoEdge) if one of

@@ -80,8 +80,8 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
       const double distance_m = step * ray.step_cells * resolution_m;
       std::size_t ring = 0;
       while (distance_m > kRings_m[ring]) ++ring;
-      const bool tight = map_.obstacleDistance_m(map_.cellOf(index)) < map_.footprint().stopRadius_m();
-      const double path_m = field_.cost_m(index, resolution_m) + (tight ? kTight_m : 0.0);
+      const bool roomy = map_.hasRoomToStop(map_.cellOf(index));
+      const double path_m = field_.cost_m(index, resolution_m) + (roomy ? 0.0 : kTight_m);
       if (path_m < rings[ring].path_m) rings[ring] = {map_.cellOf(index), unknown, path_m};
       return true;
     });

@@ -139,9 +139,8 @@ std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, Cell
   if (!path) return std::nullopt;
   const auto lethal = std::find_if(path->begin(), path->end(), isLethal);
   if (lethal == path->end()) return std::nullopt;
-  const auto roomy = std::find_if(std::make_reverse_iterator(lethal), path->rend(), [&](CellIndex cell) {
-    return map.obstacleDistance_m(cell) >= map.footprint().stopRadius_m();
-  });
+  const auto roomy = std::find_if(std::make_reverse_iterator(lethal), path->rend(),
+                                  [&](CellIndex cell) { return map.hasRoomToStop(cell); });
   return BlockedPath{roomy == path->rend() ? *std::prev(lethal) : *roomy, *lethal};
 }
 

@@ -15,8 +15,10 @@ struct KeptGoalMap {
 };
 
 bool mayBeAt(const CostMap& map, common::CellIndex cell, double clearance_m) {
-  if (!map.contains(cell) || map.isKeptOut(map.indexOf(cell))) return false;
-  const bool lethal = map.isLethal(map.indexOf(cell)) && !map.isLethalByDisc(map.indexOf(cell));
+  if (!map.contains(cell)) return false;
+  const int index = map.indexOf(cell);
+  if (map.isKeptOut(index)) return false;
+  const bool lethal = map.isLethal(index) && !map.isLethalByDisc(index);
   const Footprint& own = map.footprint();
   if (clearance_m == own.clearance_m) return !lethal;
   const double radius_m = std::min(own.hull_radius_m + clearance_m, map.reach_m());
