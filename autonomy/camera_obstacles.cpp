@@ -22,6 +22,8 @@ constexpr int kLeastEvidence = static_cast<int>(1.5 / VoxelMap::kLogOddsStep);
 constexpr int kNearLaser_cells = 2;
 /// So many blocks are read in one update, two megabytes, and the submap that is begun is read to its end.
 constexpr int kBlocksPerUpdate = 4000;
+/// So many columns are asked in one update whether they have gone, and those of the submap that is begun.
+constexpr int kAskedPerUpdate = 1000;
 /// The height may change by this much before the voxels are read again.
 constexpr double kSameHeight_m = 0.03;
 
@@ -31,27 +33,11 @@ std::map<int, std::vector<VoxelIndex>> layersOf(const VoxelMap& voxels) {
   return layers;
 }
 
-/// The columns of a block in which something is from `low` to `high`.
-void addColumns(const VoxelMap& voxels, VoxelIndex block, int low, int high, std::vector<Eigen::Vector2d>& centers_m) {
-  const VoxelIndex first = VoxelMap::firstOf(block);
-  const VoxelBlock& content = *voxels.block(block);
-  const int bottom = std::max(low, first.z), top = std::min(high, first.z + VoxelBlock::kSide - 1);
-  for (int y = first.y; y < first.y + VoxelBlock::kSide; ++y)
-    for (int x = first.x; x < first.x + VoxelBlock::kSide; ++x)
-      for (int z = bottom; z <= top; ++z)
-        if (content.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({x, y, z}))] >= kLeastEvidence) {
-          centers_m.emplace_back(voxels.centerOf({x, y, z}).head<2>());
-          break;
-        }
-}
-
-/// The submaps, those next to the camera first.
-std::vector<std::size_t> nearestFirst(const common::Map3dLayer& layer) {
+/// The submaps by the distance of their origins, those next to the vehicle first.
+std::vector<std::size_t> nearestFirst(const std::vector<PlacedSubmap>& submaps, const Eigen::Vector2d& body_map_m) {
   std::vector<std::pair<double, std::size_t>> ranked;
-  for (std::size_t i = 0; i < layer.submaps->size(); ++i) {
-    const Eigen::Vector3d origin_m = (*layer.submaps)[i].T_map_submap(*layer.keys).position_m;
-    ranked.emplace_back((origin_m - layer.T_map_camera.position_m).head<2>().squaredNorm(), i);
-  }
+  for (std::size_t i = 0; i < submaps.size(); ++i)
+    ranked.emplace_back((submaps[i].T_submap_map * body_map_m).squaredNorm(), i);
   std::sort(ranked.begin(), ranked.end());
   std::vector<std::size_t> order;
   order.reserve(ranked.size());
@@ -71,10 +57,6 @@ void include(common::CellIndex cell, common::CellRect& rect) {
   rect.end = {std::max(rect.end.x, high.x), std::max(rect.end.y, high.y)};
 }
 
-bool isSame(const common::Pose2& a, const common::Pose2& b) {
-  return a.x_m == b.x_m && a.y_m == b.y_m && a.yaw_rad == b.yaw_rad;
-}
-
 /// Whether two snapshots of a grid share their tiles there.
 bool isSame(const common::OccupancyGrid& a, const common::OccupancyGrid& b, const common::CellRect& rect) {
   constexpr int kTile = common::OccupancyGrid::kTileSize;
@@ -89,7 +71,9 @@ bool isSame(const common::OccupancyGrid& a, const common::OccupancyGrid& b, cons
 }  // namespace
 
 void CameraObstacles::update(const std::shared_ptr<const common::Map3dLayer>& layer,
-                             const std::shared_ptr<const common::OccupancyGrid>& grid, double height_m) {
+                             const std::shared_ptr<const common::OccupancyGrid>& grid,
+                             const Eigen::Vector3d& body_map_m) {
+  const double height_m = body_map_m.z();
   const bool same_map =
       layer_ == layer || (layer_ && layer && layer_->submaps == layer->submaps && layer_->keys == layer->keys);
   const bool same_height = height_m_ && std::abs(*height_m_ - height_m) <= kSameHeight_m;
@@ -98,24 +82,27 @@ void CameraObstacles::update(const std::shared_ptr<const common::Map3dLayer>& la
   layer_ = layer;
   cells_map_m_.clear();
   if (!layer) return;
-  followHeight(height_m);
-  readColumns(*layer);
-  overlay(*layer);
-}
-
-void CameraObstacles::followHeight(double height_m) {
-  if (!height_m_ || std::abs(*height_m_ - height_m) > kSameHeight_m) height_m_ = height_m;
+  if (!same_height) height_m_ = height_m;
+  const std::vector<PlacedSubmap> submaps = placedSubmaps(*layer);
+  const std::vector<std::size_t> order = nearestFirst(submaps, body_map_m.head<2>());
+  unread_ = false;
+  readColumns(submaps, order);
+  findGone(submaps, order);
+  overlay();
 }
 
 /// Of submaps that are new, have grown, or were read for another height.
-void CameraObstacles::readColumns(const common::Map3dLayer& layer) {
-  columns_.resize(layer.submaps->size());
-  unread_ = false;
+void CameraObstacles::readColumns(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order) {
+  columns_.resize(submaps.size());
   int left = kBlocksPerUpdate;
-  for (const std::size_t i : nearestFirst(layer)) {
-    const auto& voxels = (*layer.submaps)[i].voxels;
+  for (const std::size_t i : order) {
+    const auto& voxels = submaps[i].voxels;
     Columns& columns = columns_[i];
-    if (columns.voxels != voxels) columns = {voxels, layersOf(*voxels), {}, {}, {}, nullptr, {}, {}};
+    if (columns.voxels != voxels) {
+      columns = {};
+      columns.voxels = voxels;
+      columns.layers = layersOf(*voxels);
+    }
     if (columns.height_m == height_m_) continue;
     if (left > 0)
       left -= read(columns);
@@ -132,45 +119,90 @@ int CameraObstacles::read(Columns& columns) const {
   const int low = static_cast<int>(std::floor(low_m / resolution_m)),
             high = static_cast<int>(std::floor(high_m / resolution_m));
   columns.height_m = height_m_;
-  columns.centers_submap_m.clear();
+  columns.all.clear();
   columns.laser_grid = nullptr;
   int blocks = 0;
   const int lowest = VoxelMap::blockOf({0, 0, low}).z, highest = VoxelMap::blockOf({0, 0, high}).z;
   for (auto layer = columns.layers.lower_bound(lowest); layer != columns.layers.end() && layer->first <= highest;
        ++layer) {
-    for (const VoxelIndex block : layer->second)
-      addColumns(*columns.voxels, block, low, high, columns.centers_submap_m);
+    for (const VoxelIndex block : layer->second) addColumns(*columns.voxels, block, low, high, columns.all);
     blocks += static_cast<int>(layer->second.size());
   }
   return blocks;
 }
 
+/// The voxels of the block in which something is from `low` to `high`.
+void CameraObstacles::addColumns(const VoxelMap& voxels, VoxelIndex block, int low, int high,
+                                 std::vector<Column>& columns) {
+  const VoxelIndex first = VoxelMap::firstOf(block);
+  const VoxelBlock& content = *voxels.block(block);
+  const int bottom = std::max(low, first.z), top = std::min(high, first.z + VoxelBlock::kSide - 1);
+  for (int y = first.y; y < first.y + VoxelBlock::kSide; ++y)
+    for (int x = first.x; x < first.x + VoxelBlock::kSide; ++x) {
+      Column column{{x, y, first.z}};
+      for (int z = bottom; z <= top; ++z)
+        if (content.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({x, y, z}))] >= kLeastEvidence)
+          column.occupied = static_cast<std::uint8_t>(column.occupied | 1U << (z - first.z));
+      if (column.occupied != 0) columns.push_back(column);
+    }
+}
+
 /// Again only if its submap was moved or the laser has changed the grid there, so that a large map costs little.
-void CameraObstacles::findCells(Columns& columns, const common::Pose2& T_map_submap) const {
-  if (columns.laser_grid && isSame(columns.T_map_submap, T_map_submap) &&
-      isSame(*columns.laser_grid, *laser_grid_, columns.around))
+void CameraObstacles::findBesideLaser(Columns& columns, const PlacedSubmap& submap) const {
+  if (columns.laser_grid && columns.placed.isSame(submap) && isSame(*columns.laser_grid, *laser_grid_, columns.around))
     return;
   columns.laser_grid = laser_grid_;
-  columns.T_map_submap = T_map_submap;
+  columns.placed = submap;
   columns.around = {};
-  columns.cells.clear();
-  for (const Eigen::Vector2d& center_submap_m : columns.centers_submap_m) {
-    const common::CellIndex cell = laser_grid_->cellAt(T_map_submap * center_submap_m);
-    include(cell, columns.around);
-    if (!common::occupiedNear(*laser_grid_, cell, kNearLaser_cells)) columns.cells.push_back(cell);
+  columns.beside_laser.clear();
+  columns.later.clear();
+  const common::Pose2 T_map_submap = submap.T_submap_map.inverse();
+  for (Column column : columns.all) {
+    column.cell = laser_grid_->cellAt(T_map_submap * Eigen::Vector2d(submap.voxels->centerOf(column.bottom).head<2>()));
+    include(column.cell, columns.around);
+    if (!common::occupiedNear(*laser_grid_, column.cell, kNearLaser_cells)) columns.beside_laser.push_back(column);
   }
 }
 
-void CameraObstacles::overlay(const common::Map3dLayer& layer) {
-  auto grid = std::make_shared<common::OccupancyGrid>(*laser_grid_);
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    findCells(columns_[i], planar((*layer.submaps)[i].T_map_submap(*layer.keys)));
-    for (const common::CellIndex cell : columns_[i].cells) {
-      if (grid->at(cell) == common::occupancy::kMaxSteps) continue;
-      grid->set(cell, common::occupancy::kMaxSteps);
-      cells_map_m_.push_back(grid->centerOf(cell));
+/// Again only if a later submap was moved or has grown.
+void CameraObstacles::findGone(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order) {
+  int left = kAskedPerUpdate;
+  for (const std::size_t i : order) {
+    Columns& columns = columns_[i];
+    findBesideLaser(columns, submaps[i]);
+    std::vector<PlacedSubmap> later = laterThan(submaps[i], submaps);
+    const bool same = std::equal(later.begin(), later.end(), columns.later.begin(), columns.later.end(),
+                                 [](const auto& a, const auto& b) { return a.isSame(b); });
+    if (columns.beside_laser.empty() || same) continue;
+    if (left <= 0) {
+      unread_ = true;
+      continue;
     }
+    columns.later = std::move(later);
+    for (Column& column : columns.beside_laser) column.gone = hasGone(columns, column);
+    left -= static_cast<int>(columns.beside_laser.size());
   }
+}
+
+bool CameraObstacles::hasGone(const Columns& columns, const Column& column) {
+  const common::Pose2 T_map_submap = columns.placed.T_submap_map.inverse();
+  for (int i = 0; i < VoxelBlock::kSide; ++i) {
+    if ((column.occupied >> i & 1U) == 0) continue;
+    Eigen::Vector3d place_m = columns.voxels->centerOf({column.bottom.x, column.bottom.y, column.bottom.z + i});
+    place_m.head<2>() = T_map_submap * Eigen::Vector2d(place_m.head<2>());
+    if (!autonomy::hasGone(columns.later, place_m)) return false;
+  }
+  return true;
+}
+
+void CameraObstacles::overlay() {
+  auto grid = std::make_shared<common::OccupancyGrid>(*laser_grid_);
+  for (const Columns& columns : columns_)
+    for (const Column& column : columns.beside_laser) {
+      if (column.gone || grid->at(column.cell) == common::occupancy::kMaxSteps) continue;
+      grid->set(column.cell, common::occupancy::kMaxSteps);
+      cells_map_m_.push_back(grid->centerOf(column.cell));
+    }
   if (!cells_map_m_.empty()) grid_ = std::move(grid);
 }
 

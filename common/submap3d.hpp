@@ -38,6 +38,8 @@ struct Submap3d {
   std::shared_ptr<const VoxelMap> voxels;                   ///< Never null.
   double cube_m = 0.02;                                     ///< Side of the cubes each of which has one point.
   std::size_t coarse = 0;  ///< So many points, the last ones, have cubes of kLargeCube times that side.
+  /// The numbers of the first and the last frame drawn into it; each frame is drawn into one submap.
+  std::uint64_t first_frame = 0, last_frame = 0;
 
   std::size_t fine() const { return points->size() - coarse; }
   /// The key scan must be in `keys`.

@@ -18,11 +18,10 @@ constexpr double kColumnsReach_m = 6.0;
 VoxelColumns::VoxelColumns(const common::Map3dLayer& layer, double low_m, double high_m,
                            const Eigen::Vector2d& around_map_m, double reach_m)
     : low_m_(std::max(low_m, kFloorNoise_m)), high_m_(high_m) {
-  for (const common::Submap3d& submap : *layer.submaps) {
-    const common::Pose2 T_map_submap = planar(submap.T_map_submap(*layer.keys));
-    if ((T_map_submap.position_m() - around_map_m).norm() > reach_m + kColumnsReach_m) continue;
-    sources_.push_back({T_map_submap.inverse(), submap.voxels});
-  }
+  const std::vector<PlacedSubmap> submaps = placedSubmaps(layer);
+  for (const PlacedSubmap& submap : submaps)
+    if ((submap.T_submap_map * around_map_m).norm() <= reach_m + kColumnsReach_m)
+      sources_.push_back({submap, laterThan(submap, submaps)});
 }
 
 ColumnState VoxelColumns::at(const Eigen::Vector2d& place_map_m) const {
@@ -42,8 +41,8 @@ void VoxelColumns::mark(const Source& source, const Eigen::Vector2d& place_map_m
                         std::vector<ColumnState>& states) const {
   using common::VoxelBlock;
   using common::VoxelMap;
-  const VoxelMap& voxels = *source.voxels;
-  const Eigen::Vector2d place_m = source.T_submap_map * place_map_m;
+  const VoxelMap& voxels = *source.submap.voxels;
+  const Eigen::Vector2d place_m = source.submap.T_submap_map * place_map_m;
   const common::VoxelIndex low = voxels.voxelAt({place_m.x(), place_m.y(), low_m_});
   const int highest = voxels.voxelAt({place_m.x(), place_m.y(), high_m_}).z;
   states.resize(static_cast<std::size_t>(highest - low.z + 1), ColumnState::kUnknown);
@@ -55,7 +54,9 @@ void VoxelColumns::mark(const Source& source, const Eigen::Vector2d& place_map_m
     const int evidence = block->evidence[static_cast<std::size_t>(offset)];
     if (evidence == VoxelBlock::kUnknown) continue;
     ColumnState& state = states[static_cast<std::size_t>(voxel.z - low.z)];
-    if (evidence >= kOccupiedEvidence) state = ColumnState::kOccupied;
+    if (evidence >= kOccupiedEvidence &&
+        !hasGone(source.later, {place_map_m.x(), place_map_m.y(), voxels.centerOf(voxel).z()}))
+      state = ColumnState::kOccupied;
     if (evidence <= 0 && state == ColumnState::kUnknown) state = ColumnState::kFree;
   }
 }

@@ -2,18 +2,17 @@
 // the other may be there.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "common/geometry.hpp"
-#include "common/voxel_map.hpp"
+#include "autonomy/planning_jobs/placed_submap.hpp"
 #include "common/world/map3d_layer.hpp"
 
 namespace swiftlet::autonomy {
 
-/// Free only where every voxel was seen to be free: a hull is not sent where nobody looked.
+/// Free only where every voxel was seen to be free: a hull is not sent where nobody looked. What a later submap shows
+/// to have gone is not occupied.
 enum class ColumnState { kUnknown, kFree, kOccupied };
 
 /// One thread. Reads submaps whose origin is within reach of a place.
@@ -28,8 +27,8 @@ class VoxelColumns {
 
  private:
   struct Source {
-    common::Pose2 T_submap_map;
-    std::shared_ptr<const common::VoxelMap> voxels;
+    PlacedSubmap submap;
+    std::vector<PlacedSubmap> later;
   };
   void mark(const Source& source, const Eigen::Vector2d& place_map_m, std::vector<ColumnState>& states) const;
 

@@ -8,6 +8,13 @@ namespace {
 
 /// One cell of the shipped map: the reactive layer keeps its margin to points this dense.
 constexpr double kOutlineStep_m = 0.05;
+/// A mission in a given map that says a zone again says it with the given map's place of now.
+constexpr double kSameCorner_m = 0.10;
+
+bool isSame(const common::Polygon& a, const common::Polygon& b) {
+  return std::equal(a.corners_map_m.begin(), a.corners_map_m.end(), b.corners_map_m.begin(), b.corners_map_m.end(),
+                    [](const auto& corner, const auto& other) { return (corner - other).norm() <= kSameCorner_m; });
+}
 
 }  // namespace
 
@@ -18,8 +25,12 @@ std::string KeepOutZones::add(const common::Polygon& zone, Owner owner, const Ei
     return "the take-off place " + names.of(home_map_m) +
            " would be in it, expected one that leaves the path home free";
   std::vector<common::Polygon>& own = owner == Owner::kMission ? missions_ : operators_;
-  if (std::find(own.begin(), own.end(), zone) != own.end()) return {};
-  own.push_back(zone);
+  const auto known = std::find_if(own.begin(), own.end(), [&](const auto& other) { return isSame(zone, other); });
+  if (known != own.end() && *known == zone) return {};
+  if (known != own.end())
+    *known = zone;
+  else
+    own.push_back(zone);
   publish();
   return {};
 }

@@ -19,7 +19,9 @@ class KeepOutZones {
   explicit KeepOutZones(double hull_radius_m) : hull_radius_m_(hull_radius_m) {}
 
   enum class Owner { kMission, kOperator };
-  /// Why there is no such zone: it is no polygon, or the hull would reach into it at home. Empty if it holds now.
+  /// A zone whose corners are all within 10 cm of one that is known takes its place: a mission in a loop says its zones
+  /// again and again. Returns why there is no such zone: it is no polygon, or the hull would reach into it at home.
+  /// Empty if it holds now.
   std::string add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m,
                   const common::PlaceNames& names = {});
   /// The number of the operator's zones, which are gone now.

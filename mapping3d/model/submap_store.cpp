@@ -94,6 +94,7 @@ Pose3 SubmapStore::enter(const Eigen::Vector3d& sensor_map_m, int scan, const co
   }
   Kept& kept = kept_[growing_->index];
   kept.scans.insert(scan);
+  kept.submap.last_frame = frames_++;
   return kept.submap.T_map_submap(scans);
 }
 
@@ -133,6 +134,7 @@ std::size_t SubmapStore::add(const Eigen::Vector3d& sensor_map_m, int scan, cons
   Submap3d submap{scan, scans.T_map_level(scan).inverse() * T_map_submap,
                   std::make_shared<const std::vector<common::SurfacePoint>>(),
                   std::make_shared<const common::VoxelMap>(voxels_.resolution_m), config_.cube_m};
+  submap.first_frame = submap.last_frame = frames_;
   kept_.push_back({std::move(submap), {}, {}});
   return kept_.size() - 1;
 }

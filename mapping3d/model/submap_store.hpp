@@ -81,6 +81,7 @@ class SubmapStore {
   ImageSubmapConfig config_;
   VoxelConfig voxels_;
   vision::DepthNoiseConfig noise_;
+  std::uint64_t frames_ = 0;  ///< Drawn so far.
   std::vector<Kept> kept_;
   std::optional<Growing> growing_;
 };

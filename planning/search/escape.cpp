@@ -89,9 +89,15 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   // Where the planners may start, the hull keeps half of its clearance, as it may on its trail (decision 010).
   const bool lethal = map.costAt(start) == CostMap::kLethal;
   const double least_m = lethal ? 0.0 : map.footprint().hull_radius_m + 0.5 * map.footprint().clearance_m;
+  // A keep-out zone over the vehicle may be as large as the room; farther away only its cells count as open.
+  const bool kept_out = map.isKeptOut(map.indexOf(start));
   const auto price = [&](CellIndex, CellIndex cell) -> std::optional<double> {
     const double from_start_m = std::hypot(cell.x - start.x, cell.y - start.y) * map.resolution_m();
-    if (!map.contains(cell) || from_start_m > reach_m) return std::nullopt;
+    if (!map.contains(cell)) return std::nullopt;
+    if (from_start_m > reach_m) {
+      if (!kept_out || map.obstacleDistance_m(cell) < map.footprint().radius_m()) return std::nullopt;
+      return map.stateAt(cell) == CellState::kFree ? std::optional(1.0) : std::nullopt;
+    }
     switch (map.stateAt(cell)) {
       case CellState::kFree:
         if (map.obstacleDistance_m(cell) < least_m) return std::nullopt;
@@ -105,7 +111,8 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
     }
     return std::nullopt;
   };
-  const CellRect window{{start.x - reach, start.y - reach}, {start.x + reach + 1, start.y + reach + 1}};
+  const CellRect near{{start.x - reach, start.y - reach}, {start.x + reach + 1, start.y + reach + 1}};
+  const CellRect window = kept_out ? map.rect() : near;
   const auto passable = [&](CellIndex cell) { return map.costAt(cell) != CostMap::kLethal; };
   auto escape = cheapest(window, start, price,
                          [&](CellIndex cell) { return passable(cell) && leadsOn(map, cell, start, reach_m); });

@@ -55,10 +55,10 @@ class Planner {
 using CellPath = std::vector<common::CellIndex>;
 
 /// The escape from a start in the lethal zone: the cheapest chain of cells to the first one where the centre may be,
-/// within `reach_m`. It avoids occupied cells. A pocket of passable cells from which no path leads farther than that
-/// counts as lethal if there is a way out with half of the clearance: in a narrow place single cells, or those that the
-/// vehicle's own trail makes passable, may touch no others. The escape is the start alone when that is not lethal, and
-/// none when there is no such chain.
+/// within `reach_m`; out of a keep-out zone it may be longer. It avoids occupied cells. A pocket of passable cells from
+/// which no path leads farther than that counts as lethal if there is a way out with half of the clearance: in a narrow
+/// place single cells, or those that the vehicle's own trail makes passable, may touch no others. The escape is the
+/// start alone when that is not lethal, and none when there is no such chain.
 std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, double reach_m = 1.0);
 /// The path of escapeFrom() as points: the start itself and the centres of the cells after it. The start alone when
 /// there is no escape.

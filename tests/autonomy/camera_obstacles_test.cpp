@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/autonomy/voxel_room.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -28,7 +30,7 @@ class CameraObstaclesStory : public testing::Test {
                             std::make_shared<const std::vector<common::SurfacePoint>>(), drawn_};
     layer->submaps = std::make_shared<const std::vector<common::Submap3d>>(1, submap);
     layer->keys = keys;
-    obstacles_.update(layer, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), height_m);
+    obstacles_.update(layer, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), {1.0, 1.0, height_m});
   }
 
   common::Pose3 T_map_submap_{common::expSO3({0.0, 0.0, 0.7}), {0.5, 0.2, 0.0}};
@@ -112,6 +114,49 @@ TEST_F(CameraObstaclesStory, NearOnesAreGivenToTheReactiveLayer) {
   EXPECT_NEAR(points[0].x(), 1.0F, 0.06F);
 }
 
+/// A door in which somebody stood while one submap was drawn.
+class DoorStory : public testing::Test {
+ protected:
+  static constexpr double kDoor_m = 2.0;  ///< Its x and y.
+  DoorStory() {
+    lookThrough();
+    somebodyAt(kDoor_m);
+  }
+  void lookThrough() { room_.draw({1.4, 1.4, 0.3}, {2.6, 2.6, 1.6}, -25); }
+  void somebodyAt(double y_m) {
+    room_.draw({kDoor_m - 0.15, y_m - 0.15, 0.3}, {kDoor_m + 0.15, y_m + 0.15, 1.6}, VoxelRoom::kSeenOccupied);
+  }
+  std::size_t obstacles() {
+    obstacles_.update(room_.layer(), grid_, {0.0, 0.0, 1.0});
+    return obstacles_.cells_map_m().size();
+  }
+  VoxelRoom room_;
+  std::shared_ptr<const common::OccupancyGrid> grid_ =
+      std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  CameraObstacles obstacles_{0.25};
+};
+
+TEST_F(DoorStory, IsOpenWhenALaterSubmapSeesThroughIt) {
+  ASSERT_GT(obstacles(), 20u);
+  room_.beginSubmap(3.0);
+  EXPECT_GT(obstacles(), 20u) << "nobody has looked";
+  lookThrough();
+  EXPECT_EQ(obstacles(), 0u);
+}
+
+TEST_F(DoorStory, StaysShutWhileSomebodyStandsThere) {
+  room_.beginSubmap(3.0);
+  lookThrough();
+  somebodyAt(kDoor_m + 0.05);  // The two submaps differ by a voxel.
+  EXPECT_GT(obstacles(), 20u);
+}
+
+TEST_F(DoorStory, StaysShutBySomebodyWhoCameAfterTheOtherSubmapWasBegun) {
+  room_.beginSubmap(3.0, -10);
+  lookThrough();
+  EXPECT_GT(obstacles(), 20u) << "which of the two was later is not known";
+}
+
 /// A building of 60 submaps, each with its blocks in one piece and a lamp in the middle.
 TEST(CameraObstacles, InALargeMapTheNearestAreReadFirstAndTheOthersSoon) {
   constexpr int kSubmaps = 60;
@@ -133,11 +178,10 @@ TEST(CameraObstacles, InALargeMapTheNearestAreReadFirstAndTheOthersSoon) {
   }
   layer->submaps = std::make_shared<const std::vector<common::Submap3d>>(submaps);
   layer->keys = keys;
-  layer->T_map_camera.position_m = {150.0, 0.0, 1.0};
   const auto grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
   CameraObstacles obstacles(0.25);
   for (const double height_m : {1.2, 1.8}) {
-    obstacles.update(layer, grid, height_m);
+    obstacles.update(layer, grid, {150.0, 0.0, height_m});
     const double lamp_m = 150.0 + (height_m > 1.5 ? 1.0 : 0.0);
     const auto isLampAt = [&](double x_m) {
       const auto& cells = obstacles.cells_map_m();
@@ -145,7 +189,7 @@ TEST(CameraObstacles, InALargeMapTheNearestAreReadFirstAndTheOthersSoon) {
     };
     EXPECT_TRUE(isLampAt(lamp_m)) << "at once";
     EXPECT_FALSE(isLampAt(lamp_m - 150.0)) << "an update is short";
-    for (int i = 0; i < 40; ++i) obstacles.update(layer, grid, height_m);
+    for (int i = 0; i < 40; ++i) obstacles.update(layer, grid, {150.0, 0.0, height_m});
     EXPECT_TRUE(isLampAt(lamp_m - 150.0));
     EXPECT_EQ(obstacles.cells_map_m().size(), static_cast<std::size_t>(kSubmaps));
   }
@@ -154,7 +198,7 @@ TEST(CameraObstacles, InALargeMapTheNearestAreReadFirstAndTheOthersSoon) {
 TEST(CameraObstacles, WithoutA3DMapTheGridIsTheSameObject) {
   CameraObstacles obstacles(0.25);
   const auto grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
-  obstacles.update(nullptr, grid, 1.0);
+  obstacles.update(nullptr, grid, {0.0, 0.0, 1.0});
   EXPECT_EQ(obstacles.grid(), grid);
 }
 

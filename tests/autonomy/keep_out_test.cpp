@@ -48,6 +48,16 @@ TEST(KeepOutZones, TheTakeOffPlaceStaysFree) {
   EXPECT_TRUE(requests.take({1, common::KeepOutCommand{square(0.3, -0.5, 1)}}, world)->accepted);
 }
 
+TEST(KeepOutZones, AZoneThatIsSaidAgainIsOne) {
+  KeepOutZones zones(0.275);
+  for (int i = 0; i < 100; ++i)  // The given map is found a little to the side each time.
+    ASSERT_EQ(zones.add(square(2.0 + 0.001 * i, 2, 1), KeepOutZones::Owner::kMission, {0, 0}), "");
+  ASSERT_EQ(zones.zones()->size(), 1u);
+  EXPECT_EQ(zones.zones()->front(), square(2.0 + 0.001 * 99, 2, 1)) << "the last one counts";
+  ASSERT_EQ(zones.add(square(2.3, 2, 1), KeepOutZones::Owner::kMission, {0, 0}), "");
+  EXPECT_EQ(zones.zones()->size(), 2u);
+}
+
 TEST(KeepOutZones, TheirEdgesNearAreThoseOfZonesThatTheVehicleIsOutside) {
   KeepOutZones zones(0.275);
   ASSERT_EQ(zones.add(square(1, -50, 100), KeepOutZones::Owner::kMission, {0, 0}), "");

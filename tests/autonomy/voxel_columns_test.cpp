@@ -39,5 +39,20 @@ TEST_F(Columns, WhatOneFrameSawIsNeitherFreeNorOccupied) {
   EXPECT_EQ(at(1.0, 1.0), ColumnState::kUnknown);
 }
 
+TEST_F(Columns, WhatALaterSubmapSawFreeHasGone) {
+  room.draw({0.9, 0.9, 0.1}, {1.1, 1.1, 1.0}, VoxelRoom::kSeenOccupied);
+  room.beginSubmap(1.5);
+  EXPECT_EQ(at(1.0, 1.0), ColumnState::kOccupied);
+  room.draw({0, 0, 0.1}, {2, 2, 1.0}, VoxelRoom::kSeenFree);
+  EXPECT_EQ(at(1.0, 1.0), ColumnState::kFree);
+}
+
+TEST_F(Columns, WhatWasSeenAfterTheOtherSubmapWasBegunIsThere) {
+  room.draw({0.9, 0.9, 0.1}, {1.1, 1.1, 1.0}, VoxelRoom::kSeenOccupied);
+  room.beginSubmap(1.5, -1);
+  room.draw({0, 0, 0.1}, {2, 2, 1.0}, VoxelRoom::kSeenFree);
+  EXPECT_EQ(at(1.0, 1.0), ColumnState::kOccupied);
+}
+
 }  // namespace
 }  // namespace swiftlet::autonomy

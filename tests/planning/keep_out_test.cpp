@@ -68,6 +68,22 @@ TEST_F(KeepOut, APathLeadsAround) {
     }
 }
 
+TEST_F(KeepOut, FromItsMiddleAPathLeadsOut) {
+  // 1.15 m from everywhere that the centre may be.
+  DStarLite planner;
+  const auto path = planner.plan(map_, {4.0, 2.0}, {7.0, 2.0});
+  ASSERT_TRUE(path) << path.error().text;
+  EXPECT_LT(path->length_m, 5.0);
+  // A zone from wall to wall, 4 m long: across it there is no other way out than along the room.
+  const common::Polygon wide{{{2.0, -1.0}, {6.0, -1.0}, {6.0, 5.0}, {2.0, 5.0}}};
+  layers_.keep_out = {&wide, 1};
+  map_ = test::mapOf(grid_, {}, {}, layers_);
+  const auto along = planner.plan(map_, {4.0, 0.7}, {7.0, 2.0});
+  ASSERT_TRUE(along) << along.error().text;
+  for (const Eigen::Vector2d& point : along->points_map_m)
+    EXPECT_GE(map_.obstacleDistance_m(map_.cellAt(point)), map_.footprint().radius_m() - 0.05) << point.transpose();
+}
+
 TEST_F(KeepOut, AZoneThatGoesLeavesNothingBehind) {
   map_.update(grid_.snapshot(), {}, {});
   EXPECT_EQ(map_.costs(), test::mapOf(grid_).costs());
