@@ -133,8 +133,7 @@ common::Setpoint Autonomy::tick(Time now) {
   if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= period_s - 1e-6) {
     last_behaviors_ = now;
     tickBehaviors(now);
-    if (missionOver() && controller_.state() == FlightState::kLanded)
-      (void)controller_.command(control::DisengageMotors{});
+    restMotors(now);
   }
 
   control::FlightTick flight;
@@ -217,13 +216,15 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   if (scan_watch_.repeats(scan)) return;
   auto outcome = estimator_.addScan(scan, now);
   if (!outcome) return;
-  const int hits = outcome->scan.counts.hits + outcome->scan.counts.no_returns;
-  if (hits > 0) supervisor_.surroundingsSeen(now);
+  const auto cost_map = executor_.costMapHere();
+  // In the open no beam returns. Between walls that is a laser which has gone blind.
+  const auto& counts = outcome->scan.counts;
+  if (counts.hits > 0 || (counts.no_returns > 0 && !(cost_map && executor_.desk().wallsAround(estimator_.state()))))
+    supervisor_.surroundingsSeen(now);
   if (outcome->raw_height) raw_height_ = outcome->raw_height;
   drift_m_ = outcome->drift_m;
 
   const common::VehicleState state = estimator_.state();
-  const auto cost_map = executor_.costMapHere();
   const auto& decision =
       reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(), drift_m_,
                         estimator_.people().obstacles(),
@@ -236,13 +237,6 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   for (const Eigen::Vector2f& point : outcome->scan.points_level_m)
     points->points_map_m.push_back((outcome->T_map_body * Eigen::Vector2d(point.cast<double>())).cast<float>());
   laser_points_ = std::move(points);
-}
-
-void Autonomy::prepare() {
-  if (prepared_ || !estimator_.ready()) return;
-  const common::VehicleState state = estimator_.state();
-  if (!state.horizontal_valid || !state.vertical_valid) return;
-  prepared_ = controller_.command(control::Prepared{}).has_value();
 }
 
 // --------------------------------------------------------------------------------------------------- behaviours
@@ -268,9 +262,10 @@ void Autonomy::tickBehaviors(Time now) {
 /// Paths are planned at the height of flight, also while the vehicle is below something; what it brakes for is at its
 /// own height.
 void Autonomy::updateCameraObstacles() {
-  const double height_m = estimator_.state().T_odom_body.position_m.z(), dip_m = executor_.dip_m();
-  camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), height_m + dip_m);
-  if (dip_m > 0.0) lower_obstacles_.update(estimator_.map3d(), given_map_.grid(), height_m);
+  const Eigen::Vector3d body_map_m = estimator_.state().T_map_body().position_m;
+  const double dip_m = executor_.dip_m();
+  camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), body_map_m + dip_m * Eigen::Vector3d::UnitZ());
+  if (dip_m > 0.0) lower_obstacles_.update(estimator_.map3d(), given_map_.grid(), body_map_m);
 }
 
 /// The supervisor's intent comes before the mission's.

@@ -5,6 +5,7 @@
 #include "autonomy/autonomy.hpp"
 #include "behaviors/named_places.hpp"
 #include "control/controller_choice.hpp"
+#include "control/flight_state_machine.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -12,13 +13,11 @@ using common::Time;
 
 void Autonomy::take(const common::OperatorCommand& asked, Time now) {
   common::OperatorCommand command = asked;
-  if (!std::holds_alternative<common::LandCommand>(command.kind)) {
-    std::string refusal = supervisor_.refusal();
-    if (refusal.empty() && missionOver()) refusal = "the mission has ended";
-    if (!refusal.empty()) return answer(command, {command.id, false, std::move(refusal)}, now);
-  }
-  if (std::string refusal = resolvePlaces(command); !refusal.empty())
-    return answer(command, {command.id, false, std::move(refusal)}, now);
+  std::string refusal = supervisor_.refusal(command);
+  const bool lands = std::holds_alternative<common::LandCommand>(command.kind);
+  if (refusal.empty() && missionOver() && !lands) refusal = "the mission has ended";
+  if (refusal.empty()) refusal = resolvePlaces(command);
+  if (!refusal.empty()) return answer(command, {command.id, false, std::move(refusal)}, now);
   if (auto result = takeMission(command)) return answer(command, std::move(*result), now);
   if (const auto* other = std::get_if<common::ControllerCommand>(&command.kind))
     return answer(command, switchController(command.id, *other), now);
@@ -57,7 +56,12 @@ std::string Autonomy::resolvePlaces(common::OperatorCommand& command) const {
 /// The maps of a mission that is refused are not kept.
 std::optional<common::CommandResult> Autonomy::takeMission(const common::OperatorCommand& command) {
   const auto* mission = std::get_if<common::StartMissionCommand>(&command.kind);
-  if (mission == nullptr) return missions_.take(command);
+  if (mission == nullptr) {
+    auto result = missions_.take(command);
+    if (result && result->accepted && !control::isAirborne(controller_.state()))
+      result->reason = "the vehicle stays on the ground until a mission is started";
+    return result;
+  }
   const MapShelf before = map_shelf_;
   map_shelf_.offer(mission->maps);
   auto result = missions_.take(command);

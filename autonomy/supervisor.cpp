@@ -64,11 +64,15 @@ void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
       reached ? holds : std::move(reason));
 }
 
-std::string Supervisor::refusal() const {
-  if (!control::isAirborne(flight_)) return {};
+std::string Supervisor::refusal(const common::OperatorCommand& command) const {
+  if (!control::isAirborne(flight_) || std::holds_alternative<common::LandCommand>(command.kind)) return {};
   if (supervision_.land) return "the vehicle is landing: " + supervision_.land_reason;
-  const bool landing = flight_ == common::FlightState::kLanding || flight_ == common::FlightState::kEmergencyLanding;
-  return landing ? "the vehicle is landing" : "";
+  if (flight_ == common::FlightState::kLanding || flight_ == common::FlightState::kEmergencyLanding)
+    return "the vehicle is landing";
+  const bool leads_elsewhere = std::holds_alternative<common::GoalCommand>(command.kind) ||
+                               std::holds_alternative<common::HomeCommand>(command.kind) ||
+                               std::holds_alternative<common::StartMissionCommand>(command.kind);
+  return home_.forced() && leads_elsewhere ? "the vehicle flies home and lands there: " + home_.reason : "";
 }
 
 void Supervisor::pilotArrived(Time now, bool takes_over) {
@@ -128,8 +132,9 @@ WatchRequest Supervisor::obey(Time now, WatchRequest request) {
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
   if (!blind_.empty()) return blind_;
+  if (operator_holds_)
+    return back_ > 0 ? "the operator holds, and it would fly back along its trail" : "the operator holds";
   if (back_ > 0) return "it flies back along its trail";
-  if (operator_holds_) return "the operator holds";
   if (home_.active) return home_.reason.empty() ? "the operator wants it home" : home_.reason;
   return "";
 }

@@ -60,8 +60,9 @@ class Supervisor {
   /// The flight back has reached the start of the trail, or failed. The vehicle lands if it still does not know its
   /// height or position.
   void backEnded(common::Time now);
-  /// Why every command but land is refused while the vehicle lands; empty if it does not land.
-  std::string refusal() const;
+  /// Why the command is refused: every one but land while the vehicle lands, and those that lead elsewhere while it
+  /// flies home to land. Empty if it is not.
+  std::string refusal(const common::OperatorCommand& command) const;
   /// Why the mission holds, or would; empty if nothing holds it.
   std::string holdReason() const;
   /// Why the vehicle must not take off, with the figure; empty if it may.

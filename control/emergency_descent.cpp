@@ -66,7 +66,7 @@ void EmergencyDescent::start(common::Time now, double standing_height_m, const E
                              const Eigen::Vector3d& trim_level_m_s2) {
   trim_level_m_s2_ = trim_level_m_s2.allFinite() ? trim_level_m_s2 : Eigen::Vector3d::Zero();
   velocity_left_m_s_ = velocity_level_m_s.allFinite() ? velocity_level_m_s : Eigen::Vector2d::Zero();
-  last_seen_ = last_moving_ = now;
+  last_seen_ = last_moving_ = last_fast_ = now;
   standing_height_m_ = standing_height_m;
   integral_m_s2_ = given_m_s2_ = pushed_m_s2_ = 0.0;
   touched_down_ = false;
@@ -110,15 +110,21 @@ double EmergencyDescent::accelerationFor(double wanted_m_s, double dt_s) {
   return std::clamp(config_.gain_1_s * error_m_s + integral_m_s2_, -kMaxAcceleration_m_s2, kMaxAcceleration_m_s2);
 }
 
+/// A table of glass, or the edges of a gap, carry the vehicle higher than the beams say. What keeps still there though
+/// more and more thrust is taken away stands, as in a blind descent.
 double EmergencyDescent::seenAcceleration_m_s2(common::Time now, double dt_s) {
   last_seen_ = now;
-  pushed_m_s2_ = 0.0;
   motion_ = {filter_.height_m(), filter_.velocity_m_s()};
-  const bool may_stand =
-      motion_.height_m < standing_height_m_ + config_.rest_margin_m && std::abs(motion_.velocity_m_s) < kStill_m_s;
+  const bool still = std::abs(motion_.velocity_m_s) < kStill_m_s;
+  if (!still) last_fast_ = now;
+  const bool hangs = (now - last_fast_).seconds() >= config_.rest_s;
+  const double step_m_s2 = config_.blind_push_m_s3 * dt_s;
+  pushed_m_s2_ = std::clamp(pushed_m_s2_ + (hangs ? step_m_s2 : -2.0 * step_m_s2), 0.0, kGreatestPush_m_s2);
+  const bool low = motion_.height_m < standing_height_m_ + config_.rest_margin_m;
+  const bool may_stand = still && (low || pushed_m_s2_ >= kGreatestPush_m_s2);
   if (!may_stand) last_moving_ = now;
   touched_down_ = (now - last_moving_).seconds() >= config_.rest_s;
-  return accelerationFor(wantedVelocity_m_s(0.0, (now - filter_.stamp()).seconds()), dt_s);
+  return accelerationFor(wantedVelocity_m_s(0.0, (now - filter_.stamp()).seconds()), dt_s) - pushed_m_s2_;
 }
 
 /// A vehicle on the ground cannot follow less thrust. So while the carried speed does not sink as wanted, more and more

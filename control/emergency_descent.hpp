@@ -106,11 +106,12 @@ class EmergencyDescent {
   Eigen::Vector3d trim_level_m_s2_ = Eigen::Vector3d::Zero();
   common::Time last_seen_;  ///< When the ground was last measured; at first, when the descent started.
   common::Time last_moving_;
+  common::Time last_fast_;  ///< When the measured height last changed.
   double standing_height_m_ = 0.0;
   double integral_m_s2_ = 0.0;
   VerticalMotion motion_;     ///< The last one that was seen, carried on by the thrust model.
   double given_m_s2_ = 0.0;   ///< The vertical acceleration of the last command, without the trim.
-  double pushed_m_s2_ = 0.0;  ///< Downward acceleration added while a blind descent does not sink.
+  double pushed_m_s2_ = 0.0;  ///< Downward acceleration added while the vehicle does not sink.
   bool touched_down_ = false;
 };
 

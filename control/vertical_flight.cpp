@@ -19,6 +19,9 @@ constexpr double kSpoolShare = 0.6;       ///< Share of the hover command given 
 constexpr double kReferenceLead_m = 0.3;  ///< Greatest lead of the height reference over the vehicle.
 /// A take-off with all of its thrust for this long is given up; with enough of it, a lift takes tenths of that.
 constexpr double kSpent_s = 2.0;
+/// A table of glass, or the edges of a gap, carry the vehicle higher than the beams down say. In the air no wind does,
+/// for so long.
+constexpr double kStandsHigher_s = 3.0;
 constexpr double kTouchdownSpeed_m_s = 0.10;  ///< A descent is faster: only the ground explains less.
 constexpr double kTouchdownMargin_m = 0.20;   ///< Error of the height after a descent over unknown ground.
 constexpr double kCarried_s = 0.5;            ///< Age from which the height counts as carried by inertial samples.
@@ -84,10 +87,11 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   // If the vehicle is pushed up while the controller wants down, it stands on the ground.
   const bool rests =
       setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
-      std::abs(last_state_.velocity_odom_m_s.z()) < (carried ? kCarriedTouchdownSpeed_m_s : kTouchdownSpeed_m_s) &&
-      over_ground_m < standing_raw_m_ + kTouchdownMargin_m + uncertain_m;
-  if (!heldFor(rests, config_.touchdown_s)) return setpoint;
-  transition(FlightInput::kTouchedDown, fmt::format("{:.2f} m over the ground", over_ground_m));
+      std::abs(last_state_.velocity_odom_m_s.z()) < (carried ? kCarriedTouchdownSpeed_m_s : kTouchdownSpeed_m_s);
+  const bool low = over_ground_m < standing_raw_m_ + kTouchdownMargin_m + uncertain_m;
+  if (!heldFor(rests && (low || !carried), low ? config_.touchdown_s : kStandsHigher_s)) return setpoint;
+  transition(FlightInput::kTouchedDown,
+             fmt::format("{:.2f} m over the ground{}", over_ground_m, low ? "" : " that the beams see, and stands"));
   common::Setpoint landed;
   landed.motors_on = true;
   return landed;

@@ -54,7 +54,10 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     drawn_at_move_as_ = drawn_as_;
     drawn_since_move_as_ = 0.0;
   }
-  if (airborne && !flown_) {
+  // What was drawn before the battery was charged, or taken out, tells nothing of what the gauge says now.
+  const bool takes_off = airborne && !airborne_;
+  airborne_ = airborne;
+  if (takes_off) {
     flown_ = true;
     taken_off_ = sample.stamps.measured;
     current_a_ = current_a;
@@ -94,7 +97,7 @@ void EnergyMonitor::followed(double speed_m_s, double dt_s) {
   home_speed_m_s_ += speed_m_s > home_speed_m_s_ ? kCruise * step_m_s : (kCruise - 1.0) * step_m_s;
 }
 
-/// As the fuel gauge has shown it in this flight; before that, as believed.
+/// As the fuel gauge has shown it since the last take-off; before that, as believed.
 double EnergyMonitor::capacity_as() const {
   const double drop = remaining_at_take_off_ - moved_to_;
   return drop > kTellingDrop && drawn_at_move_as_ > 0.0 ? drawn_at_move_as_ / drop : capacity_as_;

@@ -29,8 +29,9 @@ struct FlightHome {
   double landing_s = 0.0;           ///< From the height of the flight to the ground.
 };
 
-/// One thread. The current is measured as that of hovering plus some for each metre a second, by least squares over the
-/// last minutes; the duration of a path is predicted by the speed at which paths have been flown so far.
+/// One thread. A vehicle may land, be charged and take off again. The current is measured as that of hovering plus some
+/// for each metre a second, by least squares over the last minutes; the duration of a path is predicted by the speed at
+/// which paths have been flown so far.
 class EnergyMonitor {
  public:
   /// The capacity is the battery's as its owner believes; it is corrected by what the fuel gauge says in flight. The
@@ -68,9 +69,10 @@ class EnergyMonitor {
   double current_a_ = 0.0;
   double power_w_ = 0.0;
   bool flown_ = false;  ///< The smoothed values are those of a flight.
+  bool airborne_ = false;
   double remaining_at_take_off_ = 0.0;
   common::Time taken_off_;
-  double drawn_as_ = 0.0;  ///< By the measured current, since the take-off.
+  double drawn_as_ = 0.0;  ///< By the measured current, since the last take-off.
   /// What the gauge said when it last moved, what had been drawn until then, and what has been drawn since.
   double moved_to_ = 0.0;
   double drawn_at_move_as_ = 0.0, drawn_since_move_as_ = 0.0;

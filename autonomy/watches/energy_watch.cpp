@@ -14,7 +14,10 @@ using common::Time;
 
 WatchRequest EnergyWatch::watch(Time now, const VehicleCondition& condition) {
   WatchRequest request;
-  if (!control::isAirborne(condition.flight)) return request;
+  if (!control::isAirborne(condition.flight)) {
+    charge_said_ = 1.0;
+    return request;
+  }
   tellGauge(now, condition.charge_counted_on, request);
   tellCharge(now, condition.energy, request);
   if (condition.flight == FlightState::kFlying && !condition.lands) watchHome(now, condition.energy, request);

@@ -29,7 +29,7 @@ class EnergyWatch {
   void watchThrust(common::Time now, const VehicleCondition& condition, WatchRequest& request);
 
   SupervisorConfig config_;
-  double charge_said_ = 1.0;                ///< The last charge of which an event told.
+  double charge_said_ = 1.0;                ///< The last charge of which an event told in this flight.
   std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
   bool counted_on_said_ = false;
   bool turned_back_ = false;

@@ -141,6 +141,25 @@ TEST_F(EnergyStory, WithoutAnAmmeterTheGaugeTellsTheCurrent) {
   EXPECT_NEAR(without, (20.0 / EnergyConfig{}.home_speed_m_s + 2.0) * 18.0 / (3600.0 * kCapacity_ah), 0.2 * without);
 }
 
+TEST_F(EnergyStory, AfterACharge) {
+  remaining_ = 0.95;
+  draw(2340.0, 5.0);
+  remaining_ = 0.95;
+  draw(10.0, 0.5, false);
+  draw(2000.0, 5.0);
+  const double expected = (20.0 / EnergyConfig{}.home_speed_m_s + 2.0) * 5.0 / (3600.0 * kCapacity_ah);
+  EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.05 * expected) << "what was charged is not capacity";
+}
+
+TEST_F(EnergyStory, TimeOnTheGroundIsNoTimeOfFlight) {
+  ammeter_ = false;
+  draw(240.0, 18.0);
+  const double before = layer(20.0).home_share.value();
+  draw(1800.0, 0.0, false);
+  draw(240.0, 18.0);
+  EXPECT_NEAR(layer(20.0).home_share.value(), before, 0.2 * before);
+}
+
 TEST_F(EnergyStory, OneCurrentThatIsNoNumberSpoilsNothing) {
   draw(20.0, 18.0);
   const double before = layer(20.0).home_share.value();

@@ -1,38 +1,16 @@
 // The supervisor above the mission, tick by tick.
-#include "autonomy/supervisor.hpp"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/autonomy/supervisor_story.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
 
 using common::Time;
 using testing::HasSubstr;
-
-class SupervisorStory : public testing::Test {
- protected:
-  const Supervision& at(double t_s, bool airborne = true) {
-    return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
-  }
-  const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, charge_counted_on_, vertical_age_s_, drift_m_,
-                                                     walls_around_, measured_, sensor_lies_, lands_});
-  }
-  void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
-
-  Supervisor supervisor_{SupervisorConfig{}};
-  common::EnergyLayer energy_;
-  std::string charge_counted_on_;
-  double vertical_age_s_ = 0.0;
-  double drift_m_ = 0.0;
-  bool walls_around_ = true;
-  bool measured_ = false;
-  std::string sensor_lies_;
-  bool lands_ = false;
-};
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
   EXPECT_FALSE(at(0.0).hold);
@@ -122,14 +100,16 @@ TEST_F(SupervisorStory, ResumeSaysWhyItChangesNothing) {
 
 TEST_F(SupervisorStory, RefusesEverythingButLandWhileTheVehicleLands) {
   at(1.0);
-  EXPECT_EQ(supervisor_.refusal(), "");
+  const common::OperatorCommand hold{1, common::HoldCommand{}};
+  EXPECT_EQ(supervisor_.refusal(hold), "");
   during(2.0, common::FlightState::kLanding);
-  EXPECT_EQ(supervisor_.refusal(), "the vehicle is landing") << "the mission's own landing";
+  EXPECT_EQ(supervisor_.refusal(hold), "the vehicle is landing") << "the mission's own landing";
   at(3.0);
   (void)supervisor_.take({1, common::LandCommand{}}, Time::fromSeconds(3));
-  EXPECT_EQ(supervisor_.refusal(), "the vehicle is landing: the operator asked for it");
+  EXPECT_EQ(supervisor_.refusal(hold), "the vehicle is landing: the operator asked for it");
+  EXPECT_EQ(supervisor_.refusal({2, common::LandCommand{}}), "");
   at(4.0, false);
-  EXPECT_EQ(supervisor_.refusal(), "") << "it stands";
+  EXPECT_EQ(supervisor_.refusal(hold), "") << "it stands";
 }
 
 TEST_F(SupervisorStory, GoesHomeAndHoldsThereUntilResume) {

@@ -30,7 +30,8 @@ struct Flight {
   double carried_bias_m_s2 = 0.0;
   double carried_s = 0.0;
   bool accelerometer = true;
-  bool knows_horizon = false;  ///< By how much the autopilot's horizon is wrong.
+  double unseen_table_m = 0.0;  ///< The floor is a table of glass, so much higher than what the beams see.
+  bool knows_horizon = false;   ///< By how much the autopilot's horizon is wrong.
   /// The raw heights arrive with this period, and this late.
   common::Duration height_period = common::Duration::fromSeconds(0.03), height_delay;
   std::deque<RawHeight> heights_under_way;
@@ -46,6 +47,7 @@ struct Flight {
     tick.now = model.now;
     tick.state = model.estimate();
     tick.state.T_map_odom = T_map_odom;
+    tick.state.height_above_ground_m += unseen_table_m;
     tick.state.horizontal_valid = horizontal_valid && !diverged;
     tick.state.vertical_valid = vertical_valid && !diverged;
     if (!vertical_measured || !vertical_valid) {
@@ -61,7 +63,8 @@ struct Flight {
     tick.inertial_fault = inertial_fault;
     if (diverged) tick.state.velocity_odom_m_s.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (model.now.nanoseconds() % height_period.nanoseconds() == 0 && mirror)
-      heights_under_way.push_back({model.now, model.position_m.z() - model.floor_m + model.random.gaussian(0.01)});
+      heights_under_way.push_back(
+          {model.now, model.position_m.z() - model.floor_m + unseen_table_m + model.random.gaussian(0.01)});
     if (!heights_under_way.empty() && model.now - heights_under_way.front().stamp >= height_delay) {
       tick.raw_height = heights_under_way.front();
       heights_under_way.pop_front();
