@@ -26,6 +26,7 @@ void ControlLogSink::input(const autonomy::Input& input) {
   const auto* event = std::get_if<common::SensorEvent>(&input);
   if (event == nullptr) return;
   if (const auto* battery = std::get_if<common::BatterySample>(event)) battery_v_ = battery->voltage_v;
+  if (const auto* pilot = std::get_if<common::PilotSample>(event)) pilot_flies_ = pilot->takes_over;
 }
 
 void ControlLogSink::world(const std::shared_ptr<const common::World>& world) {
@@ -36,7 +37,7 @@ void ControlLogSink::ticked(const autonomy::TickOutcome& outcome) {
   if (!writer_ || !common::isFinite(outcome.state.T_odom_body) || !outcome.state.velocity_odom_m_s.allFinite()) return;
   interfaces::ControlRow row;
   row.stamp = outcome.now;
-  row.flying = flying_;
+  row.flying = flying_ && !pilot_flies_;
   row.roll_rad = outcome.setpoint.roll_rad;
   row.pitch_rad = outcome.setpoint.pitch_rad;
   row.yaw_rate_rad_s = outcome.setpoint.yaw_rate_rad_s;

@@ -40,6 +40,7 @@ class ControlLogSink final : public autonomy::FlightSink, public perception::Fil
   std::optional<std::string> failure_;
   double battery_v_ = 0.0;
   bool flying_ = false;
+  bool pilot_flies_ = false;  ///< The commands of the log are not those that are flown.
 };
 
 }  // namespace swiftlet::apps

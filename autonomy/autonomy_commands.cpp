@@ -93,8 +93,10 @@ void Autonomy::assistPilot(control::FlightTick& flight) {
   if (before && !assisted_) controller_.hold();
   if (!assisted_) return;
   flight.thrust_applies = assist_.thrustApplies(last_thrust_);
-  flight.pilot_flies =
-      !assist_.fly(controller_, reactive_.decision(), flight.state, context_.goal_limits.greatest_height_m);
+  // What the laser saw last is no longer so: without it the program asks for a stop.
+  const planning::AvoidanceDecision& decision =
+      supervisor_.seesNothing() ? planning::AvoidanceDecision() : reactive_.decision();
+  flight.pilot_flies = !assist_.fly(controller_, decision, flight.state, context_.goal_limits.greatest_height_m);
 }
 
 }  // namespace swiftlet::autonomy

@@ -73,6 +73,8 @@ class Supervisor {
   /// False if the sample is not plausible.
   bool batteryArrived(common::Time now, const common::BatterySample& sample);
   bool pilotFlies() const { return pilot_flies_; }
+  /// No sensor of obstacles sees the surroundings, as of the last tick.
+  bool seesNothing() const { return supervision_.unseen; }
 
   /// On the ground a fault does not cause a landing.
   const Supervision& tick(common::Time now, const VehicleCondition& condition);
