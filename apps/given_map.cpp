@@ -61,6 +61,7 @@ std::vector<autonomy::OfferedMap> offeredMaps(const std::vector<std::string>& ma
   std::vector<autonomy::OfferedMap> offered;
   for (const std::string& map : maps) {
     offered.push_back({map, readFlightMap(missionMap(map, mission_file)).map});
+    offered.back().map.name = map;
     offered.back().map.seed = seed;
   }
   return offered;
@@ -69,7 +70,7 @@ std::vector<autonomy::OfferedMap> offeredMaps(const std::vector<std::string>& ma
 FlightMap readFlightMap(const fs::path& yaml_file) {
   interfaces::StoredMap stored = readUsableMap(yaml_file);
   FlightMap map;
-  map.name = yaml_file.string();
+  map.map.name = yaml_file.string();
   map.map.grid = std::make_shared<const common::OccupancyGrid>(std::move(stored.grid));
   map.map.T_given_grid = stored.T_map_grid;
   return map;

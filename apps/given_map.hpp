@@ -17,8 +17,7 @@
 namespace swiftlet::apps {
 
 struct FlightMap {
-  std::string name;        ///< Name as given by the user, for the run's record.
-  autonomy::GivenMap map;  ///< The map; flights share its grid.
+  autonomy::GivenMap map;  ///< The map, with the name that the user gave it; flights share its grid.
   /// Its pose in the simulated world, if it is known, for the score.
   std::optional<common::Pose2> T_world_given;
 };

@@ -96,7 +96,6 @@ interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::Simulate
   info.mission_file = mission_file;
   info.world = setup.scenario.world;
   info.system = setup.system.name;
-  if (setup.map) info.given_map = setup.map->name;
   info.vehicle = vehicle.name();
   info.seed = setup.scenario.seed;
   info.version = SWIFTLET_VERSION;

@@ -264,8 +264,9 @@ void Autonomy::tickBehaviors(Time now) {
 void Autonomy::updateCameraObstacles() {
   const Eigen::Vector3d body_map_m = estimator_.state().T_map_body().position_m;
   const double dip_m = executor_.dip_m();
-  camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), body_map_m + dip_m * Eigen::Vector3d::UnitZ());
-  if (dip_m > 0.0) lower_obstacles_.update(estimator_.map3d(), given_map_.grid(), body_map_m);
+  camera_obstacles_.update(estimator_.map3d(), given_map_.gridForPaths(),
+                           body_map_m + dip_m * Eigen::Vector3d::UnitZ());
+  if (dip_m > 0.0) lower_obstacles_.update(estimator_.map3d(), given_map_.gridForPaths(), body_map_m);
 }
 
 /// The supervisor's intent comes before the mission's.

@@ -14,6 +14,7 @@ struct GivenMap {
   std::shared_ptr<const OccupancyGrid> grid;  ///< Must be usable (perception::Localizer::whyUnusable).
   Pose2 T_given_grid;                         ///< Places the grid in `given`, the frame of the map's file.
   std::uint64_t seed = 1;                     ///< Seed of the particles.
+  std::string name = {};                      ///< Its file, for messages.
 };
 
 /// A given map that a mission may load.

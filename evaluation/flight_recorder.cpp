@@ -113,7 +113,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
   if (!T_world_body) return;
   counted_intent_ = intent.id;
   const auto errorIn = [&](const Pose3& T_world_frame) {
-    if (go_to->goal_given_m)
+    if (go_to->goal_given_m && record_.localization)
       return (T_world_given_.inverse() * T_world_body->position_m.head<2>() - *go_to->goal_given_m).norm();
     const Eigen::Vector2d truth_m = (T_world_frame.inverse() * T_world_body->position_m).head<2>();
     return (truth_m - go_to->goal_map_m).norm();

@@ -51,11 +51,11 @@ ordered_json machineJson(const FlightSummary& summary) {
           {"frame_last_ms", orNull(summary.machine.frame_last_ms)}};
 }
 
-ordered_json localizationJson(const std::string& map, const LocalizationSummary& summary) {
+ordered_json localizationJson(const LocalizationSummary& summary) {
   ordered_json pose = nullptr;
   if (const common::Pose2& at = summary.last.T_given_body; summary.last.localized())
     pose = {{"x_m", rounded(at.x_m)}, {"y_m", rounded(at.y_m)}, {"yaw_rad", rounded(at.yaw_rad)}};
-  return {{"map", map},
+  return {{"map", summary.map},
           {"state", common::toString(summary.last.state)},
           {"pose", pose},
           {"found_after_s", orNull(summary.found_after_s)},
@@ -111,7 +111,7 @@ std::string toJson(const FlightSummary& summary) {
   if (summary.octree_age_s) json["octree_age_s"] = rounded(*summary.octree_age_s);
   if (!summary.info.nature.empty()) json["nature"] = summary.info.nature;
   if (!summary.info.vehicle.empty()) json["vehicle"] = summary.info.vehicle;
-  if (summary.localization) json["localization"] = localizationJson(summary.info.given_map, *summary.localization);
+  if (summary.localization) json["localization"] = localizationJson(*summary.localization);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

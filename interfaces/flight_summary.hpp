@@ -40,7 +40,6 @@ struct RunInfo {
   std::int64_t seed = 0;
   std::string version;
   std::string started;                   ///< Local date and time; the caller's clock.
-  std::string given_map = {};            ///< The map to localize in; empty: none.
   std::string vehicle = {};              ///< Name of the vehicle among several; empty: it flew alone.
   std::string nature = {};               ///< Name of the simulator's nature; empty: it flew in no simulator.
   std::string nature_yaml = {};          ///< The values drawn from that nature; empty: nothing is drawn.
@@ -74,6 +73,7 @@ struct FlightSample {
 
 /// How the flight localized in the map it was given, by its own estimate.
 struct LocalizationSummary {
+  std::string map;  ///< The file of the map that was given last.
   common::Localization last;
   std::optional<double> found_after_s;  ///< Time until it first reported a pose.
   std::optional<double> found_after_m;  ///< Path length until it first reported a pose.

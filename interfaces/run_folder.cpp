@@ -101,8 +101,6 @@ struct RunFolder::Impl {
         sample_due(kSamplePeriod),
         map_due(kMapPeriod) {
     summary.info = std::move(info);
-    if (!summary.info.given_map.empty())
-      given_trajectory_file = opened(TumWriter::create(path / "trajectory_given.tum"));
   }
 
   void keep(const Written& written) {
@@ -121,6 +119,7 @@ struct RunFolder::Impl {
 
   void track(const common::World& world);
   void localize(const common::World& world);
+  void beginGiven(const std::shared_ptr<const common::GivenMap>& map);
   void followCamera(const common::World& world);
   void writeTruth(const common::Trajectory& truth_map);
 
@@ -130,7 +129,8 @@ struct RunFolder::Impl {
   EventWriter events_file;
   TumWriter trajectory_file;
   std::optional<TumWriter> given_trajectory_file, camera_trajectory_file;
-  Time camera_stamp;  ///< Of the last frame in its file.
+  std::shared_ptr<const common::GivenMap> given;  ///< The one that the file's poses lie in.
+  Time camera_stamp;                              ///< Of the last frame in its file.
   Every trajectory_due, sample_due, map_due;
   FlightSummary summary;
   std::vector<common::Event> events;
@@ -164,10 +164,20 @@ void RunFolder::Impl::track(const common::World& world) {
     summary.phases.push_back({mission.phase, world.stamp, world.stamp});
 }
 
+/// A mission may load another map than it began with; poses and figures are those in the last one.
+void RunFolder::Impl::beginGiven(const std::shared_ptr<const common::GivenMap>& map) {
+  given = map;
+  summary.localization.emplace();
+  summary.localization->map = map->name;
+  auto writer = TumWriter::create(path / "trajectory_given.tum");
+  if (!writer) return keep(tl::unexpected(writer.error()));
+  given_trajectory_file = std::move(*writer);
+}
+
 void RunFolder::Impl::localize(const common::World& world) {
-  if (!world.map->localization || !given_trajectory_file) return;
+  if (!world.map->localization || !world.map->given) return;
+  if (given != world.map->given) beginGiven(world.map->given);
   const common::Localization& now = *world.map->localization;
-  if (!summary.localization) summary.localization.emplace();
   LocalizationSummary& localization = *summary.localization;
   localization.last = now;
   if (world.vehicle->flight_state != common::FlightState::kFlying) {
@@ -184,7 +194,7 @@ void RunFolder::Impl::localize(const common::World& world) {
     localization.found_after_m = world.vehicle->distance_flown_m;
   }
   const common::Pose3 T_given_odom = common::lifted(now.T_given_odom, 0.0);
-  if (!failure)
+  if (!failure && given_trajectory_file)
     keep(given_trajectory_file->write({world.vehicle->state.stamp, T_given_odom * world.vehicle->state.T_odom_body}));
 }
 

@@ -110,22 +110,28 @@ bool GivenMapOverlay::follow(common::Time now, const Pose2& T_map_body, const Po
 }
 
 void GivenMapOverlay::lay() {
-  grid_ = flown_;
+  grid_ = for_paths_ = flown_;
   if (!T_map_given_) return;
   const int same_wall = static_cast<int>(std::lround(kSameWall_m / flown_->resolution_m()));
   auto both = std::make_shared<OccupancyGrid>(laid_.snapshot());
+  auto for_paths = std::make_shared<OccupancyGrid>(laid_.snapshot());
   laid_.forEachCell([&](CellIndex cell, occupancy::Cell value) {
     if (!occupancy::isOccupied(value) || !occupancy::isUnknown(flown_->at(cell))) return;
     // A wall that only the given map has is known to a cell at best. Its outermost cell is not counted: at both sides
     // of a door it would shut what is open, and the flight sees the wall itself before it is there.
     const auto before = beforeFace(laid_, cell);
-    if (before && isDispensable(*both, cell)) both->set(cell, *before);
-    if (common::occupiedNear(*flown_, cell, same_wall)) both->set(cell, 0);
+    if (before && isDispensable(*for_paths, cell)) for_paths->set(cell, *before);
+    if (!common::occupiedNear(*flown_, cell, same_wall)) return;
+    both->set(cell, 0);
+    for_paths->set(cell, 0);
   });
   flown_->forEachCell([&](CellIndex cell, occupancy::Cell value) {
-    if (!occupancy::isUnknown(value)) both->set(cell, value);
+    if (occupancy::isUnknown(value)) return;
+    both->set(cell, value);
+    for_paths->set(cell, value);
   });
   grid_ = std::move(both);
+  for_paths_ = std::move(for_paths);
 }
 
 }  // namespace swiftlet::autonomy

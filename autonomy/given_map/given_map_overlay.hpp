@@ -35,6 +35,9 @@ class GivenMapOverlay {
 
   /// The map of the flight over the given one; null before the first update.
   std::shared_ptr<const common::OccupancyGrid> grid() const { return grid_; }
+  /// The same for paths: walls that only the given map has are without their outermost cells, so that doors which are
+  /// known to a cell are not narrowed.
+  std::shared_ptr<const common::OccupancyGrid> gridForPaths() const { return for_paths_; }
   /// The map of the flight alone; null before the first update.
   const std::shared_ptr<const common::OccupancyGrid>& flown() const { return flown_; }
   /// The given map; null if there is none.
@@ -55,7 +58,7 @@ class GivenMapOverlay {
   std::optional<common::Pose2> T_map_given_;
   common::Time updated_;
   common::OccupancyGrid laid_;  ///< The given map in the cells of `map`.
-  std::shared_ptr<const common::OccupancyGrid> flown_, grid_;
+  std::shared_ptr<const common::OccupancyGrid> flown_, grid_, for_paths_;
   MapChanges changes_;
 };
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace swiftlet::autonomy {
 namespace {
@@ -12,20 +15,56 @@ using common::CellIndex;
 using common::OccupancyGrid;
 namespace occupancy = common::occupancy;
 
-bool allOccupied(const OccupancyGrid& grid, CellIndex corner, int side) {
-  for (int y = corner.y; y < corner.y + side; ++y)
-    for (int x = corner.x; x < corner.x + side; ++x)
-      if (!occupancy::isOccupied(grid.at({x, y}))) return false;
-  return true;
-}
+/// The cells that belong to an occupied square of so many cells a side: what a morphological opening leaves of the map.
+class ThickWalls {
+ public:
+  ThickWalls(const OccupancyGrid& grid, int side)
+      : rect_(common::knownExtent(grid)), width_(static_cast<std::size_t>(rect_.width())) {
+    if (rect_.empty()) return;
+    thick_.assign(width_ * static_cast<std::size_t>(rect_.height()), 0);
+    markFarCorners(grid, side);
+    // From its far corner a square covers the cells before it, first along x, then along y.
+    spread(side, 1, rect_.width(), width_, rect_.height());
+    spread(side, width_, rect_.height(), 1, rect_.width());
+  }
 
-/// Whether the cell belongs to no occupied square of so many cells a side.
-bool isThin(const OccupancyGrid& grid, CellIndex cell, int side) {
-  for (int dy = 0; dy < side; ++dy)
-    for (int dx = 0; dx < side; ++dx)
-      if (allOccupied(grid, {cell.x - dx, cell.y - dy}, side)) return false;
-  return true;
-}
+  bool has(CellIndex cell) const { return rect_.contains(cell) && thick_[indexOf(cell)] != 0; }
+
+ private:
+  std::size_t indexOf(CellIndex cell) const {
+    return static_cast<std::size_t>(cell.y - rect_.begin.y) * width_ + static_cast<std::size_t>(cell.x - rect_.begin.x);
+  }
+  /// The largest square that ends at a cell is one larger than the smallest of those that end before it.
+  void markFarCorners(const OccupancyGrid& grid, int side) {
+    std::vector<int> above(width_ + 1, 0), here(width_ + 1, 0);
+    for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
+      for (int x = rect_.begin.x; x < rect_.end.x; ++x) {
+        const auto i = static_cast<std::size_t>(x - rect_.begin.x);
+        here[i + 1] = occupancy::isOccupied(grid.at({x, y})) ? 1 + std::min({above[i], above[i + 1], here[i]}) : 0;
+        if (here[i + 1] >= side) thick_[indexOf({x, y})] = 1;
+      }
+      std::swap(above, here);
+    }
+  }
+  /// Marks the `side` - 1 cells before each one that is marked, in `lines` lines of `length` cells.
+  void spread(int side, std::size_t step, int length, std::size_t line_step, int lines) {
+    for (int line = 0; line < lines; ++line) {
+      int left = 0;
+      for (int i = length; i-- > 0;) {
+        std::uint8_t& cell = thick_[static_cast<std::size_t>(line) * line_step + static_cast<std::size_t>(i) * step];
+        if (cell != 0) left = side;
+        if (left > 0) {
+          cell = 1;
+          --left;
+        }
+      }
+    }
+  }
+
+  common::CellRect rect_;
+  std::size_t width_;
+  std::vector<std::uint8_t> thick_;
+};
 
 /// Where the source reaches in the cells of the target: its corners, turned.
 common::CellRect reachIn(const OccupancyGrid& target, const OccupancyGrid& source,
@@ -52,14 +91,15 @@ ResampledMap::ResampledMap(const OccupancyGrid& source, double resolution_m) : r
   const int side = std::max(2, static_cast<int>(std::ceil(std::numbers::sqrt2 * resolution_m / source.resolution_m())));
   // Neighbours on their right and above, so that each pair comes once.
   constexpr std::array<CellIndex, 4> kAhead{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
+  const ThickWalls thick_walls(source, side);
   source.forEachCell([&](CellIndex cell, occupancy::Cell value) {
     if (!occupancy::isOccupied(value)) return;
-    const bool thin = isThin(source, cell, side);
+    const bool thin = !thick_walls.has(cell);
     const Eigen::Vector2d center_m = source.centerOf(cell);
     if (thin) thin_walls_.push_back({center_m, value});
     for (const CellIndex ahead : kAhead) {
       const CellIndex next{cell.x + ahead.x, cell.y + ahead.y};
-      if (!occupancy::isOccupied(source.at(next)) || (!thin && !isThin(source, next, side))) continue;
+      if (!occupancy::isOccupied(source.at(next)) || (!thin && thick_walls.has(next))) continue;
       // Points less than a cell apart fall into the same cell, or into neighbours. Both ends are among them: a thin
       // wall joins a thick one at the centre of that one's cell.
       const Eigen::Vector2d step_m = source.centerOf(next) - center_m;

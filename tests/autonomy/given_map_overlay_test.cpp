@@ -1,6 +1,8 @@
 // The given map under the map of the flight.
 #include "autonomy/given_map/given_map_overlay.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -43,6 +45,17 @@ class GivenMapOverlayStory : public testing::Test {
   }
   common::occupancy::Cell at(const Pose2& T_map_given, double x_m, double y_m) const {
     return overlay_->grid()->at(flown_.cellAt(T_map_given * (given_.T_given_grid * Eigen::Vector2d(x_m, y_m))));
+  }
+
+  /// In the wall at x = 5 m, from y = 1.5 m to 2.5 m; the given map's cells are those of the flight.
+  void cutDoor() {
+    auto walls = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
+    given_.grid->forEachCell([&](common::CellIndex cell, common::occupancy::Cell value) { walls->set(cell, value); });
+    for (double y_m = 1.52; y_m < 2.5; y_m += kCell_m)
+      for (double x_m = 4.8; x_m < 5.2; x_m += kCell_m) walls->set(walls->cellAt(x_m, y_m), -100);
+    given_.grid = walls;
+    given_.T_given_grid = {};
+    overlay_.emplace(&given_);
   }
 
   GivenMap given_;
@@ -109,29 +122,42 @@ TEST_F(GivenMapOverlayStory, AnotherMapTakesItsPlace) {
   EXPECT_TRUE(isOccupied(at(T_map_given, 0.02, 0.02)));
 }
 
-/// The wall at x = 5 m with a door from y = 1.5 m to 2.5 m.
 TEST_F(GivenMapOverlayStory, ADoorThatOnlyTheGivenMapHasIsNotNarrowedByRounding) {
-  auto walls = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
-  given_.grid->forEachCell([&](common::CellIndex cell, common::occupancy::Cell value) { walls->set(cell, value); });
-  for (double y_m = 1.52; y_m < 2.5; y_m += kCell_m)
-    for (double x_m = 4.8; x_m < 5.2; x_m += kCell_m) walls->set(walls->cellAt(x_m, y_m), -100);
-  given_.grid = walls;
-  given_.T_given_grid = {};
-  overlay_.emplace(&given_);
+  cutDoor();
   step(Pose2{});
+  const auto forPaths = [&](double x_m, double y_m) {
+    return overlay_->gridForPaths()->at(flown_.cellAt(Eigen::Vector2d(x_m, y_m)));
+  };
   const auto column = [&](double x_m) {
     int occupied = 0;
-    for (double y_m = 0.02; y_m < 4.0; y_m += kCell_m) occupied += isOccupied(at(Pose2{}, x_m, y_m)) ? 1 : 0;
+    for (double y_m = 0.02; y_m < 4.0; y_m += kCell_m) occupied += isOccupied(forPaths(x_m, y_m)) ? 1 : 0;
     return occupied;
   };
-  EXPECT_TRUE(isFree(at(Pose2{}, 5.02, 1.48))) << "the end of the wall at the door";
-  EXPECT_TRUE(isFree(at(Pose2{}, 5.02, 2.52)));
+  EXPECT_TRUE(isFree(forPaths(5.02, 1.48))) << "the end of the wall at the door";
+  EXPECT_TRUE(isFree(forPaths(5.02, 2.52)));
   EXPECT_EQ(column(4.97), 58);
   EXPECT_EQ(column(5.02), 58) << "the wall of two cells stands, but for its ends";
   // Seen, the same end counts.
   flown_.set(flown_.cellAt(5.02, 1.48), 100);
   step(Pose2{});
-  EXPECT_TRUE(isOccupied(at(Pose2{}, 5.02, 1.48)));
+  EXPECT_TRUE(isOccupied(forPaths(5.02, 1.48)));
+}
+
+/// A flight's map may be given to the next one, which may not see every wall again.
+TEST_F(GivenMapOverlayStory, AMapIsNotWornByFlightsThatDoNotSeeItsWalls) {
+  cutDoor();
+  const auto walls = [](const common::OccupancyGrid& grid) {
+    int cells = 0;
+    grid.forEachCell([&](common::CellIndex, common::occupancy::Cell value) { cells += isOccupied(value) ? 1 : 0; });
+    return cells;
+  };
+  const int before = walls(*given_.grid);
+  for (int flight = 0; flight < 5; ++flight) {
+    overlay_.emplace(&given_);
+    step(Pose2{});
+    given_.grid = overlay_->grid();
+  }
+  EXPECT_EQ(walls(*given_.grid), before);
 }
 
 /// Whether a chain of free cells that cuts no corner leads from one cell to the other.
@@ -175,9 +201,25 @@ TEST_F(GivenMapOverlayStory, AThinSlantedWallHasNoHoles) {
         };
         EXPECT_TRUE(isFree(overlay_->grid()->at(place(side_m))));
         EXPECT_TRUE(isFree(overlay_->grid()->at(place(-side_m))));
-        EXPECT_FALSE(connected(*overlay_->grid(), place(side_m), place(-side_m)))
+        EXPECT_FALSE(connected(*overlay_->gridForPaths(), place(side_m), place(-side_m)))
             << wall_deg << " deg, turned by " << turned_deg << " deg, cells of " << cell_m << " m";
       }
+}
+
+/// A plan from a scan or a drawing may have millimetres for cells. The vehicle is in the air meanwhile.
+TEST_F(GivenMapOverlayStory, AFineMapIsLaidQuickly) {
+  constexpr double kFine_m = 0.005;
+  auto room = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(kFine_m));
+  for (double y_m = 0.5 * kFine_m; y_m < 8.0; y_m += kFine_m)
+    for (double x_m = 0.5 * kFine_m; x_m < 8.0; x_m += kFine_m)
+      room->set(room->cellAt(x_m, y_m), std::min({x_m, y_m, 8.0 - x_m, 8.0 - y_m}) < 0.05 ? 100 : -100);
+  given_.grid = room;
+  given_.T_given_grid = {};
+  overlay_.emplace(&given_);
+  const auto begin = std::chrono::steady_clock::now();
+  step(Pose2{0.013, 0.027, 0.3});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  for (double t_m = 0.01; t_m < 8.0; t_m += 0.02) EXPECT_TRUE(isOccupied(at(Pose2{0.013, 0.027, 0.3}, t_m, 0.025)));
 }
 
 TEST_F(GivenMapOverlayStory, SaysWhatHasChanged) {
@@ -195,6 +237,7 @@ TEST(GivenMapOverlay, WithoutAMapTheGridStaysTheSame) {
   const auto flown = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
   overlay.update({}, {}, {}, std::nullopt, flown);
   EXPECT_EQ(overlay.grid(), flown);
+  EXPECT_EQ(overlay.gridForPaths(), flown);
 }
 
 }  // namespace

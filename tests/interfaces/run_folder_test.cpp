@@ -192,16 +192,20 @@ TEST(RunFolder, SaysWhichNatureWasFlownAndWhatWasDrawn) {
 
 TEST(RunFolder, ContainsTheTrajectoryInTheGivenMap) {
   const ScratchFolder folder;
-  RunInfo info = kInfo;
-  info.given_map = "maps/office.yaml";
-  RunFolder run(folder / "run", info, "");
+  RunFolder run(folder / "run", kInfo, "");
   Flight flight;
+  common::GivenMap office, lobby;
+  office.name = "maps/office.yaml";
+  lobby.name = "maps/lobby.yaml";
+  const auto given = std::make_shared<const common::GivenMap>(office);
+  const auto before = std::make_shared<const common::GivenMap>(lobby);
   for (int tick = 0; tick <= 100; ++tick) {
     flight.time_s = 0.1 * tick;
     auto layers = flight.layers(MissionState::kRunning, "explore");
     layers.vehicle.flight_state = common::FlightState::kFlying;
     common::Localization& localization = layers.map.localization.emplace();
-    if (tick >= 40) localization.state = common::LocalizationState::kLocalized;
+    layers.map.given = tick < 10 ? before : given;  // The mission loads another map.
+    if (tick < 10 || tick >= 40) localization.state = common::LocalizationState::kLocalized;
     localization.T_given_odom = {5.0, 0.0, 0.0};
     localization.T_given_body = {5.0 + flight.time_s, 0.0, 0.0};
     run.world(layers.world());
