@@ -61,6 +61,17 @@ TEST(Repeat, MinusOneRepeatsForEverAndZeroNever) {
   EXPECT_EQ(never.tick(), "SUCCESS");
 }
 
+TEST(Repeat, ReadsTheNumberOnceATick) {
+  Story raised(
+      R"(<Sequence><Script code="n := 1"/><Repeat num_cycles="{n}"><Script code="n += 1"/></Repeat></Sequence>)");
+  EXPECT_EQ(raised.tick(), "SUCCESS");
+  Story lowered(
+      R"(<Sequence><Script code="n := 3"/><Repeat num_cycles="{n}"><A _onSuccess="n = 1"/></Repeat></Sequence>)");
+  lowered.says("A", "SUCCESS");
+  EXPECT_EQ(lowered.tick(), "RUNNING: start A");
+  EXPECT_EQ(lowered.tick(), "SUCCESS");
+}
+
 TEST(Retry, CountsFailures) {
   Story story(R"(<RetryUntilSuccessful num_attempts="2"><A/></RetryUntilSuccessful>)");
   story.says("A", "FAILURE");

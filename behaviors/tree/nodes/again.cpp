@@ -18,7 +18,8 @@ Status Again::run(TickContext& context) {
     if (status != counted_) return status;
     ++done_;
     // The child may have written it.
-    if (const auto now = times_.get()) times = now;
+    if (counted_ == Status::kFailure)
+      if (const auto now = times_.get()) times = now;
     // A round that began and ended in this tick ends the tick, so that no tick is endless.
     if (starts_now && goesOn()) return Status::kRunning;
   }

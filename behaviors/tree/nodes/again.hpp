@@ -11,7 +11,7 @@ namespace swiftlet::tree {
 class Again : public Composite {
  protected:
   /// When the child has ended with `counted` as often as the port `times` says (-1: never enough), the node ends with
-  /// it.
+  /// it. The port is read at each tick; if FAILURE counts, also after each one, as in BehaviorTree.CPP.
   Again(const NodeSetup& setup, std::string_view times, Status counted)
       : Composite(setup), times_(setup, times), counted_(counted) {}
 
