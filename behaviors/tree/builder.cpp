@@ -104,7 +104,7 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
       return;
     }
     Slot* slot = makeSlot(port);
-    slot->write(text);
+    slot->give(text);
     flow_.recordLiteral(slot->id, {text, originOf(place), port});
     tree_->flows[slot->id].is_set = true;
     inner.names[port] = {.slot = slot, .passed = true};

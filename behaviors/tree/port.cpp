@@ -171,6 +171,7 @@ void Slot::writeText(std::string_view text) {
   auto* held = value ? std::get_if<std::string>(&*value) : nullptr;
   if (held == nullptr) return write(std::string(text));
   held->assign(text);
+  number_of_text.reset();
   ++writes;
 }
 

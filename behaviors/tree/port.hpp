@@ -58,11 +58,19 @@ struct Slot {
   std::string name;
   std::size_t id = 0;  ///< Unique in its tree.
   std::optional<Value> value;
+  /// The number that scripts see while the value is the text that a SubTree gives; nothing for any other value.
+  std::optional<Value> number_of_text;
   std::uint64_t writes = 0;  ///< How often it was written, for nodes that wait for news.
 
   void write(Value next) {
     value = std::move(next);
+    number_of_text.reset();
     ++writes;
+  }
+  /// The text that a SubTree gives: text for ports, for scripts a number if it is one.
+  void give(const std::string& text) {
+    write(text);
+    number_of_text = numberOfText(text);
   }
   /// Uses the memory of the text that it holds.
   void writeText(std::string_view text);

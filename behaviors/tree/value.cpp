@@ -228,6 +228,13 @@ std::optional<Value> parseValue(std::string_view text, PortType type, std::strin
   return std::nullopt;
 }
 
+std::optional<Value> numberOfText(std::string_view text) {
+  if (trimmed(text) != text) return std::nullopt;
+  if (const auto whole = parseNumber<std::int64_t>(text)) return *whole;
+  const auto number = parseNumber<double>(text);
+  return number ? std::optional<Value>(*number) : std::nullopt;
+}
+
 std::string toString(const Value& value) { return std::visit(ToText{}, value); }
 
 }  // namespace swiftlet::tree

@@ -71,6 +71,9 @@ std::string_view withoutUnit(std::string_view port_name);
 /// a word of truthOfWord(), 1 or 0. `unit` is that of the port and is used for kDuration only.
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
 
+/// The number that the whole text is, without blanks around it: a whole one if it can be; nothing for any other text.
+std::optional<Value> numberOfText(std::string_view text);
+
 /// The greatest number that durationOf() takes in a unit of time.
 double longestTime(std::string_view unit);
 /// `number` times the unit of time; nothing if it is no unit of time, or the time too long.

@@ -85,7 +85,7 @@ std::optional<Operand> Script::evaluate(std::uint32_t index) {
     case Op::kEntry: {
       const Slot& slot = *owner_->slots_[expression.of];
       if (!slot.value) return failUnset(expression.of, {});
-      return operandOf(*slot.value);
+      return operandOf(slot.number_of_text ? *slot.number_of_text : *slot.value);
     }
     case Op::kAnd:
     case Op::kOr: {
