@@ -18,6 +18,7 @@ struct Builder::Scope {
     Slot* slot = nullptr;
     bool passed = false;  ///< The SubTree gives it.
     bool used = false;    ///< A node of the tree uses it.
+    bool own = false;     ///< It is no entry of an outer tree.
   };
   std::map<std::string, Entry, std::less<>> names;
 };
@@ -107,7 +108,7 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     slot->give(text);
     flow_.recordLiteral(slot->id, {text, originOf(place), port});
     tree_->flows[slot->id].is_set = true;
-    inner.names[port] = {.slot = slot, .passed = true};
+    inner.names[port] = {.slot = slot, .passed = true, .own = true};
   };
   for (const XmlAttribute& attribute : place.element->attributes)
     if (!isStructural(*place.element, attribute.name) && !conditionOf(attribute.name))
@@ -186,7 +187,14 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
     } else {
       binding.literal = readValue(port, *text).value;
     }
+    if (port.unsets && !isOwn(scope, entryOf(*text, port.name).value_or(*text))) binding.slot = nullptr;
   }
+}
+
+/// Whether the tree of the scope has the entry itself. The name has been looked for.
+bool Builder::isOwn(const Scope& scope, std::string_view name) {
+  const auto known = scope.names.find(name);
+  return known != scope.names.end() && known->second.own;
 }
 
 Conditions* Builder::makeConditions(const Place& place, Scope& scope, const std::string& owner) {
@@ -235,7 +243,7 @@ Slot* Builder::find(Scope& scope, std::string_view name) {
   }
   const bool outer = scope.autoremap && scope.outer != nullptr && !name.starts_with('_');
   Slot* slot = outer ? find(*scope.outer, name) : makeSlot(name);
-  scope.names.emplace(name, Scope::Entry{.slot = slot, .used = true});
+  scope.names.emplace(name, Scope::Entry{.slot = slot, .used = true, .own = !outer});
   return slot;
 }
 

@@ -56,6 +56,7 @@ class Builder {
   int addRecord(const Place& place, const NodeManifest* manifest);
   void finishRecord(int id, Node& node);
   Slot* find(Scope& scope, std::string_view name);
+  static bool isOwn(const Scope& scope, std::string_view name);
   Slot* makeSlot(std::string_view name);
   NodeOrigin originOf(const Place& place) const;
   bool tooLarge(const Place& place);

@@ -30,7 +30,7 @@ struct PortManifest {
   bool names_entry = false;
   /// Of an output: the input with the list whose elements it writes, one after the other; empty for any other.
   std::string element_of = {};
-  /// Of an output: it takes the value of its entry away.
+  /// Of an output: it takes the value of its entry away; without a slot if the entry is not of the node's own tree.
   bool unsets = false;
   /// Of a whole number: so many of the node's children; negative ones count from the end, -1 is all of them.
   bool counts_children = false;

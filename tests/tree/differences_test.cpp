@@ -8,6 +8,7 @@
 namespace swiftlet::tree::testing {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr const char* kVisit = R"(<BehaviorTree ID="Visit"><A/></BehaviorTree>)";
@@ -58,6 +59,19 @@ TEST(Differences, ASkippedChildDecidesNothingInAParallel) {
   Story story(R"(<Parallel success_count="-2"><A/><B/></Parallel>)");
   story.says("A", "nothing").says("B", "SUCCESS");
   EXPECT_EQ(story.tick(), "SUCCESS: start B") << "not before B was ticked";
+}
+
+TEST(Differences, UnsetBlackboardTakesTheEntryItself) {
+  Story story(
+      R"(<Sequence><Script code="k := 'other'; other := 1"/><UnsetBlackboard key="{k}"/><ScriptCondition code="other == 1"/><ScriptCondition code="k == 'other'"/></Sequence>)");
+  EXPECT_EQ(story.tick(), "FAILURE");
+  EXPECT_THAT(story.failures(), ElementsAre("ScriptCondition: code: the entry {k} is not set"));
+}
+
+TEST(Differences, WhatIsWrittenAfterUnsetBlackboardIsNews) {
+  Story story(R"(<Sequence><Script code="k := 1"/><WasEntryUpdated entry="k"/><UnsetBlackboard key="k"/></Sequence>)");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS");
 }
 
 TEST(Paths, AreGivenForWhatIsFoundWhenTheTreeIsBuilt) {

@@ -45,6 +45,24 @@ TEST(Entries, ThatAreUnsetHaveNoValueThatIsKnown) {
   EXPECT_FALSE(knows("<UnsetBlackboard key=\"n\"/>"));
 }
 
+TEST(Entries, AreUnsetOnlyInTheTreeThatHasThem) {
+  const auto after = [](const std::string& attributes, const std::string& key) {
+    return Story("<Sequence><Script code=\"k := 1\"/><SubTree ID=\"S\"" + attributes +
+                     "/><ScriptCondition code=\"k == 1\"/></Sequence>",
+                 "<BehaviorTree ID=\"S\"><Sequence><UnsetBlackboard key=\"" + key + "\"/><ScriptCondition code=\"" +
+                     key + " == 1\"/></Sequence></BehaviorTree>")
+        .tick();
+  };
+  EXPECT_EQ(after(" n=\"{k}\"", "n"), "SUCCESS") << "a mapped name";
+  EXPECT_EQ(after(" _autoremap=\"true\"", "k"), "SUCCESS");
+  EXPECT_EQ(after("", "@k"), "SUCCESS");
+  EXPECT_EQ(after(" n=\"1\"", "n"), "FAILURE") << "a text is the tree's own";
+  Story main(
+      "<Sequence><Script code=\"k := 1\"/><UnsetBlackboard key=\"{@k}\"/><ScriptCondition code=\"k == 1\"/>"
+      "</Sequence>");
+  EXPECT_EQ(main.tick(), "SUCCESS") << "no entry has a name with @";
+}
+
 TEST(Entries, OfALoopAreTheElementsOfItsQueue) {
   const auto loop = [](const std::string& type, const std::string& queue, const std::string& child) {
     return "<" + type + " queue=\"" + queue + "\" value=\"{g}\">" + child + "</" + type + ">";

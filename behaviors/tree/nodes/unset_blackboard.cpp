@@ -16,7 +16,7 @@ NodeManifest UnsetBlackboard::manifest() {
 }
 
 Status UnsetBlackboard::act(TickContext&) {
-  key_->value.reset();
+  if (key_ != nullptr) key_->value.reset();
   return Status::kSuccess;
 }
 

@@ -1,4 +1,5 @@
-// UnsetBlackboard: the entry `key` (`key` or `{key}`) has no value any more; SUCCESS.
+// UnsetBlackboard: the entry `key` (`key` or `{key}`) has no value any more; SUCCESS. As in BehaviorTree.CPP an entry
+// that the tree shares with an outer one, or that is named by `@`, keeps its value.
 #pragma once
 
 #include "behaviors/tree/leaf.hpp"
@@ -14,7 +15,7 @@ class UnsetBlackboard final : public Leaf {
  private:
   Status act(TickContext&) override;
 
-  Slot* key_;
+  Slot* key_;  ///< Null if the entry keeps its value.
 };
 
 }  // namespace swiftlet::tree
