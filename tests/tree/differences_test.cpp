@@ -61,6 +61,37 @@ TEST(Differences, ASkippedChildDecidesNothingInAParallel) {
   EXPECT_EQ(story.tick(), "SUCCESS: start B") << "not before B was ticked";
 }
 
+TEST(Differences, TheConditionOfAWhileDoElseStartsAnewAtEveryTick) {
+  Story asked(
+      R"(<Sequence><Script code="n := 0"/><WhileDoElse><A _failureIf="n == 1"/><KeepRunningUntilFailure><Script code="n = 1"/></KeepRunningUntilFailure><C/></WhileDoElse></Sequence>)");
+  asked.says("A", "SUCCESS");
+  EXPECT_EQ(asked.tick(), "RUNNING: start A");
+  EXPECT_EQ(asked.tick(), "RUNNING: start C");
+  Story sleeping(R"(<WhileDoElse><Sleep msec="100"/><B/></WhileDoElse>)");
+  EXPECT_EQ(sleeping.tick(), "RUNNING");
+  EXPECT_EQ(sleeping.tick(), "RUNNING: start B");
+  EXPECT_EQ(sleeping.tick(), "RUNNING") << "sleeps again";
+  EXPECT_EQ(sleeping.tick(), "RUNNING: B");
+}
+
+constexpr const char* kZeroOnce = R"(<RunOnce then_skip="false"><Script code="n := 0"/></RunOnce>)";
+
+TEST(Differences, AFailedConditionOfAnIfThenElseStartsAnew) {
+  Story story(
+      "<Sequence>" + std::string(kZeroOnce) +
+      R"(<Fallback><IfThenElse><A _successIf="n == 1"/><B/></IfThenElse><Script code="n += 1"/></Fallback></Sequence>)");
+  EXPECT_EQ(story.says("A", "FAILURE").tick(), "SUCCESS: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start B");
+}
+
+TEST(Differences, ASkippedConditionSkipsAChoice) {
+  for (const char* choice : {"IfThenElse", "WhileDoElse"}) {
+    const std::string tag = choice;
+    Story story("<" + tag + "><A/><B/><C/></" + tag + ">");
+    EXPECT_EQ(story.says("A", "nothing").tick(), "SKIPPED") << tag;
+  }
+}
+
 TEST(Differences, UnsetBlackboardTakesTheEntryItself) {
   Story story(
       R"(<Sequence><Script code="k := 'other'; other := 1"/><UnsetBlackboard key="{k}"/><ScriptCondition code="other == 1"/><ScriptCondition code="k == 'other'"/></Sequence>)");
