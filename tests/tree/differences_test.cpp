@@ -92,6 +92,18 @@ TEST(Differences, ASkippedConditionSkipsAChoice) {
   }
 }
 
+TEST(Differences, APreconditionIsAskedAtEachStartOfItsChild) {
+  Story skipped("<Sequence>" + std::string(kZeroOnce) +
+                R"(<Precondition if="n == 0" else="SUCCESS"><A/></Precondition><Script code="n = 1"/></Sequence>)");
+  EXPECT_EQ(skipped.says("A", "nothing").tick(), "SUCCESS");
+  EXPECT_EQ(skipped.says("A", "RUNNING").tick(), "SUCCESS");
+  Story halted("<Sequence>" + std::string(kZeroOnce) +
+               R"(<Precondition if="n == 0" else="SUCCESS"><A _onHalted="n = 1"/></Precondition></Sequence>)");
+  EXPECT_EQ(halted.tick(), "RUNNING: start A");
+  EXPECT_EQ(halted.halt(), "let go: A halted");
+  EXPECT_EQ(halted.tick(), "SUCCESS");
+}
+
 TEST(Differences, UnsetBlackboardTakesTheEntryItself) {
   Story story(
       R"(<Sequence><Script code="k := 'other'; other := 1"/><UnsetBlackboard key="{k}"/><ScriptCondition code="other == 1"/><ScriptCondition code="k == 'other'"/></Sequence>)");
