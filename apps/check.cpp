@@ -98,8 +98,9 @@ void print(const CheckReport& report, std::size_t missions) {
 void draw(const CheckOptions& options) {
   const std::string file = common::findData(options.missions.front()).string();
   const tree::Registry& ours = behaviors::missionRegistry();
-  const tree::Registry registry = options.mock_leaves ? tree::withMocks(file, ours).registry : ours;
-  const tree::ParseResult parsed = tree::parseFile(file, registry);
+  const tree::MockedRegistry known =
+      options.mock_leaves ? tree::withMocks(file, ours) : tree::MockedRegistry{ours, {}, {}};
+  const tree::ParseResult parsed = tree::parseFile(file, known.registry, known.options);
   required(interfaces::writeAtomically(options.draw, tree::drawTree(*parsed.tree)));
 }
 

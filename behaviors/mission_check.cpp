@@ -72,7 +72,7 @@ MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits
 
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits) {
   const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry());
-  tree::ParseResult parsed = tree::parseFile(path, mocked.registry);
+  tree::ParseResult parsed = tree::parseFile(path, mocked.registry, mocked.options);
   std::vector<std::string> whose;
   if (parsed.tree) whose = ownersOf(*parsed.tree, mocked.mocks);
   const bool foreign = !mocked.mocks.empty() || (parsed.tree && !hasBehaviour(*parsed.tree));

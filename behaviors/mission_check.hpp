@@ -37,7 +37,7 @@ struct MissionVerdict {
 MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {});
 /// Types that Swiftlet does not have are mocks (behaviors/tree/mocks.hpp). With one in the tree only the XML is judged,
 /// because nobody knows how a mock moves the vehicle, and so is a tree without any behaviour of Swiftlet. Such a
-/// mission cannot be flown.
+/// mission cannot be flown. The file is read leniently (ParseOptions).
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
 
 MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits = {});

@@ -67,7 +67,7 @@ Tree Builder::build() {
   tree_->root = makeNode({main.document, &main.element->children.front(), -1, 0}, scope);
   tree_->documents = std::move(documents_.documents);
   addFound();
-  if (!gave_up_) checkEntries(*tree_, problems_);
+  if (!gave_up_) checkEntries(*tree_, problems_, options_.lenient);
   return Tree(std::move(tree_));
 }
 

@@ -72,7 +72,8 @@ class Builder {
   bool gave_up_ = false;
 };
 
-/// Entries that are read but never set, or set to a value that their readers cannot take.
-void checkEntries(const TreeParts& tree, Problems& problems);
+/// Entries that are read but never set, or set to a value that their readers cannot take. Leniently, one that is never
+/// set and may be a constant of another program (RED, of a script) is a warning.
+void checkEntries(const TreeParts& tree, Problems& problems, bool lenient);
 
 }  // namespace swiftlet::tree

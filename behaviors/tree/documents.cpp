@@ -82,7 +82,8 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
   }
   seen_.insert(normalized(path));
   SourceText source(path, std::move(text));
-  XmlResult xml = parseXml(source, options_.limits.depth);
+  XmlResult xml = parseXml(source, options_.limits.depth, options_.lenient);
+  for (const std::size_t offset : xml.unescaped) warnUnescaped(source, offset);
   if (!xml.root) {
     problems_.add(std::move(*xml.problem));
     return false;
@@ -97,6 +98,16 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
   }
   documents.push_back(std::move(document));
   return usable;
+}
+
+void Documents::warnUnescaped(const SourceText& source, std::size_t offset) {
+  if (problems_.fullOfWarnings()) return;
+  const bool ampersand = source.text()[offset] == '&';
+  problems_.warn(
+      {source.locate(offset),
+       {},
+       "`" + std::string(1, source.text()[offset]) + "` stands for itself in a value, which XML does not allow",
+       ampersand ? "write &amp;" : "write &lt;"});
 }
 
 bool Documents::checkRoot(const Document& document) {

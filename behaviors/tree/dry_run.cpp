@@ -190,8 +190,13 @@ DryRun::DryRun(const std::string& path, const Registry& base, OutcomeScript scri
   if (!parts.problems.empty()) return;
   const MockAnswer answer = [&parts](const Node& leaf, bool ticked) { return parts.cast.answerOf(leaf, ticked); };
   parts.registry = withStandInLeaves(base, answer);
-  if (mocks) parts.registry = withMocks(path, parts.registry, {}, answer).registry;
-  ParseResult parsed = parseFile(path, parts.registry);
+  ParseOptions options;
+  if (mocks) {
+    MockedRegistry mocked = withMocks(path, parts.registry, options, answer);
+    parts.registry = std::move(mocked.registry);
+    options = std::move(mocked.options);
+  }
+  ParseResult parsed = parseFile(path, parts.registry, options);
   parts.problems = std::move(parsed.problems);
   if (!parsed.tree) return;
   parts.tree = std::move(parsed.tree);

@@ -35,9 +35,16 @@ std::string hintFor(const TreeParts& tree, const std::string& name) {
          "}\" or _autoremap=\"true\" on the SubTree";
 }
 
+/// RED or THE_ANSWER.
+bool looksLikeConstant(std::string_view name) {
+  return name.size() > 1 && name.front() >= 'A' && name.front() <= 'Z' &&
+         name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string_view::npos;
+}
+
 class EntryChecker {
  public:
-  EntryChecker(const TreeParts& tree, Problems& problems) : tree_(tree), problems_(problems) {}
+  EntryChecker(const TreeParts& tree, Problems& problems, bool lenient)
+      : tree_(tree), problems_(problems), lenient_(lenient) {}
 
   void check(std::size_t slot) {
     const EntryFlow& flow = tree_.flows[slot];
@@ -70,8 +77,15 @@ class EntryChecker {
   }
 
   void reportNotSet(std::size_t slot, const EntryRead& read) {
-    problems_.add({tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
-                   hintFor(tree_, tree_.slots[slot].name), tree_.pathOf(read.origin.node)});
+    const std::string& name = tree_.slots[slot].name;
+    Problem problem{tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
+                    hintFor(tree_, name), tree_.pathOf(read.origin.node)};
+    if (!lenient_ || read.port->type != PortType::kScript || !looksLikeConstant(name)) {
+      problems_.add(std::move(problem));
+      return;
+    }
+    problem.hint = "unless it is a constant of the program that ticks the tree";
+    problems_.warn(std::move(problem));
   }
   void reportType(std::size_t slot, const EntryRead& read, PortType written) {
     problems_.add(
@@ -87,13 +101,14 @@ class EntryChecker {
 
   const TreeParts& tree_;
   Problems& problems_;
+  bool lenient_;
   std::set<std::pair<std::size_t, const PortManifest*>> judged_;
 };
 
 }  // namespace
 
-void checkEntries(const TreeParts& tree, Problems& problems) {
-  EntryChecker checker(tree, problems);
+void checkEntries(const TreeParts& tree, Problems& problems, bool lenient) {
+  EntryChecker checker(tree, problems, lenient);
   for (std::size_t i = 0; i < tree.slots.size() && !problems.full(); ++i)
     if (!tree.flows[i].reads.empty()) checker.check(i);
 }

@@ -154,8 +154,10 @@ void addMockLeaf(Registry& registry, const NodeManifest& manifest, const MockAns
 
 MockedRegistry withMocks(const std::string& path, const Registry& base, const ParseOptions& options,
                          const MockAnswer& answer) {
+  MockedRegistry mocked{base, {}, options};
+  mocked.options.lenient = true;
   Problems ignored(options.limits.problems);
-  Documents documents(options, ignored);
+  Documents documents(mocked.options, ignored);
   documents.load(path);
   MockFinder finder(base);
   for (const auto& document : documents.documents)
@@ -166,7 +168,6 @@ MockedRegistry withMocks(const std::string& path, const Registry& base, const Pa
       if (element.name == "BehaviorTree")
         for (const XmlElement& child : element.children) finder.readUses(child);
 
-  MockedRegistry mocked{base, {}};
   for (const auto& [id, facts] : finder.facts()) {
     // The name of a tree is a mistake, a SubTree was meant: the checker says so.
     if (!finder.isMocked(id, facts) || documents.trees.contains(id)) continue;

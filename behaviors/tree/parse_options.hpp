@@ -26,6 +26,8 @@ struct ParseOptions {
   /// Blackboard entries of the main tree that the host sets before the first tick.
   std::vector<std::string> host_entries;
   FileReader read_file;  ///< Null: the file system.
+  /// For files of other programs: what only BehaviorTree.CPP takes, or never looks at, is a warning.
+  bool lenient = false;
 };
 
 }  // namespace swiftlet::tree

@@ -7,7 +7,7 @@
 namespace swiftlet::tree {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kTagBlanks = " \t\r\n";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool endsLine(std::string_view text, std::size_t at) {
@@ -66,7 +66,7 @@ std::size_t SourceText::endOfTagName(std::size_t element_offset) const {
 
 /// The tag was read by expat, so it is well-formed: <name blanks name blanks = blanks quote ... quote ...
 std::optional<AttributeSpan> SourceText::nextSpan(std::size_t from) const {
-  const std::size_t at = text_.find_first_not_of(kBlanks, from);
+  const std::size_t at = text_.find_first_not_of(kTagBlanks, from);
   if (at == std::string::npos || text_[at] == '>' || text_[at] == '/') return std::nullopt;
   AttributeSpan span{.name = at};
   span.name_end = text_.find_first_of(" \t\r\n=", at);

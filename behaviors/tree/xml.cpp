@@ -6,12 +6,13 @@
 
 #include <expat.h>
 
+#include "behaviors/tree/escaped_text.hpp"
 #include "behaviors/tree/utf8.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 /// Whether the bytes from `offset` on begin with a character of UTF-8.
 bool isUtf8At(std::string_view text, std::size_t offset) {
@@ -38,7 +39,12 @@ constexpr int kOuterLevels = 2;
 
 class Reader {
  public:
-  Reader(const SourceText& source, int max_depth) : source_(source), max_depth_(max_depth) {
+  /// Reads the escaped text, if there is one, in place of the source.
+  Reader(const SourceText& source, int max_depth, const EscapedText* escaped)
+      : source_(source),
+        max_depth_(max_depth),
+        escaped_(escaped),
+        text_(escaped == nullptr ? source.text() : escaped->text()) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), onOpen, onClose);
     XML_SetCharacterDataHandler(parser_.get(), onText);
@@ -48,17 +54,16 @@ class Reader {
 
   XmlResult read() {
     XmlResult result;
-    const std::string& text = source_.text();
-    if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    if (text_.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
       result.problem = Problem{{source_.file(), 0, 0}, {}, "the file is too large", {}};
       return result;
     }
     // Expat would read it, but offsets would not be those of the text.
-    if (const std::string_view wide = wideEncoding(text); !wide.empty()) {
+    if (const std::string_view wide = wideEncoding(text_); !wide.empty()) {
       result.problem = wrongEncoding({source_.file(), 1, 1}, std::string(wide));
       return result;
     }
-    const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), XML_TRUE);
+    const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), XML_TRUE);
     if (problem_)
       result.problem = std::move(problem_);
     else if (status != XML_STATUS_OK)
@@ -99,8 +104,8 @@ class Reader {
     element.offset = offset();
     element.attributes.reserve(static_cast<std::size_t>(XML_GetSpecifiedAttributeCount(parser_.get())) / 2);
     for (; *attributes != nullptr; attributes += 2) element.attributes.push_back({attributes[0], attributes[1]});
-    const std::size_t tag_end = element.offset + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
-    open_.push_back({&element, source_.text().compare(tag_end - 2, 2, "/>") == 0});
+    const std::size_t tag_end = readOffset() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+    open_.push_back({&element, text_.compare(tag_end - 2, 2, "/>") == 0});
   }
 
   void close() {
@@ -110,7 +115,7 @@ class Reader {
 
   void text(std::string_view text) {
     if (problem_ || open_.empty() || open_.back().element->text_offset) return;
-    const std::size_t first = text.find_first_not_of(kBlanks);
+    const std::size_t first = text.find_first_not_of(kXmlBlanks);
     if (first != std::string_view::npos) open_.back().element->text_offset = offset() + first;
   }
 
@@ -184,13 +189,18 @@ class Reader {
                 " > NEW.xml` converts it; then write encoding=\"UTF-8\" in its first line"};
   }
 
-  std::size_t offset() const {
+  /// Of what expat reads now, in the source.
+  std::size_t offset() const { return escaped_ == nullptr ? readOffset() : escaped_->originalOffset(readOffset()); }
+
+  std::size_t readOffset() const {
     const XML_Index index = XML_GetCurrentByteIndex(parser_.get());
     return index < 0 ? 0 : static_cast<std::size_t>(index);
   }
 
   const SourceText& source_;
   int max_depth_;
+  const EscapedText* escaped_;  ///< Null if the source is read as it is.
+  const std::string& text_;     ///< What expat reads.
   // The encoding is fixed so that byte offsets are those of the text.
   std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate("UTF-8")};
   std::optional<XmlElement> root_;
@@ -217,6 +227,12 @@ const std::string* XmlElement::attribute(std::string_view attribute_name) const 
   return found == nullptr ? nullptr : &found->value;
 }
 
-XmlResult parseXml(const SourceText& source, int max_depth) { return Reader(source, max_depth).read(); }
+XmlResult parseXml(const SourceText& source, int max_depth, bool lenient) {
+  if (!lenient) return Reader(source, max_depth, nullptr).read();
+  const EscapedText escaped(source.text());
+  XmlResult result = Reader(source, max_depth, &escaped).read();
+  result.unescaped = escaped.found();
+  return result;
+}
 
 }  // namespace swiftlet::tree

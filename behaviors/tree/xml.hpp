@@ -40,9 +40,12 @@ struct XmlElement {
 struct XmlResult {
   std::optional<XmlElement> root;
   std::optional<Problem> problem;  ///< Present if `root` is not.
+  /// Of a lenient reading: the offsets of `<` and `&` that stand for themselves, the first of each value.
+  std::vector<std::size_t> unescaped;
 };
 
-/// `max_depth` limits elements within elements, below <root> and <BehaviorTree>.
-XmlResult parseXml(const SourceText& source, int max_depth);
+/// `max_depth` limits elements within elements, below <root> and <BehaviorTree>. A lenient reading takes `<` and `&` in
+/// the values of attributes as tinyxml2 does (escaped_text.hpp); else they are a problem.
+XmlResult parseXml(const SourceText& source, int max_depth, bool lenient = false);
 
 }  // namespace swiftlet::tree

@@ -21,7 +21,7 @@ class MockedTree {
                             const auto found = answers_.find(mock.name());
                             return found == answers_.end() ? Status::kSuccess : found->second;
                           })),
-        parsed_(parseFile(path, mocked_.registry)) {}
+        parsed_(parseFile(path, mocked_.registry, mocked_.options)) {}
 
   MockedTree& says(const std::string& leaf, Status status) {
     answers_[leaf] = status;
@@ -39,6 +39,7 @@ class MockedTree {
   }
   const std::vector<Mock>& mocks() const { return mocked_.mocks; }
   const std::vector<Problem>& problems() const { return parsed_.problems; }
+  const std::vector<Problem>& warnings() const { return parsed_.warnings; }
 
  private:
   std::map<std::string, Status> answers_;

@@ -1,0 +1,89 @@
+// Files of other programs, read with mocks: what BehaviorTree.CPP takes in them is a warning. The same files are
+// refused as missions.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tree/mocked_tree.hpp"
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::linesOf;
+using testing::MockedTree;
+
+class ForeignFile : public ::testing::Test {
+ protected:
+  /// Writes it as this test's file.
+  void write(const std::string& text) {
+    path_ = (std::filesystem::path(::testing::TempDir()) /
+             (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".xml"))
+                .string();
+    std::ofstream(path_) << text;
+  }
+  void writeTree(const std::string& inside, const std::string& more = {}) { write(testing::file(inside, more)); }
+
+  /// Each with its place, without the name of the file.
+  std::vector<std::string> shortLines(const std::vector<Problem>& problems) const {
+    std::vector<std::string> lines = linesOf(problems);
+    for (std::string& line : lines) line.erase(0, path_.size() + 1);
+    return lines;
+  }
+  std::vector<std::string> problemsOfMission() const { return shortLines(parseFile(path_, withEveryName()).problems); }
+  std::string firstTick() const { return MockedTree(path_).tick().substr(0, 7); }
+
+  /// The engine's nodes and the mocks, but the file is read as a mission is.
+  Registry withEveryName() const { return withMocks(path_, Registry::standard()).registry; }
+
+  std::string path_;
+};
+
+TEST_F(ForeignFile, HasRawCharactersInItsValues) {
+  writeTree(
+      "<Sequence><Script code=\"n := 3; s := 'a&b&#65;&lt;&nbsp;'\"/>\n"
+      "<!-- \"&<\" --><Tést a='\"<'/> <ScriptCondition code=\"n < 4 && 2 < n\" name='<&'\n/>"
+      "<ScriptCondition code=\"s == 'a&amp;bA&lt;&amp;nbsp;'\"/></Sequence>");
+  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("malformed XML")));
+  const MockedTree tree(path_);
+  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
+  EXPECT_THAT(shortLines(tree.warnings()),
+              ElementsAre("3:40: `&` stands for itself in a value, which XML does not allow, write &amp;",
+                          "4:24: `<` stands for itself in a value, which XML does not allow, write &lt;",
+                          "4:54: `<` stands for itself in a value, which XML does not allow, write &lt;",
+                          "4:74: `<` stands for itself in a value, which XML does not allow, write &lt;"));
+  EXPECT_EQ(firstTick(), "SUCCESS");
+}
+
+TEST_F(ForeignFile, WithRawCharactersHasItsPlaces) {
+  writeTree(
+      "<Sequence><Script code=\"n := 1 && 2 < 3\"/><Repeat num_cycles=\"0 < 1\" num=\"<<&\" more=\"\">\n"
+      "<Do a=\"&&&&\"/></Repeat> text<Inverter/></Sequence>");
+  EXPECT_THAT(shortLines(MockedTree(path_).problems()),
+              ElementsAre(HasSubstr("4:25: Sequence: text is not expected here"),
+                          HasSubstr("3:51: Repeat.num_cycles: `0 < 1` is not a whole number"),
+                          HasSubstr("3:70: Repeat: unknown port `num`"), HasSubstr("3:80: Repeat: unknown port `more`"),
+                          HasSubstr("4:29: Inverter: has 0 children")));
+  write("<root BTCPP_format=\"4\"><BehaviorTree ID=\"A < B && C\"><Do a=\"&&\"></Dont></BehaviorTree></root>");
+  EXPECT_THAT(shortLines(MockedTree(path_).problems()), ElementsAre(HasSubstr("1:67: <Do>: malformed XML")));
+  write("<root BTCPP_format=\"4\"><BehaviorTree ID=\"A < B\"><Do a=\"&&/></BehaviorTree></root>");
+  EXPECT_THAT(shortLines(MockedTree(path_).problems()), ElementsAre(HasSubstr("malformed XML")));
+}
+
+TEST_F(ForeignFile, NamesConstantsOfItsProgram) {
+  writeTree("<Sequence><Script code=\"A := THE_ANSWER; color := RED\"/><Script code=\"b := unknown\"/></Sequence>");
+  EXPECT_THAT(problemsOfMission().size(), 3U);
+  const MockedTree tree(path_);
+  EXPECT_THAT(shortLines(tree.problems()), ElementsAre(HasSubstr("nothing sets the entry {unknown}")));
+  EXPECT_THAT(shortLines(tree.warnings()),
+              ElementsAre(HasSubstr("nothing sets the entry {THE_ANSWER}"), HasSubstr("nothing sets the entry {RED}")));
+}
+
+}  // namespace
+}  // namespace swiftlet::tree
