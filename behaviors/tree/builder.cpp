@@ -111,7 +111,7 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     inner.names[port] = {.slot = slot, .passed = true, .own = true};
   };
   for (const XmlAttribute& attribute : place.element->attributes)
-    if (!isStructural(*place.element, attribute.name) && !conditionOf(attribute.name))
+    if (!attribute.name.starts_with('_') && !isStructural(*place.element, attribute.name))
       bind(attribute.name, attribute.value);
   const auto model = documents_.subtree_models.find(*place.element->attribute("ID"));
   // What the outer tree shares takes the place of defaults.

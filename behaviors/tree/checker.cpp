@@ -56,10 +56,35 @@ std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
   return {};
 }
 
+void addSubTrees(const XmlElement& element, std::vector<std::string>& ids) {
+  if (const std::string* id = element.attribute("ID"); id != nullptr && isSubTree(element)) ids.push_back(*id);
+  for (const XmlElement& child : element.children) addSubTrees(child, ids);
+}
+
+/// The main tree and those that it uses, directly or not.
+std::set<std::string> usedTrees(const Documents& documents) {
+  std::set<std::string> used;
+  if (documents.main == nullptr) return used;
+  for (std::vector<std::string> ids = {documents.main_id}; !ids.empty();) {
+    const std::string id = std::move(ids.back());
+    ids.pop_back();
+    const auto tree = documents.trees.find(id);
+    if (tree != documents.trees.end() && used.insert(id).second) addSubTrees(*tree->second.element, ids);
+  }
+  return used;
+}
+
 }  // namespace
 
-Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts)
-    : documents_(documents), registry_(registry), problems_(problems), scripts_(scripts), node_names_(registry.ids()) {
+Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts,
+                 bool lenient)
+    : documents_(documents),
+      registry_(registry),
+      problems_(problems),
+      scripts_(scripts),
+      lenient_(lenient),
+      used_(usedTrees(documents)),
+      node_names_(registry.ids()) {
   node_names_.push_back("SubTree");
   for (const auto& [id, tree] : documents.trees) tree_names_.push_back(id);
 }
@@ -77,10 +102,10 @@ void Checker::check() {
 }
 
 void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
-  if (problems_.full()) return;
+  tree_id_ = id;
+  if (foundEnough()) return;
   const XmlElement& element = *tree.element;
   const Document& document = *tree.document;
-  tree_id_ = id;
   if (registry_.find(id) != nullptr)
     report({document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type", {}});
   if (element.children.size() != 1)
@@ -93,7 +118,7 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
 }
 
 void Checker::checkElement(const Document& document, const XmlElement& element) {
-  if (problems_.full()) return;
+  if (foundEnough()) return;
   open_.push_back(&element);
   if (isSubTree(element))
     checkSubTree(document, element);
@@ -107,12 +132,18 @@ void Checker::checkElement(const Document& document, const XmlElement& element) 
   open_.pop_back();
 }
 
+bool Checker::isUnused() const { return lenient_ && !used_.empty() && !used_.contains(tree_id_); }
+
+bool Checker::foundEnough() const { return problems_.full() || (isUnused() && problems_.fullOfWarnings()); }
+
 void Checker::report(Problem problem) {
+  if (isUnused()) return warn(std::move(problem));
   problem.path = path();
   problems_.add(std::move(problem));
 }
 
 void Checker::warn(Problem warning) {
+  if (problems_.fullOfWarnings()) return;
   warning.path = path();
   problems_.warn(std::move(warning));
 }
@@ -181,7 +212,7 @@ void Checker::checkUnknown(const Document& document, const XmlElement& element) 
 
 void Checker::checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                              const NodeManifest* manifest) {
-  if (problems_.full()) return;
+  if (foundEnough()) return;
   const std::string& name = attribute.name;
   const auto place = [&] { return document.at(element, name); };
   const auto owner = [&] { return typeNameOf(element); };
@@ -203,9 +234,7 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
   if (port != nullptr) {
     checkPort(document, element, attribute, *port);
   } else if (name.starts_with('_')) {
-    report({place(), owner(), "unknown attribute `" + name + "`",
-            name == "__shared_blackboard" ? "did you mean `_autoremap`?"
-                                          : didYouMean(name, underscoredNames(isSubTree(element)))});
+    reportUnknown(document, element, attribute);
   } else if (manifest != nullptr) {
     const auto names = portNames(*manifest);
     std::string message = otherUnit(name, *manifest);
@@ -213,6 +242,17 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
       message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : quotedList(names));
     report({place(), owner(), std::move(message), didYouMean(name, names)});
   }
+}
+
+void Checker::reportUnknown(const Document& document, const XmlElement& element, const XmlAttribute& attribute) {
+  const std::string& name = attribute.name;
+  Problem problem{document.at(element, name), typeNameOf(element), "unknown attribute `" + name + "`",
+                  name == "__shared_blackboard" ? "did you mean `_autoremap`?"
+                                                : didYouMean(name, underscoredNames(isSubTree(element)))};
+  if (lenient_)
+    warn(std::move(problem));
+  else
+    report(std::move(problem));
 }
 
 void Checker::checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
@@ -243,7 +283,7 @@ void Checker::checkCount(const Document& document, const XmlElement& element, co
   const std::size_t children = element.children.size();
   if (std::string problem = tooMany(port.name, count, children); !problem.empty())
     report({document.at(element, port.name), typeNameOf(element), std::move(problem), {}});
-  else if (threshold(count, children) == 0 && !problems_.fullOfWarnings())
+  else if (threshold(count, children) == 0)
     warn({document.at(element, port.name),
           typeNameOf(element),
           port.name + " is " + std::to_string(count) + ", which is reached before any child has ended",

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace swiftlet::tree {
 
 class Checker {
  public:
-  /// Adds every script to `scripts`, and notes it at its attribute.
-  Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts);
+  /// Adds every script to `scripts`, and notes it at its attribute. Leniently, what is wrong in a tree that the main
+  /// tree does not use is a warning, and so is an unknown attribute that begins with `_`.
+  Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts, bool lenient);
   void check();
 
  private:
@@ -32,6 +34,11 @@ class Checker {
   void checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                    const PortManifest& port);
   void checkCount(const Document& document, const XmlElement& element, const PortManifest& port, std::int64_t count);
+  /// The tree that is being checked, and problems in it are warnings.
+  bool isUnused() const;
+  /// There is no need to look for more.
+  bool foundEnough() const;
+  void reportUnknown(const Document& document, const XmlElement& element, const XmlAttribute& attribute);
   /// With the path of the element that is being checked.
   void report(Problem problem);
   void warn(Problem warning);
@@ -49,6 +56,8 @@ class Checker {
   const Registry& registry_;
   Problems& problems_;
   Scripts& scripts_;
+  bool lenient_;
+  std::set<std::string> used_;           ///< The main tree and those that it uses, if there is one.
   std::string tree_id_;                  ///< Of the tree that is being checked.
   std::vector<const XmlElement*> open_;  ///< From its root to the element that is being checked.
   /// By the ID of a tree: the trees that it uses, each with the first SubTree that does.

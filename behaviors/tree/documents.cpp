@@ -176,10 +176,17 @@ void Documents::readChildren(const Document& document, const std::string& path) 
     else if (element.name == "TreeNodesModel")
       readModel(document, element);
     else
-      problems_.add({document.at(element), element.name,
+      reportElement({document.at(element), element.name,
                      "unknown element, expected <BehaviorTree>, <include> or <TreeNodesModel>",
                      didYouMean(element.name, known)});
   }
+}
+
+void Documents::reportElement(Problem problem) {
+  if (options_.lenient)
+    problems_.warn(std::move(problem));
+  else
+    problems_.add(std::move(problem));
 }
 
 bool Documents::include(const Document& document, const XmlElement& element, const std::string& path) {

@@ -70,6 +70,8 @@ class Documents {
   bool checkFormat(const Document& document);
   void reportVersion3(const Document& document, const std::string* format);
   void readChildren(const Document& document, const std::string& path);
+  /// Of an element that nobody knows.
+  void reportElement(Problem problem);
   bool addTree(const Document& document, const XmlElement& element, bool alone);
   void readModel(const Document& document, const XmlElement& element);
   void findMain(const Document& document);

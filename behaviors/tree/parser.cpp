@@ -14,7 +14,7 @@ namespace {
 ParseResult finish(Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems) {
   ParseResult result;
   auto parts = std::make_unique<TreeParts>(registry.constants());
-  Checker(documents, registry, problems, parts->scripts).check();
+  Checker(documents, registry, problems, parts->scripts, options.lenient).check();
   // Building requires that subtrees exist and do not contain themselves.
   if (problems.empty() && documents.main != nullptr) {
     Tree tree = Builder(documents, registry, options, problems, std::move(parts)).build();

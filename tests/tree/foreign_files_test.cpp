@@ -85,5 +85,33 @@ TEST_F(ForeignFile, NamesConstantsOfItsProgram) {
               ElementsAre(HasSubstr("nothing sets the entry {THE_ANSWER}"), HasSubstr("nothing sets the entry {RED}")));
 }
 
+TEST_F(ForeignFile, HasTreesThatAreNotUsed) {
+  writeTree("<SubTree ID=\"Used\"/>",
+            "<BehaviorTree ID=\"Used\"><Do/></BehaviorTree>\n<BehaviorTree ID=\"Unused\"><Repeat/></BehaviorTree>\n"
+            "<BehaviorTree ID=\"Itself\"><SubTree ID=\"Itself\"/></BehaviorTree>\n");
+  EXPECT_THAT(problemsOfMission().size(), 3U);
+  const MockedTree tree(path_);
+  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
+  EXPECT_THAT(shortLines(tree.warnings()),
+              ElementsAre(HasSubstr("Repeat: port `num_cycles` is missing"), HasSubstr("Repeat: has 0 children"),
+                          HasSubstr("the tree contains itself")));
+  writeTree("<SubTree ID=\"Used\"/>", "<BehaviorTree ID=\"Used\"><Repeat/></BehaviorTree>\n");
+  EXPECT_THAT(MockedTree(path_).problems().size(), 2U);
+}
+
+TEST_F(ForeignFile, HasElementsAndAttributesOfItsEditor) {
+  writeTree(
+      "<Sequence><Do _collapsed=\"true\"/><Script code=\"n := 1\" _x=\"7\"/>"
+      "<SubTree ID=\"Used\" _collapsed=\"true\"/></Sequence>",
+      "<BehaviorTree ID=\"Used\"><Do/></BehaviorTree>\n<Layout zoom=\"2\"/>\n");
+  EXPECT_THAT(problemsOfMission().size(), 4U);
+  const MockedTree tree(path_);
+  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
+  EXPECT_THAT(
+      shortLines(tree.warnings()),
+      ElementsAre(HasSubstr("6:1: Layout: unknown element"), HasSubstr("Do: unknown attribute `_collapsed`"),
+                  HasSubstr("Script: unknown attribute `_x`"), HasSubstr("SubTree: unknown attribute `_collapsed`")));
+}
+
 }  // namespace
 }  // namespace swiftlet::tree
