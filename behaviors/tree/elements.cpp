@@ -54,7 +54,7 @@ std::optional<std::string> entryOf(std::string_view text, std::string_view port)
     while (text.ends_with(' ')) text.remove_suffix(1);
   };
   trim();
-  if (text.size() < 2 || text.front() != '{' || text.back() != '}') return std::nullopt;
+  if (text.size() < 3 || text.front() != '{' || text.back() != '}') return std::nullopt;
   text = text.substr(1, text.size() - 2);
   trim();
   return std::string(text == "=" ? port : text);
@@ -62,7 +62,7 @@ std::optional<std::string> entryOf(std::string_view text, std::string_view port)
 
 bool isEntryName(std::string_view name) {
   if (name.starts_with('@')) name.remove_prefix(1);
-  return !name.empty() && name.find_first_of(" \t\r\n{}") == std::string_view::npos;
+  return !name.empty() && name.find_first_of("\t\r\n{}") == std::string_view::npos;
 }
 
 }  // namespace swiftlet::tree

@@ -51,7 +51,7 @@ constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
     <xs:attribute name="_post" type="xs:string"/>
   </xs:attributeGroup>
   <xs:simpleType name="entry">
-    <xs:restriction base="xs:string"><xs:pattern value="\{ *[^ {}]+ *\}"/></xs:restriction>
+    <xs:restriction base="xs:string"><xs:pattern value="\{ *[^ {}]+( +[^ {}]+)* *\}"/></xs:restriction>
   </xs:simpleType>
   <xs:simpleType name="boolean">
     <xs:restriction base="xs:string"><xs:pattern value=" *(true|True|TRUE|false|False|FALSE|0|1) *"/></xs:restriction>

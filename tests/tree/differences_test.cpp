@@ -62,8 +62,8 @@ TEST(Differences, ASkippedChildDecidesNothingInAParallel) {
 }
 
 TEST(Differences, TheConditionOfAWhileDoElseStartsAnewAtEveryTick) {
-  Story asked(
-      R"(<Sequence><Script code="n := 0"/><WhileDoElse><A _failureIf="n == 1"/><KeepRunningUntilFailure><Script code="n = 1"/></KeepRunningUntilFailure><C/></WhileDoElse></Sequence>)");
+  Story asked(R"(<Sequence><Script code="n := 0"/><WhileDoElse><A _failureIf="n == 1"/><KeepRunningUntilFailure>)"
+              R"(<Script code="n = 1"/></KeepRunningUntilFailure><C/></WhileDoElse></Sequence>)");
   asked.says("A", "SUCCESS");
   EXPECT_EQ(asked.tick(), "RUNNING: start A");
   EXPECT_EQ(asked.tick(), "RUNNING: start C");
@@ -77,9 +77,9 @@ TEST(Differences, TheConditionOfAWhileDoElseStartsAnewAtEveryTick) {
 constexpr const char* kZeroOnce = R"(<RunOnce then_skip="false"><Script code="n := 0"/></RunOnce>)";
 
 TEST(Differences, AFailedConditionOfAnIfThenElseStartsAnew) {
-  Story story(
-      "<Sequence>" + std::string(kZeroOnce) +
-      R"(<Fallback><IfThenElse><A _successIf="n == 1"/><B/></IfThenElse><Script code="n += 1"/></Fallback></Sequence>)");
+  Story story("<Sequence>" + std::string(kZeroOnce) +
+              R"(<Fallback><IfThenElse><A _successIf="n == 1"/><B/></IfThenElse><Script code="n += 1"/></Fallback>)"
+              "</Sequence>");
   EXPECT_EQ(story.says("A", "FAILURE").tick(), "SUCCESS: start A");
   EXPECT_EQ(story.tick(), "RUNNING: start B");
 }
@@ -104,9 +104,22 @@ TEST(Differences, APreconditionIsAskedAtEachStartOfItsChild) {
   EXPECT_EQ(halted.tick(), "SUCCESS");
 }
 
-TEST(Differences, UnsetBlackboardTakesTheEntryItself) {
+TEST(Differences, NamesThatBehaviorTreeCppRefusesAreTaken) {
+  Story twice(R"(<Sequence><SubTree ID="Visit" name="V"/><SubTree ID="Visit" name="V"/></Sequence>)", kVisit);
+  EXPECT_EQ(twice.says("A", "SUCCESS").tick(), "SUCCESS: start A, start A");
+  Story marks(R"(<SubTree ID="at 1.5/2:00"/>)", R"(<BehaviorTree ID="at 1.5/2:00"><A/></BehaviorTree>)");
+  EXPECT_EQ(marks.tick(), "RUNNING: start A");
+}
+
+TEST(Differences, AReactiveSequenceMayHaveTwoAsyncSequences) {
   Story story(
-      R"(<Sequence><Script code="k := 'other'; other := 1"/><UnsetBlackboard key="{k}"/><ScriptCondition code="other == 1"/><ScriptCondition code="k == 'other'"/></Sequence>)");
+      "<ReactiveSequence><AsyncSequence><A/></AsyncSequence><AsyncSequence><B/></AsyncSequence></ReactiveSequence>");
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "RUNNING: start A, start B");
+}
+
+TEST(Differences, UnsetBlackboardTakesTheEntryItself) {
+  Story story(R"(<Sequence><Script code="k := 'other'; other := 1"/><UnsetBlackboard key="{k}"/>)"
+              R"(<ScriptCondition code="other == 1"/><ScriptCondition code="k == 'other'"/></Sequence>)");
   EXPECT_EQ(story.tick(), "FAILURE");
   EXPECT_THAT(story.failures(), ElementsAre("ScriptCondition: code: the entry {k} is not set"));
 }

@@ -63,6 +63,17 @@ TEST(Entries, AreUnsetOnlyInTheTreeThatHasThem) {
   EXPECT_EQ(main.tick(), "SUCCESS") << "no entry has a name with @";
 }
 
+TEST(Entries, MayHaveBlanksInTheirNames) {
+  EXPECT_THAT(entryProblems("<Sequence><SetBlackboard value=\"1;2\" output_key=\"the door\"/>"
+                            "<Fly goal=\"{ the door }\"/></Sequence>"),
+              IsEmpty());
+  EXPECT_THAT(entryProblems("<Fly goal=\"{the door}\"/>"),
+              ElementsAre(HasSubstr("Fly.goal: nothing sets the entry {the door}")));
+  EXPECT_THAT(entryProblems("<Sequence><SetBlackboard value=\"{}\" output_key=\"x\"/><Script code=\"y := x\"/>"
+                            "</Sequence>"),
+              IsEmpty());
+}
+
 TEST(Entries, OfALoopAreTheElementsOfItsQueue) {
   const auto loop = [](const std::string& type, const std::string& queue, const std::string& child) {
     return "<" + type + " queue=\"" + queue + "\" value=\"{g}\">" + child + "</" + type + ">";

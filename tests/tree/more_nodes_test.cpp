@@ -277,8 +277,7 @@ TEST(EntryUpdated, NoticesEachWriteOnce) {
   EXPECT_EQ(skip.tick(), "SUCCESS: start B");
   Story bare("<Sequence><Script code=\"n := 1\"/><WasEntryUpdated entry=\"n\"/><A/></Sequence>");
   EXPECT_EQ(bare.tick(), "RUNNING: start A") << "a name without braces";
-  EXPECT_THAT(problemText("<WasEntryUpdated entry=\"two words\"/>"),
-              HasSubstr("`two words` is not an entry, expected `{name}`"));
+  EXPECT_THAT(problemText("<WasEntryUpdated entry=\"{}\"/>"), HasSubstr("`{}` is not an entry, expected `{name}`"));
 }
 
 TEST(TryCatch, RunsTheLastChildWhenOneFails) {

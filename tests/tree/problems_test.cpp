@@ -164,8 +164,10 @@ TEST(Problems, AnOutputWithoutAnEntryIsReported) {
   EXPECT_THAT(problemsIn(R"(<Fly goal="1;2" flown_m="3"/>)"),
               ElementsAre("f.xml:3:17: Fly.flown_m: `3` is not an entry, expected `{name}`"));
   EXPECT_THAT(problemsIn(R"(<Fly goal="{}"/>)"),
-              ElementsAre("f.xml:3:6: Fly.goal: `{}` does not name an entry, expected `{name}`"));
-  EXPECT_THAT(problemsIn(R"(<Fly goal="{a b}"/>)"), ElementsAre(HasSubstr("does not name an entry")));
+              ElementsAre("f.xml:3:6: Fly.goal: `{}` is not a point `x;y` or `x;y;z` in metres"));
+  EXPECT_THAT(problemsIn(R"(<Fly goal="{ }"/>)"),
+              ElementsAre("f.xml:3:6: Fly.goal: `{ }` does not name an entry, expected `{name}`"));
+  EXPECT_THAT(problemsIn(R"(<Fly goal="{{a}}"/>)"), ElementsAre(HasSubstr("does not name an entry")));
 }
 
 TEST(Problems, AWrongNumberOfChildrenIsReported) {
