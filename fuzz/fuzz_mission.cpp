@@ -58,6 +58,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   const tree::ParseResult parsed = tree::parseText(text, "fuzz.xml", behaviors::missionRegistry(), options);
   SWIFTLET_CHECK(parsed.tree.has_value() == parsed.problems.empty());
+  // Files of other programs are read leniently, which finds no more problems.
+  tree::ParseOptions lenient = options;
+  lenient.lenient = true;
+  SWIFTLET_CHECK(!parsed.tree || tree::parseText(text, "fuzz.xml", behaviors::missionRegistry(), lenient).tree);
   for (const tree::Problem& problem : parsed.problems) SWIFTLET_CHECK(!toString(problem).empty());
   if (!parsed.tree) return 0;
   behaviors::semanticProblems(*parsed.tree, {});
