@@ -28,7 +28,7 @@ struct WorldAnchor {
 };
 
 struct Map3dRun {
-  mapping3d::Mapper3d mapper{mapping3d::Mapper3dConfig()};
+  mapping3d::Mapper3d mapper{mapping3d::configOfRecordings()};
   std::vector<TrackedFrame> tracked;
   std::optional<WorldAnchor> anchor;
   common::Trajectory given;  ///< Poses of the recorder's camera from other sensors.

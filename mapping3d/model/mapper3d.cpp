@@ -28,6 +28,9 @@ RgbdFrame withoutPeople(RgbdFrame frame, const Pose3& T_map_camera, std::span<co
   return frame;
 }
 
+/// Depths so far tell of turns, and little of the place; beyond, they are mostly wrong.
+constexpr double kFarthestOfRecordings_m = 9.0;
+
 }  // namespace
 
 void Mapper3dConfig::describe(common::config::Fields& fields) {
@@ -36,6 +39,12 @@ void Mapper3dConfig::describe(common::config::Fields& fields) {
   fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
   fields.section("loops", loops, "Loop closures by appearance, where there is no 2D map.");
   fields.section("graph", graph, "The pose graph of key frames, where there is no 2D map.");
+}
+
+Mapper3dConfig configOfRecordings() {
+  Mapper3dConfig config;
+  config.odometry.features.depth_noise.farthest_m = kFarthestOfRecordings_m;
+  return config;
 }
 
 Mapper3d::Mapper3d(const Mapper3dConfig& config)

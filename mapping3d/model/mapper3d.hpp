@@ -37,6 +37,10 @@ struct Mapper3dConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// For a recording, of which only the camera is known: it may be any, in a room of any size. Cloud and voxels keep
+/// their own ranges.
+Mapper3dConfig configOfRecordings();
+
 /// What other parts know at a frame's time.
 struct FrameContext {
   std::optional<CameraSeed> seed;

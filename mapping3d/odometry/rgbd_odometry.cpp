@@ -16,6 +16,10 @@ using common::Pose3;
 
 /// A velocity is not extrapolated over a longer gap.
 constexpr double kLongestPrediction_s = 0.5;
+/// Shorter gaps are mostly the jitter of the stamps (those of arrival over a link come in bursts). The motion in them
+/// is as uncertain as over kJitter_s.
+constexpr double kLeastGap_s = 0.01;
+constexpr double kJitter_s = 0.045;
 /// Key frames that are tried for each frame while lost: each costs a millisecond or two.
 constexpr std::size_t kTriedPerFrame = 8;
 /// Where nothing but the texture tells whether a pose is right, it must fit well: right ones correlate by 0.9 and more,
@@ -26,6 +30,17 @@ constexpr double kLeastCorrelationAlone = 0.8;
 constexpr double kMotionSigmaFactor = 5.0;
 
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
+
+/// What the bounds of the acceleration tell of a motion that was predicted over a gap, as PosePrior::information.
+Matrix6d motionInformation(double gap_s, const RgbdOdometryConfig& config) {
+  const double squared_s2 = std::pow(gap_s < kLeastGap_s ? kJitter_s : gap_s, 2);
+  const double sigma_m = 0.5 * config.acceleration_m_s2 * squared_s2;
+  const double sigma_rad = 0.5 * config.angular_acceleration_rad_s2 * squared_s2;
+  Matrix6d information = Matrix6d::Zero();
+  information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
+  information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+  return information;
+}
 
 std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const vision::FeatureConfig& config) {
   return vision::findFeatures(pyramid.front().gray, pyramid.front().depth, pyramid.front().camera, config);
@@ -143,11 +158,7 @@ bool RgbdOdometry::isGood(const Alignment& fit, const std::optional<CameraSeed>&
 PosePrior RgbdOdometry::motionPrior(common::Time stamp, const Pose3& predicted) const {
   PosePrior prior{predicted, Matrix6d::Zero()};
   const double gap_s = (stamp - last_->stamp).seconds();
-  if (gap_s <= 0.0) return prior;
-  const double sigma_m = 0.5 * config_.acceleration_m_s2 * gap_s * gap_s;
-  const double sigma_rad = 0.5 * config_.angular_acceleration_rad_s2 * gap_s * gap_s;
-  prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
-  prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+  if (gap_s > 0.0) prior.information = motionInformation(gap_s, config_);
   return prior;
 }
 
@@ -295,8 +306,9 @@ void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed
     const double gap_s = (pose.stamp - last_->stamp).seconds();
     const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;
     if (gap_s > 0.0) {
-      next.velocity_camera_m_s = step.position_m / gap_s;
-      next.rate_camera_rad_s = common::logSO3(step.rotation) / gap_s;
+      const double bounded_s = std::max(gap_s, kLeastGap_s);
+      next.velocity_camera_m_s = step.position_m / bounded_s;
+      next.rate_camera_rad_s = common::logSO3(step.rotation) / bounded_s;
     }
   }
   last_ = next;

@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "mapping3d/model/mapper3d.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "tests/rgbd_odometry/textured_room.hpp"
 #include "tests/rgbd_odometry/walk.hpp"
@@ -33,6 +34,19 @@ TEST(RgbdOdometry, TracksAWalkWithChangingExposure) {
   }
   EXPECT_GT(odometry.keyFrames().size(), 2u);
   EXPECT_LT(odometry.keyFrames().size(), 25u);
+}
+
+/// Most of a hall is farther away than the cloud of the map reaches.
+TEST(RgbdOdometry, TracksARecordingOfAHall) {
+  TexturedRoom hall;
+  hall.half_size_m = {7.0, 7.0, 3.0};
+  RgbdOdometry odometry(configOfRecordings().odometry);
+  for (int i = 0; i < 60; ++i) {
+    const double time_s = i / kWalkFrames_Hz;
+    const RgbdPose pose = odometry.process(hall.seen(walk(time_s), time_s));
+    ASSERT_EQ(pose.state, TrackState::kTracked) << i;
+    ASSERT_LT(distance_m(pose.T_map_camera, walk(0.0).inverse() * walk(time_s)), 0.05) << i;
+  }
 }
 
 TEST(RgbdOdometry, StepsOfFourDegreesAtFiveFramesASecond) {
