@@ -90,8 +90,14 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from) {
 void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind from) {
   const fs::path yaml = options.to;
   const common::OccupancyGrid plan = mapping3d::floorPlan(map, {*options.low_m, *options.high_m});
-  if (knownExtent(plan).empty())
+  const common::CellRect known = knownExtent(plan);
+  if (known.empty())
     refuseFile(options, fmt::format("nothing is known from {} to {} m", *options.low_m, *options.high_m), "");
+  if (!interfaces::isReadable(plan))
+    refuseFile(
+        options,
+        fmt::format("the plan would be {} by {} cells of {:g} m", known.width(), known.height(), plan.resolution_m()),
+        from == Kind::kCloud ? "remove points far away, or give a greater --resolution" : "");
   if (from == Kind::kCloud)
     show("note: a cloud does not tell where room is free: nothing can be planned in a plan of occupied cells alone\n");
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));

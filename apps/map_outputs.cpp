@@ -1,6 +1,5 @@
 #include "apps/map_outputs.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -10,7 +9,6 @@
 
 #include "apps/map_png.hpp"
 #include "apps/required.hpp"
-#include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
 #include "interfaces/files/map_server.hpp"
@@ -28,9 +26,6 @@ using common::Pose2;
 /// A point of a trajectory nearer than this to the one before is not drawn.
 constexpr double kDrawnStep_m = 0.05;
 constexpr std::size_t kDrawnPoints = 50'000;
-
-/// Size of the header of a picture, which is subtracted from the greatest file size.
-constexpr std::uint64_t kHeaderBytes = 4096;
 
 void writeTrajectory(const fs::path& file, const TrackSpool& track, const std::vector<Pose2>& keys) {
   auto writer = required(interfaces::TumWriter::create(file));
@@ -91,14 +86,12 @@ std::string plotOver(const std::string& title, const std::string& unit, const re
 }
 
 std::string whyNoMap(const common::OccupancyGrid& map) {
+  if (interfaces::isReadable(map)) return "";
   const common::CellRect known = common::knownExtent(map);
-  const auto width = static_cast<std::uint64_t>(known.width()), height = static_cast<std::uint64_t>(known.height());
-  if (std::max(width, height) <= interfaces::kMostSide_px && width * height <= common::kMostFileBytes - kHeaderBytes)
-    return "";
   return fmt::format(
       "the map would be {} by {} cells of {:g} m: the log's odometry or scans jump; trajectory and "
       "graph are written, the map is not",
-      width, height, map.resolution_m());
+      known.width(), known.height(), map.resolution_m());
 }
 
 void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, const common::OccupancyGrid* map,

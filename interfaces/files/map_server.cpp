@@ -26,6 +26,9 @@ constexpr char kOccupiedPixel = 0;
 constexpr char kFreePixel = static_cast<char>(254);
 constexpr char kUnknownPixel = static_cast<char>(205);
 
+/// Of a picture that toPgm makes: more than its header takes.
+constexpr std::size_t kMostHeaderBytes = 4096;
+
 /// The cells of the picture; one cell if nothing is known.
 CellRect pictured(const OccupancyGrid& grid) {
   const CellRect known = knownExtent(grid);
@@ -182,6 +185,12 @@ std::string toPgm(const OccupancyGrid& grid) {
   for (int y = rect.end.y - 1; y >= rect.begin.y; --y)
     for (int x = rect.begin.x; x < rect.end.x; ++x) bytes += pixelOf(grid.at({x, y}));
   return bytes;
+}
+
+bool isReadable(const OccupancyGrid& grid) {
+  const CellRect rect = pictured(grid);
+  const auto width = static_cast<std::size_t>(rect.width()), height = static_cast<std::size_t>(rect.height());
+  return std::max(width, height) <= kMostSide_px && width * height <= common::kMostFileBytes - kMostHeaderBytes;
 }
 
 std::string toMapYaml(const OccupancyGrid& grid, const std::string& image) {

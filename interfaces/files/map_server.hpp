@@ -19,6 +19,9 @@ inline constexpr int kMostSide_px = 1 << 15;
 /// The known part of a grid as a binary PGM: 0 occupied, 254 free, 205 unknown. An empty grid gives one unknown pixel.
 std::string toPgm(const common::OccupancyGrid& grid);
 
+/// Whether readMap accepts the picture of the known part of a grid: neither a side nor the file is too large.
+bool isReadable(const common::OccupancyGrid& grid);
+
 /// The YAML of the picture: mode trinary, negate 0, origin the lower left corner of the lower left pixel in `map`.
 /// `image` is the picture's file name.
 std::string toMapYaml(const common::OccupancyGrid& grid, const std::string& image);

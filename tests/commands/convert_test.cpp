@@ -137,6 +137,16 @@ TEST_F(Convert, SaysHowManyPointsAreLeftOut) {
   refused("512345.67 5412345.67 100\n", "would be rounded by up to");
 }
 
+TEST_F(Convert, RefusesAFloorPlanThatIsTooLargeToBeReadAgain) {
+  const ProgramEnd end = runSwiftlet({"convert", write("far.pcd", cloudOf(2, "-175 0 1\n175 0 1\n")), path("plan.yaml"),
+                                      "--low", "0.5", "--high", "1.5", "--resolution", "0.01"});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("the plan would be 35001 by 1 cells of 0.01 m"));
+  EXPECT_THAT(end.err, HasSubstr("remove points far away, or give a greater --resolution"));
+  EXPECT_FALSE(std::filesystem::exists(path("plan.yaml")));
+  EXPECT_FALSE(std::filesystem::exists(path("plan.pgm")));
+}
+
 TEST_F(Convert, SaysThatAFloorPlanOfACloudHasNoFreeCells) {
   const ProgramEnd end = runSwiftlet(
       {"convert", write("some.pcd", cloudOf(2, "1 1 1\n2 2 1\n")), path("plan.yaml"), "--low", "0.5", "--high", "1.5"});
