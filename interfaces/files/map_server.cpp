@@ -1,6 +1,7 @@
 #include "interfaces/files/map_server.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -38,6 +39,18 @@ CellRect pictured(const OccupancyGrid& grid) {
 char pixelOf(occupancy::Cell cell) {
   if (occupancy::isUnknown(cell)) return kUnknownPixel;
   return occupancy::isOccupied(cell) ? kOccupiedPixel : kFreePixel;
+}
+
+/// The text as a value of YAML: in quotes where it could be read as something else.
+std::string yamlValue(const std::string& text) {
+  const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.' || c == '_'; };
+  const auto isInner = [&](char c) { return isPlain(static_cast<unsigned char>(c)) || c == '-' || c == ' '; };
+  if (!text.empty() && isPlain(static_cast<unsigned char>(text.front())) && text.back() != ' ' &&
+      std::all_of(text.begin(), text.end(), isInner))
+    return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted.append(c == '\'' ? 2 : 1, c);
+  return quoted + "'";
 }
 
 /// Even at the finest resolution every cell has an index.
@@ -199,7 +212,7 @@ std::string toMapYaml(const OccupancyGrid& grid, const std::string& image) {
   return fmt::format(
       "image: {}\nmode: trinary\nresolution: {:.6f}\norigin: [{:.6f}, {:.6f}, 0.000000]\nnegate: 0\n"
       "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
-      image, grid.resolution_m(), rect.begin.x * grid.resolution_m(), rect.begin.y * grid.resolution_m());
+      yamlValue(image), grid.resolution_m(), rect.begin.x * grid.resolution_m(), rect.begin.y * grid.resolution_m());
 }
 
 Written writeMap(const std::filesystem::path& folder, const std::string& name, const OccupancyGrid& grid,

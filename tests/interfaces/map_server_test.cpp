@@ -45,6 +45,20 @@ TEST(MapServer, WritesTheExpectedFiles) {
             "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
+TEST(MapServer, ReadsBackAMapOfAnyName) {
+  const ScratchFolder folder;
+  for (const std::string name :
+       {"map", "ground floor", "v1.2_a-b", "floor #2", "a: b", "[x]", "{x}", "it's", "''",   "*x",
+        "&x",  "!x",           "%x",       "- x",      "\"x",  "  x", "x ",  "büro", "a\\b", "~"}) {
+    ASSERT_TRUE(writeMap(folder, name, smallGrid())) << name;
+    EXPECT_TRUE(sameKinds(readMap(folder / (name + ".yaml")).grid, smallGrid())) << name;
+    std::filesystem::remove(folder / (name + ".pgm"));
+    EXPECT_THAT(problemOf([&] { readMap(folder / (name + ".yaml")); }), HasSubstr("no such file")) << name;
+  }
+  EXPECT_THAT(toMapYaml(smallGrid(), "ground floor.pgm"), HasSubstr("image: ground floor.pgm\n"));
+  EXPECT_THAT(toMapYaml(smallGrid(), "it's.pgm"), HasSubstr("image: 'it''s.pgm'\n"));
+}
+
 TEST(MapServer, AnEmptyMapIsOneUnknownPixel) {
   const ScratchFolder folder;
   ASSERT_TRUE(writeMap(folder, "map", common::makeOccupancyGrid(0.1)));
