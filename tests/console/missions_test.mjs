@@ -9,8 +9,10 @@ const browser = await launch(folder);
 const large = await serve(fixture, 0, 'operator-token', 'tree');
 const small = await serve(fixture);
 
-async function open(url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, hasTouch: true, ...options });
+/** `prepare(context)` before the page is loaded. */
+async function open(url, prepare = async () => {}) {
+  const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, hasTouch: true });
+  await prepare(context);
   const page = await context.newPage();
   page.setDefaultTimeout(120_000 * kPatience);
   page.problems = [];
@@ -162,6 +164,40 @@ const tests = {
     await page.locator('#mission-slide').focus();
     for (let i = 0; i < 10; ++i) await page.keyboard.press('PageUp');
     await page.getByText('Mission started').waitFor();
+    return page;
+  },
+
+  async 'what was typed stays when the link comes back, and what is no longer a parameter is told'() {
+    const links = [];
+    let gone = false;
+    const page = await open(small.url, async (context) => {
+      await context.routeWebSocket(/\/api\/ws/, (link) => { link.connectToServer(); links.push(link); });
+      await context.route('**/api/missions', async (route) => {
+        const response = await route.fetch(), missions = await response.json();
+        if (gone) missions[0].parameters.pop();
+        await route.fulfill({ response, json: missions });
+      });
+    });
+    await page.locator('#missions summary').tap();
+    const height = page.locator('[name="Hop/Sequence/TakeOff.height_m"]'), mode = page.locator('[name="Hop/Sequence/MoveToGoal.mode"]');
+    await height.fill('1.4');
+    await mode.selectOption('careful');
+    const reconnect = async () => {
+      const asked = page.waitForResponse('**/api/missions');
+      await links.at(-1).close();
+      await asked;
+      await page.waitForTimeout(300);
+    };
+    await reconnect();
+    assert.deepEqual([await height.inputValue(), await mode.inputValue()], ['1.4', 'careful']);
+    gone = true;
+    await reconnect();
+    await page.getByText('Hop/Sequence/MoveToGoal.mode').first().waitFor();
+    assert.equal(await mode.count(), 0);
+    await slide(page, 1);
+    await page.getByText('Mission started').waitFor();
+    await eventually('the start', async () =>
+      (await state(small.url)).mission.name === 'missions/hop.xml Hop/Sequence/TakeOff.height_m=1.4');
     return page;
   },
 

@@ -1,5 +1,7 @@
 // The card that starts, changes and stops missions: choose a file, edit its parameters, slide to fly.
 
+import { toast } from './panels.js';
+
 const kFar = 95, kGreatestStep = 30; // Of 100.
 
 function make(tag, properties = {}, ...children) {
@@ -25,7 +27,7 @@ export class MissionsCard {
     this.stopButton.addEventListener('click', () => this.give('Stop', 'Mission stopped', 'stop'));
   }
 
-  /** Asks again which missions there are; the choice stays if it can. */
+  /** Asks again which missions there are; the choice and what was typed stay if they can. */
   async load() {
     if (!this.commands.allowed) return;
     try {
@@ -35,11 +37,12 @@ export class MissionsCard {
     } catch {
       return; // The next hello asks again.
     }
-    const chosen = this.choice.value;
+    const chosen = this.choice.value, typed = this.typed();
     this.choice.replaceChildren(...this.missions.map(({ file, name }) => make('option', { value: file, textContent: name })));
     if (this.missions.some(({ file }) => file === chosen)) this.choice.value = chosen;
     this.card.hidden = this.missions.length === 0;
     this.show();
+    this.retype(typed, this.choice.value === chosen);
   }
 
   /** Whether anything may be started or stopped now. */
@@ -70,10 +73,29 @@ export class MissionsCard {
     return make('label', {}, make('span', { textContent: port }), control);
   }
 
+  /** [key, value] of the parameters that differ from the file. */
+  typed() {
+    const changed = [...this.form.elements].filter((control) => control.name && control.value !== control.dataset.before);
+    return changed.map((control) => [control.name, control.value]);
+  }
+
+  /** Fills new fields with what was typed into the old ones, and says what the mission no longer takes. */
+  retype(typed, sameFile) {
+    const lost = typed.filter(([key, value]) => {
+      const control = sameFile ? this.form.elements.namedItem(key) : null;
+      if (!control) return true;
+      control.value = value;
+      if (control.value === value) return false;
+      control.value = control.dataset.before; // No longer one of the choices.
+      return true;
+    });
+    const told = lost.map(([key, value]) => `${key} = ${value}`).join(', ');
+    if (told) toast('The mission has changed', `It no longer takes ${told}`, false);
+  }
+
   /** Only what was changed is sent: the file says the rest. */
   parameters() {
-    const changed = [...this.form.elements].filter((control) => control.name && control.value !== control.dataset.before);
-    return Object.fromEntries(changed.map((control) => [control.name, control.value.trim()]));
+    return Object.fromEntries(this.typed().map(([key, value]) => [key, value.trim()]));
   }
 
   slideBack() {
