@@ -42,6 +42,10 @@ async function radio(port) {
       cut = now;
       for (const end of ends) if (now) end.pause(); else end.resume();
     },
+    /** What is connected now is dead from now on; new connections work. */
+    lose() {
+      for (const end of ends) end.pause().removeAllListeners('close');
+    },
     close() {
       listener.close();
       for (const end of ends) end.destroy();
@@ -77,6 +81,29 @@ const tests = {
     await eventually('a new picture', async () => (await picture()) !== frozen, 20);
     await page.locator('#camera:not(.stale)').waitFor();
     await page.locator('.picture-age').getByText(/^0\.\d s$/).waitFor();
+    link.close();
+    await page.context().close();
+    await server.stop();
+  },
+
+  async 'the 3D map comes by a new connection where the old one has died without a word'() {
+    const server = await serve(fixture, 0, 'operator-token', 'map3d');
+    const link = await radio(Number(server.url.port));
+    const url = new URL(server.url);
+    url.port = link.port;
+    const page = await open(url);
+    await live(page);
+    let received = 0;
+    page.on('websocket', (socket) => {
+      if (socket.url().includes('/api/map3d')) socket.on('framereceived', () => { ++received; });
+    });
+    await page.locator('#show3d').tap();
+    await eventually('points', () => received > 0);
+    link.lose();
+    await page.getByText('Link lost').waitFor();
+    await live(page);
+    received = 0;
+    await eventually('points again', () => received > 5, 20);
     link.close();
     await page.context().close();
     await server.stop();

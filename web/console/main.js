@@ -37,6 +37,8 @@ const given = new GivenMapPanel(element('given-card'), store);
 
 const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
 
+let greeted = false; // At the first connection.
+
 const link = new Link((message) => {
   store.take(message);
   if (message.type === 'hello') {
@@ -44,6 +46,8 @@ const link = new Link((message) => {
     document.title = message.title ? `${message.title} – Swiftlet` : 'Swiftlet';
     offerVehicles(element('vehicle'), message.vehicles ?? [], message.vehicle);
     forgetEvents();
+    if (greeted) map3d.reconnect();
+    greeted = true;
     commands.check().then(showAccess).then(() => missions.load()).then(showAccess);
   }
   if (message.type === 'state') {

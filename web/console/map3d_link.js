@@ -4,7 +4,7 @@ import { forVehicle } from './vehicle.js';
 export class Map3dLink {
   /** `onMessage` is given each message as bytes, `onOpen` is called before the first of each connection. */
   constructor(onMessage, onOpen, pathOf) {
-    Object.assign(this, { onMessage, onOpen, pathOf, delay_ms: 250, closed: false });
+    Object.assign(this, { onMessage, onOpen, pathOf, delay_ms: 250 });
     this.connect();
   }
 
@@ -18,16 +18,21 @@ export class Map3dLink {
       this.onMessage(event.data);
     };
     this.socket.onclose = () => {
-      if (this.closed) return;
       this.retry = setTimeout(() => this.connect(), this.delay_ms);
       this.delay_ms = Math.min(4000, this.delay_ms * 2);
     };
   }
 
+  /** For a connection that may have died without a word: makes another. */
+  reconnect() {
+    this.close();
+    this.connect();
+  }
+
+  /** Closing a dead connection waits for its other end, so nothing of it is heard any more. */
   close() {
-    this.closed = true;
     clearTimeout(this.retry);
-    this.socket.onmessage = null;
+    Object.assign(this.socket, { onopen: null, onmessage: null, onclose: null });
     this.socket.close();
   }
 }

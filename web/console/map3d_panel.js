@@ -60,6 +60,11 @@ export class Map3dPanel {
     this.endStream();
   }
 
+  /** The page's own link had to connect again: that of the 3D map has died with it, or will not tell. */
+  reconnect() {
+    this.link?.reconnect();
+  }
+
   stopDrawing() {
     clearTimeout(this.patience);
     this.link?.close();
