@@ -201,6 +201,18 @@ const tests = {
     return page;
   },
 
+  async 'the missions come on a slow link, and are asked for again after a failure'() {
+    let asked = 0;
+    const page = await open(small.url, (context) => context.route('**/api/missions', async (route) => {
+      if (++asked === 1) return route.fulfill({ status: 503, json: {} });
+      await new Promise((done) => setTimeout(done, 3000));
+      await route.continue();
+    }));
+    await page.locator('#missions').waitFor({ timeout: 20_000 * kPatience });
+    assert.equal(asked, 2);
+    return page;
+  },
+
   async 'a viewer sees no missions'() {
     const page = await open(small.url.origin);
     await page.getByText('View only').waitFor();

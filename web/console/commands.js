@@ -3,7 +3,7 @@
 import { forVehicle } from './vehicle.js';
 
 const kKey = 'swiftlet-token';
-/** The server answers within two seconds also if the vehicle does not; on a dead link nobody does. */
+/** The server answers a command within two seconds also if the vehicle does not; on a dead link nobody does. */
 const kPatience_ms = 2000;
 
 /** The token moves from the address to this tab's storage, so that it is not shared with a copied address. */
@@ -55,12 +55,12 @@ export class Commands {
     }
   }
 
-  ask(method, path, body) {
+  ask(method, path, body, patience_ms = kPatience_ms) {
     return fetch(forVehicle(path), {
       method,
       headers: { Authorization: `Bearer ${this.token}`, 'Content-Type': 'application/json' },
       body,
-      signal: AbortSignal.timeout(kPatience_ms),
+      signal: AbortSignal.timeout(patience_ms),
     });
   }
 

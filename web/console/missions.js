@@ -3,6 +3,9 @@
 import { toast } from './panels.js';
 
 const kFar = 95, kGreatestStep = 30; // Of 100.
+/** The list may be long, and the link slow. */
+const kPatience_ms = 30_000;
+const kRetry_ms = 4000;
 
 function make(tag, properties = {}, ...children) {
   const node = Object.assign(document.createElement(tag), properties);
@@ -29,13 +32,17 @@ export class MissionsCard {
 
   /** Asks again which missions there are; the choice and what was typed stay if they can. */
   async load() {
+    clearTimeout(this.retry);
     if (!this.commands.allowed) return;
     try {
-      const response = await this.commands.ask('GET', '/api/missions');
-      if (!response.ok) return;
+      const response = await this.commands.ask('GET', '/api/missions', undefined, kPatience_ms);
+      this.commands.note(response);
+      if (!response.ok) throw new Error(response.statusText);
       this.missions = await response.json();
     } catch {
-      return; // The next hello asks again.
+      clearTimeout(this.retry); // Of another that has failed meanwhile.
+      this.retry = setTimeout(() => this.load(), kRetry_ms);
+      return;
     }
     const chosen = this.choice.value, typed = this.typed();
     this.choice.replaceChildren(...this.missions.map(({ file, name }) => make('option', { value: file, textContent: name })));
