@@ -127,6 +127,22 @@ TEST_F(HubStory, TheOperatorsPictureDoesNotWaitForThoseOfViewers) {
   EXPECT_FALSE(hub.due(*hub.watch(viewOf("/stream/map.mjpg?width=84")), {.period = by_operator.period}));
 }
 
+TEST_F(HubStory, AClockThatIsSetBackStopsNoPictures) {
+  testing::ExampleFlight flight;
+  flight.carryCamera();
+  for (const char* target : {"/stream/map.mjpg?width=80", "/stream/map3d.mjpg?width=160"}) {
+    post(flight.advance(1.0));
+    const auto before = frame(target);
+    const common::Time sent = common::Time::fromSeconds(now_s);
+    now_s -= 3600.0;
+    EXPECT_EQ(hub.frame(*kept.back(), {.last = before, .period = {}, .sent = sent}), before) << "a picture is repeated";
+    post(flight.advance(1.0));
+    const auto next = frame(target, before);
+    ASSERT_NE(next, nullptr);
+    EXPECT_NE(next, before);
+  }
+}
+
 TEST_F(HubStory, AFlightWithoutACameraShowsOneNotice) {
   const auto waiting = frame("/stream/map3d.mjpg?width=160");
   const auto waiting_depth = frame("/stream/depth.mjpg?width=160");

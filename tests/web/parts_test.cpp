@@ -246,6 +246,22 @@ TEST_F(RealtimeFactor, IsKnownRightAfterAPauseBetweenRequests) {
   EXPECT_NEAR(after(0.02, 2.0).get<double>(), 2.0, 0.01);
 }
 
+TEST_F(RealtimeFactor, IsThatOfTheLastSecondsAlsoAfterTheClockWasSetBack) {
+  for (int i = 0; i < 20; ++i) after(0.1, 4.0);
+  unix_time_ = unix_time_ - common::Duration::fromSeconds(3600.0);
+  for (int i = 0; i < 20; ++i) after(0.1, 2.0);
+  EXPECT_NEAR(after(0.1, 2.0).get<double>(), 2.0, 0.01);
+}
+
+TEST_F(RealtimeFactor, ASilentVehicleIsSilentAlsoAfterTheClockWasSetBack) {
+  after(0.1, 1.0);
+  unix_time_ = unix_time_ - common::Duration::fromSeconds(3600.0);
+  telemetry_.look();
+  unix_time_ = unix_time_ + common::Duration::fromSeconds(5.0);
+  telemetry_.look();
+  EXPECT_NEAR(telemetry_.observe().world_age_s, 5.0, 1e-6);
+}
+
 TEST(StateJsonTest, NamesTheVehicleOnlyWhereThereAreSeveral) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(0.1));

@@ -211,6 +211,20 @@ TEST(SubmapFeedTest, SendingAgainTakesABoundedShareOfTheLink) {
   EXPECT_LT(static_cast<double>(page.bytes), 4.0 * SubmapReader::kRefreshBytesPerSecond + 12.0 * 22'000 + 10'000);
 }
 
+TEST(SubmapFeedTest, PointsAreSentAgainAlsoAfterTheClockWasSetBack) {
+  SubmapFeed feed;
+  SubmapReader reader;
+  Map3dPage page;
+  double now_s = 10'000.0;
+  for (int i = 0; i < 6; ++i) {
+    const auto moved = layerOf(std::vector(3, row(2000, static_cast<float>(i))));
+    feed.update(moved);
+    for (int k = 0; k < 5; ++k) readAll(reader, feed, now_s += 0.5, page);
+    expectSame(page, moved);
+    if (i == 2) now_s -= 3600.0;
+  }
+}
+
 /// A map of one submap with the points of the grid.
 common::Map3dLayer layerOfGrid(const mapping3d::PointGrid& grid) {
   common::Map3dLayer map3d = layerOf({std::vector<common::SurfacePoint>()});

@@ -18,6 +18,9 @@ namespace {
 constexpr int kMapQuality = 85;
 constexpr int kCameraQuality = 75;
 
+/// Longer than any period between pictures.
+constexpr common::Duration kLongAgo = common::Duration::fromMilliseconds(3'600'000);
+
 constexpr const char* kNoMapYet = "waiting for the first map";
 constexpr const char* kNoCamera = "this flight has no RGB-D camera";
 
@@ -63,10 +66,16 @@ std::shared_ptr<FrameHub::View> FrameHub::watch(const PictureView& asked) {
   return view;
 }
 
+/// What lies ahead was before the clock was set back: nobody waits until it has caught up.
+common::Duration FrameHub::since(common::Time then) const {
+  const common::Duration age = telemetry_.now() - then;
+  return age < common::Duration{} ? kLongAgo : age;
+}
+
 /// A watcher that comes between the ticks of the others gets their picture, unless it is older than its own period.
 bool FrameHub::due(const View& view, const Watcher& watcher) const {
   if (!view.frame_) return true;
-  const common::Duration age = telemetry_.now() - view.frame_->encoded_unix_time;
+  const common::Duration age = since(view.frame_->encoded_unix_time);
   return age >= (watcher.by_operator ? least_period_for_operator_ : least_period_) &&
          view.frame_->source_sequence != newest(view.asked_.source) &&
          (view.frame_ == watcher.last || age > watcher.period);
@@ -83,7 +92,7 @@ common::Duration FrameHub::draw(View& view, const Watcher& watcher) {
 }
 
 std::shared_ptr<const StreamFrame> FrameHub::frame(const View& view, const Watcher& watcher) const {
-  const bool silent = telemetry_.now() - watcher.sent > common::Duration::fromMilliseconds(1000);
+  const bool silent = since(watcher.sent) > common::Duration::fromMilliseconds(1000);
   return view.frame_ != watcher.last || silent ? view.frame_ : nullptr;
 }
 

@@ -61,6 +61,7 @@ class FrameHub {
     common::Time seen;   ///< When the server first saw the source, since 1970.
   };
 
+  common::Duration since(common::Time then) const;
   std::shared_ptr<const StreamFrame> encode(View& view, common::Time now);
   /// Rises when there is something new to show.
   std::uint64_t newest(PictureView::Source source) const;

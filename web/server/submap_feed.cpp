@@ -173,6 +173,8 @@ SharedText SubmapReader::nextPart() {
 
 std::vector<SharedText> SubmapReader::next(const SubmapFeed& feed, common::Time now, std::size_t most_bytes) {
   std::vector<SharedText> messages;
+  if (now < asked_) refresh_ = refresh_noisy_ = now;  // The clock was set back: nothing waits until it has caught up.
+  asked_ = now;
   has_.resize(feed.lists().size());
   if (transfer_ && transfer_->number >= has_.size()) transfer_.reset();
   for (const auto& [newest, had] : {std::pair(&feed.poses(), &poses_), std::pair(&feed.camera(), &camera_)}) {

@@ -96,6 +96,7 @@ class SubmapReader {
   std::vector<Has> has_;
   SharedText poses_, camera_;
   std::optional<Transfer> transfer_;
+  common::Time asked_;          ///< The last time that next() was called.
   common::Time refresh_;        ///< From then on points may be sent again.
   common::Time refresh_noisy_;  ///< And noisy ones of the newest submap.
 };

@@ -42,6 +42,8 @@ std::string laserBytes(const common::LaserPoints& laser) {
 
 void Telemetry::look() {
   const common::Time at = now();
+  if (at < looked_) startAgain(at);
+  looked_ = at;
   camera_.look(sources_.camera, at);
   if (!world_.look(sources_.world, at) || !world_.value) return;
   lookAtDepth(at);
@@ -52,6 +54,12 @@ void Telemetry::look() {
   // The first one that remains is at least as old as the window, so that after a pause there is still a world to
   // compare with.
   while (clock_.size() > 2 && unix_s - clock_[1].first > kClockWindow_s) clock_.pop_front();
+}
+
+/// Of a clock that was set back: what was seen counts as seen now, and ages from now on.
+void Telemetry::startAgain(common::Time at) {
+  clock_.clear();
+  camera_.unix_time = world_.unix_time = depth_.unix_time = at;
 }
 
 void Telemetry::lookAtDepth(common::Time at) {

@@ -89,12 +89,14 @@ class Telemetry {
   std::vector<NumberedEvent> eventsAfter(std::uint64_t number) const;
 
  private:
+  void startAgain(common::Time at);
   void lookAtDepth(common::Time at);
   void encodeMap(const common::MapLayer& map);
   void followTrail();
 
   WebServer::Sources sources_;
   std::function<common::Time()> unix_time_;
+  common::Time looked_;  ///< The last time that look() was called.
   Seen<common::World> world_;
   Seen<common::CameraFrame> camera_;
   Seen<common::RgbdFrame> depth_;
