@@ -144,7 +144,9 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.pilot_flies = supervisor_.pilotFlies();
   flight.fusion_diverged = estimator_.fusionStatus() == perception::FusionStatus::kDiverged;
   flight.inertial_fault = inertial_.fault(now);
-  flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
+  flight.inertial_contradicted = inertial_.contradicted();
+  // What takes the place of a force comes from the thrust that was given: a controller would hear itself.
+  if (!flight.inertial_contradicted) flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
   flight.horizon_offset_rad = estimator_.horizonOffset_rad();
   assistPilot(flight);
   const common::Setpoint setpoint = controller_.tick(flight);

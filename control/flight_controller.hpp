@@ -58,6 +58,8 @@ struct FlightTick {
   /// is then one that setpoints predict, with a horizontal part that other sensors support or none. Only read in the
   /// tick itself.
   std::string_view inertial_fault;
+  /// A part of the inertial samples is replaced, by what the thrust is believed to lift.
+  bool inertial_contradicted = false;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
   /// The motors get the thrust of the last setpoint: while a pilot overrules it, nothing is learned of it.

@@ -125,6 +125,7 @@ void FlightController::moveVertically(double goal_m, double speed_m_s, double he
 /// The ground may carry a part of the weight while the vehicle takes off and lands.
 bool FlightController::learnsThrust(const FlightTick& tick) const {
   if (!tick.thrust_applies || tick.pilot_flies || state() == FlightState::kEmergencyLanding) return false;
+  if (tick.inertial_contradicted) return false;  // The estimate follows the given thrust, whatever it lifts.
   if (state() == FlightState::kTakingOff) return lifted_;
   return state() == FlightState::kFlying || !nearGround();
 }

@@ -44,6 +44,8 @@ class InertialInput {
 
   /// Why measured samples cannot be used at `now`; empty if they can. As of ImuWatch::fault.
   std::string_view fault(common::Time now) const { return watch_.fault(now); }
+  /// Samples arrive, but a part of them is replaced.
+  bool contradicted() const { return check_.contradicted(); }
   /// Why the vehicle must come down although samples arrive; empty if it need not.
   std::string mustLandFor(common::Time now) const { return check_.mustLand(now) ? check_.fault() : std::string(); }
   /// The events since the last call.

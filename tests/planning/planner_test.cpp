@@ -221,7 +221,7 @@ RC_GTEST_PROP(Planner, ShortcutsNeverRaiseTheRisk, (std::uint64_t seed)) {
   if (!start || !goal) return;
   Wavefront planner;
   const auto path = planner.plan(map, map.centerOf(*start), map.centerOf(*goal));
-  if (!path) return;
+  if (!path || escapeFrom(map, *start)->size() > 1) return;  // From a pocket the planners go on by the escape.
   const double cells_m = planner.searchCost() * map.resolution_m() / CostMap::kStraightMin;
   RC_ASSERT(path->cost_m <= cells_m * 1.01);
   for (std::size_t i = 1; i < path->points_map_m.size(); ++i)
