@@ -24,6 +24,7 @@ struct Flight {
   common::Pose2 T_map_odom;
   bool horizontal_valid = true, vertical_valid = true, diverged = false, mirror = true;
   std::string inertial_fault;
+  bool inertial_contradicted = false;
   double greatest_tilt_rad = 0;
   /// Without measurements of the height, inertial samples carry it and gather the error of this bias.
   bool vertical_measured = true;
@@ -61,6 +62,7 @@ struct Flight {
     }
     tick.fusion_diverged = diverged;
     tick.inertial_fault = inertial_fault;
+    tick.inertial_contradicted = inertial_contradicted;
     if (diverged) tick.state.velocity_odom_m_s.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (model.now.nanoseconds() % height_period.nanoseconds() == 0 && mirror)
       heights_under_way.push_back(

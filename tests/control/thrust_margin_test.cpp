@@ -137,5 +137,25 @@ TEST(ThrustMargin, TheGroundTeachesNothing) {
   EXPECT_NEAR(flight.controller.thrust().hoverCommand(), hover, 0.01 * hover);
 }
 
+/// The estimate then follows the thrust that was given, whatever it lifts.
+TEST(ThrustMargin, NothingIsLearnedWhileInertialSamplesAreReplaced) {
+  const auto greatestChange = [](bool contradicted) {
+    Flight flight;
+    flight.hover();
+    flight.run(5.0);
+    const ThrustPoints before = flight.controller.learnedThrust();
+    flight.model.vehicle.mass_kg *= 1.05;
+    flight.inertial_contradicted = contradicted;
+    flight.run(10.0);
+    const ThrustPoints after = flight.controller.learnedThrust();
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+      greatest = std::max(greatest, std::abs(after[i].hover_command - before[i].hover_command));
+    return greatest;
+  };
+  EXPECT_GT(greatestChange(false), 0.005);
+  EXPECT_LT(greatestChange(true), 1e-9);
+}
+
 }  // namespace
 }  // namespace swiftlet::control
