@@ -87,10 +87,13 @@ void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, M
   run.with_pose += seed ? 1 : 0;
   if (!pose.isTracked()) {
     ++run.lost;
+    ++run.lost_in_a_row;
+    if (run.isFalseStart(frame.stamps.measured)) run.beginAnew();
     return;
   }
+  run.lost_in_a_row = 0;
   if (seed && !run.anchor) run.anchor = WorldAnchor{run.tracked.size(), seed->T_map_camera};
-  if (run.frames > 1) run.disagreement.add(index, 1.0 - pose.fit.agreement);
+  if (!run.tracked.empty()) run.disagreement.add(index, 1.0 - pose.fit.agreement);
   run.found_again += pose.state == mapping3d::TrackState::kFoundAgain ? 1 : 0;
   run.loops += static_cast<std::uint64_t>(mapped.loops);
   run.tracked.push_back({pose.stamp, pose.scan, mapped.T_scan_camera});
@@ -114,7 +117,13 @@ double pathLength_m(const common::Trajectory& trajectory) {
   return length_m;
 }
 
-/// Empty where none are given.
+/// The same poses, `factor` times as far apart in time.
+common::Trajectory stretched(common::Trajectory trajectory, double factor) {
+  for (common::StampedPose& at : trajectory) at.stamp = common::Time::fromSeconds(factor * at.stamp.seconds());
+  return trajectory;
+}
+
+/// In the stamps of the recording. Empty where none are given.
 common::Trajectory givenPoses(const Map3dOptions& options) {
   if (options.poses == "none") return {};
   common::Trajectory poses =
@@ -164,6 +173,7 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
           {"skipped_frames", folder.skipped()},
           {"unpaired_images", folder.listing().unpaired},
           {"frames_with_pose", run.with_pose},
+          {"frames_before_the_map", run.before},
           {"lost_frames", run.lost},
           {"found_again", run.found_again},
           {"key_frames", run.key_frames},
@@ -186,7 +196,8 @@ int map3d(const Map3dOptions& options) {
   ResultsFolder results(
       options.out.empty() ? fs::path(recording.filename().string() + "-map3d") : fs::path(options.out), kMap3dResults);
   Map3dRun run;
-  run.given = givenPoses(options);
+  const double rate_Hz = folder.listing().stamps_per_s;
+  run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
   mapFolder(folder, options, run);
   Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
@@ -210,7 +221,7 @@ int map3d(const Map3dOptions& options) {
                  {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
   if (!run.given.empty())
     shown.facts.insert(shown.facts.begin() + 3, {"with a pose", fmt::format("{}", run.with_pose)});
-  writeMap3dOutputs(results.unfinished(), trajectory, resultsOf(run), shown, options.mesh);
+  writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run), shown, options.mesh);
   results.publish();
   if (options.json) {
     const auto figures = figuresOf(options, folder, run, path_length_m, shown.warnings, results.path());

@@ -28,8 +28,11 @@ std::string depthQuestion(const RgbdFolder& folder, const Map3dRun& run) {
 }
 
 void noteOnTrack(const RgbdFolder& folder, const Map3dRun& run, std::vector<std::string>& notes) {
+  if (run.before > 0)
+    notes.push_back(fmt::format("the map begins after {}: what they show was not seen again",
+                                plural(run.before, "frame", "frames")));
   if (run.lost == 0) return;
-  if (static_cast<double>(run.lost) > kMostLost * static_cast<double>(run.frames)) {
+  if (static_cast<double>(run.lost) > kMostLost * static_cast<double>(run.frames - run.before)) {
     notes.emplace_back("the map is probably wrong: much of the track was lost");
     notes.push_back(depthQuestion(folder, run));
   }
@@ -68,6 +71,9 @@ void noteOnPoses(const RgbdFolder& folder, const Map3dRun& run, std::vector<std:
 
 void noteOnStamps(const RgbdFolder& folder, std::vector<std::string>& notes) {
   const auto& pairs = folder.listing().pairs;
+  if (folder.listing().stamps_per_s != 1.0)
+    notes.push_back(fmt::format("the stamps are whole numbers: they are taken for frames, {:g} of which are a second",
+                                folder.listing().stamps_per_s));
   double longest_s = 0.0, from_s = 0.0;
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     const double gap_s = (pairs[i].stamp - pairs[i - 1].stamp).seconds();

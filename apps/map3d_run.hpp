@@ -38,12 +38,34 @@ struct Map3dRun {
   std::vector<double> frame_ms;
   std::vector<double> depths_m;  ///< Median depths of some of the frames.
   std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
+  std::uint64_t lost_in_a_row = 0;  ///< Up to the newest frame.
+  std::uint64_t before = 0;         ///< Frames before the one that the map begins with.
   double wall_s = 0.0;
+
+  /// Whether the few frames tracked so far are of a place that the camera does not come back to, at this time.
+  bool isFalseStart(common::Time now) const {
+    if (!given.empty() || tracked.empty() || lost_in_a_row < kFalseStartFrames) return false;
+    const double lost_s = (now - tracked.back().stamp).seconds();
+    const double tracked_s = (tracked.back().stamp - tracked.front().stamp).seconds();
+    return lost_s >= kFalseStart_s && lost_s >= kFalseStartRatio * tracked_s;
+  }
+
+  /// Forgets the map; the next frame begins another.
+  void beginAnew() {
+    mapper = mapping3d::Mapper3d(mapping3d::configOfRecordings());
+    tracked.clear();
+    before = frames;
+    lost = lost_in_a_row = found_again = key_frames = loops = 0;
+  }
 
   double medianMs() const { return medianOf(frame_ms); }
   double medianDepth_m() const { return medianOf(depths_m); }
 
  private:
+  static constexpr std::uint64_t kFalseStartFrames = 15;
+  static constexpr double kFalseStart_s = 3.0;
+  static constexpr double kFalseStartRatio = 3.0;  ///< Lost so many times longer than it was tracked.
+
   /// 0 of none.
   static double medianOf(std::vector<double> values) {
     std::sort(values.begin(), values.end());

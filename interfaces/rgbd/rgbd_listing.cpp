@@ -162,9 +162,29 @@ void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
     const auto depth = depths.find(number);
     if (depth == depths.end()) continue;
     listing.pairs.push_back(
-        {Time::fromSeconds(static_cast<double>(number) / kSevenScenesRate_Hz), color, depth->second});
+        {Time::fromSeconds(static_cast<double>(number) / kNumberedFrames_Hz), color, depth->second});
   }
   listing.unpaired = colors.size() + depths.size() - 2 * listing.pairs.size();
+}
+
+/// Lists in the format of TUM RGB-D that have frame numbers where times belong, as those of ICL-NUIM: whole numbers, at
+/// least three, some of which follow each other. No camera has whole seconds for stamps.
+bool areNumbered(const std::vector<RgbdListing::Pair>& pairs) {
+  constexpr double kWhole_s = 1e-6;
+  double least_step_s = kNoneNear_s;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double stamp_s = pairs[i].stamp.seconds();
+    if (std::abs(stamp_s - std::round(stamp_s)) > kWhole_s) return false;
+    if (i > 0) least_step_s = std::min(least_step_s, std::abs(stamp_s - pairs[i - 1].stamp.seconds()));
+  }
+  return pairs.size() >= 3 && least_step_s > 0.5 && least_step_s < 1.5;
+}
+
+void takeNumbersAsFrames(RgbdListing& listing) {
+  if (!areNumbered(listing.pairs)) return;
+  listing.stamps_per_s = kNumberedFrames_Hz;
+  for (RgbdListing::Pair& pair : listing.pairs)
+    pair.stamp = Time::fromSeconds(pair.stamp.seconds() / kNumberedFrames_Hz);
 }
 
 /// Whether it is there. Throws InputError where that cannot be seen.
@@ -196,12 +216,14 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
     listing.format = "TUM RGB-D";
     listing.calibration = tumCalibration();
     apart_s = readAssociations(folder, listing);
+    takeNumbersAsFrames(listing);
   } else if (isThere(folder / "rgb.txt") && isThere(folder / "depth.txt")) {
     listing.format = "TUM RGB-D";
     listing.calibration = tumCalibration();
     const std::vector<StampedFile> colors = readList(folder, "rgb.txt"), depths = readList(folder, "depth.txt");
     associate(colors, depths, listing);
     apart_s = nearestPair_s(colors, depths);
+    takeNumbersAsFrames(listing);
   } else {
     listing.format = "7-Scenes";
     listing.calibration = sevenScenesCalibration();

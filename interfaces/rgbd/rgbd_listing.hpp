@@ -20,6 +20,9 @@ struct RgbdListing {
   std::string format;           ///< For people: "TUM RGB-D".
   RgbdCalibration calibration;  ///< Calibration of the format.
   std::vector<Pair> pairs;
+  /// The stamps in its lists are so many times those of the pairs: 1, or the frame rate where its lists number the
+  /// frames.
+  double stamps_per_s = 1.0;
   std::uint64_t unpaired = 0;  ///< Images of which the other one is not listed, or not at the same time.
 };
 
@@ -32,7 +35,7 @@ RgbdListing listRgbdFolder(const std::filesystem::path& folder, const std::strin
 
 /// TUM: two images are a pair if their stamps are at most this apart, as in the benchmark's associate.py.
 inline constexpr double kPairedWithin_s = 0.02;
-/// 7-Scenes has no stamps: the camera's frame rate numbers its frames.
-inline constexpr double kSevenScenesRate_Hz = 30.0;
+/// The frame rate of recordings that number their frames instead of giving their times: 7-Scenes, ICL-NUIM.
+inline constexpr double kNumberedFrames_Hz = 30.0;
 
 }  // namespace swiftlet::interfaces

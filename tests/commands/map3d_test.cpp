@@ -62,8 +62,9 @@ TEST_F(Map3d, NamesTheSettingOfACalibrationThatIsWrong) {
   EXPECT_THAT(end.err, HasSubstr("did you mean `fx_px`?"));
 }
 
-/// The few first frames of the recorded kitchen, if there are data sets here.
-std::optional<fs::path> kitchenFrames(const fs::path& scratch, int frames) {
+/// The few first frames of the recorded kitchen, if there are data sets here. Instead of the first `foreign` ones it
+/// has frames from the end of the recording.
+std::optional<fs::path> kitchenFrames(const fs::path& scratch, int frames, int foreign = 0) {
   const auto archive = test_support::dataSet("03-rgbd/7scenes-redkitchen-a/redkitchen_000-598_step2.tar");
   if (!archive) return std::nullopt;
   const fs::path all = interfaces::unpackInto(scratch, *archive);
@@ -71,8 +72,8 @@ std::optional<fs::path> kitchenFrames(const fs::path& scratch, int frames) {
   fs::create_directories(some);
   for (int i = 0; i < 2 * frames; i += 2)
     for (const char* kind : {"color.jpg", "depth.png"}) {
-      const std::string name = fmt::format("frame-{:06}.{}", i, kind);
-      fs::copy_file(all / name, some / name);
+      const int shown = i < 2 * foreign ? 590 + i : i;
+      fs::copy_file(all / fmt::format("frame-{:06}.{}", shown, kind), some / fmt::format("frame-{:06}.{}", i, kind));
     }
   return some;
 }
@@ -229,6 +230,39 @@ TEST_F(Map3d, NamesTheResultsAfterTheFolderItIsIn) {
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   EXPECT_THAT(readText(*some / "some-map3d/report.html"), HasSubstr("<title>3D map of some</title>"));
   EXPECT_THAT(end.out, HasSubstr("note: the longest gap between two frames is 120.1 s, after the one of 0.067 s"));
+}
+
+TEST_F(Map3d, ResultsHaveTheFrameNumbersOfARecordingWithoutTimes) {
+  const auto some = kitchenFrames(folder_, 4);
+  if (!some) return;
+  std::string list;
+  for (int i = 0; i < 8; i += 2)
+    list += fmt::format("{0} frame-{1:06}.color.jpg {0} frame-{1:06}.depth.png\n", 40 + i / 2, i);
+  write("some/associations.txt", list);
+  const std::string lens = write("lens.yaml", "depth_units_per_m: 1000\n");
+  const std::string poses = write("poses.tum", "40 0 0 0 0 0 0 1\n43 0 0 0 0 0 0 1\n");
+  const ProgramEnd end =
+      runSwiftlet({"map3d", some->string(), "--intrinsics", lens, "--poses", poses, "--out", path("out")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out,
+              HasSubstr("note: the stamps are whole numbers: they are taken for frames, 30 of which are a second"));
+  EXPECT_THAT(end.out, HasSubstr("with a pose    4"));
+  const auto trajectory = interfaces::readTum(path("out/trajectory.tum"));
+  ASSERT_EQ(trajectory.size(), 4u);
+  EXPECT_NEAR(trajectory.front().stamp.seconds(), 40.0, 1e-5);
+  EXPECT_NEAR(trajectory.back().stamp.seconds(), 43.0, 1e-5);
+}
+
+/// Two frames of another place, as of a table that the camera lay on, come first.
+TEST_F(Map3d, AFalseStartIsNotTheWholeMap) {
+  const auto some = kitchenFrames(folder_, 60, 2);
+  if (!some) return;
+  const ProgramEnd end = runSwiftlet({"map3d", some->string(), "--out", path("out"), "--json"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const nlohmann::json figures = nlohmann::json::parse(end.out);
+  EXPECT_EQ(figures.at("frames"), 60) << figures.dump(1);
+  EXPECT_EQ(figures.at("lost_frames"), 0);
+  EXPECT_NEAR(figures.at("frames_before_the_map").get<double>(), 48.0, 2.0) << "3 s of lost frames";
 }
 
 TEST_F(Map3d, SaysWhereGivenPosesAreOfOtherTimes) {

@@ -134,6 +134,19 @@ TEST_F(RgbdFolders, AssociationsMayHaveTheDepthFirst) {
   }
 }
 
+/// As ICL-NUIM has them.
+TEST_F(RgbdFolders, FrameNumbersForStampsAreFramesOfACameraAt30Hz) {
+  write("associations.txt", "7 depth/7.png 7 rgb/7.png\n8 depth/8.png 8 rgb/8.png\n10 depth/10.png 10 rgb/10.png\n");
+  const RgbdListing listing = listRgbdFolder(folder_);
+  ASSERT_EQ(listing.pairs.size(), 3u);
+  EXPECT_EQ(listing.stamps_per_s, 30.0);
+  EXPECT_NEAR((listing.pairs[2].stamp - listing.pairs[0].stamp).seconds(), 0.1, 1e-8);
+  for (const char* times : {"7 a 7 b\n8 a 8 b\n", "7 a 7 b\n8 a 8 b\n9.5 a 9.5 b\n", "7 a 7 b\n9 a 9 b\n11 a 11 b\n"}) {
+    write("associations.txt", times);
+    EXPECT_EQ(listRgbdFolder(folder_).stamps_per_s, 1.0) << times;
+  }
+}
+
 TEST_F(RgbdFolders, EachDepthImageBelongsToTheNearestColour) {
   addFrame(1.0, colorPng(1), depthPng(5'000), 0.015);
   addFrame(1.018, colorPng(2), depthPng(6'000), 0.5);

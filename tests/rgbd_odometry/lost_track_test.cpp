@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "tests/rgbd_odometry/textured_room.hpp"
@@ -14,6 +16,75 @@ namespace {
 using common::Pose3;
 
 double error_m(const Pose3& a, const Pose3& b) { return (a.position_m - b.position_m).norm(); }
+
+common::RgbdFrame covered(common::RgbdFrame frame) {
+  for (float& depth_m : frame.depth.depth_m) depth_m = common::DepthImage::kUnknown;
+  for (std::uint8_t& value : frame.color.rgb) value = 20;
+  return frame;
+}
+
+/// Without texture there is nothing to recognize, so only the surfaces can tell.
+TEST(LostTrack, GoesOnAfterABadFrameInACornerWithoutTexture) {
+  TexturedRoom room;
+  room.contrast = 0.0;
+  RgbdOdometry odometry({});
+  const auto pose = [](double time_s) {
+    return Pose3{common::quaternionFrom({0.0, -0.5, 0.7 + 0.1 * std::sin(2.0 * time_s)}),
+                 {1.2 + 0.1 * std::sin(time_s), 0.8, 0.3 + 0.1 * std::sin(1.5 * time_s)}};
+  };
+  for (int i = 0; i < 30; ++i) {
+    const double time_s = i / kWalkFrames_Hz;
+    common::RgbdFrame frame = room.seen(pose(time_s), time_s);
+    if (i == 12)
+      for (float& depth_m : frame.depth.depth_m) depth_m *= 1.3F;
+    const RgbdPose found = odometry.process(frame);
+    ASSERT_EQ(found.isTracked(), i != 12) << i;
+    if (i == 12) continue;
+    EXPECT_LT(error_m(found.T_map_camera, pose(0.0).inverse() * pose(time_s)), 0.02) << i;
+  }
+}
+
+/// After half a turn the room looks the same. Soon after, the camera can only be near where it was; later both
+/// places are possible.
+TEST(LostTrack, IsNotFoundAtAPlaceThatOnlyLooksAlike) {
+  TexturedRoom room;
+  room.is_symmetric = true;
+  const auto pose = [](double angle_rad) {
+    return Pose3{common::quaternionFrom({0.0, 0.0, angle_rad}),
+                 {0.5 * std::cos(angle_rad), 0.5 * std::sin(angle_rad), 0.0}};
+  };
+  RgbdOdometry half_lap({});
+  double time_s = 0.0, angle_rad = 0.0;
+  for (; angle_rad < 0.95 * std::numbers::pi; time_s += 1.0 / kWalkFrames_Hz, angle_rad += 0.08)
+    ASSERT_TRUE(half_lap.process(room.seen(pose(angle_rad), time_s)).isTracked()) << angle_rad;
+  for (const auto& [covered_s, to_rad] : {std::pair{0.6, 0.6}, {2.5, 0.1}, {7.0, 0.1}}) {
+    RgbdOdometry odometry = half_lap;
+    ASSERT_FALSE(odometry.process(covered(room.seen(pose(angle_rad), time_s))).isTracked());
+    const Pose3 there = pose(std::numbers::pi + to_rad);
+    for (int i = 0; i < 3; ++i) {
+      const RgbdPose found = odometry.process(room.seen(there, time_s + covered_s + 0.1 * i));
+      if (!found.isTracked()) continue;
+      EXPECT_LT(error_m(found.T_map_camera, pose(0.0).inverse() * there), 0.05) << covered_s;
+    }
+  }
+}
+
+/// Nothing in the pictures tells of the motion along the wall.
+TEST(LostTrack, OnABareWallItIsLostBeforeItIsWrong) {
+  for (const double gray_noise : {0.0, 2.0}) {
+    TexturedRoom room;
+    room.contrast = 0.0;
+    room.gray_noise = gray_noise;
+    RgbdOdometry odometry({});
+    for (int i = 0; i < 45; ++i) {
+      const double time_s = i / kWalkFrames_Hz;
+      const Pose3 truth{{}, {1.4, 0.0, 0.2 - 0.2 * time_s}};
+      const RgbdPose found = odometry.process(room.seen(truth, time_s));
+      if (!found.isTracked()) continue;
+      ASSERT_LT(std::abs(found.T_map_camera.position_m.z() + 0.2 * time_s), 0.05) << i;
+    }
+  }
+}
 
 /// The stamps of arrival over a link come in bursts.
 TEST(LostTrack, StampsInPairsDoNotHoldThePose) {

@@ -29,7 +29,7 @@ inline common::Trajectory sevenScenesPoses(const std::filesystem::path& folder) 
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) file >> matrix(row, column);
     if (!file) continue;
-    poses.push_back({common::Time::fromSeconds(number / interfaces::kSevenScenesRate_Hz),
+    poses.push_back({common::Time::fromSeconds(number / interfaces::kNumberedFrames_Hz),
                      {Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).normalized(),
                       matrix.topRightCorner<3, 1>()}});
   }

@@ -1,0 +1,19 @@
+// Whether a camera whose track was lost may be where a key frame or its last pose says that it is.
+#pragma once
+
+#include "common/geometry.hpp"
+#include "mapping3d/odometry/alignment.hpp"
+
+namespace swiftlet::mapping3d {
+
+/// Whether a camera can have come from `last` to `found` within `gap_s`. After 5 s it can be anywhere.
+bool isInReach(const common::Pose3& last, const common::Pose3& found, double gap_s);
+
+/// Whether two poses are near enough to be one and the same place found twice.
+bool isSamePlace(const common::Pose3& a, const common::Pose3& b);
+
+/// Whether a frame that fits shows enough of its key frames, and looks enough like them, to be found by it. With fewer
+/// than `least_textured` points of texture only the surfaces tell.
+bool isRecognized(const Alignment& fit, int least_textured);
+
+}  // namespace swiftlet::mapping3d
