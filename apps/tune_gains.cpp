@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include <fmt/core.h>
@@ -72,9 +73,7 @@ class GainFlights {
     const fs::path profile = folder_ / fmt::format("set-{:03}.yaml", ++sets_);
     const std::string yaml = systemWith(gains).toYaml(false);
     required(interfaces::writeAtomically(profile, yaml));
-    TrialConfig trial = trial_;
-    trial.system = profile.string();
-    const double cost = evaluation::gainCost(flown(trial));
+    const double cost = best_ && isRefused(profile) ? std::numeric_limits<double>::infinity() : flownCost(profile);
     required(interfaces::writeAtomically(profile, fmt::format("# cost {:.6g}\n{}", cost, yaml)));
     if (!best_ || cost < best_->after) best_ = control::GainSearch{gains, best_ ? best_->before : cost, cost, sets_};
     best_->evaluations = sets_;
@@ -86,6 +85,22 @@ class GainFlights {
   const std::optional<control::GainSearch>& best() const { return best_; }
 
  private:
+  /// A controller may have no solution for gains of the search, as LQR for weights of very different sizes.
+  static bool isRefused(const fs::path& profile) {
+    try {
+      (void)loadSystem(profile.string());
+      return false;
+    } catch (const common::InputError&) {
+      return true;
+    }
+  }
+
+  double flownCost(const fs::path& profile) {
+    TrialConfig trial = trial_;
+    trial.system = profile.string();
+    return evaluation::gainCost(flown(trial));
+  }
+
   std::vector<FlightScore> flown(const TrialConfig& trial) {
     const std::atomic<bool>& stop = stopOnSignals().first;
     std::vector<std::vector<FlightScore>> scores(static_cast<std::size_t>(options_.seeds));

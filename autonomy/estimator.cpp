@@ -288,7 +288,10 @@ OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
 bool Estimator::fuse(const OdometryStep& step) {
   if (step.clone_before) tell(perception::TapedClone{*step.clone_before});
   bool taken = step.matched;
-  if (step.measurement) taken = tell(*step.measurement) == perception::Insertion::kTaken;
+  if (step.measurement) {
+    taken = tell(*step.measurement) == perception::Insertion::kTaken;
+    laser_.refused(filter_.refusesRelativePoses());
+  }
   if (step.clone_after) tell(perception::TapedClone{*step.clone_after});
   return taken;
 }

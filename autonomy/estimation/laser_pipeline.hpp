@@ -46,6 +46,9 @@ class LaserPipeline {
   /// the last match does not count as motion.
   OdometryStep match(const perception::ProjectedScan& scan, const FilterView& filter);
 
+  /// See LaserOdometry::refused.
+  void refused(bool by_filter) { odometry_.refused(by_filter); }
+
   /// The stamp of the last scan that matched; none before the first.
   std::optional<common::Time> lastMatch() const { return odometry_.lastMatch(); }
   const perception::LaserOdometryCounts& counts() const { return odometry_.counts(); }

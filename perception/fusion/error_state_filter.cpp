@@ -336,6 +336,10 @@ FusionHealth ErrorStateFilter::health() const {
   return {now, fmt::format("gate forced open {} times", s.recent_recoveries)};
 }
 
+bool ErrorStateFilter::refusesRelativePoses() const {
+  return !impl_->history.empty() && impl_->history.newest().state.relative_gate.closed;
+}
+
 FusionCounts ErrorStateFilter::counts() const {
   Impl& f = *impl_;
   FusionCounts out = f.counters;

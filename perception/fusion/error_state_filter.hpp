@@ -93,6 +93,8 @@ class ErrorStateFilter {
   Insertion addAbsolutePose2(common::Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance);
 
   bool hasClone(common::Time time) const;
+  /// Whether the last relative pose was refused as an outlier.
+  bool refusesRelativePoses() const;
 
   /// The state at the newest IMU sample. T_map_odom is the identity, and height_above_ground_m is the height above the
   /// take-off floor; a caller that knows them better must replace them.

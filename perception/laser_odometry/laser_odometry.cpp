@@ -33,6 +33,9 @@ void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
 /// At this many half windows from the guess, the guess no longer supports a match.
 constexpr double kFarWindows = 6.0;
 
+/// Matches that the estimate has refused for so long are compared with its own pose: single outliers are not.
+constexpr double kRefused_s = 0.2;
+
 /// How far an offset lies beyond its window: 0 inside, 1 far away.
 double shareBeyond(double off, double window, double greatest_window) {
   const double far = std::clamp(kFarWindows * window, 0.5 * greatest_window, greatest_window);
@@ -126,6 +129,7 @@ struct LaserOdometry::Impl {
   SearchWindow usualWindow(common::Time now) const;
   Guess guessOf(const Pose2& T_last_now, const SearchWindow& window) const;
   Found find(const ProjectedScan& scan, const Guess& guess, const std::optional<Guess>& other);
+  Found findWhereHeld(const ProjectedScan& scan, const Found& found, const Guess& held);
   Found matchIn(const SearchWindow& window, const ProjectedScan& scan, const Guess& guess, const Guess& about);
   double marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const;
   bool canWiden(const SearchWindow& window) const;
@@ -143,6 +147,8 @@ struct LaserOdometry::Impl {
   common::Time last_seen_whole;  ///< The last match that fixed the position in all directions.
   Pose2 last_T_odom_body;        ///< The predicted pose at the last match.
   Pose2 last_T_local_body;       ///< The matched pose at the last match.
+  Pose2 held_T_local_body;       ///< The one that the estimate had then, after the last match that it took.
+  std::optional<common::Time> refused_since;
   int failures = 0;
 };
 
@@ -172,7 +178,8 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
   addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
   last_match = last_seen_whole = scan.stamp;
   last_T_odom_body = common::planar(scan.T_odom_body);
-  last_T_local_body = Pose2{};
+  last_T_local_body = held_T_local_body = Pose2{};
+  refused_since.reset();
   failures = 0;
   RelativePose first;
   first.from = first.to = scan.stamp;
@@ -258,6 +265,14 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, 
   return best;
 }
 
+/// The match where the estimate has the vehicle, if it fits better than the one that was found.
+LaserOdometry::Impl::Found LaserOdometry::Impl::findWhereHeld(const ProjectedScan& scan, const Found& found,
+                                                              const Guess& held) {
+  if (held.covers(found.match.T_reference_body)) return found;
+  const Found there = matchIn(held.window, scan, held, held);
+  return there.margin >= 0.0 && there.match.quality > found.match.quality ? there : found;
+}
+
 /// Both scans have errors of their own in the local map. The heading error of the reference also rotates the step
 /// between the two.
 RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const ProjectedScan& scan,
@@ -297,6 +312,16 @@ LaserOdometry& LaserOdometry::operator=(LaserOdometry&&) noexcept = default;
 
 const LaserOdometryCounts& LaserOdometry::counts() const { return impl_->counts; }
 
+void LaserOdometry::refused(bool by_estimate) {
+  Impl& self = *impl_;
+  if (by_estimate) {
+    if (!self.refused_since) self.refused_since = self.last_match;
+    return;
+  }
+  self.held_T_local_body = self.last_T_local_body;
+  self.refused_since.reset();
+}
+
 std::optional<common::Time> LaserOdometry::lastMatch() const {
   return impl_->key_scans.empty() ? std::nullopt : std::optional(impl_->last_match);
 }
@@ -324,8 +349,13 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   const Pose2 T_last_odom = T_odom_last.value_or(self.last_T_odom_body).inverse();
   std::optional<Impl::Guess> other_guess;
   if (other) other_guess = self.guessOf(T_last_odom * other->T_odom_body, other->window);
-  const auto [match, margin, otherwise] = self.find(
-      scan, self.guessOf(T_last_odom * T_odom_body, first_window.value_or(self.usualWindow(scan.stamp))), other_guess);
+  const Pose2 T_last_now = T_last_odom * T_odom_body;
+  const Impl::Guess guess = self.guessOf(T_last_now, first_window.value_or(self.usualWindow(scan.stamp)));
+  Impl::Found found = self.find(scan, guess, other_guess);
+  const Pose2 held_T_local_now = self.held_T_local_body * T_last_now;
+  if (self.refused_since && (scan.stamp - *self.refused_since).seconds() >= kRefused_s)
+    found = self.findWhereHeld(scan, found, {held_T_local_now, guess.window});
+  const auto& [match, margin, otherwise] = found;
   if (margin < 0.0) {
     ++self.counts.failures;
     if (++self.failures < self.config.max_failures) return std::nullopt;
@@ -338,6 +368,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   if (!match.unobservable_direction) self.last_seen_whole = scan.stamp;
   self.last_T_odom_body = otherwise ? other->T_odom_body : T_odom_body;
   self.last_T_local_body = match.T_reference_body;
+  self.held_T_local_body = held_T_local_now;
 
   RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
   relative.otherwise = otherwise;

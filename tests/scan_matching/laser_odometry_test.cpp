@@ -110,6 +110,28 @@ TEST(LaserOdometry, WidensTheSearchForAGuessThatIsFarOff) {
   EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
 }
 
+/// Something that seems to move away, as a ramp during a climb, drags the match along. The estimate refuses it, and
+/// once the scene fits where the estimate has the vehicle, that is the match.
+TEST(LaserOdometry, ReturnsToWhereTheEstimateHasTheVehicleIfThatFitsBetter) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometryConfig config;
+  config.widens = false;
+  for (const bool refuses : {true, false}) {
+    LaserOdometry odometry(config);
+    static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+    for (std::uint64_t frame = 1; frame <= 30; ++frame) {
+      const Pose2 dragged{0.01 * static_cast<double>(frame), 0.0, 0.0};
+      const auto relative = odometry.add(scanWith(world, dragged, {}, frame));
+      ASSERT_TRUE(relative) << frame;
+      ASSERT_LT(errorOf(relative->T_from_to, dragged).head<2>().norm(), 0.02) << "what fits is still the match";
+      odometry.refused(refuses);
+    }
+    const auto there = odometry.add(scanWith(world, {}, {}, 31));
+    const bool returned = there && errorOf(there->T_from_to, {}).head<2>().norm() < 0.01;
+    EXPECT_EQ(returned, refuses);
+  }
+}
+
 /// Where the guess is an inertial one, what fits elsewhere is another surface.
 TEST(LaserOdometry, WithoutWideningAMatchStaysWithinWhatTheMotionAllows) {
   const test::PlanarWorld world = test::flat();
