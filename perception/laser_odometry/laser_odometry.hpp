@@ -101,8 +101,8 @@ class LaserOdometry {
                                                 const std::optional<SearchWindow>& first_window = std::nullopt,
                                                 const std::optional<OtherGuess>& other = std::nullopt);
 
-  /// Whether the estimate that predicts refused the last match. While it goes on refusing them, one of the two is wrong,
-  /// and scans are also sought where the estimate has the vehicle: what fits better there is the match.
+  /// Whether the estimate that predicts refused the last match. While it goes on refusing them, one of the two is
+  /// wrong, and scans are also sought where the estimate has the vehicle: what fits better there is the match.
   void refused(bool by_estimate);
 
   /// The stamp of the last scan that matched.
