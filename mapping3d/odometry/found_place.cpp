@@ -7,8 +7,8 @@ using common::Pose3;
 
 constexpr double kLongestReach_s = 5.0;
 /// Where a camera carried by a hand or a vehicle can have come to.
-constexpr double kReach_m = 0.3, kReach_m_s = 2.0;
-constexpr double kReach_rad = 0.3, kReach_rad_s = 2.0;
+constexpr double kReach_m = 0.5, kReach_m_s = 3.0;
+constexpr double kReach_rad = 0.5, kReach_rad_s = 2.0;
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.2;
 constexpr double kLeastShown = 0.4, kLeastAlike = 0.6;
 
