@@ -10,7 +10,7 @@ constexpr double kLongestReach_s = 5.0;
 constexpr double kReach_m = 0.5, kReach_m_s = 3.0;
 constexpr double kReach_rad = 0.5, kReach_rad_s = 2.0;
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.2;
-constexpr double kLeastShown = 0.4, kLeastAlike = 0.6;
+constexpr double kLeastShown = 0.4, kLeastAlike = 0.6, kLeastAgreeing = 0.75;
 
 bool isWithin(double distance_m, double turn_rad, const Pose3& a, const Pose3& b) {
   return (a.position_m - b.position_m).norm() <= distance_m && a.rotation.angularDistance(b.rotation) <= turn_rad;
@@ -26,8 +26,8 @@ bool isInReach(const Pose3& last, const Pose3& found, double gap_s) {
 bool isSamePlace(const Pose3& a, const Pose3& b) { return isWithin(kSamePlace_m, kSamePlace_rad, a, b); }
 
 bool isRecognized(const Alignment& fit, int least_textured) {
-  if (fit.overlap < kLeastShown) return false;
-  return fit.textured < least_textured || fit.correlation >= kLeastAlike;
+  return fit.overlap >= kLeastShown && fit.agreement >= kLeastAgreeing && fit.textured >= least_textured &&
+         fit.correlation >= kLeastAlike;
 }
 
 }  // namespace swiftlet::mapping3d

@@ -12,8 +12,8 @@ bool isInReach(const common::Pose3& last, const common::Pose3& found, double gap
 /// Whether two poses are near enough to be one and the same place found twice.
 bool isSamePlace(const common::Pose3& a, const common::Pose3& b);
 
-/// Whether a frame that fits shows enough of its key frames, and looks enough like them, to be found by it. With fewer
-/// than `least_textured` points of texture only the surfaces tell.
+/// Whether a frame that fits shows enough of its key frames, and looks enough like them, to be found by it: with at
+/// least so many points of texture, since surfaces alone are alike in many places.
 bool isRecognized(const Alignment& fit, int least_textured);
 
 }  // namespace swiftlet::mapping3d

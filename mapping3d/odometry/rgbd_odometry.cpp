@@ -32,6 +32,9 @@ constexpr double kLeastCorrelationAlone = 0.8;
 /// Errors of neighbouring points are alike, so that a motion without a prior is less certain than independent points
 /// would make it. What a bare wall seems to tell along itself then counts little.
 constexpr double kMotionSigmaFactor = 5.0;
+/// A frame of which less agrees fits weakly. It must not be farther from the predicted pose than this.
+constexpr double kSurelyAgrees = 0.75;
+constexpr double kLeap_m = 0.1, kLeap_rad = 0.1, kLeapSigmas = 3.0;
 /// Without a seed, a motion that the frames do not show is extrapolated while its standard deviations are below these.
 constexpr double kGreatestUnseen_m = 0.1;
 constexpr double kGreatestUnseen_rad = 0.052;
@@ -56,6 +59,15 @@ Matrix6d motionInformation(double gap_s, const RgbdOdometryConfig& config) {
 double greatestSigma(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues()[2]));
+}
+
+/// A weak fit, far from where the bounds of the acceleration allow the camera to be: mostly of a blurred picture.
+bool isLeap(const Alignment& fit, const PosePrior& prior) {
+  if (prior.information.isZero() || fit.agreement >= kSurelyAgrees) return false;
+  const double sigma_m = 1.0 / std::sqrt(prior.information(0, 0)), sigma_rad = 1.0 / std::sqrt(prior.information(3, 3));
+  const Pose3 off = prior.T_map_camera.inverse() * fit.T_map_camera;
+  return off.position_m.norm() > std::max(kLeap_m, kLeapSigmas * sigma_m) ||
+         common::logSO3(off.rotation).norm() > std::max(kLeap_rad, kLeapSigmas * sigma_rad);
 }
 
 std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const vision::FeatureConfig& config) {
@@ -210,6 +222,7 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::tracked(const FramePyramid& pyram
   fit.alignment =
       align(pyramid, keys_.views(fit.keys), prior, last_->exposure, config_.features.depth_noise, config_.alignment);
   if (!isGood(fit.alignment, seed)) return std::nullopt;
+  if (!seed && isLeap(fit.alignment, prior)) return std::nullopt;
   fit.gradient_variance = vision::gradientNoiseVariance(pyramid.front().gray);
   if (!seed && !isKnown(fit, stamp)) return std::nullopt;
   return fit;
