@@ -56,12 +56,10 @@ MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const 
   const double least = config.least_share * solver.eigenvalues()[5];
   Vector6d shift = Vector6d::Zero();
   Matrix6d covariance = Matrix6d::Zero();
-  MeasuredPose measured;
   for (int i = 0; i < 6; ++i) {
     const Vector6d direction = solver.eigenvectors().col(i);
     const double seen = solver.eigenvalues()[i];
     if (seen <= least) {
-      measured.is_complete = false;
       covariance += kUnseenSigma_m * kUnseenSigma_m * direction * direction.transpose();
       continue;
     }
@@ -69,6 +67,7 @@ MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const 
     covariance += config.sigma_factor * config.sigma_factor / seen * direction * direction.transpose();
   }
   shift = unit.asDiagonal() * shift;
+  MeasuredPose measured;
   measured.T_map_camera = fit.T_map_camera * common::Pose3{common::expSO3(shift.tail<3>()), shift.head<3>()};
   measured.covariance = unit.asDiagonal() * covariance * unit.asDiagonal();
   measured.covariance.diagonal().head<3>().array() += config.floor_m * config.floor_m;

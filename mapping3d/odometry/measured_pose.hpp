@@ -31,7 +31,6 @@ struct MeasuredPose {
   common::Pose3 T_map_camera;
   /// Of the error (x, y, z, rotation vector) in the axes of the camera; very large in directions that were not seen.
   Matrix6d covariance = Matrix6d::Identity();
-  bool is_complete = true;  ///< Whether every direction was seen.
 };
 
 /// `gradient_variance` is that of the frame's noise (vision::gradientNoiseVariance). `depth_m` is a typical depth of

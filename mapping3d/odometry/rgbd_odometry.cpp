@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "common/config_fields.hpp"
@@ -35,12 +34,6 @@ constexpr double kMotionSigmaFactor = 5.0;
 /// A frame of which less agrees fits weakly. It must not be farther from the predicted pose than this.
 constexpr double kSurelyAgrees = 0.75;
 constexpr double kLeap_m = 0.1, kLeap_rad = 0.1, kLeapSigmas = 3.0;
-/// Without a seed, a motion that the frames do not show is extrapolated while its standard deviations are below these.
-constexpr double kGreatestUnseen_m = 0.1;
-constexpr double kGreatestUnseen_rad = 0.052;
-/// A direction with a smaller share of the information of the one seen best is not seen, as MeasuredPoseConfig's
-/// least_share. Along a bare wall it is below 0.0001, in furnished rooms above 0.001.
-constexpr double kLeastShareSeen = 0.001;
 
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
@@ -53,12 +46,6 @@ Matrix6d motionInformation(double gap_s, const RgbdOdometryConfig& config) {
   information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
   information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
   return information;
-}
-
-/// The greatest standard deviation of three of the unknowns, in any direction.
-double greatestSigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues()[2]));
 }
 
 /// A weak fit, far from where the bounds of the acceleration allow the camera to be: mostly of a blurred picture.
@@ -203,17 +190,15 @@ PosePrior RgbdOdometry::predicted(const FramePyramid& pyramid, common::Time stam
 
 std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyramid, const PosePrior& prior,
                                                         common::Time stamp, const std::optional<CameraSeed>& seed) {
-  if (isInMap(seed)) return tracked(pyramid, prior, stamp, seed);
+  if (isInMap(seed)) return tracked(pyramid, prior, seed);
   if (!is_lost_ || (seed && seed->rate_covariance))
-    if (auto fit = tracked(pyramid, prior, stamp, seed)) return fit;
+    if (auto fit = tracked(pyramid, prior, seed)) return fit;
   if (is_lost_ && !seed && (stamp - last_->stamp).seconds() <= kLongestAlignedGap_s)
-    if (auto fit = tracked(pyramid, prior, stamp, seed); fit && isRecognized(fit->alignment, config_.least_points))
-      return fit;
+    if (auto fit = tracked(pyramid, prior, seed); fit && isRecognized(fit->alignment, config_.least_points)) return fit;
   return recognized(pyramid, stamp, seed);
 }
 
 std::optional<RgbdOdometry::Fit> RgbdOdometry::tracked(const FramePyramid& pyramid, const PosePrior& prior,
-                                                       common::Time stamp,
                                                        const std::optional<CameraSeed>& seed) const {
   Fit fit;
   fit.prior = prior;
@@ -223,25 +208,7 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::tracked(const FramePyramid& pyram
       align(pyramid, keys_.views(fit.keys), prior, last_->exposure, config_.features.depth_noise, config_.alignment);
   if (!isGood(fit.alignment, seed)) return std::nullopt;
   if (!seed && isLeap(fit.alignment, prior)) return std::nullopt;
-  fit.gradient_variance = vision::gradientNoiseVariance(pyramid.front().gray);
-  if (!seed && !isKnown(fit, stamp)) return std::nullopt;
   return fit;
-}
-
-/// Along a bare wall, for example, nothing is measured. There a motion is extrapolated from the last frame that was
-/// certain, and a place that was recognized is not known at all.
-bool RgbdOdometry::isKnown(Fit& fit, common::Time stamp) const {
-  MeasuredPoseConfig config = config_.measured;
-  config.least_share = kLeastShareSeen;
-  const MeasuredPose measured =
-      withoutPrior(fit.alignment, fit.gradient_variance, fit.prior, keys_.at(fit.keys.front()).median_depth_m, config);
-  fit.is_certain = measured.is_complete;
-  if (fit.is_certain) return true;
-  if (fit.prior.information.isZero()) return false;
-  const Matrix6d motion = motionInformation((stamp - last_->certain).seconds(), config_);
-  const Matrix6d covariance = (measured.covariance.inverse() + motion).inverse();
-  return greatestSigma(covariance.topLeftCorner<3, 3>()) < kGreatestUnseen_m &&
-         greatestSigma(covariance.bottomRightCorner<3, 3>()) < kGreatestUnseen_rad;
 }
 
 std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& pyramid, common::Time stamp,
@@ -254,7 +221,7 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& py
     if (!found) continue;
     const PosePrior prior{keys_.placeOf(index).T_map_key * found->T_a_b, Matrix6d::Zero()};
     if (!isInReach(last_->T_map_camera, prior.T_map_camera, gap_s)) continue;
-    auto fit = tracked(pyramid, prior, stamp, seed);
+    auto fit = tracked(pyramid, prior, seed);
     if (!fit || !isRecognized(fit->alignment, config_.least_points)) continue;
     if (!best)
       best = std::move(fit);
@@ -283,7 +250,7 @@ void RgbdOdometry::begin(RgbdPose& pose, const FramePyramid& pyramid, const std:
   pose.became_key_frame = true;
   is_lost_ = false;
   unfit_frames_ = 0;
-  remember(pose, seed, true);
+  remember(pose, seed);
 }
 
 void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid,
@@ -295,23 +262,25 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   pose.T_map_camera = fit.alignment.T_map_camera;
   pose.covariance = fit.alignment.information.inverse();
   const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
-  pose.measured = withoutPrior(fit.alignment, fit.gradient_variance, fit.prior, depth_m, config_.measured);
+  const double noise = vision::gradientNoiseVariance(pyramid.front().gray);
+  pose.measured = withoutPrior(fit.alignment, noise, fit.prior, depth_m, config_.measured);
   for (const std::size_t key : fit.keys) pose.aligned_to.push_back(keys_.placeOf(key).scan);
   keys_.markUsed(fit.keys);
   const bool has_depth = fit.alignment.measured >= config_.least_points;
   if (has_depth && keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
     const KeyFramePlace place = newPlace(fit, pose, seed);
-    pose.motion = motionSinceKeyFrame(fit, pyramid);
+    pose.motion = motionSinceKeyFrame(fit, pyramid, noise);
     pose.T_map_camera = place.T_map_key;
     addKeyFrame(pose, place, pyramid);
     pose.became_key_frame = true;
   }
-  remember(pose, seed, fit.is_certain);
+  remember(pose, seed);
 }
 
 /// The places of several key frames follow the seeds, and with them the mount that is believed in. One alone does not.
 /// Without texture nothing is known of the motion along a wall.
-std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid) const {
+std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid,
+                                                                double gradient_variance) const {
   const std::size_t newest = keys_.size() - 1;
   if (std::find(fit.keys.begin(), fit.keys.end(), newest) == fit.keys.end()) return std::nullopt;
   const PosePrior start{fit.alignment.T_map_camera, Matrix6d::Zero()};
@@ -322,7 +291,7 @@ std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, 
   every_direction.least_share = 0.0;
   every_direction.sigma_factor = kMotionSigmaFactor;
   const MeasuredPose measured =
-      withoutPrior(alone, fit.gradient_variance, start, keys_.at(newest).median_depth_m, every_direction);
+      withoutPrior(alone, gradient_variance, start, keys_.at(newest).median_depth_m, every_direction);
   return KeyFrameMotion{keys_.at(newest).stamp, keys_.placeOf(newest).T_map_key.inverse() * measured.T_map_camera,
                         measured.covariance};
 }
@@ -356,10 +325,9 @@ void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place,
   keys_.add(std::move(key), place);
 }
 
-void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed, bool is_certain) {
-  const common::Time certain = is_certain ? pose.stamp : last_->certain;
-  Last next{pose.stamp,        pose.T_map_camera, pose.covariance, pose.scan,      seed,
-            pose.fit.exposure, certain,           {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
+  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan,
+            seed,       pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (last_ && pose.state == TrackState::kTracked) {
     const double gap_s = (pose.stamp - last_->stamp).seconds();
     const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;

@@ -8,7 +8,6 @@
 //                 v   | or aligned from the last pose, for a second
 //                lost +
 //
-// Without a seed, what the frames do not show (the motion along a bare wall) is extrapolated for a moment only.
 // The first frame with enough surfaces makes the model. While lost, it does not change, unless seeds in the map tell
 // where the camera is: then key frames begin anew there. Deterministic; one thread.
 #pragma once
@@ -112,17 +111,13 @@ class RgbdOdometry {
     int scan = 0;
     std::optional<CameraSeed> seed;
     Exposure exposure;
-    /// The stamp of the last frame that told of every direction, or had a seed.
-    common::Time certain;
     Eigen::Vector3d velocity_camera_m_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d rate_camera_rad_s = Eigen::Vector3d::Zero();
   };
   struct Fit {
     Alignment alignment;
     PosePrior prior;
-    double gradient_variance = 0.0;  ///< Of the noise of the frame's grey values.
-    bool is_certain = true;          ///< Whether the frame tells of every direction, or has a seed.
-    std::vector<std::size_t> keys;   ///< The key frames it was aligned to, the best first.
+    std::vector<std::size_t> keys;  ///< The key frames it was aligned to, the best first.
   };
   std::vector<common::Pose3> predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const;
   common::Pose3 bestOf(const std::vector<common::Pose3>& poses, const FramePyramid& pyramid) const;
@@ -130,20 +125,19 @@ class RgbdOdometry {
   PosePrior predicted(const FramePyramid& pyramid, common::Time stamp, const std::optional<CameraSeed>& seed) const;
   std::optional<Fit> findPose(const FramePyramid& pyramid, const PosePrior& prior, common::Time stamp,
                               const std::optional<CameraSeed>& seed);
-  std::optional<Fit> tracked(const FramePyramid& pyramid, const PosePrior& prior, common::Time stamp,
+  std::optional<Fit> tracked(const FramePyramid& pyramid, const PosePrior& prior,
                              const std::optional<CameraSeed>& seed) const;
   std::optional<Fit> recognized(const FramePyramid& pyramid, common::Time stamp, const std::optional<CameraSeed>& seed);
-  /// Whether the pose follows from the frame, or from a short motion. Sets whether it is certain.
-  bool isKnown(Fit& fit, common::Time stamp) const;
   bool isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const;
   bool canBegin(const FramePyramid& pyramid) const;
   void begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
-  std::optional<KeyFrameMotion> motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid) const;
+  std::optional<KeyFrameMotion> motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid,
+                                                    double gradient_variance) const;
   KeyFramePlace newPlace(const Fit& fit, const RgbdPose& pose, const std::optional<CameraSeed>& seed) const;
   void lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid);
-  void remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed, bool is_certain);
+  void remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed);
 
   RgbdOdometryConfig config_;
   KeyFrameMap keys_;

@@ -48,23 +48,6 @@ TEST(LostTrack, IsNotFoundAtAPlaceThatOnlyLooksAlike) {
   }
 }
 
-/// Nothing in the pictures tells of the motion along the wall.
-TEST(LostTrack, OnABareWallItIsLostBeforeItIsWrong) {
-  for (const double gray_noise : {0.0, 2.0}) {
-    TexturedRoom room;
-    room.contrast = 0.0;
-    room.gray_noise = gray_noise;
-    RgbdOdometry odometry({});
-    for (int i = 0; i < 45; ++i) {
-      const double time_s = i / kWalkFrames_Hz;
-      const Pose3 truth{{}, {1.4, 0.0, 0.2 - 0.2 * time_s}};
-      const RgbdPose found = odometry.process(room.seen(truth, time_s));
-      if (!found.isTracked()) continue;
-      ASSERT_LT(std::abs(found.T_map_camera.position_m.z() + 0.2 * time_s), 0.05) << i;
-    }
-  }
-}
-
 /// A picture that is covered, and depths that are wrong by a third: the next frame goes on from the last pose.
 TEST(LostTrack, GoesOnAfterABadFrame) {
   const TexturedRoom room;
