@@ -1,5 +1,8 @@
 #include "mapping3d/odometry/found_place.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace swiftlet::mapping3d {
 namespace {
 
@@ -10,7 +13,10 @@ constexpr double kLongestReach_s = 5.0;
 constexpr double kReach_m = 0.5, kReach_m_s = 3.0;
 constexpr double kReach_rad = 0.5, kReach_rad_s = 2.0;
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.2;
-constexpr double kLeastShown = 0.4, kLeastAlike = 0.6, kLeastAgreeing = 0.75;
+constexpr double kLeastShown = 0.4, kLeastAlike = 0.6;
+/// A frame of which less agrees fits weakly.
+constexpr double kSurelyAgrees = 0.75;
+constexpr double kLeap_m = 0.1, kLeap_rad = 0.1, kLeapSigmas = 3.0;
 
 bool isWithin(double distance_m, double turn_rad, const Pose3& a, const Pose3& b) {
   return (a.position_m - b.position_m).norm() <= distance_m && a.rotation.angularDistance(b.rotation) <= turn_rad;
@@ -26,8 +32,15 @@ bool isInReach(const Pose3& last, const Pose3& found, double gap_s) {
 bool isSamePlace(const Pose3& a, const Pose3& b) { return isWithin(kSamePlace_m, kSamePlace_rad, a, b); }
 
 bool isRecognized(const Alignment& fit, int least_textured) {
-  return fit.overlap >= kLeastShown && fit.agreement >= kLeastAgreeing && fit.textured >= least_textured &&
+  return fit.overlap >= kLeastShown && fit.agreement >= kSurelyAgrees && fit.textured >= least_textured &&
          fit.correlation >= kLeastAlike;
+}
+
+bool isLeap(const Alignment& fit, const PosePrior& prior) {
+  if (prior.information.isZero() || fit.agreement >= kSurelyAgrees) return false;
+  const double sigma_m = 1.0 / std::sqrt(prior.information(0, 0)), sigma_rad = 1.0 / std::sqrt(prior.information(3, 3));
+  return !isWithin(std::max(kLeap_m, kLeapSigmas * sigma_m), std::max(kLeap_rad, kLeapSigmas * sigma_rad),
+                   prior.T_map_camera, fit.T_map_camera);
 }
 
 }  // namespace swiftlet::mapping3d

@@ -1,4 +1,4 @@
-// Whether a camera whose track was lost may be where a key frame or its last pose says that it is.
+// Whether a camera without a seed may be where a key frame or its last pose says that it is.
 #pragma once
 
 #include "common/geometry.hpp"
@@ -15,5 +15,8 @@ bool isSamePlace(const common::Pose3& a, const common::Pose3& b);
 /// Whether a frame that fits shows enough of its key frames, and looks enough like them, to be found by it: with at
 /// least so many points of texture, since surfaces alone are alike in many places.
 bool isRecognized(const Alignment& fit, int least_textured);
+
+/// A weak fit, far from where the bounds of the acceleration allow the camera to be: mostly of a blurred picture.
+bool isLeap(const Alignment& fit, const PosePrior& prior);
 
 }  // namespace swiftlet::mapping3d

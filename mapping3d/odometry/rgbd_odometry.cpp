@@ -31,10 +31,6 @@ constexpr double kLeastCorrelationAlone = 0.8;
 /// Errors of neighbouring points are alike, so that a motion without a prior is less certain than independent points
 /// would make it. What a bare wall seems to tell along itself then counts little.
 constexpr double kMotionSigmaFactor = 5.0;
-/// A frame of which less agrees fits weakly. It must not be farther from the predicted pose than this.
-constexpr double kSurelyAgrees = 0.75;
-constexpr double kLeap_m = 0.1, kLeap_rad = 0.1, kLeapSigmas = 3.0;
-
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
 /// What the bounds of the acceleration tell of a motion that was predicted over a gap, as PosePrior::information.
@@ -46,15 +42,6 @@ Matrix6d motionInformation(double gap_s, const RgbdOdometryConfig& config) {
   information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
   information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
   return information;
-}
-
-/// A weak fit, far from where the bounds of the acceleration allow the camera to be: mostly of a blurred picture.
-bool isLeap(const Alignment& fit, const PosePrior& prior) {
-  if (prior.information.isZero() || fit.agreement >= kSurelyAgrees) return false;
-  const double sigma_m = 1.0 / std::sqrt(prior.information(0, 0)), sigma_rad = 1.0 / std::sqrt(prior.information(3, 3));
-  const Pose3 off = prior.T_map_camera.inverse() * fit.T_map_camera;
-  return off.position_m.norm() > std::max(kLeap_m, kLeapSigmas * sigma_m) ||
-         common::logSO3(off.rotation).norm() > std::max(kLeap_rad, kLeapSigmas * sigma_rad);
 }
 
 std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const vision::FeatureConfig& config) {

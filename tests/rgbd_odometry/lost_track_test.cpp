@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "mapping3d/odometry/rgbd_odometry.hpp"
@@ -48,35 +50,39 @@ TEST(LostTrack, IsNotFoundAtAPlaceThatOnlyLooksAlike) {
   }
 }
 
-/// A picture that is covered, and depths that are wrong by a third: the next frame goes on from the last pose.
-TEST(LostTrack, GoesOnAfterABadFrame) {
+/// Tracks a walk of which `spoil` changes the frames. Those in `lost` must be lost, all others within `within_m` of the
+/// truth.
+void expectTracked(int frames, const std::function<void(int, common::RgbdFrame&)>& spoil, const std::set<int>& lost,
+                   double within_m) {
   const TexturedRoom room;
   RgbdOdometry odometry({});
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < frames; ++i) {
     const double time_s = i / kWalkFrames_Hz;
     common::RgbdFrame frame = room.seen(walk(time_s), time_s);
+    spoil(i, frame);
+    const RgbdPose found = odometry.process(frame);
+    ASSERT_EQ(found.isTracked(), !lost.contains(i)) << i;
+    if (!found.isTracked()) continue;
+    ASSERT_LT(error_m(found.T_map_camera, walk(0.0).inverse() * walk(time_s)), within_m) << i;
+  }
+}
+
+/// A picture that is covered, and depths that are wrong by a third: the next frame goes on from the last pose.
+TEST(LostTrack, GoesOnAfterABadFrame) {
+  const auto spoil = [](int i, common::RgbdFrame& frame) {
     if (i == 12) frame = covered(std::move(frame));
     if (i == 20)
       for (float& depth_m : frame.depth.depth_m) depth_m *= 1.3F;
-    const RgbdPose found = odometry.process(frame);
-    ASSERT_EQ(found.isTracked(), i != 12 && i != 20) << i;
-    if (!found.isTracked()) continue;
-    EXPECT_LT(error_m(found.T_map_camera, walk(0.0).inverse() * walk(time_s)), 0.02) << i;
-  }
+  };
+  expectTracked(30, spoil, {12, 20}, 0.02);
 }
 
 /// The stamps of arrival over a link come in bursts.
 TEST(LostTrack, StampsInPairsDoNotHoldThePose) {
-  const TexturedRoom room;
-  RgbdOdometry odometry({});
-  for (int i = 0; i < 60; ++i) {
-    const double time_s = i / kWalkFrames_Hz;
-    common::RgbdFrame frame = room.seen(walk(time_s), time_s);
+  const auto spoil = [](int i, common::RgbdFrame& frame) {
     if (i % 2 == 1) frame.stamps.measured = common::Time::fromSeconds((i - 1) / kWalkFrames_Hz + 0.001);
-    const RgbdPose found = odometry.process(frame);
-    ASSERT_TRUE(found.isTracked()) << i;
-    ASSERT_LT(error_m(found.T_map_camera, walk(0.0).inverse() * walk(time_s)), 0.01) << i;
-  }
+  };
+  expectTracked(60, spoil, {}, 0.01);
 }
 
 }  // namespace
