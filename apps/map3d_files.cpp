@@ -36,12 +36,15 @@ interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer) {
   return files;
 }
 
-interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer, common::Time now) {
-  if (layer.submaps->empty()) return {};
-  interfaces::Map3dFiles files = layer.fused ? octreesOf(*layer.fused, layer.fused_stamp) : octreeFiles(layer, now);
+interfaces::Map3dFiles octreeFilesInFlight(const common::Map3dLayer& layer, common::Time now) {
+  return layer.fused ? octreesOf(*layer.fused, layer.fused_stamp) : octreeFiles(layer, now);
+}
+
+interfaces::Map3dFiles cloudFileInFlight(const common::Map3dLayer& layer) {
+  interfaces::Map3dFiles files;
   mapping3d::CloudConfig quick;
   quick.neighbours = 0;
-  files.cloud_ply = cloudOf(layer, quick);
+  if (!layer.submaps->empty()) files.cloud_ply = cloudOf(layer, quick);
   return files;
 }
 

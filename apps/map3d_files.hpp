@@ -14,7 +14,9 @@ namespace swiftlet::apps {
 interfaces::Map3dFiles octreeFiles(const common::Map3dLayer& layer, common::Time now);
 /// The cloud of all submaps, without specks.
 interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer);
-/// Both, quickly: the voxels that the flight has fused last, if it has, and a cloud with specks.
-interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer, common::Time now);
+/// The octrees, quickly: of the voxels that the flight has fused last, if it has.
+interfaces::Map3dFiles octreeFilesInFlight(const common::Map3dLayer& layer, common::Time now);
+/// The cloud, quickly: with specks.
+interfaces::Map3dFiles cloudFileInFlight(const common::Map3dLayer& layer);
 
 }  // namespace swiftlet::apps

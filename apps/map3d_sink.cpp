@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/map3d_files.hpp"
 #include "common/world.hpp"
@@ -12,8 +13,8 @@
 namespace swiftlet::apps {
 namespace {
 
-/// By the wall clock: what a killed process may lose of the 3D map, at least.
-constexpr std::chrono::seconds kPeriod{15};
+/// By the wall clock, from the octrees to the cloud and back: a killed process may lose twice as much of the 3D map.
+constexpr std::chrono::seconds kPeriod{8};
 /// Of a large map it may lose more, so that writing takes at most a twentieth of a core.
 constexpr int kLeastPause = 20;
 /// A long flight's map takes a few seconds to fuse and to write.
@@ -37,12 +38,14 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
   const Clock::time_point now = Clock::now();
   if (!world->map3d || now < next_ || !jobs_->idle("map3d")) return;
   next_ = now + kPeriod;
+  // One after the other: of a large building each takes 100 MB and more while it is made.
+  const bool cloud = std::exchange(cloud_is_next_, !cloud_is_next_);
   jobs_->submit("map3d", now_, kLatency,
-                [this, layer = world->map3d, world_stamp = world->stamp]() -> common::JobRunner::Deliver {
+                [this, cloud, layer = world->map3d, world_stamp = world->stamp]() -> common::JobRunner::Deliver {
                   const Clock::time_point begin = Clock::now();
-                  // Shared: the files of a large map take 100 MB, and a delivery is copied.
-                  const auto files =
-                      std::make_shared<const interfaces::Map3dFiles>(map3dFilesInFlight(*layer, world_stamp));
+                  // Shared, as a delivery is copied.
+                  const auto files = std::make_shared<const interfaces::Map3dFiles>(
+                      cloud ? cloudFileInFlight(*layer) : octreeFilesInFlight(*layer, world_stamp));
                   returnFreedMemory();
                   return [this, files, took = Clock::now() - begin](common::Time) {
                     folder_.showMap3d(*files);
@@ -53,7 +56,6 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
 
 void Map3dSink::writeNow(const common::World& world) {
   if (!world.map3d) return;
-  // One after the other: of a large building each takes 100 MB and more while it is made.
   folder_.showMap3d(octreeFiles(*world.map3d, world.stamp));
   folder_.showMap3d(cloudFile(*world.map3d));
 }

@@ -26,7 +26,8 @@ class Map3dSink final : public autonomy::FlightSink {
  private:
   interfaces::RunFolder& folder_;
   common::Time now_;
-  Clock::time_point next_;  ///< Not earlier is the map written again.
+  Clock::time_point next_;      ///< Not earlier are the next files written.
+  bool cloud_is_next_ = false;  ///< Else the octrees.
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);
 };
 

@@ -45,7 +45,7 @@ common::Intent SupervisorIntents::home(unsigned count, const SupervisedFlight& f
   if (!begun && flight.home_planned) {
     common::GoToIntent to_home;
     to_home.goal_map_m = flight.world.vehicle->home_map.position_m();
-    to_home.instead_within_m = common::kHomeWithin_m;
+    to_home.shift_m = common::kHomeShift_m;
     to_home.clearance_m = clearance_m_;
     return {by_path, to_home};
   }

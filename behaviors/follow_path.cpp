@@ -53,7 +53,8 @@ void PointsLeaf::endLeg() {
   renewIntent();
 }
 
-PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, common::FlightMode present) {
+PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, common::FlightMode present,
+                                  double pass_within_m) {
   const auto failed = [this](const std::string& problem) {
     return Leg{Status::kFailure, fmt::format("point {}: {}", at_ + 1, problem)};
   };
@@ -64,6 +65,10 @@ PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, co
     const auto verdict = common::judgeGoal(common::goalOf(*leg), tick.flight.goal_limits, nullptr);
     if (!verdict) return failed(verdict.error().text);
     leg_ = *leg;
+    if (pass_within_m > 0.0) {
+      leg_->shift_m = pass_within_m;
+      leg_->shift_after_s = 0.0;
+    }
   }
   emitIntent(tick, *leg_);
   switch (intentState(tick)) {
@@ -82,6 +87,7 @@ tree::NodeManifest FollowPath::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {pointsPort(),
                     tolerancePort(),
+                    shiftPort(),
                     clearancePort(),
                     modePort(),
                     {.name = "corner_m",
@@ -135,11 +141,12 @@ Status FollowPath::act(tree::TickContext& context) {
     endLeg();
   }
   at_ = std::min(at_, last);
-  Leg leg = flyTo(tick, path->points[at_], modeOfLeg());
+  const auto flyLeg = [&] { return flyTo(tick, path->points[at_], modeOfLeg(), at_ < last ? *corner_m : 0.0); };
+  Leg leg = flyLeg();
   if (leg.status == Status::kSuccess && at_ < last) {
     ++at_;
     endLeg();
-    leg = flyTo(tick, path->points[at_], modeOfLeg());
+    leg = flyLeg();
   }
   return leg.status == Status::kFailure ? fail(context, leg.problem) : leg.status;
 }
@@ -149,6 +156,7 @@ tree::NodeManifest Patrol::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {pointsPort(),
                     tolerancePort(),
+                    shiftPort(),
                     clearancePort(),
                     modePort(),
                     {.name = "rounds",

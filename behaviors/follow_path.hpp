@@ -29,8 +29,8 @@ class PointsLeaf : public FlightLeaf {
     tree::Status status = tree::Status::kRunning;
     std::string problem;  ///< Why it is FAILURE: "point 2: no path".
   };
-  /// Flies to the point: RUNNING, SUCCESS on arrival, FAILURE.
-  Leg flyTo(FlightTick& tick, const tree::Point& point, common::FlightMode present);
+  /// Flies to the point: RUNNING, SUCCESS on arrival, FAILURE. A free place within `pass_within_m` is as good.
+  Leg flyTo(FlightTick& tick, const tree::Point& point, common::FlightMode present, double pass_within_m = 0.0);
   /// The leg ends; the next one begins at the next tick.
   void endLeg();
   void onStart(tree::TickContext& context) override;

@@ -24,7 +24,7 @@ IntentLeaf::IntentOrProblem GoHome::makeIntent(const FlightTick& tick) {
   made_ = {};
   made_.goal_map_m = tick.flight.world->vehicle->home_map.position_m();
   made_.tolerance_m = *tolerance_m;
-  made_.instead_within_m = common::kHomeWithin_m;
+  made_.shift_m = common::kHomeShift_m;
   made_.clearance_m = *clearance_m;
   made_.mode = tick.mode;
   return made_;

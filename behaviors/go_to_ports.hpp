@@ -14,18 +14,23 @@ namespace swiftlet::behaviors {
 
 class GoToPorts {
  public:
-  /// The manifest must have tolerancePort(), clearancePort() and modePort().
+  /// The manifest must have tolerancePort(), shiftPort(), clearancePort() and modePort().
   explicit GoToPorts(const tree::NodeSetup& setup)
-      : tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m"), mode_(setup, "mode") {}
+      : tolerance_m_(setup, "tolerance_m"),
+        shift_m_(setup, "shift_m"),
+        clearance_m_(setup, "clearance_m"),
+        mode_(setup, "mode") {}
 
   /// The intent to fly to a place that the mission names, in the present mode if the port names none; or which port has
   /// no value, or that the place is one of a given map whose pose is not known. The place is not judged.
   tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place, const FlightTick& tick,
                                                          common::FlightMode present) const {
     const auto tolerance_m = tolerance_m_.get();
+    const auto shift_m = shift_m_.get();
     const auto clearance_m = clearance_m_.get();
     const auto mode = modeOr(mode_, present);
     if (!tolerance_m) return tl::unexpected(tolerance_m_.problem());
+    if (!shift_m) return tl::unexpected(shift_m_.problem());
     if (!clearance_m) return tl::unexpected(clearance_m_.problem());
     if (!mode) return tl::unexpected(mode_.problem());
     const auto places = NamedPlaces::in(*tick.flight.world);
@@ -35,13 +40,19 @@ class GoToPorts {
     if (places->given()) intent.goal_given_m = Eigen::Vector2d(place.x, place.y);
     intent.height_m = place.z;
     intent.tolerance_m = *tolerance_m;
+    intent.shift_m = *shift_m;
+    intent.shift_after_s = kMayGo_s;
     intent.clearance_m = *clearance_m;
     intent.mode = *mode;
     return intent;
   }
 
  private:
+  /// Who stands at the goal for longer than this is likely to stay.
+  static constexpr double kMayGo_s = 5.0;
+
   tree::Input<double> tolerance_m_;
+  tree::Input<double> shift_m_;
   tree::Input<double> clearance_m_;
   tree::Input<std::string> mode_;
 };

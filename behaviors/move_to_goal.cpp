@@ -10,6 +10,7 @@ tree::NodeManifest MoveToGoal::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {placePort("goal"),
                     tolerancePort(),
+                    shiftPort(),
                     clearancePort(),
                     {.name = "height_m",
                      .type = tree::PortType::kDouble,

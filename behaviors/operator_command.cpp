@@ -67,7 +67,7 @@ void OperatorCommand::take(FlightTick& tick) {
   if (point != nullptr)
     shift(tick);
   else
-    goal_->instead_within_m = common::kHomeWithin_m;
+    goal_->shift_m = common::kHomeShift_m;
   renewIntent();
 }
 
@@ -81,7 +81,7 @@ void OperatorCommand::shift(FlightTick& tick) {
   tick.say(common::Severity::kInfo, nameOf(*command_, tick) + fmt::format(" shifted by {:.2f} m", off_m),
            "to " + tick.flight.world->map->names().of(*place) + ", the nearest free place");
   goal_->goal_map_m = *place;
-  goal_->instead_within_m = tapped.shift_m;
+  goal_->shift_m = tapped.shift_m;
 }
 
 void OperatorCommand::followGivenMap(FlightTick& tick) {

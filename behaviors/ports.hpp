@@ -34,6 +34,16 @@ inline tree::PortManifest tolerancePort() {
               "Arrived when nearer to the goal than this; where the goal is not free, a place so near to it will do."};
 }
 
+inline tree::PortManifest shiftPort() {
+  return {.name = "shift_m",
+          .type = tree::PortType::kDouble,
+          .default_value = "0.25",
+          .minimum = 0.0,
+          .maximum = 5.0,
+          .description =
+              "Where the goal is not free for some seconds, the nearest free place within this distance will do."};
+}
+
 inline tree::PortManifest headingPort(bool required) {
   return {.name = "yaw_deg",
           .type = tree::PortType::kDouble,

@@ -50,12 +50,15 @@ struct GoToIntent {
   std::optional<double> yaw_map_rad;
   double tolerance_m = 0.05;  ///< Greatest horizontal distance at arrival.
   /// Where the goal itself is not free, a free place this near is as good, although it is beyond the tolerance.
-  double instead_within_m = 0.0;
-  double clearance_m = 0.10;  ///< Between hull and obstacle.
+  double shift_m = 0.0;
+  double shift_after_s = 0.0;  ///< Only after the goal has not been free for this long: what stands there may go.
+  double clearance_m = 0.10;   ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
 /// Greatest distance from the take-off place at which a landing counts as one at home.
 inline constexpr double kHomeWithin_m = 0.5;
+/// Where the take-off place is not free, a place this near to it is home as well; the rest is left to the controller.
+inline constexpr double kHomeShift_m = 0.4;
 /// Leave the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};
 /// Fly back along a path that was flown before, without planning.

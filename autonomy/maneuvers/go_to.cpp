@@ -39,6 +39,7 @@ GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "fly to a goal", intent.mode),
       intent_(intent),
       detour_(setup, flight_),
+      shifted_(intent.shift_after_s <= 0.0),
       place_map_m_(intent.goal_map_m) {
   if (intent.height_m) setup.memory.cruise_height_m = *intent.height_m;
   flight_.setGoalYaw(intent.yaw_map_rad);
@@ -67,8 +68,14 @@ Progress GoTo::fly(const ManeuverInput& input) {
   if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());
   const bool replan = flight_.keep(input);
   if (no_path_) {
-    const double patience_s = mayPass(no_path_->failure) ? setup_.config.give_up_s : kGrowing_s;
-    if ((input.now - no_path_->since).seconds() > patience_s) return Progress::failed(no_path_->failure.text);
+    const bool may_pass = mayPass(no_path_->failure);
+    const double waited_s = (input.now - no_path_->since).seconds();
+    if (!shifted_ && waited_s > (may_pass ? intent_.shift_after_s : kGrowing_s)) {
+      shifted_ = true;
+      if (!may_pass) no_path_->since = input.now;
+    } else if (waited_s > (may_pass ? setup_.config.give_up_s : kGrowing_s)) {
+      return Progress::failed(no_path_->failure.text);
+    }
   }
   detour_.endWhenOver(input);
   lookAlongBlockedPath();
@@ -77,7 +84,7 @@ Progress GoTo::fly(const ManeuverInput& input) {
     detour_.ask(input, intent_.goal_map_m);
   } else if (detour_.active() ? (input.now - asked_).seconds() >= Detour::kAskAgain_s : replan) {
     asked_ = input.now;
-    flight_.ask(input, GoalRequest{intent_.goal_map_m, std::max(intent_.tolerance_m, intent_.instead_within_m)});
+    flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m, shifted_ ? intent_.shift_m : 0.0});
   }
   return Progress::running();
 }

@@ -33,6 +33,7 @@ class GoTo final : public PathManeuver {
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
+  bool shifted_;                                ///< Whether a free place beside the goal will do.
   bool sees_heights_ = false;                   ///< Whether there is a 3D map.
   Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
   std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.

@@ -49,7 +49,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
 std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
   constexpr int kEach = 8, kBelieved = 10;
   if (answers_++ % kEach != 0) return home_m_;
-  const auto place = goalPlace({Eigen::Vector2d::Zero(), common::kHomeWithin_m});
+  const auto place = goalPlace({Eigen::Vector2d::Zero(), 0.0, common::kHomeShift_m});
   std::optional<double> length_m;
   if (place)
     if (const auto path = home_planner_.plan(map_, position_map_m, *place)) length_m = path->length_m;
@@ -105,7 +105,8 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::plan(const E
 tl::expected<Eigen::Vector2d, planning::PlanFailure> PlanningWorker::goalPlace(const GoalRequest& goal) const {
   const planning::CostGoalMap goals(map_);
   const auto place = common::judgeGoal(
-      {goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m, 0.0, map_.names()}, {}, &goals);
+      {goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m, goal.shift_m, map_.names()}, {},
+      &goals);
   if (!place) return tl::make_unexpected(planning::failureOf(place.error()));
   return *place;
 }
@@ -128,7 +129,7 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
   if (direct && !*direct && direct->error().reason == planning::PlanFailure::Reason::kGoalKeptOut) return;
   if (!request.map3d) return;
   auto lower = lower_.plan({*request.map3d, *request.grid, request.footprint, layers, request.names, goal.height, here,
-                            goal.goal_map_m, goal.tolerance_m});
+                            goal.goal_map_m, std::max(goal.tolerance_m, goal.shift_m)});
   // Space that the laser has not seen is flown through only below something, and on the way up behind it.
   if (lower && !lower->anyLowered() && !goal.height.lowered_m) return;
   answer.heights = lower_.maps();

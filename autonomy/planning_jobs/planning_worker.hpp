@@ -27,6 +27,7 @@ namespace swiftlet::autonomy {
 struct GoalRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   double tolerance_m = 0.0;  ///< If the goal is not free, a free place within it may replace the goal.
+  double shift_m = 0.0;      ///< The same, where the place may be beyond the tolerance.
   FlightHeights height = {};
 };
 struct ExploreRequest {

@@ -58,7 +58,7 @@ TEST(OperatorCommand, ReportsAnUnreachableGoalAndTheMissionContinues) {
 TEST(OperatorCommand, GoesHome) {
   Flight flight = waiting();
   EXPECT_EQ(flight.home(0.5, 0.25).homeCommand().tick(), "RUNNING 3 go to (0.50, 0.25)");
-  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).instead_within_m, common::kHomeWithin_m)
+  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).shift_m, common::kHomeShift_m)
       << "beside it, if something stands there: as GoHome";
   flight.succeeds().tick();
   EXPECT_THAT(flight.events(), ElementsAre("home reached"));
@@ -96,14 +96,14 @@ TEST(OperatorCommand, ShiftsATappedGoalThatIsNotFreeByAFingertip) {
   EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
   EXPECT_THAT(flight.events(),
               ElementsAre("goal (3.85, 0.00) shifted by 0.23 m (to (3.62, 0.00), the nearest free place)"));
-  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).instead_within_m, 0.25)
+  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).shift_m, 0.25)
       << "the place is at the least clearance: a map that changes by a cell must not fail the goal";
 }
 
 TEST(OperatorCommand, AGoalThatIsFreeIsFlownToItself) {
   Flight flight = waiting();
   EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "RUNNING 3 go to (1.00, 2.00)");
-  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).instead_within_m, 0.0);
+  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).shift_m, 0.0);
 }
 
 TEST(OperatorCommand, JudgesGoalsByItsOwnClearance) {

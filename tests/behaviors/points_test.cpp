@@ -27,6 +27,16 @@ TEST(FollowPath, PassesPointsAndEndsAtTheLast) {
   EXPECT_EQ(flight.succeeds().tick(), "DONE");
 }
 
+TEST(FollowPath, APlaceBesideAPointWillDoAtOnceWhereItIsOnlyPassed) {
+  Flight flight(R"(<FollowPath points="1;0 | 2;0" corner_m="0.3" shift_m="0.2"/>)");
+  flight.tick();
+  EXPECT_EQ(goTo(flight).shift_m, 0.3);
+  EXPECT_EQ(goTo(flight).shift_after_s, 0.0);
+  flight.succeeds().tick();
+  EXPECT_EQ(goTo(flight).shift_m, 0.2);
+  EXPECT_GT(goTo(flight).shift_after_s, 1.0) << "somebody may stand there";
+}
+
 TEST(FollowPath, FliesTheLegAgainThatWasInterrupted) {
   Flight flight(R"(<Priority><Hold/><FollowPath points="1;0 | 2;0"/></Priority>)");
   flight.tick();

@@ -73,12 +73,19 @@ function blockDifference(a, b, width, side = 12) {
 /** The share of pixels that differ. */
 const difference = (a, b) => a.filter((value, i) => value !== b[i]).length / a.length;
 
+/** Waits until what the page was asked to draw up to now is drawn. */
+async function drawn(page) {
+  const count = (what) => page.locator('#map3d canvas').evaluate((canvas, name) => Number(canvas.dataset[name] ?? 0), what);
+  const asked = await count('asked');
+  await eventually('a drawn picture', async () => (await count('answered')) >= asked);
+}
+
 /** The picture when the page has drawn what it was asked to and it no longer changes. */
 async function still(page) {
   let last = await pixels(page);
   await eventually('a still picture', async () => {
     await new Promise((done) => setTimeout(done, 400));
-    await eventually('a drawn picture', () => page.locator('#map3d canvas').evaluate((canvas) => canvas.dataset.stale !== 'true'));
+    await drawn(page);
     const next = await pixels(page), changed = difference(last, next);
     last = next;
     return changed < 0.02;
@@ -224,17 +231,17 @@ const tests = {
     await page.locator('[data-command=hold][aria-pressed=true]').waitFor();
     await drag(page, 100, 30);
     await page.locator('#zoom-in').tap();
-    const drawn = await still(page);
+    const before = await still(page);
     const { width } = await page.locator('#map3d').boundingBox();
     await page.locator('#map3d canvas').evaluate((canvas) => canvas.getContext('webgl').getExtension('WEBGL_lose_context').loseContext());
     await eventually('the stream', () => streamed(page));
     // The stream's first pictures may still be on their way, from another place.
     const columns = Math.round(width / 2);
     let same;
-    await eventually('the same picture', async () => (same = blockDifference(drawn, await pixels(page), columns)) < 12);
+    await eventually('the same picture', async () => (same = blockDifference(before, await pixels(page), columns)) < 12);
     console.log(`        the pictures differ by ${same.toFixed(1)} of 255`);
     await drag(page, 60, 0);
-    await eventually('the turned stream', async () => blockDifference(drawn, await pixels(page), columns) > 2 * same);
+    await eventually('the turned stream', async () => blockDifference(before, await pixels(page), columns) > 2 * same);
     await page.locator('[data-command=resume]').tap();
     await page.locator('#show3d').tap(); // Closed and opened again it is drawn by the page again.
     await shown3d(page);

@@ -29,7 +29,7 @@ function boundsOf(map3d, shownFromMap) {
 export class Map3dView {
   /** `store` is the page's, `map3d` that of the 3D map. `onFail(reason)` is called once if drawing fails. Throws without WebGL. */
   constructor(canvas, store, map3d, orbit, onFail) {
-    Object.assign(this, { canvas, store, map3d, orbit, onFail, byNormal: false, wanted: false, stopped: false });
+    Object.assign(this, { canvas, store, map3d, orbit, onFail, byNormal: false, wanted: false, stopped: false, asked: 0 });
     this.gl = new Map3dGl(canvas);
     this.colors = readColors();
     this.lost = (event) => {
@@ -72,16 +72,16 @@ export class Map3dView {
    * longer wanted queue up, and a tap waits for all of them.
    */
   draw() {
+    this.canvas.dataset.asked = ++this.asked;
     if (this.wanted || this.stopped) return;
     this.wanted = true;
-    this.canvas.dataset.stale = true;
     const paintNext = () => requestAnimationFrame(() => {
       this.wanted = false;
       if (this.stopped) return;
       try {
         const begin = performance.now();
         this.paint();
-        this.canvas.dataset.stale = false;
+        this.canvas.dataset.answered = this.asked; // For programs that look at the page: up to which request it is drawn.
         const end = performance.now();
         this.restsUntil = 2 * end - begin;
       } catch (error) {

@@ -62,11 +62,32 @@ TEST_F(GoToManeuver, FliesToTheNearestFreePlaceInsteadOfAGoalThatIsNotFree) {
   fill(grid_, {{122, 60}, {126, 70}}, kWallCell);  // 0.1 m beside the goal.
   want(home);
   EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed) << "the tolerance is 5 cm";
-  home.instead_within_m = 0.5;
+  home.shift_m = 0.5;
   want(home);
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
   EXPECT_THAT(executor_.status().reason, HasSubstr("beside the goal, which is not free"));
   EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.5);
+}
+
+TEST_F(GoToManeuver, AGoalIsShiftedOnlyAfterItHasNotBeenFreeForAWhile) {
+  build(true);
+  common::GoToIntent goal = to(6.0, 3.2);
+  goal.shift_m = 0.5;
+  goal.shift_after_s = 5.0;
+  constexpr common::CellRect kBeside{{122, 60}, {126, 70}};  // 0.1 m beside the goal.
+  fill(grid_, kBeside, kWallCell);
+  want(goal);
+  run(4.5);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("waiting: goal (6.00, 3.20) is too close"));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("beside the goal, which is not free"));
+  place(1.5, 2.0);
+  goal.goal_map_m.x() += 0.01;
+  want(goal);
+  run(3.0);
+  fill(grid_, kBeside, kFreeCell);  // What stood there has gone.
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_EQ(executor_.status().reason, "reached (6.01, 3.20)");
 }
 
 TEST_F(GoToManeuver, NamesThePlaceAsTheMissionDoesInTheGivenMap) {
@@ -79,7 +100,7 @@ TEST_F(GoToManeuver, NamesThePlaceAsTheMissionDoesInTheGivenMap) {
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
   EXPECT_EQ(executor_.status().reason, "reached (-1.00, 7.50) in the given map");
   fill(grid_, {{122, 60}, {126, 70}}, kWallCell);  // 0.1 m beside the goal.
-  goal.instead_within_m = 0.5;
+  goal.shift_m = 0.5;
   goal.goal_map_m.x() += 0.05;
   want(goal);
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
