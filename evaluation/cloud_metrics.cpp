@@ -46,6 +46,8 @@ class Cubes {
   template <typename Value>
   using Map = std::unordered_map<Key, Value, Hash>;
 };
+/// Of points of a cloud: a large one twice would take as much memory as the map that is judged.
+using Indices = std::vector<std::uint32_t>;
 
 /// The normal equations of one pull towards the surfaces, about the middle of the cloud.
 struct Pull {
@@ -70,17 +72,17 @@ struct Pull {
 
 CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
   Cubes::Map<std::size_t> index;
-  std::vector<Cloud> cubes;  // The map's own order differs between libraries.
-  for (const Eigen::Vector3d& point : cloud_world_m) {
-    const auto [cube, is_new] = index.try_emplace(Cubes::of(point), cubes.size());
+  std::vector<Indices> cubes;  // The map's own order differs between libraries.
+  for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
+    const auto [cube, is_new] = index.try_emplace(Cubes::of(cloud_world_m[i]), cubes.size());
     if (is_new) cubes.emplace_back();
-    cubes[cube->second].push_back(point);
+    cubes[cube->second].push_back(static_cast<std::uint32_t>(i));
   }
   std::vector<double> distances_m;
-  for (const Cloud& cube : thinned(cubes, kMostCubes)) {
-    const Cloud points = thinned(cube, kMostPoints);
+  for (const Indices& cube : thinned(cubes, kMostCubes)) {
+    const Indices points = thinned(cube, kMostPoints);
     double sum_m = 0.0;
-    for (const Eigen::Vector3d& point : points) sum_m += rays.nearest(point, CloudError::kLimit_m).distance_m;
+    for (const std::uint32_t i : points) sum_m += rays.nearest(cloud_world_m[i], CloudError::kLimit_m).distance_m;
     distances_m.push_back(sum_m / static_cast<double>(points.size()));
   }
   return {quantile(distances_m, 0.5), quantile(distances_m, 0.95)};
@@ -152,15 +154,16 @@ Cloud surfacesInView(const common::RgbdCameraConfig& camera, const std::vector<P
 
 double shareCovered(const Cloud& places_m, const Cloud& cloud_m) {
   if (places_m.empty()) return 1.0;
-  Cubes::Map<Cloud> cubes;
-  for (const Eigen::Vector3d& point : cloud_m) cubes[Cubes::of(point)].push_back(point);
+  Cubes::Map<Indices> cubes;
+  for (std::size_t i = 0; i < cloud_m.size(); ++i)
+    cubes[Cubes::of(cloud_m[i])].push_back(static_cast<std::uint32_t>(i));
   const auto isCovered = [&](const Eigen::Vector3d& place) {
     const Cubes::Key at = Cubes::of(place);
     for (int i = 0; i < 27; ++i) {
       const auto cube = cubes.find({at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1, at[2] + i / 9 - 1});
       if (cube == cubes.end()) continue;
-      for (const Eigen::Vector3d& point : cube->second)
-        if ((point - place).squaredNorm() <= kSpacing_m * kSpacing_m) return true;
+      for (const std::uint32_t point : cube->second)
+        if ((cloud_m[point] - place).squaredNorm() <= kSpacing_m * kSpacing_m) return true;
     }
     return false;
   };
