@@ -20,7 +20,7 @@ constexpr int kLeastPause = 20;
 /// A long flight's map takes a few seconds to fuse and to write.
 constexpr auto kLatency = common::Duration::fromMilliseconds(5000);
 
-/// What the files needed goes back to the system. glibc would keep it for the next ones: a tenth of all memory.
+/// What flight and files needed goes back to the system. glibc would keep it for the next ones: a tenth of all memory.
 void returnFreedMemory() {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -56,8 +56,11 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
 
 void Map3dSink::writeNow(const common::World& world) {
   if (!world.map3d) return;
+  returnFreedMemory();
   folder_.showMap3d(octreeFiles(*world.map3d, world.stamp));
+  returnFreedMemory();
   folder_.showMap3d(cloudFile(*world.map3d));
+  returnFreedMemory();
 }
 
 }  // namespace swiftlet::apps
