@@ -18,8 +18,12 @@ interfaces::Map3dFiles octreesOf(const common::VoxelMap& fused, common::Time sta
   return files;
 }
 
-std::string cloudOf(const common::Map3dLayer& layer, const mapping3d::CloudConfig& config) {
-  return interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys, config), interfaces::CloudFormat::kPly);
+interfaces::Map3dFiles cloudFileOf(const common::Map3dLayer& layer, const mapping3d::CloudConfig& config) {
+  interfaces::Map3dFiles files;
+  if (!layer.submaps->empty())
+    files.cloud_ply =
+        interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys, config), interfaces::CloudFormat::kPly);
+  return files;
 }
 
 }  // namespace
@@ -30,22 +34,17 @@ interfaces::Map3dFiles octreeFiles(const common::Map3dLayer& layer, common::Time
   return octreesOf(mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m), now);
 }
 
-interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer) {
-  interfaces::Map3dFiles files;
-  if (!layer.submaps->empty()) files.cloud_ply = cloudOf(layer, {});
-  return files;
-}
+interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer) { return cloudFileOf(layer, {}); }
 
 interfaces::Map3dFiles octreeFilesInFlight(const common::Map3dLayer& layer, common::Time now) {
-  return layer.fused ? octreesOf(*layer.fused, layer.fused_stamp) : octreeFiles(layer, now);
+  if (layer.submaps->empty() || !layer.fused) return octreeFiles(layer, now);
+  return octreesOf(*layer.fused, layer.fused_stamp);
 }
 
 interfaces::Map3dFiles cloudFileInFlight(const common::Map3dLayer& layer) {
-  interfaces::Map3dFiles files;
   mapping3d::CloudConfig quick;
   quick.neighbours = 0;
-  if (!layer.submaps->empty()) files.cloud_ply = cloudOf(layer, quick);
-  return files;
+  return cloudFileOf(layer, quick);
 }
 
 }  // namespace swiftlet::apps

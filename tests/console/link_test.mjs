@@ -173,16 +173,13 @@ const tests = {
     await live(page);
     await page.locator('#camera-toggle').tap();
     await eventually('a picture', () => page.locator('#camera img').getAttribute('src'));
-    // Chromium itself may be slow where other tests run; a server that is busy with the viewers would delay each command.
-    const took_ms = [];
-    for (const name of ['Hold', 'Resume', 'Land']) {
+    for (const name of ['Hold', 'Land']) {
       const answer = page.waitForResponse((response) => response.url().endsWith(`/api/${name.toLowerCase()}`));
       const begin = Date.now();
       await page.getByRole('button', { name }).tap();
       assert.equal((await answer).status(), 200, name);
-      took_ms.push(Date.now() - begin);
+      assert.ok(Date.now() - begin < 1500 * kPatience, `${name} took ${Date.now() - begin} ms`);
     }
-    assert.ok(Math.min(...took_ms) < 1500 * kPatience, `the commands took ${took_ms.join(', ')} ms`);
     for (const viewer of viewers) viewer.destroy();
     await page.context().close();
     await server.stop();
