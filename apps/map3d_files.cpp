@@ -8,43 +8,44 @@
 
 namespace swiftlet::apps {
 
+namespace fs = std::filesystem;
+using interfaces::Map3dWritten;
+
 namespace {
 
-interfaces::Map3dFiles octreesOf(const common::VoxelMap& fused, common::Time stamp) {
-  interfaces::Map3dFiles files;
-  files.octree_stamp = stamp;
-  files.map_bt = interfaces::toOctree(fused, interfaces::OctreeFormat::kBinary);
-  files.map_ot = interfaces::toOctree(fused, interfaces::OctreeFormat::kLogOdds);
-  return files;
+Map3dWritten writeBothOctrees(const fs::path& folder, const common::VoxelMap& fused, common::Time stamp) {
+  auto written = interfaces::writeOctree(folder / "map.bt", fused);
+  if (written) written = interfaces::writeOctree(folder / "map.ot", fused);
+  return {written, stamp};
 }
 
-interfaces::Map3dFiles cloudFileOf(const common::Map3dLayer& layer, const mapping3d::CloudConfig& config) {
-  interfaces::Map3dFiles files;
-  if (!layer.submaps->empty())
-    files.cloud_ply =
-        interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys, config), interfaces::CloudFormat::kPly);
-  return files;
+Map3dWritten writeCloudBy(const fs::path& folder, const common::Map3dLayer& layer,
+                          const mapping3d::CloudConfig& config) {
+  if (layer.submaps->empty()) return {};
+  return {interfaces::writeCloud(folder / "cloud.ply", mapping3d::cloudOf(*layer.submaps, *layer.keys, config))};
 }
 
 }  // namespace
 
-interfaces::Map3dFiles octreeFiles(const common::Map3dLayer& layer, common::Time now) {
+Map3dWritten writeOctrees(const fs::path& folder, const common::Map3dLayer& layer, common::Time now) {
   if (layer.submaps->empty()) return {};
   const double resolution_m = layer.submaps->front().voxels->resolution_m();
-  return octreesOf(mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m), now);
+  return writeBothOctrees(folder, mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m), now);
 }
 
-interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer) { return cloudFileOf(layer, {}); }
-
-interfaces::Map3dFiles octreeFilesInFlight(const common::Map3dLayer& layer, common::Time now) {
-  if (layer.submaps->empty() || !layer.fused) return octreeFiles(layer, now);
-  return octreesOf(*layer.fused, layer.fused_stamp);
+Map3dWritten writeCloud(const fs::path& folder, const common::Map3dLayer& layer) {
+  return writeCloudBy(folder, layer, {});
 }
 
-interfaces::Map3dFiles cloudFileInFlight(const common::Map3dLayer& layer) {
+Map3dWritten writeOctreesInFlight(const fs::path& folder, const common::Map3dLayer& layer, common::Time now) {
+  if (layer.submaps->empty() || !layer.fused) return writeOctrees(folder, layer, now);
+  return writeBothOctrees(folder, *layer.fused, layer.fused_stamp);
+}
+
+Map3dWritten writeCloudInFlight(const fs::path& folder, const common::Map3dLayer& layer) {
   mapping3d::CloudConfig quick;
   quick.neighbours = 0;
-  return cloudFileOf(layer, quick);
+  return writeCloudBy(folder, layer, quick);
 }
 
 }  // namespace swiftlet::apps

@@ -1,5 +1,7 @@
-// The 3D map of a flight as files.
+// The 3D map of a flight as files of its run folder.
 #pragma once
+
+#include <filesystem>
 
 #include "interfaces/run_folder.hpp"
 
@@ -9,14 +11,17 @@ struct Map3dLayer;
 
 namespace swiftlet::apps {
 
-/// The octrees of all submaps in the frame `map`, of the voxels as they are now; nothing before there are submaps. A
-/// pure function, as are those below; each takes seconds for a long flight. `now` is the time of the layer's snapshot.
-interfaces::Map3dFiles octreeFiles(const common::Map3dLayer& layer, common::Time now);
-/// The cloud of all submaps, without specks.
-interfaces::Map3dFiles cloudFile(const common::Map3dLayer& layer);
+/// Writes map.bt and map.ot: all submaps in the frame `map`, of the voxels as they are now. This and the functions
+/// below write nothing before there are submaps, and take seconds for a long flight; safe on any thread, one at a time.
+/// `now` is the time of the layer's snapshot.
+interfaces::Map3dWritten writeOctrees(const std::filesystem::path& folder, const common::Map3dLayer& layer,
+                                      common::Time now);
+/// Writes cloud.ply: the cloud of all submaps, without specks.
+interfaces::Map3dWritten writeCloud(const std::filesystem::path& folder, const common::Map3dLayer& layer);
 /// The octrees, quickly: of the voxels that the flight has fused last, if it has.
-interfaces::Map3dFiles octreeFilesInFlight(const common::Map3dLayer& layer, common::Time now);
+interfaces::Map3dWritten writeOctreesInFlight(const std::filesystem::path& folder, const common::Map3dLayer& layer,
+                                              common::Time now);
 /// The cloud, quickly: with specks.
-interfaces::Map3dFiles cloudFileInFlight(const common::Map3dLayer& layer);
+interfaces::Map3dWritten writeCloudInFlight(const std::filesystem::path& folder, const common::Map3dLayer& layer);
 
 }  // namespace swiftlet::apps

@@ -36,19 +36,19 @@ void Map3dSink::ticked(const autonomy::TickOutcome& outcome) {
 
 void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
   const Clock::time_point now = Clock::now();
-  if (!world->map3d || now < next_ || !jobs_->idle("map3d")) return;
+  if (!world->map3d || now < next_ || folder_.failure() || !jobs_->idle("map3d")) return;
   next_ = now + kPeriod;
   // One after the other: of a large building each takes 100 MB and more while it is made.
   const bool cloud = std::exchange(cloud_is_next_, !cloud_is_next_);
   jobs_->submit("map3d", now_, kLatency,
-                [this, cloud, layer = world->map3d, world_stamp = world->stamp]() -> common::JobRunner::Deliver {
+                [this, cloud, path = folder_.path(), layer = world->map3d,
+                 world_stamp = world->stamp]() -> common::JobRunner::Deliver {
                   const Clock::time_point begin = Clock::now();
-                  // Shared, as a delivery is copied.
-                  const auto files = std::make_shared<const interfaces::Map3dFiles>(
-                      cloud ? cloudFileInFlight(*layer) : octreeFilesInFlight(*layer, world_stamp));
+                  const interfaces::Map3dWritten result =
+                      cloud ? writeCloudInFlight(path, *layer) : writeOctreesInFlight(path, *layer, world_stamp);
                   returnFreedMemory();
-                  return [this, files, took = Clock::now() - begin](common::Time) {
-                    folder_.showMap3d(*files);
+                  return [this, result, took = Clock::now() - begin](common::Time) {
+                    folder_.wroteMap3d(result);
                     next_ = std::max(next_, Clock::now() + kLeastPause * took);
                   };
                 });
@@ -56,10 +56,11 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
 
 void Map3dSink::writeNow(const common::World& world) {
   if (!world.map3d) return;
+  jobs_->deliverDue(now_ + kLatency);  // Nothing else may write the same files.
   returnFreedMemory();
-  folder_.showMap3d(octreeFiles(*world.map3d, world.stamp));
+  folder_.wroteMap3d(writeOctrees(folder_.path(), *world.map3d, world.stamp));
   returnFreedMemory();
-  folder_.showMap3d(cloudFile(*world.map3d));
+  folder_.wroteMap3d(writeCloud(folder_.path(), *world.map3d));
   returnFreedMemory();
 }
 

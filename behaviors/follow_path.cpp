@@ -66,7 +66,7 @@ PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, co
     if (!verdict) return failed(verdict.error().text);
     leg_ = *leg;
     if (pass_within_m > 0.0) {
-      leg_->shift_m = pass_within_m;
+      leg_->shift_m = std::max(leg_->shift_m, pass_within_m);
       leg_->shift_after_s = 0.0;
     }
   }

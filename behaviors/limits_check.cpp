@@ -7,6 +7,7 @@
 #include "behaviors/follow_path.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
+#include "behaviors/survey.hpp"
 #include "common/goal.hpp"
 
 namespace swiftlet::behaviors {
@@ -27,11 +28,12 @@ struct AreaProblem {
   std::string problem;  ///< Empty without one.
   const char* hint = "";
 };
-/// `keeps_out` is an area in the take-off frame that the vehicle does not enter.
-AreaProblem areaProblem(const common::Polygon& area, bool keeps_out) {
+AreaProblem areaProblem(const common::Polygon& area, bool keeps_out, bool in_take_off_frame) {
   if (std::string problem = problemOf(area); !problem.empty())
     return {std::move(problem), "give the corners in order along the edge"};
-  if (keeps_out && area.contains(Eigen::Vector2d::Zero()))
+  if (std::string problem = keeps_out ? "" : surveyProblem(area); !problem.empty())
+    return {std::move(problem), "survey it in parts"};
+  if (keeps_out && in_take_off_frame && area.contains(Eigen::Vector2d::Zero()))
     return {"holds the take-off place 0;0", "the vehicle could not fly home: leave the place out"};
   return {};
 }
@@ -128,7 +130,7 @@ class LimitsCheck {
     // A height is judged as that of a goal above the take-off place.
     forEachValue<double>(node, "height_m", [&](double height_m) { checkGoal("height_m", {.height_m = height_m}); });
     forEachValue<tree::Points>(node, "polygon", [&](const tree::Points& corners) {
-      const auto [problem, hint] = areaProblem(polygonOf(corners), in_take_off_frame_ && traitsOf(node).keeps_out);
+      const auto [problem, hint] = areaProblem(polygonOf(corners), traitsOf(node).keeps_out, in_take_off_frame_);
       if (!problem.empty()) report(node, "polygon", problem, hint);
     });
     forEachValue<tree::Point>(node, "goal", [&](const tree::Point& goal) {

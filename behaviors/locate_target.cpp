@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/named_places.hpp"
 #include "behaviors/target_ports.hpp"
 #include "common/geometry.hpp"
 #include "common/line_of_sight.hpp"
@@ -84,7 +85,7 @@ tree::NodeManifest LocateTarget::manifest() {
                 {.name = "place",
                  .type = PortType::kPoint,
                  .direction = tree::Direction::kOutput,
-                 .description = "Position of the target."},
+                 .description = "Position of the target, in the given map in a flight with one."},
                 {.name = "file",
                  .type = PortType::kString,
                  .direction = tree::Direction::kOutput,
@@ -138,11 +139,23 @@ Status LocateTarget::act(tree::TickContext& context) {
     target_ = target->id;
   }
   const Status status = look(tick, *target, ports);
-  if (status != Status::kFailure) return status;
+  if (status == Status::kSuccess) return located(context, *target);
+  if (status == Status::kRunning) return status;
   tick.located_targets.push_back(target_);  // The next try is about another one.
   return fail(context, sides_rad_.empty() ? fmt::format("no place to see {} from is free", labelOf(*target))
                                           : fmt::format("{} is known to {:.2f} m after looking from {} sides",
                                                         labelOf(*target), target->sigma_m(), sides_rad_.size()));
+}
+
+Status LocateTarget::located(tree::TickContext& context, const common::Target& target) {
+  FlightTick& tick = flightTick(context);
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return fail(context, places.error());
+  tick.located_targets.push_back(target.id);
+  const Eigen::Vector2d named_m = places->T_map_named().inverse() * Eigen::Vector2d(target.position_map_m.head<2>());
+  place_.set(tree::Point{named_m.x(), named_m.y(), target.position_map_m.z()});
+  file_.set(fileOf(target));
+  return Status::kSuccess;
 }
 
 Status LocateTarget::look(FlightTick& tick, const common::Target& target, const Ports& ports) {
@@ -150,12 +163,7 @@ Status LocateTarget::look(FlightTick& tick, const common::Target& target, const 
     emitHold(tick);
     const double looked_s = (tick.flight.now - *looks_since_).seconds();
     const bool known = target.state == common::TargetState::kFound && target.sigma_m() <= ports.sigma_m;
-    if (known && looked_s >= kLeastLook_s) {
-      tick.located_targets.push_back(target.id);
-      place_.set(tree::Point{target.position_map_m.x(), target.position_map_m.y(), target.position_map_m.z()});
-      file_.set(fileOf(target));
-      return Status::kSuccess;
-    }
+    if (known && looked_s >= kLeastLook_s) return Status::kSuccess;
     if (looked_s < kMostLook_s) return Status::kRunning;
     view_.reset();
     looks_since_.reset();

@@ -31,6 +31,8 @@ class LocateTarget final : public FlightLeaf {
   void onResume(tree::TickContext& context) override;
   tree::Status act(tree::TickContext& context) override;
   tree::Status look(FlightTick& tick, const common::Target& target, const Ports& ports);
+  /// The target's place is known: writes it.
+  tree::Status located(tree::TickContext& context, const common::Target& target);
   std::string problemOfPorts() const;
   /// Where to look from next; none: no side is left.
   std::optional<common::GoToIntent> nextView(const FlightTick& tick, const common::Target& target,

@@ -71,17 +71,17 @@ void OperatorCommand::take(FlightTick& tick) {
   renewIntent();
 }
 
-/// The mission has accepted the goal. Where it is not free, a place beside it is: one at the least clearance, which the
-/// map may refuse a moment later, so that again a place beside it will do.
+/// The mission has accepted the goal. Where it is not free, a place beside it is. The map may refuse either a moment
+/// later, so that again a place beside it will do.
 void OperatorCommand::shift(FlightTick& tick) {
   const common::Goal tapped = common::tappedGoalOf(*goal_);
   const auto place = common::judgeGoal(tapped, tick.flight.goal_limits, tick.flight.goal_map.get());
   const double off_m = place ? (*place - goal_->goal_map_m).norm() : 0.0;
+  goal_->shift_m = tapped.shift_m;
   if (off_m <= goal_->tolerance_m) return;
   tick.say(common::Severity::kInfo, nameOf(*command_, tick) + fmt::format(" shifted by {:.2f} m", off_m),
            "to " + tick.flight.world->map->names().of(*place) + ", the nearest free place");
   goal_->goal_map_m = *place;
-  goal_->shift_m = tapped.shift_m;
 }
 
 void OperatorCommand::followGivenMap(FlightTick& tick) {

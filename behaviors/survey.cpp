@@ -1,5 +1,7 @@
 #include "behaviors/survey.hpp"
 
+#include <fmt/format.h>
+
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
@@ -25,6 +27,15 @@ tree::NodeManifest Survey::manifest() {
           .description = "Flies over an area in lanes."};
 }
 
+std::string surveyProblem(const common::Polygon& area) {
+  constexpr double kFarthest_m = 300.0;
+  const double across_m = (area.max_map_m() - area.min_map_m()).norm();
+  return across_m <= kFarthest_m
+             ? std::string()
+             : fmt::format("is {:.0f} m from corner to corner, more than the {:.0f} m that are surveyed at once",
+                           across_m, kFarthest_m);
+}
+
 Survey::Survey(const tree::NodeSetup& setup)
     : IntentLeaf(setup),
       polygon_(setup, "polygon"),
@@ -46,6 +57,7 @@ IntentLeaf::IntentOrProblem Survey::makeIntent(const FlightTick& tick) {
   if (!places) return tl::unexpected(places.error());
   const common::Polygon area = places->inMap(*points);
   if (std::string problem = problemOf(area); !problem.empty()) return tl::unexpected(problem);
+  if (std::string problem = surveyProblem(area); !problem.empty()) return tl::unexpected(problem);
   common::Goal at_height{.place_map_m = area.corners_map_m.front(), .height_m = height_m};
   const auto verdict = common::judgeGoal(at_height, tick.flight.goal_limits, nullptr);
   if (!verdict) return tl::unexpected(verdict.error().text);

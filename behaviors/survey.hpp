@@ -7,8 +7,12 @@
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/tree/registry.hpp"
+#include "common/polygon.hpp"
 
 namespace swiftlet::behaviors {
+
+/// Why the area is not surveyed: it is larger than any flight covers. Empty if it is not.
+std::string surveyProblem(const common::Polygon& area);
 
 class Survey final : public IntentLeaf {
  public:

@@ -13,8 +13,6 @@ namespace {
 
 using Reason = GoalRefusal::Reason;
 
-/// Share of the tolerance for a substitute place; the rest is left to the controller.
-constexpr double kShareOfTolerance = 0.8;
 constexpr double kReach_m = 3.0;  ///< A free place farther away is another goal, not the next best.
 
 GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eigen::Vector2d>& nearest) {

@@ -34,7 +34,7 @@ struct Goal {
   std::optional<double> height_m;  ///< Above the take-off floor; none: the present flight height.
   double tolerance_m = 0.0;
   double clearance_m = 0.0;  ///< Between hull and obstacle.
-  /// How far from it a free place will do as well, even beyond the tolerance: a finger on a map is not exact.
+  /// Within this distance of it a free place will do as well, even beyond the tolerance.
   double shift_m = 0.0;
   PlaceNames names = {};  ///< For the text of a refusal.
 };
@@ -69,6 +69,9 @@ struct GoalRefusal {
   /// The nearest place where the vehicle could be instead; none if there is no such place within 3 m.
   std::optional<Eigen::Vector2d> nearest_free_map_m;
 };
+
+/// Share of the tolerance within which a place replaces a goal; the rest is left to the controller.
+inline constexpr double kShareOfTolerance = 0.8;
 
 /// The place to fly to, or why there is none. `map` may be null.
 [[nodiscard]] tl::expected<Eigen::Vector2d, GoalRefusal> judgeGoal(const Goal& goal, const GoalLimits& limits,

@@ -290,6 +290,7 @@ void FlightController::transition(FlightInput input, const std::string& reason) 
 
 void FlightController::enter(FlightState from, FlightState entered) {
   state_since_ = now_;
+  spent_since_.reset();
   condition_since_.reset();
   const Eigen::Vector3d& position_m = last_state_.T_odom_body.position_m;
   const double yaw_rad = common::yawOf(last_state_.T_odom_body.rotation);
@@ -354,6 +355,7 @@ void FlightController::beginAtVehicle() {
   position_.reset();
   height_reference_m_ = position_m.z();
   climb_reference_m_s_ = 0.0;
+  spent_since_.reset();
   condition_since_.reset();
   if (state() == FlightState::kEmergencyLanding) startEmergencyDescent();
   const auto spool_up = common::Duration::fromSeconds(config_.spool_up_s);

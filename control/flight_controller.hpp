@@ -224,6 +224,7 @@ class FlightController {
   double climb_reference_m_s_ = 0.0;
   bool lifted_ = false;
   common::Time state_since_;
+  std::optional<common::Time> spent_since_;      ///< Since when a take-off has had all of the thrust.
   std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
   std::optional<common::Time> horizontal_lost_;
   Eigen::Vector2d escape_map_m_ = Eigen::Vector2d::Zero();

@@ -55,10 +55,15 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
                       last_state_.velocity_odom_m_s.norm() <= config_.hover_speed_m_s;
   constexpr double kRounding = 1e-6;  // Of a command that was clamped.
   const bool spent = setpoint.thrust >= config_.position.thrust.max_thrust - kRounding;
-  if (spent && heldFor(true, kSpent_s)) {
+  if (!spent) {
+    spent_since_.reset();
+  } else if (!spent_since_) {
+    spent_since_ = now_;
+  }
+  if (spent && (now_ - *spent_since_).seconds() >= kSpent_s) {
     transition(FlightInput::kLand, fmt::format("{:.0f} % of the thrust for {:.1f} s do not carry it there",
                                                100.0 * setpoint.thrust, kSpent_s));
-  } else if (!spent && heldFor(hovers, config_.hover_s)) {
+  } else if (heldFor(hovers && !spent, config_.hover_s)) {
     transition(FlightInput::kHoverReached, fmt::format("hovers at {:.2f} m", height_m));
   } else if ((now_ - state_since_).seconds() > timeout_s) {
     transition(FlightInput::kLand, fmt::format("not hovering after {:.0f} s", timeout_s));

@@ -276,12 +276,9 @@ void RunFolder::show(ReportPictures pictures) {
   if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
 }
 
-void RunFolder::showMap3d(const Map3dFiles& map) {
-  if (impl_->failure) return;
-  if (!map.cloud_ply.empty()) impl_->write("cloud.ply", map.cloud_ply);
-  if (!map.map_bt.empty()) impl_->write("map.bt", map.map_bt);
-  if (!map.map_ot.empty()) impl_->write("map.ot", map.map_ot);
-  if (!map.map_bt.empty()) impl_->octree_stamp = map.octree_stamp;
+void RunFolder::wroteMap3d(const Map3dWritten& result) {
+  impl_->keep(result.written);
+  if (result.octree_stamp) impl_->octree_stamp = result.octree_stamp;
 }
 
 /// Appends the bytes of the lines to one text, so that the file is written at once.

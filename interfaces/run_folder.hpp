@@ -35,6 +35,7 @@
 #include "common/rgbd_frame.hpp"
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
+#include "interfaces/files/atomic_file.hpp"
 #include "interfaces/flight_summary.hpp"
 #include "interfaces/report/report.hpp"
 
@@ -61,12 +62,11 @@ struct FlightEnd {
   common::MachineUse machine = {};
 };
 
-/// The 3D map as the bytes of its files; an empty one is not written.
-struct Map3dFiles {
-  std::string cloud_ply;
-  std::string map_bt;
-  std::string map_ot;
-  common::Time octree_stamp = {};  ///< When submaps and poses were those that the last two are fused from.
+/// What became of some files of the 3D map: they are large, and another thread than the folder's writes them.
+struct Map3dWritten {
+  Written written;
+  /// When submaps and poses were those that map.bt and map.ot are fused from; none if those are as they were.
+  std::optional<common::Time> octree_stamp = {};
 };
 
 /// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is
@@ -92,8 +92,8 @@ class RunFolder {
   void savePhoto(const std::string& name, const common::RgbdFrame& frame, const common::Pose3& T_map_camera);
   /// The pictures of the next report and map.png; may be called repeatedly.
   void show(ReportPictures pictures);
-  /// Replaces the files of the 3D map; may be called repeatedly.
-  void showMap3d(const Map3dFiles& map);
+  /// Call after files of the 3D map were written into path(), or could not be.
+  void wroteMap3d(const Map3dWritten& result);
   /// Writes the last map, mission.json and report, safe from a power cut. Call it once, as the last call. It tries
   /// everything even if something failed before.
   void finish(const FlightEnd& end);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/geometry.hpp"
+#include "common/goal.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -20,6 +21,13 @@ bool mayPass(const planning::PlanFailure& failure) {
   using Reason = planning::PlanFailure::Reason;
   return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap &&
          failure.reason != Reason::kGoalKeptOut;
+}
+
+/// The goal itself is not free, and a place beside it may be.
+bool isGoalTaken(const planning::PlanFailure& failure) {
+  using Reason = planning::PlanFailure::Reason;
+  return failure.reason == Reason::kGoalBlocked || failure.reason == Reason::kGoalUnseen ||
+         failure.reason == Reason::kOutsideMap;
 }
 
 /// A point of the path where something may stand that blocks it.
@@ -39,7 +47,7 @@ GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "fly to a goal", intent.mode),
       intent_(intent),
       detour_(setup, flight_),
-      shifted_(intent.shift_after_s <= 0.0),
+      shifted_(shiftsAtOnce()),
       place_map_m_(intent.goal_map_m) {
   if (intent.height_m) setup.memory.cruise_height_m = *intent.height_m;
   flight_.setGoalYaw(intent.yaw_map_rad);
@@ -67,16 +75,9 @@ Progress GoTo::fly(const ManeuverInput& input) {
     return Progress::done(reached(input.names));
   if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());
   const bool replan = flight_.keep(input);
-  if (no_path_) {
-    const bool may_pass = mayPass(no_path_->failure);
-    const double waited_s = (input.now - no_path_->since).seconds();
-    if (!shifted_ && waited_s > (may_pass ? intent_.shift_after_s : kGrowing_s)) {
-      shifted_ = true;
-      if (!may_pass) no_path_->since = input.now;
-    } else if (waited_s > (may_pass ? setup_.config.give_up_s : kGrowing_s)) {
-      return Progress::failed(no_path_->failure.text);
-    }
-  }
+  shiftWhenDue(input.now);
+  if (no_path_ && (input.now - no_path_->since).seconds() > patience_s())
+    return Progress::failed(no_path_->failure.text);
   detour_.endWhenOver(input);
   lookAlongBlockedPath();
   if (!flight_.mayAsk()) return Progress::running();
@@ -87,6 +88,18 @@ Progress GoTo::fly(const ManeuverInput& input) {
     flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m, shifted_ ? intent_.shift_m : 0.0});
   }
   return Progress::running();
+}
+
+void GoTo::shiftWhenDue(Time now) {
+  if (shifted_ || !no_path_ || !goal_taken_since_ || intent_.shift_m <= 0.0) return;
+  const double after_s = mayPass(no_path_->failure) ? intent_.shift_after_s : kGrowing_s;
+  shifted_ = (now - *goal_taken_since_).seconds() > after_s;
+}
+
+double GoTo::patience_s() const {
+  if (mayPass(no_path_->failure)) return setup_.config.give_up_s;
+  // The second time for the answer about a place beside the goal.
+  return shifted_ && !shiftsAtOnce() ? 2.0 * kGrowing_s : kGrowing_s;
 }
 
 /// A laser sees one plane: what blocks the path in it may be a beam with room for the hull below.
@@ -112,7 +125,13 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   no_path_.reset();
   detour_.breakOff();
   const Eigen::Vector2d& end_map_m = (*answer.path)->points_map_m.back();
-  place_map_m_ = (end_map_m - intent_.goal_map_m).norm() > intent_.tolerance_m ? end_map_m : intent_.goal_map_m;
+  // A place at the edge of the tolerance leaves the controller nothing: there the place is the goal.
+  const bool beside = (end_map_m - intent_.goal_map_m).norm() > common::kShareOfTolerance * intent_.tolerance_m;
+  place_map_m_ = beside ? end_map_m : intent_.goal_map_m;
+  if (!beside) {
+    goal_taken_since_.reset();
+    shifted_ = shiftsAtOnce();
+  }
   flight_.offer(**answer.path, now, state);
   return Progress::running("flying to " + placeOf(intent_, answer.cost_map->names()));
 }
@@ -124,6 +143,11 @@ Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
     no_path_ = NoPath{now, failure};
   }
   no_path_->failure = failure;
+  if (!isGoalTaken(failure)) {
+    if (!shifted_) goal_taken_since_.reset();  // The question was about the goal itself.
+  } else if (!goal_taken_since_) {
+    goal_taken_since_ = now;
+  }
   return Progress::running("waiting: " + failure.text);
 }
 

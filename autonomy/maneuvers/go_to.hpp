@@ -1,5 +1,6 @@
-// GoTo: flies to a place of the map; done on arrival. Without a path it waits and makes detours, and finally fails with
-// the planner's reason. Going home is a GoTo with the home pose.
+// GoTo: flies to a place of the map; done on arrival. Where that place is not free, it waits, and then flies to a free
+// place beside it as far as the intent's `shift_m` allows, which may be beyond the tolerance. Without a path it waits
+// and makes detours, and finally fails with the planner's reason. Going home is a GoTo with the home pose.
 #pragma once
 
 #include <optional>
@@ -29,15 +30,21 @@ class GoTo final : public PathManeuver {
   void lookAlongBlockedPath();
   void tellLaserAlone(common::Time now, const planning::PlanFailure& failure);
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
+  bool shiftsAtOnce() const { return intent_.shift_after_s <= 0.0; }
+  /// After the goal has not been free for long enough, a free place beside it will do.
+  void shiftWhenDue(common::Time now);
+  /// How long no path is waited for.
+  double patience_s() const;
 
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
-  bool shifted_;                                ///< Whether a free place beside the goal will do.
-  bool sees_heights_ = false;                   ///< Whether there is a 3D map.
-  Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
-  std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.
-  common::Time asked_;                          ///< When the path to the goal was last requested.
+  std::optional<common::Time> goal_taken_since_;  ///< Since when the goal itself has not been free.
+  bool shifted_;                                  ///< Whether a free place beside the goal will do.
+  bool sees_heights_ = false;                     ///< Whether there is a 3D map.
+  Eigen::Vector2d place_map_m_;                   ///< The goal, or the free place that is flown to instead.
+  std::optional<Eigen::Vector2d> ahead_map_m_;    ///< Of the last path to the goal, a little ahead of the vehicle.
+  common::Time asked_;                            ///< When the path to the goal was last requested.
 };
 
 }  // namespace swiftlet::autonomy

@@ -110,9 +110,9 @@ tl::expected<planning::Path, planning::PlanFailure> LowerPlanner::plan(const Low
   planning::PlanFailure failure;
   for (const planning::CostMap* map : {&maps_->upper, &maps_->lower}) {
     const planning::CostGoalMap goals(*map);
-    const auto place = common::judgeGoal(
-        {question.goal_map_m, std::nullopt, question.tolerance_m, question.footprint.clearance_m, 0.0, question.names},
-        {}, &goals);
+    const auto place = common::judgeGoal({question.goal_map_m, std::nullopt, question.tolerance_m,
+                                          question.footprint.clearance_m, question.shift_m, question.names},
+                                         {}, &goals);
     if (!place) {
       failure = planning::failureOf(place.error());
       continue;

@@ -38,7 +38,7 @@ struct LowerQuestion {
   FlightHeights height;
   Eigen::Vector2d start_map_m;
   Eigen::Vector2d goal_map_m;
-  double tolerance_m = 0.0;  ///< A free place within it may replace the goal.
+  double tolerance_m = 0.0, shift_m = 0.0;  ///< As those of a GoalRequest.
 };
 
 /// One job at a time. At each call it tries one height: the one that the present plan has, or that which the last call

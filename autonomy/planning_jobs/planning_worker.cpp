@@ -129,7 +129,7 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
   if (direct && !*direct && direct->error().reason == planning::PlanFailure::Reason::kGoalKeptOut) return;
   if (!request.map3d) return;
   auto lower = lower_.plan({*request.map3d, *request.grid, request.footprint, layers, request.names, goal.height, here,
-                            goal.goal_map_m, std::max(goal.tolerance_m, goal.shift_m)});
+                            goal.goal_map_m, goal.tolerance_m, goal.shift_m});
   // Space that the laser has not seen is flown through only below something, and on the way up behind it.
   if (lower && !lower->anyLowered() && !goal.height.lowered_m) return;
   answer.heights = lower_.maps();

@@ -72,6 +72,12 @@ struct Slot {
     write(text);
     number_of_text = numberOfText(text);
   }
+  /// What `other` holds, with the number that scripts see of it.
+  void copy(const Slot& other) {
+    const std::optional<Value> number = other.number_of_text;
+    write(*other.value);
+    number_of_text = number;
+  }
   /// Uses the memory of the text that it holds.
   void writeText(std::string_view text);
 };
@@ -130,6 +136,10 @@ class Output {
   /// Does nothing if the port is not given.
   void set(Value value) const {
     if (binding_.slot != nullptr) binding_.slot->write(std::move(value));
+  }
+  /// Sets what `entry` holds, which must have a value.
+  void copy(const Slot& entry) const {
+    if (binding_.slot != nullptr) binding_.slot->copy(entry);
   }
 
  private:

@@ -59,11 +59,20 @@ Written tryToWrite(const std::filesystem::path& file) {
 }
 
 Written writeAtomically(const std::filesystem::path& file, std::string_view bytes, Durability durability) {
+  return writeAtomically(
+      file, [bytes](const WriteBytes& write) { write(bytes); }, durability);
+}
+
+Written writeAtomically(const std::filesystem::path& file, const std::function<void(const WriteBytes&)>& content,
+                        Durability durability) {
   const std::filesystem::path temporary = temporaryOf(file);
   const int descriptor = openAnew(temporary, 0);
   if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
 
-  int failure = writeAll(descriptor, bytes);
+  int failure = 0;
+  content([&](std::string_view bytes) {
+    if (failure == 0) failure = writeAll(descriptor, bytes);
+  });
   if (failure == 0 && durability == Durability::kPower && ::fsync(descriptor) != 0) failure = errno;
   if (::close(descriptor) != 0 && failure == 0) failure = errno;
   if (failure == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) failure = errno;

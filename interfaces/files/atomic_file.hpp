@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,12 @@ enum class Durability { kProcess, kPower };
 /// Replaces `file` by `bytes` in one step: readers see the old content or the new one. If it fails, the old content
 /// stays and nothing else is left. The folder must exist.
 [[nodiscard]] Written writeAtomically(const std::filesystem::path& file, std::string_view bytes,
+                                      Durability durability = Durability::kProcess);
+
+using WriteBytes = std::function<void(std::string_view bytes)>;
+/// The same for bytes that are not all in memory at once: `content` hands them on piece by piece. It must not throw.
+[[nodiscard]] Written writeAtomically(const std::filesystem::path& file,
+                                      const std::function<void(const WriteBytes& write)>& content,
                                       Durability durability = Durability::kProcess);
 
 /// Whether writeAtomically() could replace `file` now: makes its temporary file and removes it again.

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -59,15 +60,14 @@ class OctreeWriter {
   }
 
   std::string write() {
-    Node root = writeInner(0, 0, blocks_.size());
-    // A tree of one leaf has no place in the .bt format; OctoMap never prunes that far in practice.
-    const bool any = root.kind != Node::Kind::kUnknown;
+    writeInner(0, 0, blocks_.size());
     const bool binary = format_ == OctreeFormat::kBinary;
-    return fmt::format(
-               "{}\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\n"
-               "size {}\nres {}\ndata\n",
-               binary ? octree::kBinaryMagic : octree::kLogOddsMagic, any ? nodes_ : 0, map_.resolution_m()) +
-           (any ? bytes_ : std::string());
+    // In place: the bytes of a large building's tree would take three times as much memory on the way.
+    bytes_.insert(
+        0, fmt::format("{}\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\n"
+                       "size {}\nres {}\ndata\n",
+                       binary ? octree::kBinaryMagic : octree::kLogOddsMagic, nodes_, map_.resolution_m()));
+    return std::move(bytes_);
   }
 
  private:
@@ -90,6 +90,7 @@ class OctreeWriter {
       children[child] = writeInner(depth + 1, first, last);
       first = last;
     }
+    // A tree of one leaf has no place in the .bt format; OctoMap never prunes that far in practice.
     return endNode(place, children, depth > 0);
   }
 

@@ -41,6 +41,28 @@ std::string pcdHeader(std::size_t points, bool normals) {
       normals ? " 1 1 1 " : " ", points, points);
 }
 
+/// Hands on the bytes of a file, piece by piece.
+void writePieces(std::span<const SurfacePoint> points, CloudFormat format, const WriteBytes& write) {
+  constexpr std::size_t kPiece = 1 << 20;
+  const bool normals =
+      std::any_of(points.begin(), points.end(), [](const SurfacePoint& point) { return !point.normal.isZero(); });
+  std::string bytes =
+      format == CloudFormat::kPly ? plyHeader(points.size(), normals) : pcdHeader(points.size(), normals);
+  for (const SurfacePoint& point : points) {
+    append(bytes, point.position_m);
+    if (normals) append(bytes, point.normal);
+    const auto& [red, green, blue] = point.rgb;
+    if (format == CloudFormat::kPcd)
+      append(bytes, static_cast<std::uint32_t>(red << 16 | green << 8 | blue));
+    else
+      for (const std::uint8_t color : point.rgb) bytes.push_back(static_cast<char>(color));
+    if (bytes.size() < kPiece) continue;
+    write(bytes);
+    bytes.clear();
+  }
+  write(bytes);
+}
+
 }  // namespace
 
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
@@ -50,27 +72,15 @@ std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
 }
 
 std::string toCloud(std::span<const SurfacePoint> points, CloudFormat format) {
-  const bool normals =
-      std::any_of(points.begin(), points.end(), [](const SurfacePoint& point) { return !point.normal.isZero(); });
-  std::string bytes =
-      format == CloudFormat::kPly ? plyHeader(points.size(), normals) : pcdHeader(points.size(), normals);
-  bytes.reserve(bytes.size() + 28 * points.size());
-  for (const SurfacePoint& point : points) {
-    append(bytes, point.position_m);
-    if (normals) append(bytes, point.normal);
-    const auto& [red, green, blue] = point.rgb;
-    if (format == CloudFormat::kPcd)
-      append(bytes, static_cast<std::uint32_t>(red << 16 | green << 8 | blue));
-    else
-      for (const std::uint8_t color : point.rgb) bytes.push_back(static_cast<char>(color));
-  }
-  return bytes;
+  std::string all;
+  writePieces(points, format, [&](std::string_view bytes) { all += bytes; });
+  return all;
 }
 
 Written writeCloud(const std::filesystem::path& file, std::span<const SurfacePoint> points) {
   const auto format = cloudFormatOf(file);
   SWIFTLET_CHECK(format.has_value(), file.string());
-  return writeAtomically(file, toCloud(points, *format));
+  return writeAtomically(file, [&](const WriteBytes& write) { writePieces(points, *format, write); });
 }
 
 Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh) {

@@ -104,6 +104,23 @@ TEST(GivenMap, SurveyAndInspectLieThere) {
   EXPECT_TRUE(kindOf<common::InspectIntent>(inspect).point_map_m.isApprox(Eigen::Vector2d(2.0, 5.0)));
 }
 
+TEST(GivenMap, ALocatedTargetHasAPlaceThere) {
+  Flight flight(R"(<Sequence><LocateTarget place="{p}"/><MoveToGoal goal="{p}"/></Sequence>)");
+  placed(flight, 1.0).change([](test::Layers& layers) {
+    common::Target target;
+    target.id = target.number = 1;
+    target.name = "red";
+    target.position_map_m = {2.0, 5.0, 0.5};
+    target.covariance_m2 = 1e-4 * Eigen::Matrix3d::Identity();
+    target.state = common::TargetState::kFound;
+    layers.targets.targets = {target};
+  });
+  EXPECT_THAT(flight.tick(), HasSubstr("go to"));
+  std::string tick = flight.succeeds().tick();
+  for (int i = 0; i < 10 && tick.find("in the given map") == std::string::npos; ++i) tick = flight.stops().tick();
+  EXPECT_THAT(tick, HasSubstr("go to (3.00, -1.00) in the given map"));
+}
+
 TEST(GivenMap, HeadingsAndZonesAreThoseOfTheMap) {
   Flight turn(R"(<TurnTo yaw_deg="10"/>)");
   placed(turn, 1.0).tick();

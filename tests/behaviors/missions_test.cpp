@@ -203,5 +203,15 @@ TEST(Check, ARoundThatIsRepeatedBeginsWhereTheLastOneEnded) {
               IsEmpty());
 }
 
+TEST(Survey, OfAnAreaThatNoFlightCoversIsRefused) {
+  const auto problems =
+      checkMissionText(R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence><TakeOff/>)"
+                       R"(<Survey polygon="0;0 | 50000;0 | 50000;50000"/><Land/></Sequence></BehaviorTree></root>)",
+                       "m.xml");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(toString(problems[0]),
+              HasSubstr("Survey.polygon: is 70711 m from corner to corner, more than the 300 m"));
+}
+
 }  // namespace
 }  // namespace swiftlet::behaviors::testing

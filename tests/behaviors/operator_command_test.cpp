@@ -103,7 +103,8 @@ TEST(OperatorCommand, ShiftsATappedGoalThatIsNotFreeByAFingertip) {
 TEST(OperatorCommand, AGoalThatIsFreeIsFlownToItself) {
   Flight flight = waiting();
   EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "RUNNING 3 go to (1.00, 2.00)");
-  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).shift_m, 0.0);
+  EXPECT_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).shift_m, 0.25)
+      << "the next scan may show it a cell too near to a wall";
 }
 
 TEST(OperatorCommand, JudgesGoalsByItsOwnClearance) {

@@ -37,6 +37,12 @@ TEST(FollowPath, APlaceBesideAPointWillDoAtOnceWhereItIsOnlyPassed) {
   EXPECT_GT(goTo(flight).shift_after_s, 1.0) << "somebody may stand there";
 }
 
+TEST(FollowPath, APointThatIsOnlyPassedIsShiftedAsFarAsTheLastOne) {
+  Flight flight(R"(<FollowPath points="1;0 | 2;0" corner_m="0.3" shift_m="1"/>)");
+  flight.tick();
+  EXPECT_EQ(goTo(flight).shift_m, 1.0);
+}
+
 TEST(FollowPath, FliesTheLegAgainThatWasInterrupted) {
   Flight flight(R"(<Priority><Hold/><FollowPath points="1;0 | 2;0"/></Priority>)");
   flight.tick();

@@ -53,6 +53,14 @@ TEST(GivenTexts, AreNumbersForScripts) {
   EXPECT_EQ(holds(R"(a="nan" b="inf")", "a .. b == 'naninf'"), "SUCCESS");
 }
 
+TEST(GivenTexts, AreNumbersAlsoWhereTheyAreCopied) {
+  Story story(R"(<SubTree ID="S" lo="9" hi="10"/>)",
+              R"(<BehaviorTree ID="S"><Sequence><SetBlackboard value="{lo}" output_key="{a}"/>)"
+              R"(<SetBlackboard value="{hi}" output_key="{b}"/><ScriptCondition code="a &lt; b"/></Sequence>)"
+              R"(</BehaviorTree>)");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+}
+
 TEST(GivenTexts, AreNumbersAlsoInTreesBelowAndInModels) {
   Story story(R"(<SubTree ID="S" n="9"/>)",
               R"(<BehaviorTree ID="S"><SubTree ID="T" m="{n}"/></BehaviorTree>)"

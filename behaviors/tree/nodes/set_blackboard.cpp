@@ -24,7 +24,10 @@ SetBlackboard::SetBlackboard(const NodeSetup& setup)
 Status SetBlackboard::act(TickContext& context) {
   const Slot* entry = value_.slot;
   if (entry != nullptr && !entry->value) return fail(context, "port value: the entry {" + entry->name + "} is not set");
-  output_key_.set(entry != nullptr ? *entry->value : *value_.literal);
+  if (entry != nullptr)
+    output_key_.copy(*entry);
+  else
+    output_key_.set(*value_.literal);
   return Status::kSuccess;
 }
 

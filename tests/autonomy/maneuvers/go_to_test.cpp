@@ -90,6 +90,37 @@ TEST_F(GoToManeuver, AGoalIsShiftedOnlyAfterItHasNotBeenFreeForAWhile) {
   EXPECT_EQ(executor_.status().reason, "reached (6.01, 3.20)");
 }
 
+TEST_F(GoToManeuver, FliesToAPlaceAtTheEdgeOfTheToleranceItself) {
+  build(true);
+  common::GoToIntent goal = to(6.0, 3.2);
+  goal.shift_m = 0.5;
+  fill(grid_, {{122, 60}, {126, 70}}, kWallCell);  // 0.1 m beside the goal.
+  want(goal);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  goal.tolerance_m = distanceTo_m({6.0, 3.2}) / 0.9;
+  place(1.5, 2.0);
+  want(goal);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("beside the goal, which is not free"))
+      << "a tenth of the tolerance is left for the controller";
+}
+
+TEST_F(GoToManeuver, TheTimeWithoutAPathToAFreeGoalDoesNotShiftItLater) {
+  build(false);
+  common::GoToIntent goal = to(6.0, 3.2);
+  goal.shift_m = 0.5;
+  goal.shift_after_s = 5.0;
+  want(goal);
+  run(8.0);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("unreachable"));
+  build(true);
+  fill(grid_, {{122, 60}, {126, 70}}, kWallCell);  // 0.1 m beside the goal.
+  run(3.5);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("waiting: goal (6.00, 3.20) is too close"));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("beside the goal, which is not free"));
+}
+
 TEST_F(GoToManeuver, NamesThePlaceAsTheMissionDoesInTheGivenMap) {
   build(true);
   common::GoToIntent goal = to(6.0, 3.2);
