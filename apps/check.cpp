@@ -140,7 +140,7 @@ void addCheck(Command& program) {
       "--mock-leaves", options->mock_leaves,
       "Let nodes that Swiftlet does not have be mocks, and say whose each node is; such a mission cannot be flown.");
   command.flag("--json", options->json, "Print the problems as JSON.");
-  command.footer("Example: swiftlet check missions/*.xml");
+  command.footer("Example: swiftlet check missions/*.xml --system swiftlet_3d");
   command.runs([options] { return check(*options); });
 }
 

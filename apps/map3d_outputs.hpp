@@ -31,7 +31,8 @@ struct Map3dFigures {
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
   rendering::ThinnedCurve milliseconds;  ///< Over the index of the frame.
-  rendering::ThinnedCurve disagreement;  ///< Part of the points that do not agree with the map, the same.
+  /// Part of the points that do not agree with the map, over the index of the frame.
+  rendering::ThinnedCurve disagreement;
 };
 
 /// `trajectory` has the poses of the recorder's camera (axes of image processing) in the frame of the map. With `mesh`

@@ -54,7 +54,7 @@ class CameraObstacles {
     /// Those that the laser does not see, and the grid this was found in; null before the first time.
     std::vector<Column> beside_laser;
     std::shared_ptr<const common::OccupancyGrid> laser_grid;
-    PlacedSubmap placed;              ///< As it was then.
+    PlacedSubmap placed;              ///< The submap and its place when `beside_laser` was found.
     common::CellRect around;          ///< The cells of the laser grid that were looked at.
     std::vector<PlacedSubmap> later;  ///< The submaps that were asked what has gone.
   };

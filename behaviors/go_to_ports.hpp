@@ -48,7 +48,7 @@ class GoToPorts {
   }
 
  private:
-  /// Who stands at the goal for longer than this is likely to stay.
+  /// What is mapped at the goal and has not been cleared after this time is likely to stay.
   static constexpr double kMayGo_s = 5.0;
 
   tree::Input<double> tolerance_m_;

@@ -31,7 +31,8 @@ inline tree::PortManifest tolerancePort() {
           .minimum = 0.01,
           .maximum = 5.0,
           .description =
-              "Arrived when nearer to the goal than this; where the goal is not free, a place so near to it will do."};
+              "Arrived when nearer to the goal than this; where the goal is not free, a free place within 0.8 "
+              "of this distance will do."};
 }
 
 inline tree::PortManifest shiftPort() {

@@ -6,7 +6,8 @@
 //   3. It is inside the map.
 //   4. It is in observed space.
 //   5. It is not in an obstacle.
-//   6. The hull and its clearance fit there, clear of obstacles, people and unknown space.
+//   6. The hull and its clearance fit there, clear of mapped obstacles and unknown space. People who are tracked do
+//      not count: they may go, and the planner finds no path while they stand there.
 //   7. The hull and its clearance are outside every keep-out zone.
 //
 // If a goal fails 3 to 6, but a free place lies well within its tolerance or its shift, the vehicle flies there

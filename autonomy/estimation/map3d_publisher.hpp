@@ -58,8 +58,8 @@ class Map3dPublisher {
   bool changed_ = false;
   bool behind_ = false;                                 ///< Work has begun after the last copy of the submaps.
   std::optional<common::Time> submaps_stamp_;           ///< When the submaps of the layer were taken.
-  std::optional<common::Time> fused_from_;              ///< When those that are fused were.
-  std::shared_ptr<const common::KeyPoses> fused_keys_;  ///< Where they were.
+  std::optional<common::Time> fused_from_;              ///< Time of the last fusion.
+  std::shared_ptr<const common::KeyPoses> fused_keys_;  ///< Key scans that the last fusion used.
 };
 
 }  // namespace swiftlet::autonomy

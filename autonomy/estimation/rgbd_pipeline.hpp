@@ -139,7 +139,7 @@ class RgbdPipeline {
   Map3dPublisher publisher_;
   int scan_ = 0;
   common::Pose3 T_scan_camera_;
-  /// The frame from which measurements start: it became a key frame, so that later frames are aligned to it.
+  /// The frame from which measurements start. A key frame, or the first tracked frame after the clone was dropped.
   struct Reference {
     common::Time time;
     int scan = 0;

@@ -78,7 +78,7 @@ std::vector<Eigen::Vector2d> Survey::lay(const planning::CostMap&, const Maneuve
   for (int i = 0; i < lanes; ++i, backwards = !backwards) {
     const double share = (i + 0.5) / lanes;
     const double at_m = low.y() + (from_high ? 1.0 - share : share) * width_m;
-    // A hair inside the edges, which belong to the area.
+    // 1 micrometre inside, because contains() is undecided on an edge.
     std::vector<Eigen::Vector2d> lane =
         laneIn(intent_.area, along * (low.x() + 1e-6) + across * at_m, along, length_m - 2e-6);
     if (backwards) std::reverse(lane.begin(), lane.end());

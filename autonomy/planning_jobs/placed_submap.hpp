@@ -1,8 +1,9 @@
 // A submap of the 3D map at its place in the map, and whether it shows that something has gone which an earlier one
 // has.
 //
-// A submap is drawn into while the sensor is near its origin. Who stood in a door then would be an obstacle there for
-// the rest of the flight, because the vehicle comes back over other key scans and draws into another submap.
+// A submap is drawn into while the sensor is near its origin. A person who stood in a door at that time would
+// remain an obstacle there for the rest of the flight, because the vehicle comes back over other key scans and draws
+// into another submap.
 #pragma once
 
 #include <cstdint>

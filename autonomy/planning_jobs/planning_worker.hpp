@@ -26,8 +26,9 @@ namespace swiftlet::autonomy {
 
 struct GoalRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  double tolerance_m = 0.0;  ///< If the goal is not free, a free place within it may replace the goal.
-  double shift_m = 0.0;      ///< The same, where the place may be beyond the tolerance.
+  double tolerance_m = 0.0;  ///< If the goal is not free, a free place within 0.8 of it may replace the goal.
+  /// If the goal is not free, a free place this near may replace it, even beyond the tolerance.
+  double shift_m = 0.0;
   FlightHeights height = {};
 };
 struct ExploreRequest {

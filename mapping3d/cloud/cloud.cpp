@@ -148,7 +148,7 @@ template <typename Points>
 struct Kinds {
   Points fine, coarse;
   float large_m = 0.0F;    ///< The side of the cloud's large cubes.
-  float largest_m = 0.0F;  ///< And of the largest in a submap.
+  float largest_m = 0.0F;  ///< Side of the largest large cubes of any submap.
 };
 
 /// Surfaces have a quarter of the points in cubes of twice the size.

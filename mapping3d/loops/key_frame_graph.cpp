@@ -20,7 +20,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 double turnOf_rad(const Pose3& pose) { return pose.rotation.angularDistance(Eigen::Quaterniond::Identity()); }
 
-/// A graph with a turn of one radian counts as one with a step of a metre: both drift by about as much at 1 m.
+/// A turn of one radian costs as much as a step of one metre.
 double costOf(const Pose3& step) { return step.position_m.norm() + turnOf_rad(step); }
 
 struct Neighbour {

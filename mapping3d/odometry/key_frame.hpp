@@ -28,7 +28,7 @@ struct KeyFrame {
 std::vector<DescribedPoint> describedPoints(const vision::GrayImage& gray,
                                             const std::vector<vision::Feature>& features);
 
-/// `level` must have points; their median depth.
+/// Median depth of the points of a level. 0 without points.
 double medianDepth_m(const std::vector<ReferencePoint>& level);
 
 }  // namespace swiftlet::mapping3d
