@@ -117,7 +117,7 @@ TEST(GivenMap, ALocatedTargetHasAPlaceThere) {
   });
   EXPECT_THAT(flight.tick(), HasSubstr("go to"));
   std::string tick = flight.succeeds().tick();
-  for (int i = 0; i < 10 && tick.find("in the given map") == std::string::npos; ++i) tick = flight.stops().tick();
+  for (int i = 0; i < 10 && tick.find("(3.00, -1.00)") == std::string::npos; ++i) tick = flight.stops().tick();
   EXPECT_THAT(tick, HasSubstr("go to (3.00, -1.00) in the given map"));
 }
 
