@@ -18,6 +18,9 @@
 
 namespace swiftlet::common {
 
+/// Of a surface whose colour was not measured.
+inline constexpr std::array<std::uint8_t, 3> kUnknownColor{160, 160, 160};
+
 /// A small piece of a surface.
 struct SurfacePoint {
   Eigen::Vector3f position_m = Eigen::Vector3f::Zero();

@@ -14,8 +14,6 @@ using common::Submap3d;
 
 /// Key scans are up to a metre apart, and over some ten metres the 2D map drifts by no more than a voxel.
 constexpr int kNeighbouringScans = 10;
-/// The colour of points whose colour nobody has seen.
-constexpr std::array<std::uint8_t, 3> kGrey{160, 160, 160};
 
 /// The discs in the frame of a submap, which is level.
 std::vector<common::Disc> inSubmap(std::span<const common::Disc> people, const Pose3& T_submap_map) {
@@ -80,7 +78,7 @@ void SubmapStore::draw(const PlacedSweep& placed, const common::KeyPoses& scans)
     if ((end_m - rays.back().origin_m).norm() > config_.point_range_m) continue;
     if (std::any_of(people.begin(), people.end(), [&](const auto& person) { return person.covers(end_m.head<2>()); }))
       continue;
-    points.push_back({end_m.cast<float>(), Eigen::Vector3f::Zero(), kGrey, placed.weight_1_m2});
+    points.push_back({end_m.cast<float>(), Eigen::Vector3f::Zero(), common::kUnknownColor, placed.weight_1_m2});
   }
   growing_->voxels.insert(rays, people);
   growing_->points.add(points, {});

@@ -61,7 +61,6 @@ class CorrelationSums {
 struct Sums {
   ExposureEquations equations;
   int points = 0, visible = 0, measured = 0, agreeing = 0;
-  double gray_squared = 0.0, gray_weight = 0.0, surface_squared_m2 = 0.0, surface_weight = 0.0;
   double absolute_gray = 0.0;
   CorrelationSums grays;
   struct Gray {
@@ -119,8 +118,6 @@ class LevelErrors {
     Vector6d jacobian;
     jacobian << -normal, normal.cross(seen);
     sums.equations.addSurface(jacobian, residual_m, weight / (sigma_m * sigma_m));
-    sums.surface_squared_m2 += weight * residual_m * residual_m;
-    sums.surface_weight += weight;
     return true;
   }
 
@@ -146,8 +143,6 @@ class LevelErrors {
     jacobian << -gradient, gradient.cross(point), -reference_gray, -1.0;
     sums.equations.addGray(jacobian, residual, weight / (sigma * sigma));
     sums.compared.push_back({point, weight / (sigma * sigma)});
-    sums.gray_squared += weight * residual * residual;
-    sums.gray_weight += weight;
   }
 
   /// A point without a normal may be seen on a slope, a pixel beside its place.
@@ -158,12 +153,15 @@ class LevelErrors {
   const AlignmentConfig& config_;
 };
 
-Sums sumsAt(const LevelErrors& errors, std::span<const ReferenceView> views, std::size_t level,
+/// `above_coarsest` counts levels from the coarsest one, of frame and key frames: a radio may send them in different
+/// sizes, whose pyramids have coarsest levels of one size.
+Sums sumsAt(const LevelErrors& errors, std::span<const ReferenceView> views, std::size_t above_coarsest,
             const common::Pose3& T_map_camera, const Exposure& exposure, double sigma) {
   Sums sums;
   const common::Pose3 T_camera_map = T_map_camera.inverse();
   for (const ReferenceView& view : views)
-    errors.add((*view.levels)[level], T_camera_map * view.T_map_key, exposure, sigma, sums);
+    errors.add(*(view.levels->rbegin() + std::min(above_coarsest, view.levels->size() - 1)),
+               T_camera_map * view.T_map_key, exposure, sigma, sums);
   return sums;
 }
 
@@ -190,8 +188,6 @@ Alignment summary(const common::Pose3& T_map_camera, const Sums& sums) {
   alignment.information = sums.equations.poseInformation();
   alignment.overlap = part(sums.visible, sums.points);
   alignment.agreement = part(sums.agreeing, sums.measured);
-  alignment.gray_rms = std::sqrt(part(sums.gray_squared, sums.gray_weight));
-  alignment.surface_rms_m = std::sqrt(part(sums.surface_squared_m2, sums.surface_weight));
   if (sums.grays.count() >= kLeastTextured) alignment.correlation = sums.grays.value();
   alignment.points = sums.agreeing;
   alignment.measured = sums.measured;
@@ -237,9 +233,8 @@ void AlignmentConfig::describe(common::config::Fields& fields) {
 
 Alignment judgePose(const FramePyramid& frame, std::span<const ReferenceView> views, const common::Pose3& T_map_camera,
                     const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
-  const std::size_t level = frame.size() - 1;
-  const LevelErrors errors(frame[level], noise, config);
-  return summary(T_map_camera, sumsAt(errors, views, level, T_map_camera, exposure, kWidest * config.gray_sigma));
+  const LevelErrors errors(frame.back(), noise, config);
+  return summary(T_map_camera, sumsAt(errors, views, 0, T_map_camera, exposure, kWidest * config.gray_sigma));
 }
 
 Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views, const PosePrior& prior,
@@ -253,7 +248,7 @@ Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views,
     const LevelErrors errors(frame[level], noise, config);
     const std::span<const ReferenceView> used = level > 1 ? views.first(1) : views;
     for (int i = 0; i < config.iterations; ++i) {
-      sums = sumsAt(errors, used, level, pose, estimate, sigma);
+      sums = sumsAt(errors, used, frame.size() - 1 - level, pose, estimate, sigma);
       sigma = spreadOf(sums, config.gray_sigma);
       measured = sums.equations;
       sums.equations.addPose(prior.information, errorOf(pose, prior));

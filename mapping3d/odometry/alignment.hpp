@@ -61,11 +61,9 @@ struct Alignment {
   Matrix6d gradient_noise = Matrix6d::Zero();
   double overlap = 0.0;    ///< Part of the points that lie in the picture.
   double agreement = 0.0;  ///< Part of those, where the depth was measured, whose depth agrees with it.
-  double gray_rms = 0.0;   ///< Of the grey values that agree, in levels.
   /// Correlation of the grey values of textured points with those of the frame: near 1 at the right pose, near 0 at a
   /// wrong one, whatever the exposure. 1 if too few are textured to tell.
   double correlation = 1.0;
-  double surface_rms_m = 0.0;
   int points = 0;    ///< Points whose depth agrees, at the finest level.
   int measured = 0;  ///< Points of which the frame measured a depth, at the finest level.
   int textured = 0;  ///< Points whose grey values were compared, at the finest level.

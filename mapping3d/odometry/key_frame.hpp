@@ -19,7 +19,7 @@ struct DescribedPoint {
 /// What was seen; where it was seen from is in the KeyFrameMap.
 struct KeyFrame {
   common::Time stamp;
-  std::vector<std::vector<ReferencePoint>> levels;  ///< As those of the pyramid.
+  std::vector<std::vector<ReferencePoint>> levels;  ///< Of its pyramid, the finest first.
   std::vector<DescribedPoint> described;
   double median_depth_m = 0.0;
 };

@@ -134,7 +134,6 @@ std::optional<PointRegistration> registerPoints(const std::vector<DescribedPoint
     best = agreeingPairs(found.T_a_b, pairs, config);
   }
   if (best.size() < least) return std::nullopt;
-  found.pairs = static_cast<int>(pairs.size());
   found.agreeing = static_cast<int>(best.size());
   return found;
 }

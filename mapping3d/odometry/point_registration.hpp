@@ -26,7 +26,6 @@ struct PointRegistrationConfig {
 
 struct PointRegistration {
   common::Pose3 T_a_b;
-  int pairs = 0;     ///< Pairs of points with similar surroundings.
   int agreeing = 0;  ///< Pairs that the pose brings together.
 };
 

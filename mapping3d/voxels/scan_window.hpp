@@ -21,7 +21,6 @@ class VoxelBits {
   }
   /// The voxels of a layer: x varies fastest, then y.
   std::uint64_t layer(int z) const { return words_[static_cast<std::size_t>(z)]; }
-  bool has(int offset) const { return (words_[static_cast<std::size_t>(offset >> 6)] >> (offset & 63) & 1) != 0; }
   bool any() const {
     std::uint64_t all = 0;
     for (const std::uint64_t word : words_) all |= word;

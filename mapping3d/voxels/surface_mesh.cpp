@@ -16,8 +16,6 @@ using common::VoxelMap;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr std::array<std::uint8_t, 3> kGrey{160, 160, 160};
-
 VoxelIndex moved(VoxelIndex voxel, int axis, int by) {
   (axis == 0 ? voxel.x : axis == 1 ? voxel.y : voxel.z) += by;
   return voxel;
@@ -45,7 +43,7 @@ class ColouredPoints {
       for (int y = 0; y <= 1; ++y)
         for (int x = 0; x <= 1; ++x)
           if (const auto sum = sums_.find({low.x + x, low.y + y, low.z + z}); sum != sums_.end()) all += sum->second;
-    if (all.count == 0.0F) return {position_m.cast<float>(), kGrey};
+    if (all.count == 0.0F) return {position_m.cast<float>(), common::kUnknownColor};
     const Vector3f rgb = all.rgb / all.count;
     SurfaceMesh::Vertex vertex{all.position_m / all.count, {}};
     for (int i = 0; i < 3; ++i)

@@ -60,6 +60,20 @@ TEST(RgbdOdometry, StepsOfFourDegreesAtFiveFramesASecond) {
   }
 }
 
+/// As a slow radio sends them: their pyramids have three and four levels.
+TEST(RgbdOdometry, TracksFramesWhoseSizeChanges) {
+  TexturedRoom room;
+  const common::PinholeCamera large = room.camera, small{160, 120, 145.0, 145.0, 79.5, 59.5};
+  RgbdOdometry odometry({});
+  for (int i = 0; i < 40; ++i) {
+    const double time_s = i / kWalkFrames_Hz;
+    room.camera = i / 5 % 2 == 0 ? small : large;
+    const RgbdPose pose = odometry.process(room.seen(walk(time_s), time_s));
+    ASSERT_EQ(pose.state, TrackState::kTracked) << i;
+    ASSERT_LT(distance_m(pose.T_map_camera, walk(0.0).inverse() * walk(time_s)), 0.015) << i;
+  }
+}
+
 TEST(RgbdOdometry, WhatIsTooFastIsLostAndNeverWrong) {
   const TexturedRoom room;
   RgbdOdometry odometry({});
