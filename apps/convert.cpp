@@ -79,7 +79,12 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from) {
   if (from == Kind::kOctree) return interfaces::readOctree(options.from);
   const std::vector<common::SurfacePoint> points = readPoints(options);
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
-  mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m);
+  mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m, interfaces::kMostOctreeBlocks);
+  if (voxels.full)
+    refuseFile(options,
+               fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
+                           interfaces::kMostOctreeBlocks, resolution_m),
+               "give a greater --resolution");
   sayLeftOut(options, voxels.left_out, points.size(),
              fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
                          mapping3d::octreeReach_m(resolution_m)),

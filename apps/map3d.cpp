@@ -21,6 +21,7 @@
 #include "mapping3d/cloud/cloud.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 #include "mapping3d/odometry/recorded_seeds.hpp"
+#include "mapping3d/voxels/point_voxels.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -119,6 +120,7 @@ double pathLength_m(const common::Trajectory& trajectory) {
 
 /// The same poses, `factor` times as far apart in time.
 common::Trajectory stretched(common::Trajectory trajectory, double factor) {
+  if (factor == 1.0) return trajectory;  // A double has stamps of today only to some 100 ns.
   for (common::StampedPose& at : trajectory) at.stamp = common::Time::fromSeconds(factor * at.stamp.seconds());
   return trajectory;
 }
@@ -130,6 +132,25 @@ common::Trajectory givenPoses(const Map3dOptions& options) {
       common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
   if (poses.empty()) throw common::InputError(common::Problem{{options.poses}, "", "holds no poses", ""});
   return poses;
+}
+
+/// Throws InputError if a frame would be where the octree of the results, map.bt, does not reach.
+void requireInReach(const Map3dOptions& options, const common::Trajectory& poses,
+                    const interfaces::RgbdFolder& folder) {
+  const mapping3d::VoxelConfig voxels;
+  const double reach_m = mapping3d::octreeReach_m(voxels.resolution_m) - voxels.range_max_m;
+  const auto gap = common::Duration::fromSeconds(mapping3d::RecordedSeedsConfig().longest_gap_s);
+  for (const auto& pair : folder.listing().pairs) {
+    const auto pose = common::poseAt(poses, pair.stamp, gap);
+    if (!pose || pose->position_m.cwiseAbs().maxCoeff() < reach_m) continue;
+    const Eigen::Vector3d& at_m = pose->position_m;
+    throw common::InputError(common::Problem{
+        {options.poses},
+        "",
+        fmt::format("places a frame at ({:.0f}, {:.0f}, {:.0f}) m, but the map reaches only {:.0f} m from the origin",
+                    at_m.x(), at_m.y(), at_m.z(), reach_m),
+        "are the poses in metres? If so, subtract an offset from all of them"});
+  }
 }
 
 mapping3d::RecordedSeeds seedsOf(common::Trajectory poses, const RecordedCamera& camera) {
@@ -198,6 +219,7 @@ int map3d(const Map3dOptions& options) {
   Map3dRun run;
   const double rate_Hz = folder.listing().stamps_per_s;
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
+  requireInReach(options, run.given, folder);
   mapFolder(folder, options, run);
   Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {

@@ -11,6 +11,7 @@
 #include "common/config_text.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
+#include "common/yaml_problem.hpp"
 
 namespace swiftlet::common::config {
 struct YamlReader::Impl {
@@ -182,7 +183,7 @@ YamlReader YamlReader::fromText(const std::string& text, const std::string& name
     YAML::Node root = YAML::Load(text);
     impl->levels.push_back({root, "", {}});
   } catch (const YAML::Exception& e) {
-    throw InputError(Problem{{name, e.mark.line + 1, e.mark.column + 1}, "", "not YAML: " + e.msg, ""});
+    throw InputError(notYaml(text, {name, e.mark.line + 1, e.mark.column + 1}, e.msg));
   }
   return YamlReader(std::move(impl));
 }

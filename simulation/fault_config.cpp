@@ -28,7 +28,7 @@ void FaultConfig::describe(common::config::Fields& fields) {
                 "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, the last four for "
                 "camera and rgbd.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");
-  fields("to_s", to_s, {0, 1e6}, "Time at which the fault ends; at least from_s. Not with place or phase.");
+  fields("to_s", to_s, {0, 1e6}, "Time at which the fault ends; after from_s. Not with place or phase.");
   fields("late_s", late_s, {0, 100}, "Delay of measurements, for kind late.");
   fields("place_world_m", place_world_m, {-1e4, 1e4},
          "Place x, y in the world: the fault begins when the vehicle first comes there; empty for anywhere.");
@@ -49,7 +49,11 @@ std::vector<std::string> FaultConfig::validate() const {
   const bool of_laser = kind == FaultKind::kMirror || kind == FaultKind::kBlocked;
   const bool has_pictures = sensor == Sensor::kCamera || sensor == Sensor::kRgbd;
   common::Validation validation;
-  if (!isTriggered()) validation.atMost("from_s", from_s, "to_s", to_s);
+  // A fault that ends before it begins never happens, and its trial passes without having tried anything.
+  if (!isTriggered())
+    validation.require(to_s != 0.0, "to_s", "is missing: when does the fault end?")
+        .require(to_s == 0.0 || to_s > from_s, "to_s",
+                 fmt::format("{} is not after from_s, which is {}", to_s, from_s));
   return validation.atMost("from_deg", from_deg, "to_deg", to_deg)
       .require(place_world_m.empty() || place_world_m.size() == 2, "place_world_m", "is not one point x, y")
       .require(!isTriggered() || lasts_s > 0.0, "lasts_s", "is missing: a fault with place or phase needs it")

@@ -10,6 +10,7 @@
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/yaml_problem.hpp"
 #include "simulation/plant_keys.hpp"
 
 namespace swiftlet::simulation {
@@ -85,7 +86,7 @@ class NatureRanges::Reader {
       const YAML::Node root = YAML::Load(text);
       if (root.IsMap()) readMap(root, "");
     } catch (const YAML::Exception& e) {
-      throw InputError(Problem{{file, e.mark.line + 1, e.mark.column + 1}, "", "not YAML: " + e.msg, ""});
+      throw InputError(common::notYaml(text, {file, e.mark.line + 1, e.mark.column + 1}, e.msg));
     }
     if (!problems_.empty()) throw InputError(problems_);
   }

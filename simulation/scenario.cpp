@@ -62,11 +62,24 @@ bool isName(const std::string& name) {
 void StartConfig::describe(common::config::Fields& fields) {
   fields("from_world", from_world,
          "Whether the vehicle starts at the world's frame `start`, or at its origin where it has none.");
-  fields("x_m", x_m, {-kAnywhere_m, kAnywhere_m}, "Start along the world's x, unless from_world.");
-  fields("y_m", y_m, {-kAnywhere_m, kAnywhere_m}, "Start along the world's y, unless from_world.");
+  fields("x_m", x_m, {-kAnywhere_m, kAnywhere_m}, "Start along the world's x; not with from_world.");
+  fields("y_m", y_m, {-kAnywhere_m, kAnywhere_m}, "Start along the world's y; not with from_world.");
   fields("z_m", z_m, {-kAnywhere_m, kAnywhere_m},
-         "The floor of the start is the first surface below half a metre above this.");
-  fields("yaw_deg", yaw_deg, {-360, 360}, "Heading in the world's frame, unless from_world.");
+         "The floor of the start is the first surface below half a metre above this; not with from_world.");
+  fields("yaw_deg", yaw_deg, {-360, 360}, "Heading in the world's frame; not with from_world.");
+}
+
+std::vector<std::string> StartConfig::validate() const {
+  common::Validation validation;
+  const auto unused = [&](const char* field, double value) {
+    validation.require(!from_world || value == 0.0, field,
+                       "is ignored, because the vehicle starts where the world says; add from_world: false");
+  };
+  unused("x_m", x_m);
+  unused("y_m", y_m);
+  unused("z_m", z_m);
+  unused("yaw_deg", yaw_deg);
+  return validation.problems();
 }
 
 void WindConfig::describe(common::config::Fields& fields) {

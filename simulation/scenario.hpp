@@ -28,6 +28,7 @@ struct StartConfig {
   double yaw_deg = 0.0;
 
   void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
 };
 
 enum class GustModel {

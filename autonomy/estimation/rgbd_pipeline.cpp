@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -233,9 +234,9 @@ void RgbdPipeline::watchRadio(Time now) {
     most_halvings_ = halvings;
     say(now, Severity::kWarning, "frames are sent smaller",
         fmt::format(
-            "whole ones take longer over the radio than {:.2f} s; the map has {} of their pixels. A camera with "
+            "whole ones take longer over the radio than {:.2f} s; the map has 1 in {} of their pixels. A camera with "
             "fewer pixels or a faster radio loses none",
-            config_.radio.oldest_s, halvings == 1 ? "a quarter" : "a sixteenth"));
+            config_.radio.oldest_s, std::int64_t{1} << 2 * halvings));
   }
   if (!through_at_ || stuck_said_ || (now - *through_at_).seconds() < config_.silent_s || silence_.isDue(now)) return;
   stuck_said_ = true;

@@ -35,6 +35,15 @@ std::string hintFor(const TreeParts& tree, const std::string& name) {
          "}\" or _autoremap=\"true\" on the SubTree";
 }
 
+/// Where scripts only change the entry, the usual cause is `=` in the place of `:=`.
+std::string hintFor(const EntryFlow& flow, const std::string& name) {
+  if (flow.literals.empty() && flow.typed_writes.empty() && flow.copied_from.empty()) return {};
+  if (flow.literals.empty()) return "`:=` makes an entry: " + name + " := ...";
+  const std::string& text = flow.literals.front().text;
+  const bool plain = parseValue(text, PortType::kDouble, {}) || parseValue(text, PortType::kBool, {});
+  return "`:=` makes an entry: " + name + " := " + (plain ? text : "'" + text + "'");
+}
+
 /// RED or THE_ANSWER.
 bool looksLikeConstant(std::string_view name) {
   return name.size() > 1 && name.front() >= 'A' && name.front() <= 'Z' &&
@@ -80,6 +89,7 @@ class EntryChecker {
     const std::string& name = tree_.slots[slot].name;
     Problem problem{tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
                     hintFor(tree_, name), tree_.pathOf(read.origin.node)};
+    if (problem.hint.empty()) problem.hint = hintFor(tree_.flows[slot], name);
     if (!lenient_ || read.port->type != PortType::kScript || !looksLikeConstant(name)) {
       problems_.add(std::move(problem));
       return;

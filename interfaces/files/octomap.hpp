@@ -5,6 +5,7 @@
 // forty times the memory, and its recursion is bounded whatever the file holds. Tests let OctoMap read what is written.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ enum class OctreeFormat {
   kLogOdds,  ///< .ot
 };
 
+/// Blocks of a map, of 0.6 kB each, that one file may fill.
+inline constexpr std::size_t kMostOctreeBlocks = 2'000'000;
+
 /// By the ending of the name. Throws InputError for any other ending than .bt and .ot.
 OctreeFormat octreeFormatOf(const std::filesystem::path& file);
 
@@ -32,8 +36,9 @@ std::string toOctree(const common::VoxelMap& map, OctreeFormat format);
 /// Reads either format, plain or compressed by gzip, bzip2 or xz. Voxels of a .bt file get the least or the greatest
 /// log odds of OctoMap's sensor model, those of a .ot file theirs, rounded to steps of common::VoxelMap::kLogOddsStep.
 /// Throws InputError, also for a tree that fills more than `most_blocks` blocks of the map.
-common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_blocks = 2'000'000);
+common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_blocks = kMostOctreeBlocks);
 /// Reads the bytes of a file as readOctree() does. Messages use `name` as the file.
-common::VoxelMap parseOctree(std::string_view bytes, const std::string& name, std::size_t most_blocks = 2'000'000);
+common::VoxelMap parseOctree(std::string_view bytes, const std::string& name,
+                             std::size_t most_blocks = kMostOctreeBlocks);
 
 }  // namespace swiftlet::interfaces

@@ -15,7 +15,7 @@ namespace {
 
 using namespace point_table;
 
-/// A field holds `count` numbers of one type.
+/// A field holds `count` numbers of one type, the first of which counts.
 struct Field {
   Column column;
   std::size_t count = 1;
@@ -162,13 +162,15 @@ void readText(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   for (std::size_t row = 0; row < header.points; ++row) {
     cursor.beginRow();
     for (const Field& field : header.fields)
-      for (std::size_t i = 0; i < field.count; ++i) builder.set(field.column, cursor.number());
+      for (std::size_t i = 0; i < field.count; ++i) {
+        const double value = cursor.number();
+        if (i == 0) builder.set(field.column, value);
+      }
     cursor.endRow();
     builder.finish();
   }
 }
 
-/// Of a field with several numbers the first counts.
 void readBinary(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const std::size_t row_bytes = header.rowBytes();
   for (std::size_t row = 0; row < header.points; ++row) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -130,6 +131,8 @@ double Cursor::number() {
   const auto [stop, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, value);
   if (error == std::errc::invalid_argument || (stop != end && !isBlank(*stop)))
     fail(fmt::format("`{}` is not a number", word()));
+  // Where a number is out of range, from_chars() does not say whether it is too great: infinite, or too small: 0.
+  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(begin, stop).c_str(), nullptr);
   place_ = static_cast<std::size_t>(stop - bytes_.data());
   return value;
 }

@@ -26,7 +26,8 @@ std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map) {
 
 double octreeReach_m(double resolution_m) { return (kReachVoxels - 1.0) * resolution_m; }
 
-PointVoxels voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m) {
+PointVoxels voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m,
+                         std::size_t most_blocks) {
   PointVoxels voxels{common::VoxelMap(resolution_m)};
   const double reach_m = octreeReach_m(resolution_m);
   for (const common::SurfacePoint& point : points) {
@@ -35,6 +36,8 @@ PointVoxels voxelsAround(const std::vector<common::SurfacePoint>& points, double
       voxels.map.set(voxels.map.voxelAt(position_m), kOccupied);
     else
       ++voxels.left_out;
+    voxels.full = voxels.map.blockCount() > most_blocks;
+    if (voxels.full) break;
   }
   return voxels;
 }

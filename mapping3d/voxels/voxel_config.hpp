@@ -1,6 +1,9 @@
 // How depth images and laser beams change the occupancy of voxels.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "common/config_fwd.hpp"
 
 namespace swiftlet::mapping3d {
@@ -17,6 +20,7 @@ struct VoxelConfig {
   int blocks_max = 200'000;
 
   void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
 };
 
 }  // namespace swiftlet::mapping3d

@@ -95,8 +95,23 @@ TEST_F(RgbdStory, ARadioThatCarriesNoFrameInTimeIsReportedWithTheRemedy) {
   }
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].text, "frames are sent smaller");
+  EXPECT_THAT(events[0].reason, testing::HasSubstr("the map has 1 in 4 of their pixels"));
   EXPECT_EQ(events[1].text, "no frame comes through the radio");
   EXPECT_THAT(events[1].reason, testing::HasSubstr("use a faster radio or a camera with fewer pixels"));
+}
+
+TEST_F(RgbdStory, HowMuchSmallerFramesAreSentIsTold) {
+  RgbdPipelineConfig config;
+  config.radio.link_kB_s = 5.0;
+  RgbdPipeline pipeline(config, camera(), *jobs_);
+  mapping3d::TexturedRoom wide;
+  wide.camera = {1280, 960, 1160.0, 1160.0, 639.5, 479.5};
+  pipeline.add(std::make_shared<const common::RgbdFrame>(wide.seen({}, 1.0)));
+  pipeline.watch(keys_, Time::fromSeconds(1.0));
+  const std::vector<common::Event> events = pipeline.takeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "frames are sent smaller");
+  EXPECT_THAT(events[0].reason, testing::HasSubstr("the map has 1 in 64 of their pixels")) << "halved three times";
 }
 
 TEST_F(RgbdStory, TheLayerMovesWithTheKeyScans) {

@@ -1,7 +1,9 @@
 // Files of clouds: what PCL reads of ours, what we read of PCL's, and what is refused.
 #include "interfaces/files/point_cloud.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <random>
 
@@ -261,6 +263,30 @@ TEST(PointCloudTest, TellsByHowMuchCoordinatesWereRounded) {
   EXPECT_EQ(parseCloud(head + "0.5 2 3\n", "near", CloudFormat::kPcd).rounding_m, 0.0);
   EXPECT_NEAR(parseCloud(head + "5412345.1 2 3\n", "far", CloudFormat::kPcd).rounding_m, 0.1, 1e-6);
   EXPECT_EQ(parseCloud(head + "1e300 2 3\n", "beyond", CloudFormat::kPcd).not_finite, 1U);
+}
+
+TEST(PointCloudTest, ANumberThatIsTooGreatIsNotFiniteAndOneThatIsTooSmallIsZero) {
+  const std::string head = "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS 1\nDATA ascii\n";
+  for (const char* great : {"1e400", "-1e400", "+1e400"}) {
+    const StoredCloud cloud = parseCloud(head + great + " 2 3\n", "great", CloudFormat::kPcd);
+    EXPECT_EQ(cloud.not_finite, 1U) << great;
+    EXPECT_TRUE(cloud.points.empty()) << great;
+  }
+  const StoredCloud small = parseCloud(head + "1e-400 2 3\n", "small", CloudFormat::kPcd);
+  ASSERT_EQ(small.points.size(), 1U);
+  EXPECT_EQ(small.points[0].position_m, Eigen::Vector3f(0, 2, 3));
+}
+
+TEST(PointCloudTest, OfAFieldOfPcdWithSeveralNumbersTheFirstCounts) {
+  const std::string head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 2 1 1\nPOINTS 1\nDATA ";
+  std::string binary(16, '\0');
+  const std::array<float, 4> row{1.0F, 9.0F, 2.0F, 3.0F};
+  std::memcpy(binary.data(), row.data(), binary.size());
+  for (const std::string& bytes : {head + "ascii\n1 9 2 3\n", head + "binary\n" + binary}) {
+    const std::vector<SurfacePoint> points = parseCloud(bytes, "several", CloudFormat::kPcd).points;
+    ASSERT_EQ(points.size(), 1U);
+    EXPECT_EQ(points[0].position_m, Eigen::Vector3f(1, 2, 3));
+  }
 }
 
 TEST_F(CloudFile, OfAnotherNameIsRefused) {

@@ -209,6 +209,39 @@ TEST_F(Map3d, SaysWhatGivenPosesCannotBe) {
   EXPECT_THAT(end.out, HasSubstr("note: the given poses contradict the pictures"));
 }
 
+/// As of a survey: the octree of the results ends before it.
+TEST_F(Map3d, RefusesPosesFartherThanTheMapReachesBeforeItMaps) {
+  const auto some = kitchenFrames(folder_, 3);
+  if (!some) return;
+  const auto mapWith = [&](const std::string& poses) {
+    return runSwiftlet({"map3d", some->string(), "--poses", write("poses.tum", poses), "--out", path("out")});
+  };
+  const std::string far = " 512345 5412345 100 0 0 0 1\n", near = " 0 0 0 0 0 0 1\n";
+  const ProgramEnd refused = mapWith("0" + far + "0.4" + far);
+  EXPECT_EQ(refused.exit_code, 2) << describe(refused);
+  EXPECT_THAT(refused.err, HasSubstr("poses.tum: places a frame at (512345, 5412345, 100) m, but the map reaches only "
+                                     "1633 m from the origin"));
+  EXPECT_THAT(refused.err, HasSubstr("are the poses in metres? If so, subtract an offset from all of them"));
+  EXPECT_FALSE(fs::exists(path("out")));
+  EXPECT_EQ(mapWith("0" + near + "0.4" + near + "100" + far).exit_code, 0) << "no frame is there";
+}
+
+/// A double would keep them to a quarter of a microsecond.
+TEST_F(Map3d, TheTrajectoryHasTheStampsOfTheRecordingToTheNanosecond) {
+  const auto some = kitchenFrames(folder_, 3);
+  if (!some) return;
+  std::string list;
+  for (int i = 0; i < 3; ++i)
+    list += fmt::format("1305031453.{1}59683987 frame-{0:06}.color.jpg 1305031453.{1}59683987 frame-{0:06}.depth.png\n",
+                        2 * i, i);
+  write("some/associations.txt", list);
+  const std::string lens = write("lens.yaml", "depth_units_per_m: 1000\n");
+  const ProgramEnd end = runSwiftlet({"map3d", some->string(), "--intrinsics", lens, "--out", path("out")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const std::string trajectory = readText(path("out/trajectory.tum"));
+  for (int i = 0; i < 3; ++i) EXPECT_THAT(trajectory, HasSubstr(fmt::format("1305031453.{}59683987 ", i)));
+}
+
 TEST_F(Map3d, SaysHowDeepTheViewIsWhereMuchIsLost) {
   const auto some = kitchenFrames(folder_, 30);
   if (!some) return;

@@ -17,8 +17,10 @@ namespace {
 
 using config::YamlPrinter;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// One field of each kind.
 struct Leaf {
@@ -265,6 +267,24 @@ TEST(Config, TheReferenceHasARowForEachSettingAndATableForEachSection) {
             "| `names` | `[\"a\"]` | list of texts | Some names. |\n"
             "| `color` | `blue` | red, blue | A colour. |\n"
             "| `on` | `true` | true, false | A switch. |\n");
+}
+
+TEST(Config, TabsThatIndentYamlAreNamed) {
+  const auto problem = [](const std::string& text) -> std::string {
+    try {
+      config::YamlReader::fromText(text, "a.yaml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string tabs = ", YAML is indented by spaces, not tabs";
+  EXPECT_THAT(problem("name: a\nscenario:\n\tseed: 1\n"), EndsWith(tabs));
+  EXPECT_THAT(problem("scenario:\n\tseed: 1\n\tworld: w.sdf\n"), EndsWith(tabs));
+  EXPECT_THAT(problem("scenario:\n  seed: 1\n  \tworld: w.sdf\n"), EndsWith(tabs));
+  EXPECT_THAT(problem("a: b: c\n"), Not(HasSubstr("tabs"))) << "it has another cause";
+  EXPECT_THAT(problem("a: {b: c\n"), Not(HasSubstr("tabs")));
+  EXPECT_EQ(problem("a: 1\t# a comment\n"), "none");
 }
 
 }  // namespace

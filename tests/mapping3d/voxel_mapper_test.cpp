@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/config_check.hpp"
 #include "mapping3d/voxels/ray_walk.hpp"
 #include "tests/mapping3d/rooms.hpp"
 
@@ -249,6 +250,19 @@ TEST(VoxelMapper, ASweepWithoutARayChangesNothing) {
   const std::vector<Ray> rays{{{NAN, 0, 0}, {0, 1, 0}}};
   EXPECT_EQ(mapper.insert(rays).unknown, 1);
   EXPECT_EQ(mapper.map().blockCount(), 0u);
+}
+
+/// All blocks around the sensor would be kept.
+TEST(VoxelConfig, ARangeOfManyVoxelsIsRefused) {
+  const auto problems = [](double resolution_m, double range_max_m) {
+    return common::config::problemsOf(VoxelConfig{.resolution_m = resolution_m, .range_max_m = range_max_m});
+  };
+  EXPECT_TRUE(problems(0.05, 5.0).empty());
+  EXPECT_TRUE(problems(0.01, 5.0).empty());
+  EXPECT_TRUE(problems(0.1, 50.0).empty());
+  EXPECT_EQ(problems(0.01, 50.0),
+            std::vector<std::string>{"range_max_m: 50 is more than 500 voxels of 0.01 m, which would take too much "
+                                     "memory; make resolution_m greater or the range less"});
 }
 
 }  // namespace

@@ -266,7 +266,9 @@ TEST(Faults, ARepeatedLateOrSilentRgbdFrame) {
 
 TEST(Faults, ContradictionsAreRefused) {
   FaultConfig fault;
+  fault.to_s = 1.0;
   EXPECT_TRUE(common::config::problemsOf(fault).empty());
+  fault.to_s = 0.0;
   fault.phase = "explore";
   EXPECT_EQ(common::config::problemsOf(fault).size(), 1U) << "how long?";
   fault.lasts_s = 1.0;
@@ -276,6 +278,18 @@ TEST(Faults, ContradictionsAreRefused) {
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kStuck, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kImu, FaultKind::kMirror, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kBlack, 1.0, 2.0}).size(), 1U);
+}
+
+TEST(Faults, OneThatNeverHappensIsRefused) {
+  const auto problems = [](double from_s, double to_s) {
+    return common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kSilent, from_s, to_s});
+  };
+  const std::vector<std::string> missing{"to_s: is missing: when does the fault end?"};
+  EXPECT_EQ(problems(0.0, 0.0), missing);
+  EXPECT_EQ(problems(2.0, 0.0), missing);
+  EXPECT_EQ(problems(2.0, 2.0), std::vector<std::string>{"to_s: 2 is not after from_s, which is 2"});
+  EXPECT_EQ(problems(2.0, 1.0), std::vector<std::string>{"to_s: 1 is not after from_s, which is 2"});
+  EXPECT_TRUE(problems(0.0, 1.0).empty());
 }
 
 TEST(Faults, ALossyLinkDropsItsShareOfMessages) {

@@ -58,15 +58,29 @@ TEST(Scenario, ListsSeveralVehicles) {
   EXPECT_EQ(beta.vehicleCount(), 1U);
 }
 
+/// Of the scenario in the text, "none" without.
+std::string problem(const std::string& text) {
+  try {
+    scenarioFrom(text);
+  } catch (const common::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Scenario, AStartThatTheWorldWouldReplaceIsRefused) {
+  for (const std::string field : {"x_m", "y_m", "z_m", "yaw_deg"}) {
+    const std::string message =
+        field + ": is ignored, because the vehicle starts where the world says; add from_world: false";
+    EXPECT_THAT(problem("vehicles: [{name: a, start: {" + field + ": 9}}]\n"),
+                HasSubstr("vehicles[0].start." + message));
+    EXPECT_THAT(problem("start: {" + field + ": 9}\n"), HasSubstr("start." + message));
+    EXPECT_EQ(problem("start: {from_world: false, " + field + ": 9}\n"), "none");
+    EXPECT_EQ(problem("start: {" + field + ": 0}\n"), "none");
+  }
+}
+
 TEST(Scenario, ReportsMistakesInItsVehicles) {
-  const auto problem = [](const std::string& text) -> std::string {
-    try {
-      scenarioFrom(text);
-    } catch (const common::InputError& error) {
-      return error.what();
-    }
-    return "none";
-  };
   EXPECT_EQ(problem("vehicles: [{name: alpha}]\n"), "none");
   EXPECT_THAT(problem("vehicles: [{name: alpha}, {name: alpha}]\n"), HasSubstr("two are called `alpha`"));
   EXPECT_THAT(problem("vehicles: [{start: {x_m: 1.0}}]\n"), HasSubstr("name: is not 1 to 40 letters"));

@@ -32,6 +32,17 @@ TEST(Entries, ThatAreOnlyUnsetAreNotSet) {
               IsEmpty());
 }
 
+TEST(Entries, ThatAreOnlyChangedAreMadeByAColon) {
+  const auto problem = [](const std::string& code) { return entryProblems("<Script code=\"" + code + "\"/>"); };
+  const std::string of_x = "Script.code: nothing sets the entry {x}, `:=` makes an entry: x := ";
+  EXPECT_THAT(problem("x = 1"), ElementsAre(HasSubstr(of_x + "1")));
+  EXPECT_THAT(problem("x = true"), ElementsAre(HasSubstr(of_x + "true")));
+  EXPECT_THAT(problem("x = 'open'"), ElementsAre(HasSubstr(of_x + "'open'")));
+  EXPECT_THAT(problem("x += 1"), ElementsAre(HasSubstr(of_x + "...")));
+  EXPECT_THAT(problem("x := 1; x = 2"), IsEmpty());
+  EXPECT_THAT(problem("y := x"), ElementsAre(::testing::EndsWith("nothing sets the entry {x}")));
+}
+
 TEST(Entries, ThatAreUnsetHaveNoValueThatIsKnown) {
   const auto knows = [](const std::string& more) {
     const ParseResult result = withEntries("<Sequence><SetBlackboard value=\"0\" output_key=\"n\"/>" + more +

@@ -244,6 +244,17 @@ TEST(Script, SaysWhatIsWrongWithAText) {
   EXPECT_EQ(valueOfText(longer), "! it is longer than 2000 words");
 }
 
+TEST(Script, TellsHowOperatorsOfOtherLanguagesAreWritten) {
+  const std::string xml = "; write && (in XML &amp;&amp;)";
+  EXPECT_EQ(valueOfText("x > 1 and y"), "! expected an operator or `;` at `and`" + xml);
+  EXPECT_EQ(valueOfText("(x and y)"), "! expected `)` at `and`" + xml);
+  EXPECT_EQ(valueOfText("x or y"), "! expected an operator or `;` at `or`; write ||");
+  EXPECT_EQ(valueOfText("not x"), "! expected an operator or `;` at `x`; write ! for `not`");
+  EXPECT_EQ(valueOfText("not (x > 1)"), "! expected an operator or `;` at `(`; write ! for `not`");
+  EXPECT_EQ(valueOfText("and := 1; and + 1"), "2") << "as names they are allowed";
+  EXPECT_EQ(valueOfText("x nor y"), "! expected an operator or `;` at `nor`");
+}
+
 TEST(Script, TellsWhichEntriesItReadsAndSets) {
   const Constants no_constants;
   Scripts scripts(no_constants);

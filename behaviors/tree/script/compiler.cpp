@@ -53,6 +53,15 @@ std::string place(std::string_view text, const Token& token) {
   return "at `" + std::string(token.text) + "`" + (endless ? ", a text without an end" : "");
 }
 
+/// For those who write the operators of other languages: `and` and `or` stand where a sign is expected, and what
+/// follows `not` does.
+std::string_view wordHint(const Token& before, const Token& token) {
+  if (before.kind == TokenKind::kName && before.text == "not") return "; write ! for `not`";
+  if (token.kind != TokenKind::kName) return {};
+  if (token.text == "and") return "; write && (in XML &amp;&amp;)";
+  return token.text == "or" ? "; write ||" : "";
+}
+
 }  // namespace
 
 ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode& code) {
@@ -262,7 +271,11 @@ bool ScriptCompiler::take(std::string_view sign) {
 }
 
 ScriptCompiler::Index ScriptCompiler::fail(const Token& token, std::string_view expected) {
-  if (problem_.empty()) problem_ = "expected " + std::string(expected) + " " + place(text_, token);
+  if (problem_.empty()) {
+    const Token& before = tokens_[position_ > 0 ? position_ - 1 : 0];
+    problem_ = "expected " + std::string(expected) + " " + place(text_, token);
+    problem_ += wordHint(before, token);
+  }
   position_ = tokens_.size() - 1;
   return 0;
 }
