@@ -19,8 +19,6 @@ namespace {
 
 /// Of a header's line: a hundred columns take less.
 constexpr std::size_t kMostLineBytes = 4096;
-/// Middle grey: no measured colour.
-constexpr std::uint8_t kGrey = 160;
 
 constexpr std::array<std::pair<std::string_view, Role>, 19> kRoles{{{"x", Role::kX},
                                                                     {"y", Role::kY},
@@ -58,7 +56,7 @@ double numberAt(const char* bytes, bool swapped) {
 std::uint8_t channel(double value, Scalar type) {
   // A colour in floating point goes from 0 to 1.
   const double scaled = type == Scalar::kFloat || type == Scalar::kDouble ? 255.0 * value : value;
-  return scaled >= 0.0 && scaled <= 255.0 ? static_cast<std::uint8_t>(std::lround(scaled)) : kGrey;
+  return scaled >= 0.0 && scaled <= 255.0 ? static_cast<std::uint8_t>(std::lround(scaled)) : common::kUnknownColor[0];
 }
 
 }  // namespace
@@ -188,7 +186,7 @@ std::vector<std::string_view> words(std::string_view line) {
 
 common::SurfacePoint Builder::blank() {
   common::SurfacePoint point;
-  point.rgb = {kGrey, kGrey, kGrey};
+  point.rgb = common::kUnknownColor;
   return point;
 }
 

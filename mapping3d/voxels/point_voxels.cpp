@@ -18,7 +18,7 @@ std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map) {
     for (int i = 0; i < VoxelBlock::kVoxels; ++i) {
       if (block.evidence[static_cast<std::size_t>(i)] <= 0) continue;
       const common::VoxelIndex voxel = common::VoxelMap::voxelOf(index, i);
-      points.push_back({map.centerOf(voxel).cast<float>(), Eigen::Vector3f::Zero(), {160, 160, 160}});
+      points.push_back({map.centerOf(voxel).cast<float>(), Eigen::Vector3f::Zero(), common::kUnknownColor});
     }
   }
   return points;
