@@ -97,7 +97,7 @@ tl::expected<common::StartMissionCommand, std::string> FolderShelf::take(
     const std::string& file, const std::map<std::string, std::string>& parameters) {
   const std::vector<fs::path> offered = files();
   if (std::find(offered.begin(), offered.end(), fs::path(file)) == offered.end())
-    return tl::unexpected("there is no mission `" + file + "` here");
+    return tl::unexpected("there is no mission `" + file + "` here; /api/missions lists those that there are");
   try {
     tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file,
                                                  behaviors::missionRegistry(), parameters);

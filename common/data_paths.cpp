@@ -1,8 +1,14 @@
 #include "common/data_paths.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/error.hpp"
 
@@ -11,16 +17,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files beside the missing file, to suggest a name when it was misspelled.
-std::vector<std::string> siblingsOf(const fs::path& name, const std::vector<fs::path>& folders) {
-  std::vector<std::string> siblings;
+/// The names in the folder of a missing file that end as its own does, or all of them if none does.
+std::vector<std::string> namesBeside(const fs::path& name, const std::vector<fs::path>& folders) {
+  std::set<std::string> alike, all;
   for (const fs::path& folder : folders) {
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder / name.parent_path(), error))
-      if (entry.path().filename() != name.filename())
-        siblings.push_back((name.parent_path() / entry.path().filename()).string());
+    for (const auto& entry : fs::directory_iterator(folder / name.parent_path(), error)) {
+      const fs::path beside = entry.path().filename();
+      if (beside == name.filename()) continue;
+      all.insert(beside.string());
+      if (beside.extension() == name.extension()) alike.insert(beside.string());
+    }
   }
-  return siblings;
+  const std::set<std::string>& names = alike.empty() ? all : alike;
+  return {names.begin(), names.end()};
+}
+
+/// The name that was meant, or all that are there if they are few.
+std::string hintFor(const fs::path& name, const std::vector<fs::path>& folders) {
+  constexpr std::size_t kFew = 30;
+  const std::vector<std::string> names = namesBeside(name, folders);
+  std::vector<std::string> stems;
+  for (const std::string& beside : names) stems.push_back(fs::path(beside).stem().string());
+  // Folders and endings are the same and would make all names alike.
+  if (const auto near = nearestWord(name.stem().string(), stems)) {
+    const auto at = std::find(stems.begin(), stems.end(), *near) - stems.begin();
+    return fmt::format("did you mean `{}`?", (name.parent_path() / names[static_cast<std::size_t>(at)]).string());
+  }
+  if (names.empty() || names.size() > kFew || !name.has_parent_path()) return {};
+  return fmt::format("{} has {}", name.parent_path().string(), fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -49,11 +74,11 @@ fs::path findData(const fs::path& name) {
     fs::path path = folder == "." ? name : folder / name;
     if (!name.empty() && fs::exists(path, error)) return path;
     if (error && !unusable) unusable = error;
-    places += (places.empty() ? "" : ", ") + folder.string();
+    places += (places.empty() ? "" : " or ") + (folder == "." ? "this folder" : folder.string());
   }
   if (unusable) throw InputError(Problem{{name.string()}, "", unusable.message(), ""});
   const std::string message = name.is_absolute() ? "no such file" : "no such file in " + places;
-  throw InputError(Problem{{name.string()}, "", message, didYouMean(name.string(), siblingsOf(name, folders))});
+  throw InputError(Problem{{name.string()}, "", message, hintFor(name, folders)});
 }
 
 fs::path findBeside(const fs::path& folder, const fs::path& name) {

@@ -75,6 +75,17 @@ TEST_F(DataPaths, AMissingFileGetsASuggestion) {
   }
 }
 
+TEST_F(DataPaths, WhereNoNameIsAlikeTheFewThatAreThereAreListed) {
+  try {
+    findData("missions/zebra.xml");
+    FAIL() << "a file that does not exist was found";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("missions has "));
+    EXPECT_THAT(error.what(), testing::HasSubstr("only_here.xml"));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("did you mean")));
+  }
+}
+
 TEST_F(DataPaths, ALoopOfLinksIsToldAsOne) {
   fs::create_symlink("loop.xml", folder_ / "missions/loop.xml");
   try {
