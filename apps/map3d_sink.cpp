@@ -58,9 +58,9 @@ void Map3dSink::writeNow(const common::World& world) {
   if (!world.map3d) return;
   jobs_->deliverDue(now_ + kLatency);  // Nothing else may write the same files.
   returnFreedMemory();
-  folder_.wroteMap3d(writeOctrees(folder_.path(), *world.map3d, world.stamp));
+  if (!folder_.failure()) folder_.wroteMap3d(writeOctrees(folder_.path(), *world.map3d, world.stamp));
   returnFreedMemory();
-  folder_.wroteMap3d(writeCloud(folder_.path(), *world.map3d));
+  if (!folder_.failure()) folder_.wroteMap3d(writeCloud(folder_.path(), *world.map3d));
   returnFreedMemory();
 }
 

@@ -269,13 +269,13 @@ void FlightController::limitByMargin(const FlightTick& tick) {
   follower_.setShares(margin_.speed(), margin_.acceleration());
 }
 
-bool FlightController::heldFor(bool condition, double seconds) {
+bool FlightController::heldFor(std::optional<common::Time>& since, bool condition, double seconds) const {
   if (!condition) {
-    condition_since_.reset();
+    since.reset();
     return false;
   }
-  if (!condition_since_) condition_since_ = now_;
-  return (now_ - *condition_since_).seconds() >= seconds;
+  if (!since) since = now_;
+  return (now_ - *since).seconds() >= seconds;
 }
 
 void FlightController::transition(FlightInput input, const std::string& reason) {

@@ -196,7 +196,8 @@ class FlightController {
   Eigen::Vector2d velocityForBraking_m_s() const;
   void startEmergencyDescent();
   void beginAtVehicle();
-  bool heldFor(bool condition, double seconds);
+  /// Whether the condition has held for so long; `since` keeps when it began.
+  bool heldFor(std::optional<common::Time>& since, bool condition, double seconds) const;
 
   Config config_;
   FlightStateMachine machine_;

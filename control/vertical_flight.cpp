@@ -55,15 +55,10 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
                       last_state_.velocity_odom_m_s.norm() <= config_.hover_speed_m_s;
   constexpr double kRounding = 1e-6;  // Of a command that was clamped.
   const bool spent = setpoint.thrust >= config_.position.thrust.max_thrust - kRounding;
-  if (!spent) {
-    spent_since_.reset();
-  } else if (!spent_since_) {
-    spent_since_ = now_;
-  }
-  if (spent && (now_ - *spent_since_).seconds() >= kSpent_s) {
+  if (heldFor(spent_since_, spent, kSpent_s)) {
     transition(FlightInput::kLand, fmt::format("{:.0f} % of the thrust for {:.1f} s do not carry it there",
                                                100.0 * setpoint.thrust, kSpent_s));
-  } else if (heldFor(hovers && !spent, config_.hover_s)) {
+  } else if (heldFor(condition_since_, hovers && !spent, config_.hover_s)) {
     transition(FlightInput::kHoverReached, fmt::format("hovers at {:.2f} m", height_m));
   } else if ((now_ - state_since_).seconds() > timeout_s) {
     transition(FlightInput::kLand, fmt::format("not hovering after {:.0f} s", timeout_s));
@@ -94,7 +89,8 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
       setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
       std::abs(last_state_.velocity_odom_m_s.z()) < (carried ? kCarriedTouchdownSpeed_m_s : kTouchdownSpeed_m_s);
   const bool low = over_ground_m < standing_raw_m_ + kTouchdownMargin_m + uncertain_m;
-  if (!heldFor(rests && (low || !carried), low ? config_.touchdown_s : kStandsHigher_s)) return setpoint;
+  if (!heldFor(condition_since_, rests && (low || !carried), low ? config_.touchdown_s : kStandsHigher_s))
+    return setpoint;
   transition(FlightInput::kTouchedDown,
              fmt::format("{:.2f} m over the ground{}", over_ground_m, low ? "" : " that the beams see, and stands"));
   common::Setpoint landed;

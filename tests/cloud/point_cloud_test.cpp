@@ -122,6 +122,16 @@ TEST(PointCloudTest, APointSurvivesEitherFormat) {
       }
 }
 
+/// Files of more than a megabyte are written in pieces.
+TEST_F(CloudFile, ALargeCloudSurvivesEitherFormat) {
+  std::mt19937 random(4);
+  const std::vector<SurfacePoint> points = randomPoints(100'000, random);
+  for (const char* name : {"large.ply", "large.pcd"}) {
+    ASSERT_TRUE(writeCloud(path(name), points));
+    expectSame(readCloud(path(name)).points, points);
+  }
+}
+
 TEST(PointCloudTest, PlyHasAHeaderAndFifteenBytesAPointWithoutNormals) {
   const std::vector<SurfacePoint> points{{{1.0F, 2.0F, 3.0F}, {0, 0, 0}, {10, 20, 30}},
                                          {{-1.0F, 0.0F, 0.5F}, {0, 0, 0}, {255, 0, 1}}};

@@ -40,6 +40,19 @@ TEST(AtomicFile, AFullDiskLeavesOnlyTheOldContent) {
   EXPECT_EQ(entriesIn(folder), 1u);
 }
 
+TEST(AtomicFile, PiecesAreOneContent) {
+  const ScratchFolder folder;
+  const auto pieces = [](const WriteBytes& write) {
+    for (const char piece : {'a', 'b', 'c'}) write(std::string(600, piece));
+  };
+  ASSERT_TRUE(writeAtomically(folder / "x", pieces));
+  EXPECT_EQ(bytesOf(folder / "x"), std::string(600, 'a') + std::string(600, 'b') + std::string(600, 'c'));
+  ASSERT_TRUE(writeAtomically(folder / "x", "old"));
+  EXPECT_TRUE(withFullDisk(1000, [&] { return !writeAtomically(folder / "x", pieces); })) << "the second does not fit";
+  EXPECT_EQ(bytesOf(folder / "x"), "old");
+  EXPECT_EQ(entriesIn(folder), 1u);
+}
+
 TEST(AppendFile, GrowsByWholeRecords) {
   const ScratchFolder folder;
   auto file = AppendFile::create(folder / "x");
