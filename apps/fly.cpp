@@ -138,12 +138,13 @@ class Terminal {
   void event(const common::Event& event) {
     if (quiet_) return;
     line_.close();
-    const std::string text =
-        fmt::format("{:6.1f} s  {}{}: {}{}", event.stamp.seconds(), event.vehicle.empty() ? "" : event.vehicle + " ",
-                    event.source, event.text, event.reason.empty() ? "" : " (" + event.reason + ")");
+    const bool alarm = !common::alarmOf(event).empty();
+    const std::string text = fmt::format(
+        "{:6.1f} s  {}{}{}: {}{}", event.stamp.seconds(), event.vehicle.empty() ? "" : event.vehicle + " ",
+        alarm ? "ALARM " : "", event.source, event.text, event.reason.empty() ? "" : " (" + event.reason + ")");
     if (line_.interactive() && event.severity != common::Severity::kInfo) {
-      showStyled(fmt::format(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange),
-                             "{}\n", common::printable(text)));
+      const bool red = alarm || event.severity == common::Severity::kError;
+      showStyled(fmt::format(fg(red ? fmt::color::red : fmt::color::orange), "{}\n", common::printable(text)));
     } else {
       show(text + "\n");
     }

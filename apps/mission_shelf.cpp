@@ -11,6 +11,7 @@
 #include "behaviors/tree/parameters.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/operator_text.hpp"
 #include "common/read_bytes.hpp"
 
 namespace swiftlet::apps {
@@ -97,15 +98,15 @@ tl::expected<common::StartMissionCommand, std::string> FolderShelf::take(
     const std::string& file, const std::map<std::string, std::string>& parameters) {
   const std::vector<fs::path> offered = files();
   if (std::find(offered.begin(), offered.end(), fs::path(file)) == offered.end())
-    return tl::unexpected("there is no mission `" + file + "` here; /api/missions lists those that there are");
+    return tl::unexpected("there is no mission `" + fs::path(file).filename().string() + "` any more: choose another");
   try {
     tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file,
                                                  behaviors::missionRegistry(), parameters);
-    if (!changed.problems.empty()) return tl::unexpected(toString(changed.problems.front()));
+    if (!changed.problems.empty()) return tl::unexpected(forOperator(changed.problems.front()));
     std::vector<common::OfferedMap> maps = mapsOf(changed.text, file, map_seed_);
     return common::StartMissionCommand{file, std::move(changed.text), std::move(maps)};
   } catch (const common::InputError& error) {
-    return tl::unexpected(std::string(error.what()));
+    return tl::unexpected(forOperator(error));
   }
 }
 

@@ -170,8 +170,10 @@ void VehicleFlight::reportWarnings() {
     tell(common::Severity::kInfo, "memory", "starts from what earlier flights learned of its thrust", "");
 }
 
-void VehicleFlight::tell(common::Severity severity, std::string source, std::string text, std::string reason) {
-  const common::Event event{loop_.now(), severity, std::move(source), std::move(text), std::move(reason), name_};
+void VehicleFlight::tell(common::Severity severity, std::string source, std::string text, std::string reason,
+                         common::Concern concern) {
+  const common::Event event{loop_.now(),       severity, std::move(source), std::move(text),
+                            std::move(reason), name_,    concern};
   for (autonomy::FlightSink* sink : sinks()) sink->event(event);
 }
 
@@ -183,7 +185,8 @@ common::LosslessQueue<common::OperatorCommand>& VehicleFlight::commands() {
 void VehicleFlight::landIfAsked() {
   if (asked_to_land_ || !hooks_.land || !*hooks_.land) return;
   asked_to_land_ = true;
-  tell(common::Severity::kWarning, "program", "asked to end: landing", "asked again, it stops at once");
+  tell(common::Severity::kWarning, "program", "asked to end: landing", "asked again, it stops at once",
+       common::Concern::kLanding);
   commands().push({0, common::LandCommand{}});
 }
 

@@ -54,7 +54,8 @@ class VehicleFlight {
  private:
   std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks();
   std::vector<autonomy::FlightSink*> sinks();
-  void tell(common::Severity severity, std::string source, std::string text, std::string reason);
+  void tell(common::Severity severity, std::string source, std::string text, std::string reason,
+            common::Concern concern = common::Concern::kNone);
   common::LosslessQueue<common::OperatorCommand>& commands();
   void landIfAsked();
   void warnOfUnwrittenFiles();

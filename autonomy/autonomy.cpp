@@ -271,9 +271,7 @@ void Autonomy::updateCameraObstacles() {
   if (dip_m > 0.0) lower_obstacles_.update(estimator_.map3d(), given_map_.gridForPaths(), body_map_m);
 }
 
-/// The supervisor's intent comes before the mission's.
 common::Intent Autonomy::nextIntent(Time now) {
-  const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, condition(now));
   if (supervision.unseen) executor_.endRetreat();
   fillContext(supervision, now);
@@ -281,7 +279,14 @@ common::Intent Autonomy::nextIntent(Time now) {
     supervisor_intents_.remember(*wanted_to_see);
   else if (!supervision.hold)
     supervisor_intents_.forget();
+  common::Intent intent = chooseIntent(supervision, now);
+  tellWhoFlies(supervision, intent);
+  return intent;
+}
 
+/// The supervisor's intent comes before the mission's.
+common::Intent Autonomy::chooseIntent(const Supervision& supervision, Time now) {
+  const bool airborne = control::isAirborne(controller_.state());
   if (supervision.land) {
     endMission(supervision.land_reason, now);
     return SupervisorIntents::land();
@@ -292,16 +297,27 @@ common::Intent Autonomy::nextIntent(Time now) {
     return waitsToTakeOff(supervision) ? SupervisorIntents::hold() : context_.intent.value_or(common::Intent{});
   if (missionOver()) return SupervisorIntents::land();
   const SupervisedFlight flight{now, *world_, intent_, executor_.status(), executor_.desk().home_m().has_value()};
-  if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) {
-    if (missions_.waits()) {  // Without a mission the status is that of the supervisor's flight.
-      mission_status_.phase = toString(*intent, world_->map->names());
-      mission_status_.reason = supervision.hold_reason;
-    }
-    return *intent;
-  }
+  if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) return *intent;
   if (missions_.waits() || (supervision.hold && mission_status_.state != MissionState::kHeld))
     return SupervisorIntents::hold();
   return context_.intent.value_or(common::Intent{});
+}
+
+/// What flies the vehicle is told before the mission that waits: the controller's own landing, then the supervisor.
+void Autonomy::tellWhoFlies(const Supervision& supervision, const common::Intent& intent) {
+  mission_status_.flown_by = supervision.flown_by;
+  if (supervision.land || missionOver()) return;
+  const bool asked = std::holds_alternative<common::LandIntent>(intent.kind) ||
+                     std::holds_alternative<common::EmergencyLandIntent>(intent.kind);
+  const bool lands = !asked && (controller_.state() == FlightState::kLanding ||
+                                controller_.state() == FlightState::kEmergencyLanding);
+  const bool flies = supervision.back > 0 || supervision.home > 0;
+  const bool holds = supervision.hold && mission_status_.state != MissionState::kHeld &&
+                     (control::isAirborne(controller_.state()) || waitsToTakeOff(supervision));
+  if (lands) mission_status_.flown_by = common::FlownBy::kSupervisor;
+  if (!lands && !flies && !holds) return;
+  mission_status_.phase = lands ? toString(controller_.state()) : phaseOf(supervision);
+  mission_status_.reason = lands ? controller_.groundedReason() : supervision.hold_reason;
 }
 
 /// A hold keeps the vehicle on the ground whatever the mission does; TakeOff goes on when it ends.

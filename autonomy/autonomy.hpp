@@ -161,6 +161,8 @@ class Autonomy {
     return executor_.dip_m() > 0.0 ? lower_obstacles_ : camera_obstacles_;
   }
   common::Intent nextIntent(common::Time now);
+  common::Intent chooseIntent(const Supervision& supervision, common::Time now);
+  void tellWhoFlies(const Supervision& supervision, const common::Intent& intent);
   bool waitsToTakeOff(const Supervision& supervision) const;
   void fillContext(const Supervision& supervision, common::Time now);
   void endMission(const std::string& reason, common::Time now);

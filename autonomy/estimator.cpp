@@ -368,12 +368,14 @@ void Estimator::reportHealth(Time now) {
   const Severity severity = health.status == perception::FusionStatus::kOk         ? Severity::kInfo
                             : health.status == perception::FusionStatus::kDiverged ? Severity::kError
                                                                                    : Severity::kWarning;
-  say(now, severity, "fusion", fmt::format("estimate {}", perception::toString(health.status)), health.reason);
+  say(now, severity, "fusion", fmt::format("estimate {}", perception::toString(health.status)), health.reason,
+      common::Concern::kEstimate);
   last_health_ = health.status;
 }
 
-void Estimator::say(Time now, Severity severity, std::string source, std::string text, std::string reason) {
-  events_.push_back({now, severity, std::move(source), std::move(text), std::move(reason)});
+void Estimator::say(Time now, Severity severity, std::string source, std::string text, std::string reason,
+                    common::Concern concern) {
+  events_.push_back({now, severity, std::move(source), std::move(text), std::move(reason), {}, concern});
 }
 
 }  // namespace swiftlet::autonomy

@@ -176,7 +176,8 @@ class Estimator {
   std::optional<BodyAtFrame> bodyAt(common::Time time) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
-  void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
+  void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {},
+           common::Concern concern = common::Concern::kNone);
 
   bool uses_ahrs_;
   double standing_height_m_;  ///< Height of the body when standing, if the mirror sees no floor.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/operator_text.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -16,9 +17,7 @@ common::CommandResult MissionDesk::start(std::uint64_t id, const common::StartMi
   try {
     next_ = behaviors::Mission::fromText(command.xml, command.name, limits_);
   } catch (const common::InputError& wrong) {
-    const std::vector<common::Problem>& problems = wrong.problems();
-    const std::string more = problems.size() > 1 ? " (and " + std::to_string(problems.size() - 1) + " more)" : "";
-    return {id, false, toString(problems.front()) + more};
+    return {id, false, forOperator(wrong)};
   }
   leaves_ = leaves_ || !waits_;
   return {id, true, leaves_ ? "when the vehicle has stopped" : ""};

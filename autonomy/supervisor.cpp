@@ -12,6 +12,13 @@ namespace swiftlet::autonomy {
 using common::Severity;
 using common::Time;
 
+std::string_view phaseOf(const Supervision& supervision) {
+  if (supervision.land) return "land";
+  if (supervision.back > 0) return "fly back along the trail";
+  if (supervision.home > 0) return "fly home";
+  return supervision.hold ? "hold" : "";
+}
+
 std::optional<common::CommandResult> Supervisor::take(const common::OperatorCommand& command, Time now) {
   const common::CommandResult accepted{command.id, true, {}};
   if (std::holds_alternative<common::HoldCommand>(command.kind)) {
@@ -22,7 +29,7 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
   if (std::holds_alternative<common::ResumeCommand>(command.kind)) return resume(command.id);
   if (std::holds_alternative<common::LandCommand>(command.kind)) {
     if (!supervision_.land) landed_by_operator_ = true;
-    land(now, "the operator asked for it");
+    land(now, "the operator asked for it", common::Concern::kNone);
     return accepted;
   }
   return std::nullopt;
@@ -61,7 +68,7 @@ void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
   const std::string holds = operator_holds_ ? "the vehicle holds until Resume or Land"
                                             : "the vehicle holds until a mission is started, or it lands";
   say(now, reached ? Severity::kInfo : Severity::kWarning, reached ? "home reached" : "home not reached",
-      reached ? holds : std::move(reason));
+      reached ? holds : std::move(reason), reached ? common::Concern::kNone : common::Concern::kHome);
 }
 
 std::string Supervisor::refusal(const common::OperatorCommand& command) const {
@@ -80,7 +87,7 @@ void Supervisor::pilotArrived(Time now, bool takes_over) {
   if (takes_over == pilot_flies_) return;
   pilot_flies_ = takes_over;
   say(now, Severity::kWarning, takes_over ? "hold" : "resume",
-      takes_over ? "the pilot took over" : "the pilot gave control back");
+      takes_over ? "the pilot took over" : "the pilot gave control back", common::Concern::kPilot);
 }
 
 /// Who flies is unknown after the pilot's last sample. A hold is right for both: a pilot's sticks overrule it, and
@@ -90,7 +97,8 @@ void Supervisor::watchPilot(Time now) {
   pilot_flies_ = false;
   operator_holds_ = true;
   say(now, Severity::kWarning, "hold",
-      fmt::format("the pilot has not been heard of for {:.1f} s; it holds until Resume or Land", pilot_silent_s_));
+      fmt::format("the pilot has not been heard of for {:.1f} s; it holds until Resume or Land", pilot_silent_s_),
+      common::Concern::kPilot);
 }
 
 bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
@@ -117,6 +125,7 @@ const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition)
   const bool may_fly = blind_.empty() && !pilot_flies_;
   supervision_.back = may_fly && !operator_holds_ ? back_ : 0;
   supervision_.home = home_.active && may_fly && !operator_holds_ && back_ == 0 ? home_.count : 0;
+  supervision_.flown_by = flownBy();
   return supervision_;
 }
 
@@ -139,17 +148,27 @@ std::string Supervisor::holdReason() const {
   return "";
 }
 
+/// In the order of holdReason().
+common::FlownBy Supervisor::flownBy() const {
+  if (supervision_.land) return landed_by_operator_ ? common::FlownBy::kOperator : common::FlownBy::kSupervisor;
+  if (pilot_flies_) return common::FlownBy::kPilot;
+  if (!blind_.empty()) return common::FlownBy::kSupervisor;
+  if (operator_holds_) return common::FlownBy::kOperator;
+  if (back_ > 0 || home_.forced()) return common::FlownBy::kSupervisor;
+  return home_.active ? common::FlownBy::kOperator : common::FlownBy::kMission;
+}
+
 std::vector<common::Event> Supervisor::takeEvents() { return std::exchange(events_, {}); }
 
-void Supervisor::land(Time now, std::string reason) {
+void Supervisor::land(Time now, std::string reason, common::Concern concern) {
   if (supervision_.land) return;
   supervision_.land = true;
   supervision_.land_reason = reason;
-  say(now, Severity::kWarning, "land", std::move(reason));
+  say(now, Severity::kWarning, "land", std::move(reason), concern);
 }
 
-void Supervisor::say(Time now, Severity severity, std::string text, std::string reason) {
-  events_.push_back({now, severity, "supervisor", std::move(text), std::move(reason)});
+void Supervisor::say(Time now, Severity severity, std::string text, std::string reason, common::Concern concern) {
+  events_.push_back({now, severity, "supervisor", std::move(text), std::move(reason), {}, concern});
 }
 
 }  // namespace swiftlet::autonomy

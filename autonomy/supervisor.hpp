@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "autonomy/energy/battery_check.hpp"
@@ -16,6 +17,7 @@
 #include "common/event.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
+#include "common/world/mission_status.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -31,7 +33,11 @@ struct Supervision {
   unsigned back = 0;
   bool land = false;  ///< Land for good: the mission is over.
   std::string land_reason;
+  common::FlownBy flown_by = common::FlownBy::kMission;
 };
+
+/// What the vehicle does by these requests, in words; empty where it is left to the mission.
+std::string_view phaseOf(const Supervision& supervision);
 
 /// What the vehicle does once the operator's flight home is over: it holds until Resume, or it waits with the desk for
 /// a mission, and a mission that is started then, or meanwhile, is flown.
@@ -97,8 +103,11 @@ class Supervisor {
   void startHome(std::string reason, AtHome then = AtHome::kHold);
   common::CommandResult resume(std::uint64_t id);
   void watchPilot(common::Time now);
-  void land(common::Time now, std::string reason);
-  void say(common::Time now, common::Severity severity, std::string text, std::string reason);
+  common::FlownBy flownBy() const;
+  /// `concern`: none if the operator asked for it.
+  void land(common::Time now, std::string reason, common::Concern concern = common::Concern::kLanding);
+  void say(common::Time now, common::Severity severity, std::string text, std::string reason,
+           common::Concern concern = common::Concern::kNone);
 
   double pilot_silent_s_;
   SightWatch sight_;

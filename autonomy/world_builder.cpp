@@ -11,6 +11,8 @@ namespace {
 
 /// One cell of the shipped map: a denser trail shows nothing more on the page.
 constexpr double kShownTrailStep_m = 0.05;
+/// A vehicle that hovers wanders within this distance, and flies nowhere.
+constexpr double kHoverRadius_m = 0.3;
 
 bool same(const common::Pose2& a, const common::Pose2& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.yaw_rad == b.yaw_rad;
@@ -52,7 +54,7 @@ std::shared_ptr<const common::World> WorldBuilder::build(common::Time now, World
   follow(parts.vehicle);
   parts.vehicle.name = vehicle_name_;
   parts.vehicle.trail = trail_.trail();
-  parts.vehicle.distance_flown_m = distance_flown_m_;
+  parts.vehicle.distance_flown_m = flown_m_ + excursion_m_;
 
   last_.stamp = now;
   last_.vehicle = std::make_shared<const common::VehicleLayer>(std::move(parts.vehicle));
@@ -67,14 +69,19 @@ std::shared_ptr<const common::World> WorldBuilder::build(common::Time now, World
 
 void WorldBuilder::follow(const common::VehicleLayer& vehicle) {
   const Eigen::Vector2d position_odom_m = vehicle.state.T_odom_body.position_m.head<2>();
-  if (control::isAirborne(vehicle.flight_state)) {
-    if (last_position_odom_m_) distance_flown_m_ += (position_odom_m - *last_position_odom_m_).norm();
+  const bool airborne = control::isAirborne(vehicle.flight_state);
+  if (airborne && anchor_odom_m_)
+    excursion_m_ = std::max(excursion_m_, (position_odom_m - *anchor_odom_m_).norm());
+  if (!airborne || !anchor_odom_m_ || excursion_m_ > kHoverRadius_m) {
+    flown_m_ += std::exchange(excursion_m_, 0.0);
+    anchor_odom_m_ = position_odom_m;
+  }
+  if (airborne) {
     const Eigen::Vector2d position_map_m = vehicle.state.T_map_body().position_m.head<2>();
     const auto flown_map_m = trail_.trail().points_map_m();
     if (flown_map_m.empty() || (flown_map_m.back() - position_map_m).norm() > kShownTrailStep_m)
       trail_.add(position_map_m);
   }
-  last_position_odom_m_ = position_odom_m;
 }
 
 }  // namespace swiftlet::autonomy

@@ -45,8 +45,9 @@ class WorldBuilder {
 
   std::string vehicle_name_;
   common::TrailRecorder trail_;
-  double distance_flown_m_ = 0.0;
-  std::optional<Eigen::Vector2d> last_position_odom_m_;
+  double flown_m_ = 0.0;      ///< To the anchor.
+  double excursion_m_ = 0.0;  ///< How far it has been from the anchor.
+  std::optional<Eigen::Vector2d> anchor_odom_m_;
   common::World last_;  ///< Its layers are null before the first snapshot.
 };
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "common/time.hpp"
 
@@ -13,6 +14,21 @@ enum class Severity { kInfo, kWarning, kError };
 inline constexpr std::array kSeverities{Severity::kInfo, Severity::kWarning, Severity::kError};
 const char* toString(Severity severity);
 
+/// What an event tells of the safety of the flight. Whoever reports it names what it is about; whether the operator is
+/// alarmed is decided by alarmOf() alone.
+enum class Concern {
+  kNone,
+  kTurnBack,
+  kLowBattery,
+  kLanding,           ///< Before its end, or without being asked.
+  kPosition,          ///< Position or height.
+  kEstimate,          ///< The fusion of the sensors.
+  kSurroundings,      ///< No sensor sees them.
+  kPilot,
+  kHome,              ///< It is not reached, or cannot be.
+  kFlightEnded,
+};
+
 struct Event {
   Time stamp;
   Severity severity = Severity::kInfo;
@@ -20,6 +36,11 @@ struct Event {
   std::string text;          ///< What happened, with values.
   std::string reason;        ///< Why; may be empty.
   std::string vehicle = {};  ///< Name of the vehicle; empty if there is only one.
+  Concern concern = Concern::kNone;
 };
+
+/// The alarm that the event is, in a few words for the operator; empty if it is none. An alarm must not be missed: the
+/// vehicle does what the operator did not ask for, or soon will. That is every concern of which the event warns.
+std::string_view alarmOf(const Event& event);
 
 }  // namespace swiftlet::common

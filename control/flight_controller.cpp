@@ -285,7 +285,8 @@ void FlightController::transition(FlightInput input, const std::string& reason) 
   enter(from, *result);
   const bool bad = input == FlightInput::kEmergency || input == FlightInput::kLand;
   if (bad) grounded_reason_ = reason;
-  say(bad ? Severity::kWarning : Severity::kInfo, common::toString(*result), reason);
+  say(bad ? Severity::kWarning : Severity::kInfo, common::toString(*result), reason,
+      bad ? common::Concern::kLanding : common::Concern::kNone);
 }
 
 void FlightController::enter(FlightState from, FlightState entered) {
@@ -379,8 +380,8 @@ bool FlightController::stopped() const {
 
 std::vector<common::Event> FlightController::takeEvents() { return std::exchange(events_, {}); }
 
-void FlightController::say(Severity severity, std::string text, std::string reason) {
-  events_.push_back({now_, severity, "flight", std::move(text), std::move(reason)});
+void FlightController::say(Severity severity, std::string text, std::string reason, common::Concern concern) {
+  events_.push_back({now_, severity, "flight", std::move(text), std::move(reason), {}, concern});
 }
 
 }  // namespace swiftlet::control

@@ -175,7 +175,8 @@ class FlightController {
   /// An input that the present state does not accept changes nothing.
   void transition(FlightInput input, const std::string& reason);
   void enter(common::FlightState from, common::FlightState entered);
-  void say(common::Severity severity, std::string text, std::string reason = {});
+  void say(common::Severity severity, std::string text, std::string reason = {},
+           common::Concern concern = common::Concern::kNone);
   void watch(const FlightTick& tick);
   void watchInertial(std::string_view fault);
   void watchHorizontal(const FlightTick& tick);

@@ -73,14 +73,16 @@ void FlightController::escape() {
   const double length_m = std::min(escape_map_m_.norm(), escapeReach_m());
   if (state() != FlightState::kFlying || length_m < config_.blind_speed_m_s * dt_s_) {
     follower_.stop();
-    return say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
+    return say(Severity::kWarning, "horizontal estimate lost", "holding the velocity",
+               common::Concern::kPosition);
   }
   const Eigen::Vector2d velocity_m_s =
       Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * (config_.blind_speed_m_s * escape_map_m_.normalized());
   follower_.setVelocity({velocity_m_s.x(), velocity_m_s.y(), 0.0}, config_.blind_acceleration_m_s2,
                         common::yawOf(last_state_.T_odom_body.rotation));
   escapes_until_ = now_ + common::Duration::fromSeconds(length_m / config_.blind_speed_m_s);
-  say(Severity::kWarning, "horizontal estimate lost", fmt::format("flying {:.1f} m away from the walls", length_m));
+  say(Severity::kWarning, "horizontal estimate lost", fmt::format("flying {:.1f} m away from the walls", length_m),
+      common::Concern::kPosition);
 }
 
 void FlightController::keepPathInMap(const common::VehicleState& state) {

@@ -21,7 +21,9 @@ ordered_json phaseJson(const Phase& phase) {
   return {{"name", phase.name},
           {"begin_s", rounded(phase.begin.seconds())},
           {"end_s", rounded(phase.end.seconds())},
-          {"duration_s", rounded((phase.end - phase.begin).seconds())}};
+          {"duration_s", rounded((phase.end - phase.begin).seconds())},
+          {"flown_by", phase.flown_by},
+          {"reason", phase.reason}};
 }
 
 ordered_json frontierJson(const common::Frontier& frontier) {

@@ -47,11 +47,13 @@ struct RunInfo {
   std::string vehicle_memory_yaml = {};  ///< What earlier flights have learned of the vehicle; empty: nothing.
 };
 
-/// A stretch of the flight with one intent.
+/// A stretch of the flight in which one thing flew the vehicle, with one intent.
 struct Phase {
   std::string name;
   common::Time begin;
   common::Time end;
+  std::string flown_by = "mission";  ///< Or "operator", "supervisor", "pilot".
+  std::string reason = {};           ///< At its begin, where it is not the mission's own; else empty.
 };
 
 /// A named figure of a flight. The name ends in the unit: goal_error_m.

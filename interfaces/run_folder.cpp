@@ -160,8 +160,10 @@ void RunFolder::Impl::track(const common::World& world) {
   mission_over = common::isOver(mission.state);
   if (!summary.phases.empty()) summary.phases.back().end = world.stamp;
   if (mission_over || mission.phase.empty()) return;
-  if (summary.phases.empty() || summary.phases.back().name != mission.phase)
-    summary.phases.push_back({mission.phase, world.stamp, world.stamp});
+  const std::string by = common::toString(mission.flown_by);
+  if (summary.phases.empty() || summary.phases.back().name != mission.phase || summary.phases.back().flown_by != by)
+    summary.phases.push_back({mission.phase, world.stamp, world.stamp, by,
+                              mission.flown_by == common::FlownBy::kMission ? "" : mission.reason});
 }
 
 /// A mission may load another map than it began with; poses and figures are those in the last one.

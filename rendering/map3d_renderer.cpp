@@ -54,7 +54,7 @@ common::Image Map3dRenderer::render(const Picture3d& picture, const Map3dView& v
                  view.width_px, view.height_px);
   const Eye eye = eyeOf(view.viewpoint, picture, view.width_px, view.height_px);
   const DepthBuffer& buffer = surfaces_.draw(picture.surfaces, eye, view.coloring);
-  Canvas canvas(shaded(buffer, themeOf(view.scheme).unknown));
+  Canvas canvas(shaded(buffer, themeOf(view.scheme).behind_3d));
   Overlay3d overlay(canvas, buffer, eye, view.scheme);
   overlay.drawFloor(extentOf(picture), picture.shown.T_map_shown);
   for (const Line3d& line : picture.lines) overlay.drawLine(line);

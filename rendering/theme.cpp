@@ -5,31 +5,33 @@
 namespace swiftlet::rendering {
 namespace {
 
-constexpr Theme kLight{.unknown = rgb(0xe3e7ec),
+constexpr Theme kLight{.unknown = rgb(0x7d8a98),
                        .free = rgb(0xffffff),
                        .wall = rgb(0x1c2733),
+                       .behind_3d = rgb(0xe9edf1),
                        .grid = rgb(0x33475b).withAlpha(18),
-                       .text = rgb(0x2b3947),
-                       .trail = rgb(0x2f6fde).withAlpha(150),
-                       .plan = rgb(0x0a8f6c).withAlpha(235),
+                       .text = rgb(0x1c2733),
+                       .trail = rgb(0x2461d3).withAlpha(235),
+                       .plan = rgb(0x0a7f5f).withAlpha(235),
                        .goal = rgb(0xc2255c),
                        .home = rgb(0x5b3fb5),
                        .vehicle = rgb(0x1857c8),
-                       .laser = rgb(0xe03131).withAlpha(150),
+                       .laser = rgb(0xc92020).withAlpha(225),
                        .level = rgb(0xb7791f)};
 
-constexpr Theme kDark{.unknown = rgb(0x12181f),
-                      .free = rgb(0x26313d),
-                      .wall = rgb(0xd5dee8),
+constexpr Theme kDark{.unknown = rgb(0x0c1116),
+                      .free = rgb(0x56657a),
+                      .wall = rgb(0xdfe7ef),
+                      .behind_3d = rgb(0x12181f),
                       .grid = rgb(0xc8d7e6).withAlpha(16),
-                      .text = rgb(0xd5dee8),
-                      .trail = rgb(0x6ea2ff).withAlpha(150),
-                      .plan = rgb(0x3ddbab).withAlpha(235),
-                      .goal = rgb(0xff6b9d),
-                      .home = rgb(0xb197fc),
-                      .vehicle = rgb(0x6ea2ff),
-                      .laser = rgb(0xff7b7b).withAlpha(150),
-                      .level = rgb(0xf0b44c)};
+                      .text = rgb(0xf1f5f9),
+                      .trail = rgb(0xb4d0ff).withAlpha(235),
+                      .plan = rgb(0x4fe6b8).withAlpha(242),
+                      .goal = rgb(0xffbbd5),
+                      .home = rgb(0xd8cbff),
+                      .vehicle = rgb(0xa8c8ff),
+                      .laser = rgb(0xffc4bb).withAlpha(242),
+                      .level = rgb(0xf7c873)};
 
 }  // namespace
 
@@ -45,17 +47,17 @@ Color frontierColor(common::FrontierReason reason, Scheme scheme) {
   const bool light = scheme == Scheme::kLight;
   switch (reason) {
     case common::FrontierReason::kOpen:
-      return light ? rgb(0x0b8fc4) : rgb(0x4cc9f0);
+      return light ? rgb(0x0b7fae) : rgb(0x8fe1ff);
     case common::FrontierReason::kTooSmall:
-      return rgb(0x8795a1);
+      return light ? rgb(0x5f6d7a) : rgb(0xc3ccd4);
     case common::FrontierReason::kUnreachable:
-      return light ? rgb(0xe8590c) : rgb(0xff922b);
+      return light ? rgb(0xcf4d06) : rgb(0xffc48c);
     case common::FrontierReason::kOutOfBounds:
-      return light ? rgb(0x9c36b5) : rgb(0xda77f2);
+      return light ? rgb(0x9c36b5) : rgb(0xecb8fb);
     case common::FrontierReason::kBlacklisted:
-      return light ? rgb(0xc92a2a) : rgb(0xff6b6b);
+      return light ? rgb(0xc92a2a) : rgb(0xffc0c0);
     case common::FrontierReason::kPositionUncertain:
-      return light ? rgb(0xb08900) : rgb(0xffd43b);
+      return light ? rgb(0x8f6f00) : rgb(0xffd84d);
   }
   SWIFTLET_CHECK(false, static_cast<int>(reason));
 }

@@ -20,6 +20,9 @@ constexpr double kMoved = 0.002;
 constexpr double kUnmoved = 0.05;
 /// Slow links send the battery once a second.
 constexpr double kUnheard_s = 2.5;
+/// The mean current is that of the flight, and not of motors that spool up, after this time and once the present current
+/// differs from it by no more than this share.
+constexpr double kSettled_s = 6.0, kSettledWithin = 0.25;
 
 bool hasCurrent(const common::BatterySample& sample) {
   return std::isfinite(sample.current_a) && sample.current_a > 0.0;
@@ -66,6 +69,7 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     margin_ = thrust_margin;
     remaining_at_take_off_ = moved_to_ = sample.remaining;
     drawn_as_ = drawn_at_move_as_ = drawn_since_move_as_ = 0.0;
+    settled_ = false;
   } else if (airborne) {
     // A plain mean at first: the motors draw little in the samples before the vehicle has lifted.
     const double filter_s = std::min(config_.power_filter_s, (sample.stamps.measured - taken_off_).seconds());
@@ -75,6 +79,8 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, filter_s);
     if (hasCurrent(sample)) drawn_as_ += current_a * dt_s;
     drawn_since_move_as_ += current_a * dt_s;
+    settled_ = settled_ || ((sample.stamps.measured - taken_off_).seconds() >= kSettled_s &&
+                            std::abs(current_a - current_a_) <= kSettledWithin * current_a_);
   }
   if (airborne) current_model_.add(current_a, speed_m_s, dt_s);
   last_ = sample;
@@ -133,7 +139,8 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const FlightHome& hom
     layer.land_share = std::max(
         land_share, curve_.chargeAtMargin({last_->remaining, voltage_v_, margin_}, least_margin, voltage_exponent_));
   if (!flown_ || !(current_a_ > 0.0)) return layer;
-  layer.seconds_left = std::max(0.0, layer.battery_remaining - layer.land_share) * capacity_as() / current_a_;
+  if (settled_)
+    layer.seconds_left = std::max(0.0, layer.battery_remaining - layer.land_share) * capacity_as() / current_a_;
   tellHome(home, layer);
   return layer;
 }

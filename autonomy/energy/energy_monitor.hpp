@@ -70,6 +70,7 @@ class EnergyMonitor {
   double power_w_ = 0.0;
   bool flown_ = false;  ///< The smoothed values are those of a flight.
   bool airborne_ = false;
+  bool settled_ = false;  ///< The smoothed current is that of the flight, and tells how long the charge lasts.
   double remaining_at_take_off_ = 0.0;
   common::Time taken_off_;
   double drawn_as_ = 0.0;  ///< By the measured current, since the last take-off.

@@ -55,7 +55,7 @@ void EnergyWatch::tellCharge(Time now, const common::EnergyLayer& energy, WatchR
     const std::string left =
         energy.seconds_left ? fmt::format("{:.1f} min until it lands", *energy.seconds_left / 60.0) : "";
     request.say(now, Severity::kWarning, fmt::format("{:.0f} % of the battery left", 100.0 * energy.battery_remaining),
-                left);
+                left, common::Concern::kLowBattery);
   }
 }
 
@@ -71,7 +71,7 @@ void EnergyWatch::watchHome(Time now, const common::EnergyLayer& energy, WatchRe
       100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0),
       energy.home_planned ? "" : " along its trail, as no path is known", 100.0 * land_share,
       land_share > config_.battery_land_share ? "the thrust carries the weight no longer" : "it lands");
-  request.say(now, Severity::kWarning, "turn back", request.home);
+  request.say(now, Severity::kWarning, "turn back", request.home, common::Concern::kTurnBack);
 }
 
 /// During the flight home: the vehicle flies as far as the charge goes, and lands there.
@@ -83,7 +83,8 @@ void EnergyWatch::watchReach(Time now, const common::EnergyLayer& energy, WatchR
   out_of_reach_said_ = true;
   request.say(now, Severity::kWarning, "home is out of reach",
               fmt::format("{:.0f} % to fly {:.1f} m home, {:.0f} % left to fly with: it lands on the way",
-                          100.0 * *energy.home_share, energy.home_m.value_or(0.0), 100.0 * std::max(0.0, left)));
+                          100.0 * *energy.home_share, energy.home_m.value_or(0.0), 100.0 * std::max(0.0, left)),
+              common::Concern::kHome);
 }
 
 /// A gust may take the margin for a moment.

@@ -25,7 +25,7 @@ WatchRequest PositionWatch::watch(Time now, const VehicleCondition& condition, b
   if (!unknown_.empty() && !flies_back_) {
     flies_back_ = true;
     ++flights_back_;
-    request.say(now, Severity::kWarning, "fly back along the trail", unknown_);
+    request.say(now, Severity::kWarning, "fly back along the trail", unknown_, common::Concern::kPosition);
   } else if (flies_back_ && known_again) {
     flies_back_ = false;
     request.say(now, Severity::kInfo, "height and position are known again");

@@ -15,7 +15,8 @@ WatchRequest SightWatch::watch(common::Time now, const VehicleCondition& conditi
   if (blind && !blind_)
     request.say(now, Severity::kWarning, "hold",
                 fmt::format("no scan for {:.2f} s{}", unseen_s,
-                            condition.position_measured ? "; other sensors measure the position" : ""));
+                            condition.position_measured ? "; other sensors measure the position" : ""),
+                common::Concern::kSurroundings);
   if (!blind && blind_) request.say(now, Severity::kInfo, "scans are back");
   blind_ = blind;
   if (blind) request.hold = "the laser is silent";

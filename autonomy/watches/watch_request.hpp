@@ -35,8 +35,9 @@ struct WatchRequest {
   std::string land;                   ///< Why it must land. It is not taken back.
   std::vector<common::Event> events;  ///< What has changed since the last tick.
 
-  void say(common::Time now, common::Severity severity, std::string text, std::string why = {}) {
-    events.push_back({now, severity, "supervisor", std::move(text), std::move(why)});
+  void say(common::Time now, common::Severity severity, std::string text, std::string why = {},
+           common::Concern concern = common::Concern::kNone) {
+    events.push_back({now, severity, "supervisor", std::move(text), std::move(why), {}, concern});
   }
 };
 

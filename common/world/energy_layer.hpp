@@ -14,7 +14,8 @@ struct EnergyLayer {
   double thrust_margin = 0.0;
   /// Charge at which the vehicle will have to land, because it is too low or carries the weight no longer.
   double land_share = 0.0;
-  /// Time until that charge, at the present consumption; none before the take-off.
+  /// Time until that charge, at the present consumption; none before the consumption of the flight is
+  /// known, some seconds after the take-off.
   std::optional<double> seconds_left;
   std::optional<double> home_m;  ///< Length of the path home; none before it is known or assumed.
   bool home_planned = false;     ///< The length home is that of a path; else a conservative one, as no path is known.

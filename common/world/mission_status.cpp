@@ -22,6 +22,20 @@ const char* toString(MissionState state) {
   SWIFTLET_CHECK(false, static_cast<int>(state));
 }
 
+const char* toString(FlownBy by) {
+  switch (by) {
+    case FlownBy::kMission:
+      return "mission";
+    case FlownBy::kOperator:
+      return "operator";
+    case FlownBy::kSupervisor:
+      return "supervisor";
+    case FlownBy::kPilot:
+      return "pilot";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(by));
+}
+
 bool isOver(MissionState state) {
   return state == MissionState::kDone || state == MissionState::kFailed || state == MissionState::kStopped;
 }

@@ -12,11 +12,17 @@ enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed, kStopped };
 const char* toString(MissionState state);
 bool isOver(MissionState state);
 
+/// What flies the vehicle: the mission, or what comes before it. kOperator: a hold, a flight home or a landing that the
+/// operator asked for. kSupervisor: what nobody asked for.
+enum class FlownBy { kMission, kOperator, kSupervisor, kPilot };
+const char* toString(FlownBy by);
+
 struct MissionStatus {
   MissionState state = MissionState::kReady;
   std::string name;    ///< The ID of its tree.
-  std::string phase;   ///< The intent in words.
-  std::string reason;  ///< Why it failed or holds.
+  FlownBy flown_by = FlownBy::kMission;
+  std::string phase;   ///< What the vehicle does, in words: the intent of `flown_by`.
+  std::string reason;  ///< Why it does that, where it is not the mission's own; why the mission failed or holds.
   bool accepts_goals = true;
   std::string question;  ///< What the mission waits for the operator to confirm by "go on"; empty if it does not.
   TreeView tree;

@@ -15,6 +15,7 @@ std::string toJson(const common::Event& event) {
                          {"source", event.source},
                          {"text", event.text},
                          {"reason", event.reason}};
+  if (const auto alarm = common::alarmOf(event); !alarm.empty()) object["alarm"] = alarm;
   if (!event.vehicle.empty()) object["vehicle"] = event.vehicle;
   return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

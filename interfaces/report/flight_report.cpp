@@ -146,14 +146,14 @@ std::string phasesSection(const std::vector<Phase>& phases) {
     bar += fmt::format("<span style=\"flex:{:.3f};background:{}\" title=\"{}, {:.1f} s\"></span>",
                        std::max(duration_s, 1e-3), color, name, duration_s);
     rows += fmt::format(
-        "<tr><td><span class=\"dot\" style=\"background:{}\"></span>{}</td><td class=\"number\">{:.1f} s</td><td "
-        "class=\"number\">{:.1f} s</td></tr>\n",
-        color, name, phase.begin.seconds(), duration_s);
+        "<tr><td><span class=\"dot\" style=\"background:{}\"></span>{}</td><td>{}</td><td class=\"number\">{:.1f} "
+        "s</td><td class=\"number\">{:.1f} s</td><td class=\"quiet\">{}</td></tr>\n",
+        color, name, escaped(phase.flown_by), phase.begin.seconds(), duration_s, escaped(phase.reason));
   }
   return html::section("Phases",
                        bar +
-                           "</div>\n<div class=\"wide\"><table><thead><tr><th>phase</th>"
-                           "<th class=\"number\">begins</th><th class=\"number\">takes</th></tr></thead>\n<tbody>\n" +
+                           "</div>\n<div class=\"wide\"><table><thead><tr><th>phase</th><th>flown by</th>"
+                           "<th class=\"number\">begins</th><th class=\"number\">takes</th><th>reason</th></tr></thead>\n<tbody>\n" +
                            rows + "</tbody></table></div>");
 }
 
@@ -209,13 +209,15 @@ std::string eventsSection(const std::vector<common::Event>& events) {
   const std::size_t count = std::min(events.size(), kMaxEvents);
   for (std::size_t i = 0; i < count; ++i) {
     const common::Event& event = events[i];
-    const char* style = event.severity == common::Severity::kError     ? "bad"
-                        : event.severity == common::Severity::kWarning ? "warn"
-                                                                       : "";
+    const std::string_view alarm = common::alarmOf(event);
+    const char* style = !alarm.empty() || event.severity == common::Severity::kError ? "bad"
+                        : event.severity == common::Severity::kWarning               ? "warn"
+                                                                                     : "";
     rows += fmt::format(
-        "<tr><td class=\"quiet\">{:.2f}</td><td class=\"quiet\">{}</td><td class=\"{}\">{}</td><td "
+        "<tr><td class=\"quiet\">{:.2f}</td><td class=\"quiet\">{}</td><td class=\"{}\">{}{}</td><td "
         "class=\"quiet\">{}</td></tr>\n",
-        event.stamp.seconds(), escaped(event.source), style, escaped(event.text), escaped(event.reason));
+        event.stamp.seconds(), escaped(event.source), style, alarm.empty() ? "" : "<b>alarm</b> ", escaped(event.text),
+        escaped(event.reason));
   }
   std::string body =
       "<div "

@@ -122,9 +122,13 @@ common::CommandResult FakeBackend::carryOut(const common::OperatorCommand& comma
     layers.map.keep_out = std::make_shared<const std::vector<common::Polygon>>(1, area);
   } else if (std::holds_alternative<common::HoldCommand>(command.kind)) {
     layers.mission.status.state = common::MissionState::kHeld;
+    layers.mission.status.flown_by = common::FlownBy::kOperator;
+    layers.mission.status.phase = "hold";
   } else if (std::holds_alternative<common::ResumeCommand>(command.kind)) {
     if (layers.mission.status.state != common::MissionState::kHeld) return {command.id, false, "nothing is on hold"};
     layers.mission.status.state = common::MissionState::kRunning;
+    layers.mission.status.flown_by = common::FlownBy::kMission;
+    layers.mission.status.phase = "explore";
   } else if (const auto* mission = std::get_if<common::StartMissionCommand>(&command.kind)) {
     layers.mission.status.state = common::MissionState::kRunning;
     layers.mission.status.name = mission->name + mission->xml;

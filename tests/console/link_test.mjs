@@ -69,7 +69,13 @@ const tests = {
     await page.getByText('Link lost').waitFor();
     for (const selector of ['#map', 'aside', '.commands']) assert.ok(await grey(page, selector), `${selector} is not grey`);
     await page.locator('#camera.stale').waitFor();
+    const age_s = async () => {
+      const [value, unit] = (await page.locator('#age').innerText()).split(' ');
+      return unit === 's' ? Number(value) : Number(value) / 1000;
+    };
+    const young_s = await age_s();
     await page.waitForTimeout(18_000);
+    assert.ok((await age_s()) > young_s + 15, 'the age of the data does not grow');
     await page.locator('.picture-age').getByText(/^1\d s old$|^2\d s old$/).waitFor();
     await page.getByRole('button', { name: 'Hold' }).tap();
     await page.getByText('Hold: no answer').waitFor({ timeout: 4000 * kPatience });

@@ -15,8 +15,9 @@ export function sureText({ state, places, candidates, deviation_m, deviation_yaw
     return `± ${(100 * deviation_m).toFixed(0)} cm, ± ${turn.toFixed(1)}°, ${Math.round(100 * explained)} % explained`;
   }
   if (candidates.length === 0) return state;
+  if (places === 1) return 'one place fits, not yet sure';
   const best = Math.round(100 * Math.max(...candidates.map(({ weight }) => weight)));
-  return `${state}: ${places} place${places === 1 ? '' : 's'}, the likeliest ${best} %`;
+  return `${state}: ${places} places, the likeliest ${best} %`;
 }
 
 export class GivenMapPanel {

@@ -1,21 +1,61 @@
-// Draws a keep-out zone on the map: the taps are its corners, and a second press of the button sends it.
+// Draws a keep-out zone on the map: the taps are its corners, and a second press of the button sends it. Corners are
+// dropped only when the operator wants it, or with a word of it.
 
 const kLeastCorners = 3;
 
 export class KeepOutPen {
-  /** `onChange()` when the corners changed; `send(corners_m)` with [[x, y], ...]. */
-  constructor(button, onChange, send) {
-    Object.assign(this, { button, onChange, send, corners_m: [], drawing: false });
+  /**
+   * `onChange()` when the corners changed; `send(corners_m)` with [[x, y], ...], which resolves to whether the zone was
+   * taken; `say(title, text)` tells the operator.
+   */
+  constructor(button, { onChange, send, say }) {
+    Object.assign(this, { button, onChange, send, say, corners_m: [], drawing: false, warned: false });
     button.addEventListener('click', () => this.toggle());
   }
 
   toggle() {
-    const { corners_m, drawing } = this;
-    this.drawing = !drawing;
-    this.corners_m = [];
+    const count = this.corners_m.length;
+    if (!this.drawing) return this.draw([]);
+    if (this.warned) return this.giveUp();
+    if (count >= kLeastCorners) return this.finish();
+    if (count === 0) return this.stop();
+    this.warn('Not a zone yet', `Tap ${kLeastCorners - count} more corner${count === 2 ? '' : 's'}, or press again to give it up.`);
+  }
+
+  draw(corners_m) {
+    Object.assign(this, { corners_m, drawing: true, warned: false });
+    this.show();
+  }
+
+  stop() {
+    Object.assign(this, { corners_m: [], drawing: false });
+    this.show();
+  }
+
+  show() {
     this.button.setAttribute('aria-pressed', String(this.drawing));
     this.onChange();
-    if (drawing && corners_m.length >= kLeastCorners) this.send(corners_m);
+  }
+
+  /** Pressed again before another corner, the button gives the zone up. */
+  warn(title, text) {
+    this.warned = true;
+    this.say(title, text);
+  }
+
+  giveUp() {
+    const count = this.corners_m.length;
+    this.stop();
+    this.say('Zone given up', count === 1 ? 'Its one corner is forgotten.' : `Its ${count} corners are forgotten.`);
+  }
+
+  /** A zone that was not taken can be changed and sent again. */
+  async finish() {
+    const { corners_m } = this;
+    this.stop();
+    if ((await this.send(corners_m)) || this.drawing) return;
+    this.draw(corners_m);
+    this.warn('The corners stay', 'Tap more and press again to send them, or press now to give them up.');
   }
 
   /** Drops the corners that were tapped; true if there were any. */
@@ -27,8 +67,10 @@ export class KeepOutPen {
 
   /** True if the tap was a corner. */
   tap({ x_m, y_m }) {
-    if (this.drawing) this.corners_m.push([x_m, y_m]);
-    if (this.drawing) this.onChange();
-    return this.drawing;
+    if (!this.drawing) return false;
+    this.corners_m.push([x_m, y_m]);
+    this.warned = false;
+    this.onChange();
+    return true;
   }
 }

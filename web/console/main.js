@@ -1,4 +1,5 @@
 // The operator's page: wires the link, the map, the panels and the commands.
+import { Alarms } from './alarms.js';
 import { Commands } from './commands.js';
 import { GivenMapPanel } from './given_map_panel.js';
 import { KeepOutPen } from './keep_out.js';
@@ -6,11 +7,11 @@ import { Link } from './link.js';
 import { Map3dPanel } from './map3d_panel.js';
 import { MapStore } from './map_store.js';
 import { MapView } from './map_view.js';
-import { endText, fliesItsOwnGoals, hasEnded } from './mission.js';
+import { endText, fliesItsOwnGoals, hasEnded, isObeyed } from './mission.js';
 import { MissionTree } from './tree.js';
 import { MissionsCard } from './missions.js';
 import { PictureStream } from './picture_stream.js';
-import { forgetEvents, showEvents, showFrontiers, showState, toast } from './panels.js';
+import { forgetEvents, showAge, showEvents, showFrontiers, showState, toast } from './panels.js';
 import { forVehicle, offerVehicles } from './vehicle.js';
 
 const element = (id) => document.getElementById(id);
@@ -30,12 +31,16 @@ const view = new MapView(element('map'), store, {
   },
 });
 
-const pen = new KeepOutPen(element('keep-out'), () => view.draw(), sendZone);
+const pen = new KeepOutPen(element('keep-out'), { onChange: () => view.draw(), send: sendZone,
+  say: (title, text) => toast(title, text, false) });
 view.pen = pen;
 
 const given = new GivenMapPanel(element('given-card'), store);
 
 const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
+
+const alarms = new Alarms(element('alarms'), element('mute'), ({ alarm, text, reason, vehicle }) => (
+  { title: [vehicle, alarm].filter(Boolean).join(': '), detail: [text, reason].filter(Boolean).join(': ') }));
 
 let greeted = false; // At the first connection.
 
@@ -57,13 +62,16 @@ const link = new Link((message) => {
     element('clear-keep-out').hidden = message.keep_out.length === 0;
     showQuestion(message.mission.question);
     offer3d(message.map3d !== null);
-    const held = message.mission.state === 'held';
-    document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
+    for (const button of document.querySelectorAll('.commands [aria-pressed]'))
+      button.setAttribute('aria-pressed', String(isObeyed(button.dataset.command, message)));
   }
   if (message.type === 'hello' || message.type === 'state') showAccess();
   if (message.type === 'frontiers') showFrontiers(message.frontiers, store.shown().T_shown_map);
   if (message.type === 'tree') tree.take(message);
-  if (message.type === 'events') showEvents(message.events);
+  if (message.type === 'events') {
+    showEvents(message.events);
+    alarms.take(message.events);
+  }
   view.draw();
   given.draw();
   map3d.draw();
@@ -126,7 +134,9 @@ async function sendGoal(goal) {
 }
 
 async function sendZone(corners_m) {
-  showAnswer('Keep-out zone', 'Keep-out zone set', await commands.give('keep_out', { corners_m, frame: view.frameShown }));
+  const answer = await commands.give('keep_out', { corners_m, frame: view.frameShown });
+  showAnswer('Keep-out zone', 'Keep-out zone set', answer);
+  return answer.outcome === 'accepted';
 }
 
 /** What the mission waits for the operator to confirm. */
@@ -206,6 +216,9 @@ offerStream('depth', 'Picture of the depth camera, near in red, far in blue', '/
 
 // --- how old is what is shown -------------------------------------------------------------------------------------
 
+/** Of the last state, on its way and here; null before the first. */
+const dataAge_s = () => (store.state ? store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000 : null);
+
 /** {level, text} of the pill, and {banner} over the map. */
 function linkNow() {
   if (ended()) return { level: 'wait', text: 'Ended', banner: endText(store.state) };
@@ -217,7 +230,7 @@ function linkNow() {
       banner: `Link lost ${seconds} ago. The map shows the last known state.` };
   }
   if (!store.state) return { level: 'wait', text: 'Waiting for the vehicle' };
-  const age = store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000;
+  const age = dataAge_s();
   if (age > 1.5) {
     const seconds = `${age.toFixed(0)} s`;
     return { level: 'warn', text: `No data for ${seconds}`, banner: `The vehicle has sent nothing for ${seconds}.` };
@@ -226,6 +239,7 @@ function linkNow() {
 }
 
 function showLink() {
+  if (!ended()) showAge(dataAge_s());
   const { level, text, banner = '' } = linkNow();
   const pill = element('link'), over = element('banner');
   if (pill.dataset.level !== level) pill.dataset.level = level;

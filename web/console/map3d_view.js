@@ -112,10 +112,10 @@ export class Map3dView {
     const clipFromMap = product(clipFromShown, shownFromMap);
     const lines = linesOf(store, map3d, box, this.colors);
     // The page's state comes several times a second, also while nothing moves: a picture like the last is not drawn again.
-    const content = JSON.stringify([map3d.messages, width, height, clipFromMap, this.byNormal, lines, this.colors.unknown]);
+    const content = JSON.stringify([map3d.messages, width, height, clipFromMap, this.byNormal, lines, this.colors['behind-3d']]);
     if (content === this.content) return;
     this.content = content;
-    this.gl.begin(rgba(this.colors.unknown));
+    this.gl.begin(rgba(this.colors['behind-3d']));
     this.gl.drawSubmaps(map3d, clipFromMap, inFrame(shownFromMap, eye), height / (2 * kUp), this.byNormal);
     this.gl.drawLines(lines, clipFromMap);
     this.gl.finish();

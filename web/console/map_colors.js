@@ -12,7 +12,8 @@ const mix = (a, b, t) => a.map((value, i) => Math.round(value + t * (b[i] - valu
 
 export function readColors() {
   const color = {};
-  for (const name of ['unknown', 'free', 'wall', 'grid', 'text', 'trail', 'plan', 'goal', 'home', 'vehicle', 'laser', 'level', 'given-free', 'given-wall'])
+  for (const name of ['unknown', 'free', 'wall', 'grid', 'text', 'trail', 'plan', 'goal', 'home', 'vehicle', 'laser', 'level', 'given-free', 'given-wall',
+    'behind-3d'])
     color[name] = style(`--map-${name}`);
   color.card = style('--card');
   color.frontier = Object.fromEntries(

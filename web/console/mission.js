@@ -9,6 +9,14 @@ export function fliesItsOwnGoals({ mission }) {
   return !mission.accepts_goals;
 }
 
+/** What the vehicle does while it obeys a command of the operator. */
+const kObeyed = { hold: 'hold', home: 'fly home', land: 'land' };
+
+/** Whether the vehicle does now what that button asks for. */
+export function isObeyed(command, { mission }) {
+  return mission.flown_by === 'operator' && mission.phase === kObeyed[command];
+}
+
 /** How a flight ended, in a sentence. */
 export function endText({ ending }) {
   return `The flight has ended: ${ending.outcome}${ending.reason ? ` (${ending.reason})` : ''}.`;

@@ -26,8 +26,15 @@ function placeText({ state, x_m, y_m }) {
   return state === 'localized' ? `(${x_m.toFixed(1)}, ${y_m.toFixed(1)}) m` : state;
 }
 
+/** Who flies instead of the mission, as a chip. */
+const kFliers = { operator: ['operator', 'chip'], supervisor: ['supervisor', 'chip bad'], pilot: ['pilot', 'chip warn'] };
+
 export function showState(state) {
   const { flight_state: flight, mission, avoidance } = state;
+  const [flier, flierClass] = kFliers[mission.flown_by] ?? ['', 'chip'];
+  setText('flown-by', flier);
+  element('flown-by').className = flierClass;
+  element('flown-by').hidden = !flier || hasEnded(state);
   setText('flight-state', flight);
   element('flight-state').className = flight.startsWith('emergency') ? 'chip bad' : 'chip';
   setText('mission-state', mission.state);
@@ -59,7 +66,11 @@ export function showState(state) {
   setText('margin', withUnit(state.thrust_margin, 2, '×'));
   setText('drift', withUnit(state.drift_m, 2, 'm'));
   setText('realtime', state.realtime_factor === null ? '–' : `${state.realtime_factor.toFixed(1)} ×`);
-  setText('age', `${Math.round(1000 * state.age_s)} ms`);
+}
+
+/** How old all of it is; it grows while nothing comes. */
+export function showAge(age_s) {
+  setText('age', age_s === null ? '–' : age_s < 10 ? `${Math.round(1000 * age_s)} ms` : `${age_s.toFixed(0)} s`);
 }
 
 /** The places are shown in the frame of the map beside. */
@@ -95,10 +106,27 @@ export function showEvents(events) {
   while (list.children.length > 200) list.lastChild.remove();
 }
 
+let press = null; // Where the finger was last; null after a key.
+addEventListener('pointerdown', ({ clientX, clientY }) => { press = [clientX, clientY]; }, { capture: true, passive: true });
+addEventListener('keydown', () => { press = null; }, { capture: true, passive: true });
+
+const kFinger_px = 40, kEdge_px = 12;
+
+/** Over the finger, or else over the commands; never over the commands or out of view. */
+function placeToasts(list) {
+  const commands = document.querySelector('.commands').getBoundingClientRect();
+  const top = document.querySelector('header').getBoundingClientRect().bottom;
+  const [x, y] = press ?? [commands.left + commands.width / 2, commands.top];
+  const lowest = innerHeight - commands.top + 8, highest = innerHeight - top - list.offsetHeight - 8;
+  list.style.bottom = `${Math.max(lowest, Math.min(innerHeight - y + kFinger_px, highest))}px`;
+  list.style.left = `${Math.max(kEdge_px, Math.min(x - list.offsetWidth / 2, innerWidth - list.offsetWidth - kEdge_px))}px`;
+}
+
 export function toast(title, text, good) {
   const note = make('div', { className: good ? 'toast' : 'toast bad' }, make('b', { textContent: title }), text);
   const list = element('toasts');
   list.append(note);
   while (list.children.length > 3) list.firstChild.remove();
+  placeToasts(list);
   setTimeout(() => note.remove(), good ? 2500 : 7000);
 }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/operator_text.hpp"
 #include "common/rounding.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
@@ -69,6 +70,7 @@ Json missionOf(const common::MissionLayer& layer) {
   const common::MissionStatus& mission = layer.status;
   return {{"state", common::toString(mission.state)},
           {"name", mission.name},
+          {"flown_by", common::toString(mission.flown_by)},
           {"phase", mission.phase},
           {"reason", mission.reason},
           {"waiting", layer.waiting.empty() ? Json(nullptr) : Json(layer.waiting)},
@@ -228,8 +230,9 @@ Json eventsOf(std::span<const NumberedEvent> events) {
                     {"stamp_s", number(event.stamp.seconds())},
                     {"severity", common::toString(event.severity)},
                     {"source", event.source},
-                    {"text", event.text},
-                    {"reason", event.reason}});
+                    {"text", common::withoutFolders(event.text)},
+                    {"reason", common::withoutFolders(event.reason)}});
+    if (const auto alarm = common::alarmOf(event); !alarm.empty()) list.back()["alarm"] = alarm;
     if (!event.vehicle.empty()) list.back()["vehicle"] = event.vehicle;
   }
   return list;
