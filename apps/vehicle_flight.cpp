@@ -172,8 +172,8 @@ void VehicleFlight::reportWarnings() {
 
 void VehicleFlight::tell(common::Severity severity, std::string source, std::string text, std::string reason,
                          common::Concern concern) {
-  const common::Event event{loop_.now(),       severity, std::move(source), std::move(text),
-                            std::move(reason), name_,    concern};
+  const common::Event event{loop_.now(), severity, std::move(source), std::move(text), std::move(reason),
+                            name_,       concern};
   for (autonomy::FlightSink* sink : sinks()) sink->event(event);
 }
 

@@ -309,8 +309,8 @@ void Autonomy::tellWhoFlies(const Supervision& supervision, const common::Intent
   if (supervision.land || missionOver()) return;
   const bool asked = std::holds_alternative<common::LandIntent>(intent.kind) ||
                      std::holds_alternative<common::EmergencyLandIntent>(intent.kind);
-  const bool lands = !asked && (controller_.state() == FlightState::kLanding ||
-                                controller_.state() == FlightState::kEmergencyLanding);
+  const bool lands =
+      !asked && (controller_.state() == FlightState::kLanding || controller_.state() == FlightState::kEmergencyLanding);
   const bool flies = supervision.back > 0 || supervision.home > 0;
   const bool holds = supervision.hold && mission_status_.state != MissionState::kHeld &&
                      (control::isAirborne(controller_.state()) || waitsToTakeOff(supervision));

@@ -70,8 +70,7 @@ std::shared_ptr<const common::World> WorldBuilder::build(common::Time now, World
 void WorldBuilder::follow(const common::VehicleLayer& vehicle) {
   const Eigen::Vector2d position_odom_m = vehicle.state.T_odom_body.position_m.head<2>();
   const bool airborne = control::isAirborne(vehicle.flight_state);
-  if (airborne && anchor_odom_m_)
-    excursion_m_ = std::max(excursion_m_, (position_odom_m - *anchor_odom_m_).norm());
+  if (airborne && anchor_odom_m_) excursion_m_ = std::max(excursion_m_, (position_odom_m - *anchor_odom_m_).norm());
   if (!airborne || !anchor_odom_m_ || excursion_m_ > kHoverRadius_m) {
     flown_m_ += std::exchange(excursion_m_, 0.0);
     anchor_odom_m_ = position_odom_m;

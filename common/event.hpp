@@ -20,12 +20,12 @@ enum class Concern {
   kNone,
   kTurnBack,
   kLowBattery,
-  kLanding,           ///< Before its end, or without being asked.
-  kPosition,          ///< Position or height.
-  kEstimate,          ///< The fusion of the sensors.
-  kSurroundings,      ///< No sensor sees them.
+  kLanding,       ///< Before its end, or without being asked.
+  kPosition,      ///< Position or height.
+  kEstimate,      ///< The fusion of the sensors.
+  kSurroundings,  ///< No sensor sees them.
   kPilot,
-  kHome,              ///< It is not reached, or cannot be.
+  kHome,  ///< It is not reached, or cannot be.
   kFlightEnded,
 };
 

@@ -23,8 +23,8 @@ bool namesFile(std::string_view name) {
 /// Units such as m/s are no paths, and neither is what follows the scheme of an address.
 bool isPath(std::string_view word) {
   if (word.starts_with("//") || word.find('/') == std::string_view::npos) return false;
-  const bool rooted = word.starts_with("/") || word.starts_with("./") || word.starts_with("../") ||
-                      word.starts_with("~/");
+  const bool rooted =
+      word.starts_with("/") || word.starts_with("./") || word.starts_with("../") || word.starts_with("~/");
   return (rooted && word.size() > 3) || namesFile(word.substr(word.rfind('/') + 1));
 }
 

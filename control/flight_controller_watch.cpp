@@ -73,8 +73,7 @@ void FlightController::escape() {
   const double length_m = std::min(escape_map_m_.norm(), escapeReach_m());
   if (state() != FlightState::kFlying || length_m < config_.blind_speed_m_s * dt_s_) {
     follower_.stop();
-    return say(Severity::kWarning, "horizontal estimate lost", "holding the velocity",
-               common::Concern::kPosition);
+    return say(Severity::kWarning, "horizontal estimate lost", "holding the velocity", common::Concern::kPosition);
   }
   const Eigen::Vector2d velocity_m_s =
       Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * (config_.blind_speed_m_s * escape_map_m_.normalized());

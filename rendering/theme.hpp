@@ -1,6 +1,6 @@
 // The colours of a map picture. The page's style sheet has the same values, so that a stream and the page look alike.
-// Each has a contrast of at least 3:1 (WCAG 2.1, 1.4.11) with free space, also for the colour-blind; walls and free space
-// have it with the unknown, too.
+// Each has a contrast of at least 3:1 (WCAG 2.1, 1.4.11) with free space, also for the colour-blind; walls and free
+// space have it with the unknown, too.
 #pragma once
 
 #include <optional>
@@ -17,11 +17,11 @@ enum class Scheme { kLight, kDark };
 std::optional<Scheme> schemeFrom(std::string_view word);
 
 struct Theme {
-  Color unknown;  ///< Never observed cells.
-  Color free;     ///< Cells that are certainly free.
-  Color wall;     ///< Cells that are certainly occupied.
+  Color unknown;    ///< Never observed cells.
+  Color free;       ///< Cells that are certainly free.
+  Color wall;       ///< Cells that are certainly occupied.
   Color behind_3d;  ///< Behind all that a 3D picture shows.
-  Color grid;     ///< The lines every metre.
+  Color grid;       ///< The lines every metre.
   Color text;
   Color trail;
   Color plan;

@@ -20,8 +20,8 @@ constexpr double kMoved = 0.002;
 constexpr double kUnmoved = 0.05;
 /// Slow links send the battery once a second.
 constexpr double kUnheard_s = 2.5;
-/// The mean current is that of the flight, and not of motors that spool up, after this time and once the present current
-/// differs from it by no more than this share.
+/// The mean current is that of the flight, and not of motors that spool up, after this time and once the present
+/// current differs from it by no more than this share.
 constexpr double kSettled_s = 6.0, kSettledWithin = 0.25;
 
 bool hasCurrent(const common::BatterySample& sample) {

@@ -77,7 +77,10 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   if (localization_.localized())
     text += fmt::format(" at {}, heading {:.0f} deg", common::nameOfGivenPlace(localization_.T_given_body.position_m()),
                         localization_.T_given_body.yaw_rad / common::kRadPerDeg);
-  events_.push_back({now, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization", std::move(text),
+  events_.push_back({now,
+                     lost ? common::Severity::kWarning : common::Severity::kInfo,
+                     "localization",
+                     std::move(text),
                      estimate.event->reason,
                      {},
                      common::Concern::kPosition});

@@ -25,8 +25,14 @@ bool FlightLoop::step(common::Time now) {
   for (const common::OperatorCommand& command : commands_.takeAll()) feed_.give(CommandInput{command, now});
   deliverDue(now);
   if (const auto setpoint = feed_.give(Tick{now})) vehicle_.apply(*setpoint);
-  if (!alive) feed_.tell({now, common::Severity::kError, "vehicle", "the flight has ended", vehicle_.stopReason(), {},
-                          common::Concern::kFlightEnded});
+  if (!alive)
+    feed_.tell({now,
+                common::Severity::kError,
+                "vehicle",
+                "the flight has ended",
+                vehicle_.stopReason(),
+                {},
+                common::Concern::kFlightEnded});
   return alive;
 }
 

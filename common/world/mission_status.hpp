@@ -19,7 +19,7 @@ const char* toString(FlownBy by);
 
 struct MissionStatus {
   MissionState state = MissionState::kReady;
-  std::string name;    ///< The ID of its tree.
+  std::string name;  ///< The ID of its tree.
   FlownBy flown_by = FlownBy::kMission;
   std::string phase;   ///< What the vehicle does, in words: the intent of `flown_by`.
   std::string reason;  ///< Why it does that, where it is not the mission's own; why the mission failed or holds.

@@ -150,11 +150,12 @@ std::string phasesSection(const std::vector<Phase>& phases) {
         "s</td><td class=\"number\">{:.1f} s</td><td class=\"quiet\">{}</td></tr>\n",
         color, name, escaped(phase.flown_by), phase.begin.seconds(), duration_s, escaped(phase.reason));
   }
-  return html::section("Phases",
-                       bar +
-                           "</div>\n<div class=\"wide\"><table><thead><tr><th>phase</th><th>flown by</th>"
-                           "<th class=\"number\">begins</th><th class=\"number\">takes</th><th>reason</th></tr></thead>\n<tbody>\n" +
-                           rows + "</tbody></table></div>");
+  return html::section(
+      "Phases",
+      bar +
+          "</div>\n<div class=\"wide\"><table><thead><tr><th>phase</th><th>flown by</th>"
+          "<th class=\"number\">begins</th><th class=\"number\">takes</th><th>reason</th></tr></thead>\n<tbody>\n" +
+          rows + "</tbody></table></div>");
 }
 
 /// The explanation without the reason at its beginning, which has a column of its own.

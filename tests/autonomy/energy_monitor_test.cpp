@@ -117,6 +117,22 @@ TEST_F(EnergyStory, TheSpoolingMotorsAtTheStartAreForgottenInSeconds) {
   EXPECT_NEAR(layer().seconds_left.value(), left_s, 0.2 * left_s);
 }
 
+TEST_F(EnergyStory, NoTimeIsToldBeforeTheConsumptionOfTheFlightIsKnown) {
+  for (int i = 0; i < 40; ++i) {
+    draw(0.1, 1.5);  // The motors spool up.
+    EXPECT_FALSE(layer().seconds_left);
+  }
+  double told_s = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    draw(0.1, 18.0);
+    if (const auto left_s = layer().seconds_left; left_s && told_s == 0.0) told_s = *left_s;
+  }
+  const double left_s = (remaining_ - kLandShare) * 3600.0 * kCapacity_ah / 18.0;
+  EXPECT_GT(told_s, 0.0);
+  EXPECT_NEAR(told_s, left_s, 0.4 * left_s) << "what is told first is near to what is told in the end";
+  EXPECT_TRUE(layer(5.0).home_share);
+}
+
 TEST_F(EnergyStory, AGaugeThatStandsStillIsCountedOnByTheCurrent) {
   draw(50.0, 18.0);
   stands_still_ = remaining_;

@@ -22,6 +22,25 @@ TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
   EXPECT_FALSE(at(61.0).hold);
 }
 
+TEST_F(SupervisorStory, TellsWhatFliesTheVehicle) {
+  const auto told = [&](double time_s) {
+    const Supervision& now = at(time_s);
+    return std::string(toString(now.flown_by)) + ": " + std::string(phaseOf(now));
+  };
+  EXPECT_EQ(told(0.0), "mission: ");
+  ASSERT_TRUE(supervisor_.take({1, common::HoldCommand{}}, Time::fromSeconds(0.1)));
+  EXPECT_EQ(told(0.1), "operator: hold");
+  ASSERT_TRUE(supervisor_.goHome({2, common::HomeCommand{}}).accepted);
+  EXPECT_EQ(told(0.2), "operator: fly home");
+  supervisor_.pilotArrived(Time::fromSeconds(0.3), true);
+  EXPECT_EQ(told(0.3), "pilot: hold");
+  EXPECT_EQ(alarmOf(supervisor_.takeEvents().back()), "pilot");
+  supervisor_.pilotArrived(Time::fromSeconds(0.4), false);
+  ASSERT_TRUE(supervisor_.take({3, common::LandCommand{}}, Time::fromSeconds(0.5)));
+  EXPECT_EQ(told(0.5), "operator: land");
+  EXPECT_EQ(alarmOf(supervisor_.takeEvents().back()), "") << "the operator asked for it";
+}
+
 TEST_F(SupervisorStory, TheMissionHoldsWhileThePilotFlies) {
   EXPECT_FALSE(at(0.0).hold);
   supervisor_.pilotArrived(Time::fromSeconds(1), true);

@@ -1,6 +1,8 @@
 // Successive snapshots of the World: what they share, and how the trail and the distance grow.
 #include "autonomy/world_builder.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::autonomy {
@@ -121,6 +123,21 @@ TEST_F(WorldBuilderStory, TrailAndDistanceGrowWhileItIsAirborne) {
   ASSERT_EQ(end->vehicle->trail.points_map_m().size(), 2u) << "one every 5 cm";
   EXPECT_TRUE(end->vehicle->trail.continues(begin->vehicle->trail));
   EXPECT_EQ(begin->vehicle->trail.points_map_m().size(), 1u);
+}
+
+TEST_F(WorldBuilderStory, AHoverFliesNowhereHoweverLongItIs) {
+  snapshotAt(0.0, 0.0);
+  snapshotAt(2.0, 0.0);
+  double flown_m = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    const double wandered_m = 0.06 * std::sin(0.02 * i), noise_m = i % 2 == 0 ? 0.01 : -0.01;
+    const double next_m = snapshotAt(2.0 + wandered_m + noise_m, wandered_m)->vehicle->distance_flown_m;
+    EXPECT_GE(next_m, flown_m) << "it never shrinks";
+    flown_m = next_m;
+  }
+  EXPECT_NEAR(flown_m, 2.0, 0.3);
+  snapshotAt(2.0, 3.0);
+  EXPECT_NEAR(snapshotAt(2.0, 4.0)->vehicle->distance_flown_m, 6.0, 0.5);
 }
 
 TEST_F(WorldBuilderStory, TheTrailIsInMapAndAMapCorrectionAddsNoDistance) {

@@ -29,6 +29,12 @@ TEST(Events, NameTheVehicleOnlyWhereThereAreSeveral) {
   EXPECT_EQ(toJson({event.stamp, Severity::kInfo, "a", "b", ""}).find("vehicle"), std::string::npos);
 }
 
+TEST(Events, NameTheAlarmOnlyWhereThereIsOne) {
+  const common::Event event{Time::fromSeconds(1),     Severity::kWarning, "supervisor", "land", "why", "",
+                            common::Concern::kLanding};
+  EXPECT_EQ(json::parse(toJson(event))["alarm"], "landing");
+}
+
 TEST(Events, StayOnOneLineWhateverTheirText) {
   const ScratchFolder folder;
   const std::string odd = "two\nlines, \"quoted\", \t tab, \xff no UTF-8, é";

@@ -76,6 +76,26 @@ struct Flight {
   }
 };
 
+TEST(RunFolder, APhaseNamesWhatFliesAndWhy) {
+  const ScratchFolder folder;
+  RunFolder run(folder.path() / "run", kInfo, "");
+  Flight flight;
+  run.world(flight.world(MissionState::kRunning, "explore"));
+  test::Layers home = flight.layers(MissionState::kHeld, "fly home");
+  home.mission.status.flown_by = common::FlownBy::kSupervisor;
+  home.mission.status.reason = "turned back with 28 % of the battery left";
+  home.stamp = Time::fromSeconds(5);
+  run.world(home.world());
+  run.finish({});
+  const json phases = json::parse(bytesOf(folder / "run/mission.json"))["phases"];
+  ASSERT_EQ(phases.size(), 2u);
+  EXPECT_EQ(phases[0]["flown_by"], "mission");
+  EXPECT_EQ(phases[1]["name"], "fly home");
+  EXPECT_EQ(phases[1]["flown_by"], "supervisor");
+  EXPECT_EQ(phases[1]["reason"], "turned back with 28 % of the battery left");
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("turned back with 28 %"));
+}
+
 TEST(RunFolder, KeepsTheMapsAndPhotographsOfTheMissionAndANewRunRemovesThem) {
   const ScratchFolder folder;
   {
