@@ -303,23 +303,6 @@ common::Intent Autonomy::chooseIntent(const Supervision& supervision, Time now) 
   return context_.intent.value_or(common::Intent{});
 }
 
-/// What flies the vehicle is told before the mission that waits: the controller's own landing, then the supervisor.
-void Autonomy::tellWhoFlies(const Supervision& supervision, const common::Intent& intent) {
-  mission_status_.flown_by = supervision.flown_by;
-  if (supervision.land || missionOver()) return;
-  const bool asked = std::holds_alternative<common::LandIntent>(intent.kind) ||
-                     std::holds_alternative<common::EmergencyLandIntent>(intent.kind);
-  const bool lands =
-      !asked && (controller_.state() == FlightState::kLanding || controller_.state() == FlightState::kEmergencyLanding);
-  const bool flies = supervision.back > 0 || supervision.home > 0;
-  const bool holds = supervision.hold && mission_status_.state != MissionState::kHeld &&
-                     (control::isAirborne(controller_.state()) || waitsToTakeOff(supervision));
-  if (lands) mission_status_.flown_by = common::FlownBy::kSupervisor;
-  if (!lands && !flies && !holds) return;
-  mission_status_.phase = lands ? toString(controller_.state()) : phaseOf(supervision);
-  mission_status_.reason = lands ? controller_.groundedReason() : supervision.hold_reason;
-}
-
 /// A hold keeps the vehicle on the ground whatever the mission does; TakeOff goes on when it ends.
 bool Autonomy::waitsToTakeOff(const Supervision& supervision) const {
   return supervision.hold && context_.intent && std::holds_alternative<common::TakeOffIntent>(context_.intent->kind);
@@ -386,6 +369,14 @@ void Autonomy::tickMission() {
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
   mission_status_.question = missions_.mission().question();
+  if (result.state == MissionState::kFailed && control::isAirborne(controller_.state()))
+    events_.push_back({context_.now,
+                       common::Severity::kWarning,
+                       "mission",
+                       "the mission has failed: the vehicle lands",
+                       result.reason,
+                       {},
+                       common::Concern::kLanding});
 }
 
 void Autonomy::collect(std::vector<common::Event> events) {

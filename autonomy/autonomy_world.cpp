@@ -3,9 +3,11 @@
 #include "autonomy/trail_back.hpp"
 #include "common/segment.hpp"
 #include "control/actuation.hpp"
+#include "control/flight_state_machine.hpp"
 
 namespace swiftlet::autonomy {
 
+using common::FlightState;
 using common::MissionState;
 using common::Time;
 
@@ -44,6 +46,23 @@ void Autonomy::takeSnapshot(Time now) {
       energy_monitor_.layer(now, home, controller_.thrustMargin(), config_.supervisor.battery_land_share,
                             control::kKeptForHeight + config_.supervisor.least_thrust_margin);
   world_ = world_builder_.build(now, std::move(parts));
+}
+
+/// What flies the vehicle is told before the mission that waits: the controller's own landing, then the supervisor.
+void Autonomy::tellWhoFlies(const Supervision& supervision, const common::Intent& intent) {
+  mission_status_.flown_by = supervision.flown_by;
+  if (supervision.land || missionOver()) return;
+  const bool asked = std::holds_alternative<common::LandIntent>(intent.kind) ||
+                     std::holds_alternative<common::EmergencyLandIntent>(intent.kind);
+  const bool lands =
+      !asked && (controller_.state() == FlightState::kLanding || controller_.state() == FlightState::kEmergencyLanding);
+  const bool flies = supervision.back > 0 || supervision.home > 0;
+  const bool holds = supervision.hold && mission_status_.state != MissionState::kHeld &&
+                     (control::isAirborne(controller_.state()) || waitsToTakeOff(supervision));
+  if (lands) mission_status_.flown_by = common::FlownBy::kSupervisor;
+  if (!lands && !flies && !holds) return;
+  mission_status_.phase = lands ? toString(controller_.state()) : phaseOf(supervision);
+  mission_status_.reason = lands ? controller_.groundedReason() : supervision.hold_reason;
 }
 
 /// What the mission flies to after the hold, as long as nothing else is flown to.
