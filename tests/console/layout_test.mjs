@@ -90,6 +90,22 @@ const tests = {
     return page;
   },
 
+  async 'all that the page may tell at once lies over no command either'() {
+    const page = await open({ width: 844, height: 340 });
+    for (const [width, height] of kWithBars) {
+      await page.setViewportSize({ width, height });
+      await page.evaluate(() => {
+        for (const id of ['alarms', 'banner', 'question']) document.getElementById(id).hidden = false;
+        const words = 'the vehicle turned back with 28 % of the battery left, 9 % to fly 12.0 m home';
+        document.querySelector('#alarms ol').innerHTML = `<li>${words}</li>`.repeat(3);
+        document.getElementById('question-text').textContent = words.repeat(3);
+      });
+      await pointsOf(page, `${width} x ${height}`);
+      assert.ok(await inView(page, '#alarms button'), `${width} x ${height}: the alarms cannot be read`);
+    }
+    return page;
+  },
+
   async 'a map as it was, too high for its row, would be found'() {
     const page = await open({ width: 844, height: 340 });
     await page.addStyleTag({ content: '.map { min-height: 260px; z-index: 9 }' });
