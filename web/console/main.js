@@ -40,7 +40,7 @@ const given = new GivenMapPanel(element('given-card'), store);
 const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
 
 const alarms = new Alarms(element('alarms'), element('mute'), ({ alarm, text, reason, vehicle }) => (
-  { title: [vehicle, alarm].filter(Boolean).join(': '), detail: [text, reason].filter(Boolean).join(': ') }));
+  { title: [vehicle, alarm].filter(Boolean).join(': '), detail: [text !== alarm && text, reason].filter(Boolean).join(': ') }));
 
 let greeted = false; // At the first connection.
 
