@@ -5,6 +5,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -63,6 +64,26 @@ TEST(FrontierWordsTest, TheReferenceNamesEveryReasonAndNoOther) {
   std::ifstream file(std::filesystem::path(SWIFTLET_SOURCE_DIR) / "docs/state.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(quotedIn(between(page, "| `frontiers` | `reason` (", ")")), reasons());
+}
+
+TEST(MapColoursTest, TheStyleSheetHasThoseOfTheStreams) {
+  const std::string style = asset("style.css");
+  const auto inCss = [](rendering::Color color) {
+    return color.alpha == 255 ? fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue)
+                              : fmt::format("rgb({} {} {} / {:.0f}%)", color.red, color.green, color.blue,
+                                            100.0 * color.alpha / 255.0);
+  };
+  for (const Scheme scheme : {Scheme::kLight, Scheme::kDark}) {
+    const std::string block = between(style, scheme == Scheme::kLight ? ":root {" : "dark) {\n  :root {", "}");
+    const rendering::Theme& theme = themeOf(scheme);
+    const std::pair<const char*, rendering::Color> named[] = {
+        {"unknown", theme.unknown}, {"free", theme.free}, {"wall", theme.wall},   {"behind-3d", theme.behind_3d},
+        {"grid", theme.grid},       {"text", theme.text}, {"trail", theme.trail}, {"plan", theme.plan},
+        {"goal", theme.goal},       {"home", theme.home}, {"laser", theme.laser}, {"level", theme.level},
+        {"vehicle", theme.vehicle}};
+    for (const auto& [name, color] : named)
+      EXPECT_THAT(block, testing::HasSubstr(fmt::format("--map-{}: {};", name, inCss(color))));
+  }
 }
 
 TEST(FrontierWordsTest, TheStyleSheetHasTheColoursOfTheStreams) {
