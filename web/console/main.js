@@ -111,7 +111,7 @@ const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land:
 /** What is not accepted stays on the page for long enough to be read, and "refused" is said only of an answer. */
 function showAnswer(name, title, { outcome, reason }) {
   if (outcome === 'accepted') toast(title, reason, true);
-  else toast(outcome === 'refused' ? `${name} refused` : `${name}: no answer`, reason, false);
+  else toast(outcome === 'refused' ? `${name} refused` : `${name}: no answer`, commands.refused ? kOldToken : reason, false);
   showAccess();
 }
 
