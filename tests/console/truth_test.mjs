@@ -1,6 +1,7 @@
 // The page tells what the real program does with the operator's commands, with a full disk, and at the end of the
 // flight: node truth_test.mjs SWIFTLET WORK_FOLDER
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 
 import { eventually, kPatience, launch, onScreen, run, start } from './browser.mjs';
 
@@ -62,6 +63,8 @@ const tests = {
     const { child, page, state, tap, ends, lines } = await fly('home', 'explore_and_return');
     await eventually('some distance', async () => (await state()).distance_flown_m > 2);
     await tap('Home');
+    await page.locator('#phase').getByText('fly home').waitFor();
+    await page.locator('#flown-by').getByText('operator').waitFor();
     await page.getByText('the mission holds meanwhile').first().waitFor();
     await page.locator('#events').getByText('home reached').waitFor();
     const { pose } = await state();
@@ -70,6 +73,8 @@ const tests = {
     await page.locator('#events').getByText('asked to end: landing').waitFor();
     assert.equal(await ends('The flight has ended: stopped (landed: the operator asked for it).'), 1);
     assert.ok(!lines.join('\n').includes('stopped from outside'));
+    const { phases } = JSON.parse(readFileSync(`${folder}/truth-home/mission.json`, 'utf8'));
+    assert.ok(phases.some(({ name, flown_by: by }) => name === 'fly home' && by === 'operator'), JSON.stringify(phases));
   },
 
   async 'a second SIGTERM stops at once, and the page learns that too'() {
