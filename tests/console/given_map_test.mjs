@@ -152,6 +152,15 @@ const tests = {
     return page;
   },
 
+  async 'one place that is not sure yet is not called several, nor certain'() {
+    const page = await open((state) => {
+      beUnsure(state);
+      Object.assign(state.localization, { places: 1, candidates: [{ x_m: -4, y_m: 2, yaw_rad: 0.5, weight: 1 }] });
+    });
+    await page.locator('#given-sure').getByText(/^one place fits, not yet sure$/).waitFor();
+    return page;
+  },
+
   async 'while several places fit, each is shown with its weight, and taps are places of the flight'() {
     let unsure = true;
     const page = await open((state) => { if (unsure) beUnsure(state); });
