@@ -9,8 +9,8 @@ import { eventually, run, serve, skip } from './browser.mjs';
 import { certificate, checkAll } from './proxies.mjs';
 
 const [fixture, work] = process.argv.slice(2);
-const nginx = [process.env.NGINX ?? '', ...process.env.PATH.split(':').map((folder) => join(folder, 'nginx')), '/usr/sbin/nginx'].find(existsSync);
-if (!nginx) skip('there is no nginx; apt-get install nginx-light (it starts a server at port 80), or set NGINX');
+const nginx = [...process.env.PATH.split(':'), '/usr/sbin'].map((folder) => join(folder, 'nginx')).find(existsSync);
+if (!nginx) skip('there is no nginx; apt-get install nginx-light (which starts a server at port 80)');
 const folder = resolve(work, 'nginx');
 mkdirSync(folder, { recursive: true });
 const { cert, key } = certificate(folder);

@@ -23,18 +23,24 @@ export function certificate(folder) {
   return { cert, key };
 }
 
+const kLogin = 'HTTP/1.1 401 Unauthorized\r\nWWW-Authenticate: Basic realm="field"\r\nConnection: close\r\nContent-Length: 0\r\n\r\n';
 const kNotFound = 'HTTP/1.1 404 Not Found\r\nConnection: close\r\nContent-Length: 0\r\n\r\n';
 
 /**
  * What nginx does where only `proxy_pass` is written: each request goes on by HTTP/1.0 with another Host, without Upgrade,
  * and one answer is all that comes back. `routes`: the port behind each path, such as {'/swiftlet/': 8080}, which may be
- * filled in later. `strips`: the path is taken off. `missed` are the targets that lay below no path.
+ * filled in later. `strips`: the path is taken off. `keeps` tells of a header whether it is passed on all the same.
+ * `login`: "user:password" that the proxy itself asks for. `missed` are the targets that lay below no path.
  */
-export async function startProxy({ tls, routes, strips = true, version = '1.0', keeps = () => false }) {
+export async function startProxy({ tls, routes, strips = true, version = '1.0', keeps = () => false, login }) {
   const missed = [];
   const pass = (client, head, rest) => {
     const [line, ...headers] = head.split('\r\n');
     const [method, target] = line.split(' ');
+    if (login && !headers.some((header) => header.toLowerCase().startsWith('authorization:') && header.endsWith(` Basic ${btoa(login)}`))) {
+      client.end(kLogin);
+      return;
+    }
     const path = Object.keys(routes).find((known) => target.startsWith(known) || (!strips && target.split('?')[0] === known.slice(0, -1)));
     if (!path) {
       if (target !== '/favicon.ico') missed.push(target);

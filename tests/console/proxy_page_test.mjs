@@ -21,9 +21,9 @@ async function open(url, context) {
 const live = (page) => page.locator('#link[data-level=good]').waitFor();
 
 /** A proxy with TLS, and behind each path a vehicle of its own whose token is `token-of-` and the number of the path. */
-async function start(paths, { strips }) {
+async function start(paths, { strips, login }) {
   const routes = Object.fromEntries(paths.map((path) => [path, 0]));
-  const proxy = await startProxy({ tls, routes, strips });
+  const proxy = await startProxy({ tls, routes, strips, login });
   const outside = `https://field.example:${proxy.port}`, servers = [];
   for (const [i, path] of paths.entries()) {
     servers.push(await serve(fixture, 0, `token-of-${i}`, 'map3d', `${outside}${path}`));
@@ -68,6 +68,18 @@ for (const strips of [true, false])
     await direct.context().close();
     await stop();
   };
+
+tests['a proxy that asks for a password of its own lets commands through'] = async () => {
+  const { outside, stop } = await start(['/'], { strips: true, login: 'pilot:secret' });
+  const context = await browser.newContext({ ignoreHTTPSErrors: true, httpCredentials: { username: 'pilot', password: 'secret' } });
+  const page = await open(`${outside}/?token=token-of-0`, context);
+  await live(page);
+  const answer = page.waitForResponse((response) => response.url().endsWith('/api/hold'));
+  await page.getByRole('button', { name: 'Hold', exact: true }).click();
+  assert.equal((await answer).status(), 200);
+  await context.close();
+  await stop();
+};
 
 tests['vehicles below one host keep their tokens apart'] = async () => {
   const { outside, stop } = await start(['/robot1/', '/robot2/'], { strips: true });
