@@ -27,6 +27,7 @@
 #include "common/world/vehicle_layer.hpp"
 #include "evaluation/trial.hpp"
 #include "simulation/nature.hpp"
+#include "web/server/public_url.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -77,6 +78,7 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
 }
 
 FlightSetup setupOf(const FlyOptions& options) {
+  for (const std::string& url : options.public_urls) (void)web::parsePublicUrl(url);
   FlightSetup setup;
   setup.mission_file = common::findData(options.mission).string();
   const evaluation::TrialConfig trial = conditionsOf(options);
