@@ -28,7 +28,7 @@ const listens = (port) => new Promise((done) => {
   const socket = connect(port, '127.0.0.1', () => { socket.destroy(); done(true); }).on('error', () => done(false));
 });
 
-/** The servers of a configuration whose `listen PORT` lines are answered; `behind` takes the place of the page's port. */
+/** Starts nginx with these servers, one of which listens at `port`; the result stops it. */
 async function startNginx(servers, port) {
   const temporary = ['client_body', 'proxy', 'fastcgi', 'uwsgi', 'scgi'].map((name) => `${name}_temp_path ${folder}/${name};`).join(' ');
   writeFileSync(join(folder, 'nginx.conf'), `daemon off; pid ${folder}/pid; error_log ${folder}/error.log; worker_processes 1;
@@ -42,11 +42,11 @@ ${servers}
   return () => new Promise((done) => child.once('exit', done).kill());
 }
 
-/** Checks all through the server that `serversOf(outer port, inner port)` describes. */
-async function through(urlOf, serversOf) {
+/** Checks all through the server that `serversOf(outer port, inner port)` describes; `more` are public addresses too. */
+async function through(urlOf, serversOf, ...more) {
   const outer = await freePort();
   const url = urlOf(outer);
-  const server = await serve(fixture, 0, kToken, 'plain', url);
+  const server = await serve(fixture, 0, kToken, 'plain', url, ...more);
   const stop = await startNginx(serversOf(outer, server.url.port), outer);
   try {
     await checkAll(url, kToken);
@@ -78,6 +78,10 @@ for (const [name, location] of Object.entries(kPlain)) {
   tests[`${name}, by TLS`] = () => through((port) => `https://field.example:${port}${path}`,
     (outer, inner) => `server { listen 127.0.0.1:${outer} ssl; ssl_certificate ${cert}; ssl_certificate_key ${key}; ${location.replace('PORT', inner)} }`);
 }
+
+tests['an upstream with a name, which is the Host'] = () => through((port) => `http://field.example:${port}/`, (outer, inner) =>
+  `upstream swiftlet_app { server 127.0.0.1:${inner}; } server { listen 127.0.0.1:${outer}; location / { proxy_pass http://swiftlet_app; } }`,
+'http://swiftlet_app/');
 
 const kCase = join(process.env.SWIFTLET_DATASETS ?? '../shared/datasets', '10-field-cases/web_https_proxy/nginx.conf');
 if (!existsSync(kCase)) console.log(`skipped: the servers of ${kCase}, which is not there; set SWIFTLET_DATASETS`);

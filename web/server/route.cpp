@@ -246,7 +246,7 @@ bool isServed(std::string_view path, const Policy& policy) {
 
 /// The path as it is served: proxies may leave in front of it the path of the public address, and a slash too many.
 std::string servedPath(const std::string& asked, const Policy& policy) {
-  const std::string path = asked.substr(std::min(asked.find_first_not_of('/'), asked.size()) - 1);
+  std::string path = asked.substr(std::min(asked.find_first_not_of('/'), asked.size()) - 1);
   if (isServed(path, policy)) return path;
   for (const PublicUrl& url : policy.public_urls)
     if (path.starts_with(url.path) && isServed(path.substr(url.path.size() - 1), policy))
