@@ -27,6 +27,7 @@
 #include "common/world/vehicle_layer.hpp"
 #include "evaluation/trial.hpp"
 #include "simulation/nature.hpp"
+#include "web/server/public_url.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -50,6 +51,7 @@ struct FlyOptions {
   bool wait = false;
   std::string listen = "127.0.0.1";
   int port = 8080;
+  std::vector<std::string> public_urls;
   std::optional<int> groot;
   std::string out;
   double time_limit_s = 1800.0;
@@ -76,6 +78,7 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
 }
 
 FlightSetup setupOf(const FlyOptions& options) {
+  for (const std::string& url : options.public_urls) (void)web::parsePublicUrl(url);
   FlightSetup setup;
   setup.mission_file = common::findData(options.mission).string();
   const evaluation::TrialConfig trial = conditionsOf(options);
@@ -208,6 +211,19 @@ void showWarnings(const std::vector<FlightMission>& missions) {
   }
 }
 
+std::unique_ptr<WebLink> servePage(const FlyOptions& options, const FlightSetup& setup) {
+  web::WebServerOptions page;
+  page.address = options.listen;
+  page.port = options.port;
+  page.public_urls = options.public_urls;
+  page.title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
+                           std::filesystem::path(setup.scenario.world).stem().string());
+  page.hull_diameter_m = setup.system.vehicle.hull_diameter_m;
+  return std::make_unique<WebLink>(std::move(page), vehicleNames(setup.scenario),
+                                   std::make_unique<FolderShelf>(setup.mission_file, shippedMissions(),
+                                                                 static_cast<std::uint64_t>(setup.scenario.seed)));
+}
+
 int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
@@ -218,17 +234,13 @@ int fly(const FlyOptions& options) {
 
   std::unique_ptr<WebLink> web;
   if (!options.headless) {
-    const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
-                                   std::filesystem::path(setup.scenario.world).stem().string());
-    web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m,
-                                    vehicleNames(setup.scenario),
-                                    std::make_unique<FolderShelf>(setup.mission_file, shippedMissions(),
-                                                                  static_cast<std::uint64_t>(setup.scenario.seed)));
-    const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
+    web = servePage(options, setup);
+    std::string pages;
+    for (const std::string& url : web->operatorUrls()) pages += fmt::format("page    {}\n", url);
     if (options.json)
-      showError(page);  // The token is in it, and standard output is the outcome alone.
+      showError(pages + "\n");  // The token is in it, and standard output is the outcome alone.
     else
-      show(page);
+      show(pages + "\n");
   }
   std::unique_ptr<GrootLink> groot;
   if (options.groot) {
@@ -291,6 +303,10 @@ void addFly(Command& program) {
                "Stay on the ground until a mission is started on the page: this one, or another.");
   command.option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.");
   command.option("--port", options->port, {0, 65535}, "Port of the page, 0 for any.");
+  command.option(
+      "--public-url", options->public_urls,
+      "An address by which others open the page: of a proxy in front of it (https://field.example/swiftlet/), "
+      "or with a name of this machine (http://drone.local:8080/). May be given several times.");
   command.option(
       "--groot", options->groot, {0, 65535},
       "Let Groot2 watch the mission's tree at this port (1667 is its own; 0: any), on the address of --listen.");

@@ -13,8 +13,8 @@ common::Time unixTime() {
 
 }  // namespace
 
-WebLink::WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m,
-                 const std::vector<std::string>& vehicles, std::unique_ptr<web::MissionShelf> missions)
+WebLink::WebLink(web::WebServerOptions options, const std::vector<std::string>& vehicles,
+                 std::unique_ptr<web::MissionShelf> missions)
     : missions_(std::move(missions)) {
   std::vector<web::WebServer::Sources> sources;
   for (std::size_t i = 0; i < std::max<std::size_t>(vehicles.size(), 1); ++i) {
@@ -22,12 +22,7 @@ WebLink::WebLink(const std::string& address, int port, const std::string& title,
     sources.push_back(
         {channel.world_, channel.camera_, channel.commands_, channel.results_, vehicles.empty() ? "" : vehicles[i]});
   }
-  web::WebServer::Options options;
-  options.address = address;
-  options.port = port;
   options.token = web::makeToken();
-  options.title = title;
-  options.hull_diameter_m = hull_diameter_m;
   options.unix_time = unixTime;
   options.missions = missions_.get();
   server_ = std::make_unique<web::WebServer>(io_, options, sources);

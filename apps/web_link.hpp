@@ -38,13 +38,14 @@ class WebChannel {
 
 class WebLink {
  public:
-  /// Listens at once; throws common::InputError when it cannot. `vehicles`: the names of several; empty for one that
-  /// flies alone. `missions`: those that a page may start; null: none.
-  WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m,
-          const std::vector<std::string>& vehicles, std::unique_ptr<web::MissionShelf> missions = nullptr);
+  /// Listens at once; throws common::InputError when it cannot. Token, clock and missions of the options are set here.
+  /// `vehicles`: the names of several; empty for one that flies alone. `missions`: those that a page may start; null:
+  /// none.
+  WebLink(web::WebServerOptions options, const std::vector<std::string>& vehicles,
+          std::unique_ptr<web::MissionShelf> missions = nullptr);
   ~WebLink();
 
-  std::string operatorUrl() const { return server_->operatorUrl(); }
+  std::vector<std::string> operatorUrls() const { return server_->operatorUrls(); }
   /// By the vehicle's number.
   WebChannel& channel(std::size_t number) { return *channels_.at(number); }
 

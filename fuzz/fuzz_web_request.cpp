@@ -9,7 +9,11 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet::web;
-  static const Policy kPolicy{"no-fuzzer-guesses-this-token-0123456789", {"cobra.local"}, {"index.html"}};
+  static const Policy kPolicy{"no-fuzzer-guesses-this-token-0123456789",
+                              {"cobra.local"},
+                              {"index.html"},
+                              {},
+                              {parsePublicUrl("https://field.example/swiftlet/")}};
   // Lines are: method, target, host, origin, authorization; the rest is the body.
   std::string rest(reinterpret_cast<const char*>(data), size);
   const auto line = [&rest] {

@@ -232,6 +232,17 @@ TEST_F(BadInput, AnInvalidListenAddressIsRefused) {
                 "300\\.1\\.1\\.1");
 }
 
+TEST_F(BadInput, AnInvalidPublicUrlIsRefusedWithWhatToWrite) {
+  const std::vector<std::string> with{hop(), "--port", "0", "--public-url"};
+  const auto flyWith = [&](std::vector<std::string> arguments, const std::string& url) {
+    arguments.push_back(url);
+    return fly(arguments);
+  };
+  expectRefused(flyWith(with, "drone.local:8080"), "--public-url: .*write http://drone.local:8080 or https://");
+  expectRefused(flyWith(with, "https://field.example/?token=x"), "--public-url: .*write https://field.example/");
+  expectRefused(flyWith({hop(), "--headless", "--public-url"}, "field.example"), "--public-url: ");
+}
+
 TEST_F(BadInput, AFileAsOutputFolderIsRefused) {
   write("taken", "mine");
   const ProgramEnd end =

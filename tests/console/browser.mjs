@@ -13,7 +13,7 @@ const kHere = dirname(fileURLToPath(import.meta.url));
 /** How many times slower than a release build this one may be; ctest sets it. */
 export const kPatience = Number(process.env.SWIFTLET_TEST_PATIENCE ?? 1);
 
-function skip(why) {
+export function skip(why) {
   console.log(`skipped: ${why}`);
   process.exit(77);
 }
@@ -32,10 +32,10 @@ function playwright(folder) {
   return createRequire(resolve(folder, 'index.js'))('playwright-core');
 }
 
-export async function launch(folder) {
+export async function launch(folder, ...args) {
   const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
   if (!executablePath) skip('there is no chromium; apt-get install chromium');
-  return playwright(folder).chromium.launch({ executablePath, args: ['--no-sandbox'] });
+  return playwright(folder).chromium.launch({ executablePath, args: ['--no-sandbox', ...args] });
 }
 
 /** Starts a program that prints the link of its page. Its lines are kept in `lines`. */

@@ -46,6 +46,7 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   options.command_timeout_s = 0.5 * test_support::patience();
   options.stall_timeout_s = setup_.stall_timeout_s;
   options.max_connections = setup_.max_connections;
+  options.public_urls = setup_.public_urls;
   options.viewers_bytes_per_s = setup_.viewers_bytes_per_s;
   options.unix_time = unixTime;
   options.missions = &shelf_;

@@ -39,6 +39,7 @@ class FakeBackend {
     int tree_nodes = 0;   ///< If not 0, the mission's tree has so many nodes, and some of them change in each world.
     double stall_timeout_s = 10.0;
     int max_connections = 256;
+    std::vector<std::string> public_urls = {};
     double viewers_bytes_per_s = 16e6;
     double warm_up_s = 4.0;  ///< Flown time before the first world.
   };

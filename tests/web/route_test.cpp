@@ -27,6 +27,23 @@ std::string reasonOf(const Action& action) {
   return refuse == nullptr ? "" : refuse->reason;
 }
 
+Policy withPublicUrls(const std::vector<std::string>& urls) {
+  Policy policy = kPolicy;
+  for (const std::string& url : urls) policy.public_urls.push_back(parsePublicUrl(url));
+  return policy;
+}
+
+/// Whether a page of that origin may land the vehicle, and connect.
+bool mayCommand(const std::string& host, const std::string& origin, const Policy& policy) {
+  Request land = post("/api/land"), socket = get("/api/ws");
+  socket.wants_websocket = true;
+  land.host = socket.host = host;
+  land.origin = socket.origin = origin;
+  const bool may = std::holds_alternative<GiveCommand>(route(land, policy));
+  EXPECT_EQ(std::holds_alternative<OpenSocket>(route(socket, policy)), may);
+  return may;
+}
+
 TEST(RouteTest, ServesThePageAtTheRoot) {
   const Action action = route(get("/?token=secret-token"), kPolicy);
   EXPECT_EQ(std::get<ServeFile>(action).name, "index.html");
@@ -116,8 +133,14 @@ TEST(RouteTest, CommandsNeedTheToken) {
     EXPECT_EQ(statusOf(route(request, kPolicy)), 401) << wrong;
   }
   request = post("/api/hold?token=secret-token");
-  request.authorization.clear();
+  request.authorization = "Basic cGlsb3Q6c2VjcmV0";  // Of a proxy.
   EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
+  request = post("/api/hold");
+  request.authorization = "Basic cGlsb3Q6c2VjcmV0";
+  request.token = "secret-token";
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
+  request.token = "secret-tokem";
+  EXPECT_EQ(statusOf(route(request, kPolicy)), 401);
   // A server without a token accepts no commands.
   Policy open = kPolicy;
   open.token.clear();
@@ -148,9 +171,75 @@ TEST(RouteTest, ForeignPagesMayNeitherCommandNorConnect) {
     request.origin = origin;
     EXPECT_EQ(statusOf(route(request, kPolicy)), 403) << origin;
   }
-  Request own = post("/api/land");
-  own.origin = "http://127.0.0.1:8080";
-  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(own, kPolicy)));
+  EXPECT_TRUE(mayCommand("127.0.0.1:8080", "http://127.0.0.1:8080", kPolicy));
+  EXPECT_TRUE(mayCommand("Cobra.local:80", "http://cobra.local", kPolicy));
+  EXPECT_TRUE(mayCommand("[::1]", "http://[::1]", kPolicy));
+}
+
+TEST(RouteTest, ARefusedOwnPageIsToldTheOption) {
+  Request request = post("/api/hold");
+  request.origin = "https://field.example";
+  EXPECT_THAT(reasonOf(route(request, kPolicy)), ::testing::HasSubstr("`--public-url https://field.example/`"));
+  request.origin = "null";
+  EXPECT_THAT(reasonOf(route(request, kPolicy)), ::testing::Not(::testing::HasSubstr("--public-url")));
+  request = get("/api/state");
+  request.host = "field.example:8080";
+  EXPECT_THAT(reasonOf(route(request, kPolicy)), ::testing::HasSubstr("`--public-url http://field.example:8080/`"));
+}
+
+TEST(RouteTest, PagesOfAPublicAddressAreOwnWhateverTheHost) {
+  const Policy policy = withPublicUrls({"https://field.example/swiftlet/", "http://10.0.0.5:9000/"});
+  for (const char* host : {"127.0.0.1:8080", "field.example", "FIELD.EXAMPLE:443", "field.example:8443", "localhost"})
+    EXPECT_TRUE(mayCommand(host, "https://field.example", policy)) << host;
+  EXPECT_TRUE(mayCommand("127.0.0.1:8080", "https://field.example:443", policy));
+  EXPECT_TRUE(mayCommand("127.0.0.1:8080", "http://10.0.0.5:9000", policy));
+  EXPECT_TRUE(mayCommand("field.example", "", policy)) << "a program that is not a browser";
+  EXPECT_TRUE(mayCommand("127.0.0.1:8080", "http://127.0.0.1:8080", policy)) << "beside it, without the proxy";
+  EXPECT_TRUE(mayCommand("field.example:8080", "http://field.example:8080", policy)) << "by name, without the proxy";
+  for (const char* origin :
+       {"http://field.example", "https://field.example:8443", "https://evil.example", "https://sub.field.example",
+        "https://field.example.evil.example", "null", "https://field.example/", "http://10.0.0.5"}) {
+    EXPECT_FALSE(mayCommand("127.0.0.1:8080", origin, policy)) << origin;
+    EXPECT_FALSE(mayCommand("field.example", origin, policy)) << origin;
+  }
+  EXPECT_FALSE(mayCommand("sub.field.example", "https://field.example", policy)) << "names are whole";
+}
+
+TEST(RouteTest, NamesOfPublicAddressesMayStandInHost) {
+  const Policy policy = withPublicUrls({"http://drone.local:8080/"});
+  EXPECT_TRUE(mayCommand("Drone.LOCAL.:8080", "http://drone.local:8080", policy));
+  EXPECT_TRUE(mayCommand("drone.local:9000", "http://drone.local:9000", policy)) << "a port that is passed on";
+  EXPECT_FALSE(mayCommand("drone.local:9000", "http://drone.local:9001", policy));
+  EXPECT_FALSE(mayCommand("evil.example", "http://evil.example", policy)) << "DNS rebinding";
+}
+
+TEST(RouteTest, AProxyTakesThePathOfThePublicAddressOffOrLeavesIt) {
+  const Policy policy = withPublicUrls({"https://field.example/a/swiftlet", "https://field.example/api/"});
+  for (const char* before : {"", "/a/swiftlet", "/api", "/", "//"}) {
+    const auto at = [&](const std::string& path) { return before + path; };
+    EXPECT_EQ(std::get<ServeFile>(route(get(at("/?token=x")), policy)).name, "index.html") << before;
+    EXPECT_EQ(std::get<ServeFile>(route(get(at("/page.js")), policy)).name, "page.js") << before;
+    EXPECT_TRUE(std::holds_alternative<SendState>(route(get(at("/api/state")), policy))) << before;
+    EXPECT_TRUE(std::holds_alternative<StreamPictures>(route(get(at("/stream/map.mjpg?fps=5")), policy))) << before;
+    EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(post(at("/api/hold")), policy))) << before;
+    EXPECT_TRUE(std::holds_alternative<ConfirmToken>(route(get(at("/api/token?token=secret-token")), policy)));
+    Request stranger = post(at("/api/hold"));
+    stranger.authorization.clear();
+    EXPECT_EQ(statusOf(route(stranger, policy)), 401) << before;
+  }
+  for (const char* target :
+       {"/a/page.js", "/b/swiftlet/page.js", "/a/swiftlet/none.js", "/a/swiftlet/a/swiftlet/", "/a/swiftletpage.js"})
+    EXPECT_EQ(statusOf(route(get(target), policy)), 404) << target;
+  EXPECT_EQ(statusOf(route(get("/a/swiftlet/../page.js"), policy)), 400);
+}
+
+TEST(RouteTest, APublicAddressWithoutItsSlashIsRedirected) {
+  const Policy policy = withPublicUrls({"https://field.example/a/swiftlet/"});
+  EXPECT_EQ(std::get<Redirect>(route(get("/a/swiftlet?token=x"), policy)).location, "./swiftlet/?token=x");
+  EXPECT_EQ(std::get<Redirect>(route(get("/a/swift%6Cet"), policy)).location, "./swift%6Cet/");
+  EXPECT_EQ(statusOf(route(post("/a/swiftlet"), policy)), 405);
+  EXPECT_EQ(statusOf(route(get("/a"), policy)), 404);
+  EXPECT_EQ(statusOf(route(get("/a/swiftlet"), kPolicy)), 404);
 }
 
 TEST(RouteTest, GoalsAreReadStrictly) {
@@ -243,7 +332,7 @@ TEST(RouteTest, AnAbsoluteTargetBringsItsOwnHost) {
 }
 
 TEST(RouteTest, ServesNothingElse) {
-  for (const char* target : {"/etc/passwd", "/api", "/api/", "/index", "//", "/api/state/"})
+  for (const char* target : {"/etc/passwd", "/api", "/api/", "/index", "//api", "/api/state/"})
     EXPECT_EQ(statusOf(route(get(target), kPolicy)), 404) << target;
   for (const char* target : {"", "x", "https://127.0.0.1/", "*", "/../page.js", "/%2e%2e/page.js", "/page.js%00", "/%"})
     EXPECT_EQ(statusOf(route(get(target), kPolicy)), 400) << target;

@@ -1,8 +1,10 @@
 // Sends the operator's commands, with the token of the link that was printed at start.
 
+import { folder } from './address.js';
 import { forVehicle } from './vehicle.js';
 
-const kKey = 'swiftlet-token';
+/** Several vehicles' pages may lie below one host, each in its folder and with its token. */
+const kKey = `swiftlet-token ${folder()}`;
 /** The server answers a command within two seconds also if the vehicle does not; on a dead link nobody does. */
 const kPatience_ms = 2000;
 
@@ -33,7 +35,7 @@ export class Commands {
   async check() {
     if (!this.token) return;
     try {
-      this.note(await this.ask('GET', '/api/token'));
+      this.note(await this.ask('GET', 'api/token'));
     } catch {
       // The next hello asks again.
     }
@@ -45,7 +47,7 @@ export class Commands {
    */
   async give(name, body) {
     try {
-      const response = await this.ask('POST', `/api/${name}`, body && JSON.stringify(body));
+      const response = await this.ask('POST', `api/${name}`, body && JSON.stringify(body));
       const { accepted, reason = '' } = await response.json();
       this.note(response);
       const outcome = accepted === true ? 'accepted' : response.status === 504 ? 'no answer' : 'refused';
@@ -56,9 +58,10 @@ export class Commands {
   }
 
   ask(method, path, body, patience_ms = kPatience_ms) {
+    // Not in `Authorization`, where a proxy may want a password of its own.
     return fetch(forVehicle(path), {
       method,
-      headers: { Authorization: `Bearer ${this.token}`, 'Content-Type': 'application/json' },
+      headers: { 'X-Swiftlet-Token': this.token, 'Content-Type': 'application/json' },
       body,
       signal: AbortSignal.timeout(patience_ms),
     });

@@ -1,5 +1,6 @@
 // The live connection: parses what the server sends, reconnects by itself, and says how old the data is.
 
+import { socketUrl } from './address.js';
 import { forVehicle } from './vehicle.js';
 
 /** Cells along a side of a tile. */
@@ -62,8 +63,7 @@ export class Link {
   }
 
   connect() {
-    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = new WebSocket(`${scheme}://${location.host}${this.pathOf(forVehicle('/api/ws'))}`);
+    const socket = new WebSocket(socketUrl(this.pathOf(forVehicle('api/ws'))));
     socket.binaryType = 'arraybuffer';
     const opened_ms = performance.now();
     socket.onmessage = (event) => {

@@ -211,8 +211,8 @@ function offerStream(name, alt, path, age_s) {
   });
 }
 
-offerStream('camera', 'Picture of the onboard camera', '/stream/camera.mjpg', () => store.state?.camera_age_s ?? null);
-offerStream('depth', 'Picture of the depth camera, near in red, far in blue', '/stream/depth.mjpg', () => store.state?.depth_age_s ?? null);
+offerStream('camera', 'Picture of the onboard camera', 'stream/camera.mjpg', () => store.state?.camera_age_s ?? null);
+offerStream('depth', 'Picture of the depth camera, near in red, far in blue', 'stream/depth.mjpg', () => store.state?.depth_age_s ?? null);
 
 // --- how old is what is shown -------------------------------------------------------------------------------------
 

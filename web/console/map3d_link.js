@@ -1,4 +1,5 @@
 // The connection that brings the 3D map; it exists only while a 3D view is shown.
+import { socketUrl } from './address.js';
 import { forVehicle } from './vehicle.js';
 
 export class Map3dLink {
@@ -9,8 +10,7 @@ export class Map3dLink {
   }
 
   connect() {
-    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    this.socket = new WebSocket(`${scheme}://${location.host}${this.pathOf(forVehicle('/api/map3d'))}`);
+    this.socket = new WebSocket(socketUrl(this.pathOf(forVehicle('api/map3d'))));
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => this.onOpen();
     this.socket.onmessage = (event) => {

@@ -110,7 +110,7 @@ export class Map3dPanel {
   streamPath() {
     const scheme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
     const width = Math.min(960, Math.max(64, this.box.clientWidth)), height = Math.round((width * this.box.clientHeight) / this.box.clientWidth);
-    return this.withToken(forVehicle(`/stream/map3d.mjpg?${this.orbit.seenIn(inverse(this.store.shown().T_shown_map)).query()}&width=${width}&height=${Math.max(64, height)}` +
+    return this.withToken(forVehicle(`stream/map3d.mjpg?${this.orbit.seenIn(inverse(this.store.shown().T_shown_map)).query()}&width=${width}&height=${Math.max(64, height)}` +
       `&scheme=${scheme}&color=${this.byNormal ? 'normal' : 'measured'}&fps=10&t=${Date.now()}`));
   }
 

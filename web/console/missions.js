@@ -35,7 +35,7 @@ export class MissionsCard {
     clearTimeout(this.retry);
     if (!this.commands.allowed) return;
     try {
-      const response = await this.commands.ask('GET', '/api/missions', undefined, kPatience_ms);
+      const response = await this.commands.ask('GET', 'api/missions', undefined, kPatience_ms);
       this.commands.note(response);
       if (!response.ok) throw new Error(response.statusText);
       this.missions = await response.json();

@@ -2,7 +2,7 @@
 
 const chosen = new URL(location.href).searchParams.get('vehicle');
 
-/** The path on the server, for the vehicle of this page. */
+/** The path, relative to the page, for the vehicle of this page. */
 export function forVehicle(path) {
   if (chosen === null) return path;
   return `${path}${path.includes('?') ? '&' : '?'}vehicle=${encodeURIComponent(chosen)}`;

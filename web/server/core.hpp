@@ -34,13 +34,13 @@ class Connection {
 
   virtual void close() = 0;
   bool watches() const { return use_ == Use::kWatching; }
-  /// The client has shown the operator's token.
+  /// The client has shown the operator's token, of an HTTP connection with its last request.
   bool byOperator() const { return by_operator_; }
   /// Every 10 ms, after Core::watch().
   virtual void tick(common::Time /*now*/) {}
 
  protected:
-  void setByOperator() { by_operator_ = true; }
+  void setByOperator(bool by_operator) { by_operator_ = by_operator; }
 
  private:
   Use use_;

@@ -36,6 +36,16 @@ constexpr const char* kContentPolicy =
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
+/// A proxy that was not told of WebSockets passes all of a handshake on but Upgrade and Connection, perhaps by
+/// HTTP/1.0. nginx makes a tunnel all the same if the answer is 101. The key shows what is meant: no script can set a
+/// header Sec-.
+void completeHandshake(http::request<http::string_body>& request) {
+  if (request.method() != http::verb::get || request[http::field::sec_websocket_key].empty()) return;
+  request.version(11);
+  request.set(http::field::connection, "Upgrade");
+  request.set(http::field::upgrade, "websocket");
+}
+
 class HttpSession : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket)
@@ -76,7 +86,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
       return sendError(400, "this is not an HTTP request: " + error.message());
     if (error) return close();
     request_ = parser_->release();
-    keep_alive_ = request_.keep_alive();
+    keep_alive_ = request_.version() >= 11 && request_.keep_alive();
     head_only_ = request_.method() == http::verb::head;
     act();
   }
@@ -86,11 +96,15 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     request.method = text(request_.method_string());
     request.target = text(request_.target());
     request.host = text(request_[http::field::host]);
+    // HTTP/1.0 knows no Host. Browsers always send it, so that their name servers trick nobody.
+    if (request_.version() < 11 && request_.count(http::field::host) == 0) request.host = "localhost";
+    completeHandshake(request_);
     request.origin = text(request_[http::field::origin]);
     request.authorization = text(request_[http::field::authorization]);
+    request.token = text(request_["X-Swiftlet-Token"]);
     request.body = request_.body();
     request.wants_websocket = beast::websocket::is_upgrade(request_);
-    if (hasToken(request, core_->policy)) setByOperator();
+    setByOperator(hasToken(request, core_->policy));  // A proxy sends the requests of many by one connection.
     std::visit([this](const auto& action) { perform(action); }, route(request, core_->policy));
   }
 
@@ -115,8 +129,13 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     send(std::move(response));
   }
 
+  void perform(const Redirect& redirect) {
+    Response response = make(307, "text/plain");
+    response.set(http::field::location, redirect.location);
+    send(std::move(response));
+  }
+
   void perform(const StreamPictures& stream) {
-    if (request_.version() < 11) return sendError(400, "streams need HTTP/1.1");
     if (!mayWatch()) return;
     startStream(core_, stream_.release_socket(), stream, byOperator());
   }

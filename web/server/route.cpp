@@ -1,7 +1,9 @@
 #include "web/server/route.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,12 +28,28 @@ bool sameSecret(std::string_view given, std::string_view secret) {
   return difference == 0;
 }
 
+template <typename List>
+bool in(const List& list, std::string_view item) {
+  return std::find(std::begin(list), std::end(list), item) != std::end(list);
+}
+
+/// What to add to the refusal of an address that may be one of the page.
+std::string howToAllow(const std::optional<Origin>& origin) {
+  return origin ? fmt::format("; if it is this page, start with `--public-url {}/`", toString(*origin)) : "";
+}
+
+/// Where a page that was opened by the Host comes from, if no proxy has changed anything.
+std::optional<Origin> originOfHost(const Request& request) { return parseOrigin("http://" + request.host); }
+
+/// A name that others could let stand for this machine's address is none of the page (DNS rebinding).
 void checkHost(const Request& request, const Policy& policy) {
-  const auto name = hostName(request.host);
-  if (name && (*name == "localhost" || isAddressLiteral(*name) ||
-               std::find(policy.hosts.begin(), policy.hosts.end(), *name) != policy.hosts.end()))
+  const auto origin = originOfHost(request);
+  const auto isHost = [&](const PublicUrl& url) { return url.origin.host == origin->host; };
+  if (origin && (origin->host == "localhost" || isAddressLiteral(origin->host) || in(policy.hosts, origin->host) ||
+                 std::any_of(policy.public_urls.begin(), policy.public_urls.end(), isHost)))
     return;
-  refuse(403, fmt::format("the host {} is not this server: open the page by its address", shown(request.host)));
+  refuse(403, fmt::format("the host {} is not this server: open the page by its address{}", shown(request.host),
+                          origin ? howToAllow(origin) + ", or with https" : ""));
 }
 
 void checkMethod(const Request& request, const std::string& wanted) {
@@ -44,10 +62,23 @@ void checkGetOrHead(const Request& request) {
   refuse(405, fmt::format("use GET here, not {}", shown(request.method)), "GET, HEAD");
 }
 
+/// By its public addresses, or by the Host; not by a Host that is a public address of https, whose name others may use
+/// for a page of http.
+bool isOwn(const Origin& origin, const Request& request, const Policy& policy) {
+  bool behind_tls = false;
+  for (const PublicUrl& url : policy.public_urls) {
+    if (url.origin == origin) return true;
+    behind_tls |= parseOrigin(url.origin.scheme + "://" + request.host) == url.origin && url.origin.scheme == "https";
+  }
+  return !behind_tls && origin == originOfHost(request);
+}
+
 /// Browsers send the origin of a page that posts or opens a socket; only Swiftlet's own page may.
-void checkOrigin(const Request& request) {
-  if (request.origin.empty() || request.origin == "http://" + request.host) return;
-  refuse(403, fmt::format("a page of {} may not do this", shown(request.origin)));
+void checkOrigin(const Request& request, const Policy& policy) {
+  if (request.origin.empty()) return;
+  const auto origin = parseOrigin(request.origin);
+  if (origin && isOwn(*origin, request, policy)) return;
+  refuse(403, fmt::format("a page of {} may not do this{}", shown(request.origin), howToAllow(origin)));
 }
 
 /// Empty if the request shows none.
@@ -55,6 +86,7 @@ std::string_view shownToken(const Request& request, const Target& target) {
   constexpr std::string_view kBearer = "Bearer ";
   if (request.authorization.compare(0, kBearer.size(), kBearer) == 0)
     return std::string_view(request.authorization).substr(kBearer.size());
+  if (!request.token.empty()) return request.token;
   const auto it = target.query.find("token");
   return it == target.query.end() ? std::string_view() : std::string_view(it->second);
 }
@@ -181,7 +213,7 @@ Action command(const Request& request, const std::string& name, std::size_t vehi
   return GiveCommand{common::LandCommand{}, vehicle};
 }
 
-Action read(const Request& request, const Target& target, std::size_t vehicle) {
+Action read(const Request& request, const Target& target, std::size_t vehicle, const Policy& policy) {
   if (target.path == "/api/map.png" || target.path == "/api/state")
     checkGetOrHead(request);
   else
@@ -193,48 +225,68 @@ Action read(const Request& request, const Target& target, std::size_t vehicle) {
   if (target.path == "/stream/depth.mjpg") return stream(depthStream(target));
   if (target.path == "/api/map.png") return SendPicture{mapPicture(target), vehicle};
   if (target.path == "/api/state") return SendState{vehicle};
-  checkOrigin(request);
+  checkOrigin(request, policy);
   if (!request.wants_websocket) refuse(426, "this is a WebSocket: connect with `Upgrade: websocket`");
   return OpenSocket{target.path == "/api/map3d" ? OpenSocket::Feed::kMap3d : OpenSocket::Feed::kPage, vehicle};
 }
 
+constexpr std::array<std::string_view, 8> kReads{
+    "/stream/map.mjpg", "/stream/camera.mjpg", "/stream/map3d.mjpg", "/stream/depth.mjpg", "/api/map.png", "/api/state",
+    "/api/ws",          "/api/map3d"};
+constexpr std::array<std::string_view, 10> kCommands{
+    "/api/goal",    "/api/hold", "/api/resume",   "/api/home",           "/api/land",
+    "/api/mission", "/api/stop", "/api/keep_out", "/api/clear_keep_out", "/api/go_on"};
+constexpr std::array<std::string_view, 2> kForTheOperator{"/api/token", "/api/missions"};
+
+std::string fileOf(std::string_view path) { return path == "/" ? "index.html" : std::string(path.substr(1)); }
+
+bool isServed(std::string_view path, const Policy& policy) {
+  return in(kReads, path) || in(kCommands, path) || in(kForTheOperator, path) || in(policy.files, fileOf(path));
+}
+
+/// The path as it is served: proxies may leave in front of it the path of the public address, and a slash too many.
+std::string servedPath(const std::string& asked, const Policy& policy) {
+  std::string path = asked.substr(std::min(asked.find_first_not_of('/'), asked.size()) - 1);
+  if (isServed(path, policy)) return path;
+  for (const PublicUrl& url : policy.public_urls)
+    if (path.starts_with(url.path) && isServed(path.substr(url.path.size() - 1), policy))
+      return path.substr(url.path.size() - 1);
+  return path;
+}
+
+/// From the path of a public address without its last slash to the one with it.
+std::optional<Redirect> toFolder(const Request& request, const std::string& path, const Policy& policy) {
+  const auto lacksSlash = [&](const PublicUrl& url) { return url.path == path + "/"; };
+  if (std::none_of(policy.public_urls.begin(), policy.public_urls.end(), lacksSlash)) return std::nullopt;
+  checkGetOrHead(request);
+  const std::string_view target = request.target, as_sent = target.substr(0, target.find('?'));
+  return Redirect{fmt::format("./{}/{}", as_sent.substr(as_sent.rfind('/') + 1), target.substr(as_sent.size()))};
+}
+
 Action decide(const Request& request, const Policy& policy) {
-  static const std::vector<std::string> kReads{"/stream/map.mjpg",
-                                               "/stream/camera.mjpg",
-                                               "/stream/map3d.mjpg",
-                                               "/stream/depth.mjpg",
-                                               "/api/map.png",
-                                               "/api/state",
-                                               "/api/ws",
-                                               "/api/map3d"};
-  static const std::vector<std::string> kCommands{"/api/goal",           "/api/hold",    "/api/resume", "/api/home",
-                                                  "/api/land",           "/api/mission", "/api/stop",   "/api/keep_out",
-                                                  "/api/clear_keep_out", "/api/go_on"};
-  const auto in = [](const std::vector<std::string>& list, const std::string& item) {
-    return std::find(list.begin(), list.end(), item) != list.end();
-  };
   checkHost(request, policy);
-  const auto target = parseTarget(request.target);
+  auto target = parseTarget(request.target);
   if (!target) refuse(400, target.error());
-  if (in(kReads, target->path)) return read(request, *target, vehicleOf(*target, policy));
+  target->path = servedPath(target->path, policy);
+  if (in(kReads, target->path)) return read(request, *target, vehicleOf(*target, policy), policy);
   if (in(kCommands, target->path)) {
     const std::size_t vehicle = vehicleOf(*target, policy);
     checkMethod(request, "POST");
-    checkOrigin(request);
+    checkOrigin(request, policy);
     checkToken(request, *target, policy);
     return command(request, target->path.substr(5), vehicle);
   }
-  if (target->path == "/api/token" || target->path == "/api/missions") {
+  if (in(kForTheOperator, target->path)) {
     checkMethod(request, "GET");
     checkToken(request, *target, policy);
     if (target->path == "/api/missions") return ListMissions{};
     return ConfirmToken{};
   }
-  const std::string file = target->path == "/" ? "index.html" : target->path.substr(1);
-  if (!in(policy.files, file)) refuse(404, fmt::format("there is no {} here", shown(target->path)));
+  if (const auto redirect = toFolder(request, target->path, policy)) return *redirect;
+  if (!in(policy.files, fileOf(target->path))) refuse(404, fmt::format("there is no {} here", shown(target->path)));
   (void)vehicleOf(*target, policy);
   checkGetOrHead(request);
-  return ServeFile{file};
+  return ServeFile{fileOf(target->path)};
 }
 
 /// With the target as a path, and its own host if it is in the absolute form.

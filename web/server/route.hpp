@@ -8,12 +8,16 @@
 
 #include "common/command.hpp"
 #include "web/server/picture_view.hpp"
+#include "web/server/public_url.hpp"
 #include "web/server/request.hpp"
 
 namespace swiftlet::web {
 
 struct ServeFile {
   std::string name;  ///< Name of the embedded file: "index.html".
+};
+struct Redirect {
+  std::string location;  ///< Relative to the address that was asked for.
 };
 // In the actions below, `vehicle` is the number of the vehicle that the request names.
 struct StreamPictures {
@@ -50,22 +54,24 @@ struct Refuse {
   std::string allow;  ///< For status 405: the allowed methods.
 };
 
-using Action = std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, ListMissions,
-                            StartMission, ConfirmToken, Refuse>;
+using Action = std::variant<ServeFile, Redirect, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand,
+                            ListMissions, StartMission, ConfirmToken, Refuse>;
 
 struct Policy {
   std::string token;
   std::vector<std::string> hosts;  ///< Names, lower case, that may stand in Host besides addresses and localhost.
   std::vector<std::string> files;  ///< The embedded ones.
-  std::vector<std::string> vehicles = {};  ///< Names of several, by their numbers; empty: there is one.
+  std::vector<std::string> vehicles = {};   ///< Names of several, by their numbers; empty: there is one.
+  std::vector<PublicUrl> public_urls = {};  ///< Where else the page is opened: their hosts and origins are its own.
 };
 
 /// Checked in this order: host (403), target (400), path (404), vehicle (404), method (405), origin (403), token (401),
 /// parameters and body (400). Widths, heights and rates that are too large are reduced to what is offered. A viewpoint
-/// outside its bounds is refused.
+/// outside its bounds is refused. A path that a proxy passes on as it is loses the path of a public address; that path
+/// without its last slash is redirected, since the page's own addresses are relative.
 Action route(const Request& request, const Policy& policy);
 
-/// Whether the request carries the operator's token, in its header or its address.
+/// Whether the request carries the operator's token, in a header or its address.
 bool hasToken(const Request& request, const Policy& policy);
 
 }  // namespace swiftlet::web

@@ -34,9 +34,11 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
     error_code ignored;
     socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
     socket_.set_option(boost::asio::socket_base::send_buffer_size(kSendBufferBytes), ignored);
+    // The end of the connection is that of the stream, which HTTP/1.0 understands too. X-Accel-Buffering keeps nginx
+    // from collecting pictures.
     head_ = fmt::format(
         "HTTP/1.1 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary={0}\r\nCache-Control: no-store\r\n"
-        "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n--{0}\r\n",
+        "X-Content-Type-Options: nosniff\r\nX-Accel-Buffering: no\r\nConnection: close\r\n\r\n--{0}\r\n",
         kStreamBoundary);
     self_ = shared_from_this();
     core_->add(self_);

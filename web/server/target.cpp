@@ -1,7 +1,11 @@
 #include "web/server/target.hpp"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -49,6 +53,34 @@ char lowerCase(char c) { return static_cast<char>(std::tolower(static_cast<unsig
 
 std::string malformed(std::string_view target) { return fmt::format("the address {} is malformed", shown(target)); }
 
+/// Of ":8080"; 0 where none is named, nothing where it is malformed.
+std::optional<int> portIn(std::string_view text) {
+  if (text.empty() || text == ":") return 0;
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), port);
+  const bool sound = text.front() == ':' && error == std::errc() && end == text.data() + text.size();
+  return sound && port > 0 && port <= 65535 ? std::optional(port) : std::nullopt;
+}
+
+/// In lower case and without the dot that may end a complete name.
+std::optional<std::string> nameIn(std::string_view text) {
+  if (text.ends_with('.')) text.remove_suffix(1);
+  const auto sound = [](unsigned char c) { return std::isalnum(c) || c == '.' || c == '-' || c == '_'; };
+  if (text.empty() || !std::all_of(text.begin(), text.end(), sound)) return std::nullopt;
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), lowerCase);
+  return lower;
+}
+
+/// Of an IPv6 address, so that equal ones compare as equal.
+std::optional<std::string> shortestForm(std::string_view text) {
+  in6_addr address{};
+  std::array<char, INET6_ADDRSTRLEN> shortest{};
+  const bool sound = text.find('\0') == std::string_view::npos;
+  if (!sound || inet_pton(AF_INET6, std::string(text).c_str(), &address) != 1) return std::nullopt;
+  return inet_ntop(AF_INET6, &address, shortest.data(), shortest.size());
+}
+
 /// What is wrong with it; empty if nothing is.
 std::string parseQuery(std::string_view target, std::map<std::string, std::string>& query) {
   std::string_view text = target.substr(target.find('?') + 1);
@@ -91,32 +123,21 @@ std::optional<AbsoluteTarget> absoluteTarget(std::string_view target) {
   return AbsoluteTarget{std::string(authority), (target.starts_with('/') ? "" : "/") + std::string(target)};
 }
 
-std::optional<std::string> hostName(std::string_view host_header) {
-  std::string_view name = host_header, port;
-  if (!name.empty() && name.front() == '[') {
-    const std::size_t close = name.find(']');
-    if (close == std::string_view::npos) return std::nullopt;
-    port = name.substr(close + 1);
-    name = name.substr(1, close - 1);
-  } else if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
-    port = name.substr(colon);
-    name = name.substr(0, colon);
-  }
-  const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  if (!port.empty() && (port.front() != ':' || !std::all_of(port.begin() + 1, port.end(), digit))) return std::nullopt;
-  const auto sound = [](unsigned char c) { return std::isalnum(c) || c == '.' || c == '-' || c == ':' || c == '_'; };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), sound)) return std::nullopt;
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), lowerCase);
-  return lower;
+std::optional<Authority> parseAuthority(std::string_view text) {
+  const bool bracketed = text.starts_with('[');
+  const std::size_t end = bracketed ? text.find(']') : text.find(':');
+  if (bracketed && end == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = end == std::string_view::npos ? "" : text.substr(bracketed ? end + 1 : end);
+  const auto port = portIn(rest);
+  const auto host = bracketed ? shortestForm(text.substr(1, end - 1)) : nameIn(text.substr(0, end));
+  if (!host || !port) return std::nullopt;
+  return Authority{*host, *port == 0 ? std::nullopt : std::optional(*port)};
 }
 
-bool isAddressLiteral(std::string_view host_name) {
-  if (host_name.find(':') != std::string_view::npos)
-    return std::all_of(host_name.begin(), host_name.end(),
-                       [](char c) { return hexDigit(c) >= 0 || c == ':' || c == '.'; });
+bool isAddressLiteral(std::string_view host) {
+  if (host.find(':') != std::string_view::npos) return true;
   int parts = 0, digits = 0;
-  for (const char c : host_name) {
+  for (const char c : host) {
     if (c == '.') {
       if (digits == 0) return false;
       ++parts;

@@ -27,10 +27,15 @@ struct AbsoluteTarget {
 /// Nothing for a target in another form.
 std::optional<AbsoluteTarget> absoluteTarget(std::string_view target);
 
-/// Lower case, without the port and the brackets of an IPv6 address: "[::1]:8080" is "::1". Nothing if malformed.
-std::optional<std::string> hostName(std::string_view host_header);
+/// A host and perhaps a port, as in a Host header: "[::1]:8080" is {"::1", 8080}.
+struct Authority {
+  std::string host;  ///< Lower case; an IPv6 address without its brackets and in its shortest form.
+  std::optional<int> port;
+};
+/// Nothing if malformed.
+std::optional<Authority> parseAuthority(std::string_view text);
 
-/// An IPv4 or IPv6 address in digits, which no foreign name server can control.
-bool isAddressLiteral(std::string_view host_name);
+/// Whether the host of an Authority is an IPv4 or IPv6 address in digits, which no foreign name server can control.
+bool isAddressLiteral(std::string_view host);
 
 }  // namespace swiftlet::web

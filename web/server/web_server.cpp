@@ -61,6 +61,7 @@ std::string lower(std::string text) {
 Policy policyOf(const WebServer::Options& options, const std::vector<WebServer::Sources>& sources) {
   Policy policy;
   policy.token = options.token;
+  for (const std::string& url : options.public_urls) policy.public_urls.push_back(parsePublicUrl(url));
   std::array<char, 256> name{};
   if (gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0') {
     policy.hosts.push_back(lower(name.data()));
@@ -146,11 +147,13 @@ WebServer::~WebServer() { stop(); }
 
 int WebServer::port() const { return impl_->port; }
 
-std::string WebServer::operatorUrl() const {
+std::vector<std::string> WebServer::operatorUrls() const {
   const Options& options = impl_->core->options;
-  const auto address = reachableAddress(addressOf(options.address));
-  const std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
-  return fmt::format("http://{}:{}/?token={}", host, impl_->port, options.token);
+  const std::string host = reachableAddress(addressOf(options.address)).to_string();
+  std::vector<std::string> urls{toString(Origin{"http", host, impl_->port}) + "/"};
+  for (const PublicUrl& url : impl_->core->policy.public_urls) urls.push_back(url.text);
+  for (std::string& url : urls) url += "?token=" + options.token;
+  return urls;
 }
 
 bool WebServer::cameraWanted(std::size_t vehicle) const {

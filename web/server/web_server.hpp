@@ -20,7 +20,9 @@
 //   POST /api/mission             starts one, or another in its place: {"file": "...", "parameters": {"KEY": "VALUE"}}
 //   POST /api/stop                the mission lets go; the vehicle holds until one is started, or it lands
 //   GET  /api/token               200 if the token shown is the operator's, else 401
-//   POST /api/goal|hold|resume|home|land|keep_out|clear_keep_out|go_on    `Authorization: Bearer TOKEN` or ?token=;
+//   POST /api/goal|hold|resume|home|land|keep_out|clear_keep_out|go_on    with the token: `Authorization: Bearer
+//   TOKEN`,
+//                                 X-Swiftlet-Token: TOKEN or ?token=TOKEN;
 //                                 goal: {"x_m": 1.0, "y_m": 2.0}; keep_out: see docs/tutorials/operator.md
 //
 // Where several vehicles fly, ?vehicle=NAME says which one is meant, everywhere; without it the first.
@@ -30,8 +32,11 @@
 //
 // Streams: a picture is encoded once for all clients that asked for the same; each client has at most one frame under
 // way and gets the newest when it is ready again, so that a slow client costs and delays nobody, and its own picture
-// is never older than one frame. Requests whose Host is neither an address nor a name of this machine, or whose Origin
-// is foreign, are refused (no DNS rebinding, no CSRF).
+// is never older than one frame. Requests whose Host is neither an address nor a name of this machine or of a public
+// URL, or whose Origin is foreign, are refused (no DNS rebinding, no CSRF).
+//
+// A proxy may stand in front: by HTTP/1.0 or 1.1, with the Host or with another one, below a path that it takes off or
+// leaves on. Nothing is believed of X-Forwarded-*, which any client can send: the public URLs say what is outside.
 #pragma once
 
 #include <memory>
@@ -49,7 +54,8 @@ class WebServer {
   using Options = WebServerOptions;
   using Sources = WebServerSources;
 
-  /// Starts to listen at once. Throws common::InputError if the address cannot be used or the port is taken.
+  /// Starts to listen at once. Throws common::InputError if the address cannot be used, the port is taken or a public
+  /// URL is none.
   WebServer(IoContext& io, const Options& options, const Sources& sources);
   /// Serves several vehicles: one of `sources` each, at least one. If there are several, each must have a name.
   WebServer(IoContext& io, const Options& options, const std::vector<Sources>& sources);
@@ -59,9 +65,9 @@ class WebServer {
 
   /// The port it listens on.
   int port() const;
-  /// The link to open: "http://127.0.0.1:8080/?token=...". For "0.0.0.0" and "::" it has an address of this machine
-  /// that others can open, if there is one.
-  std::string operatorUrl() const;
+  /// The links to open. The first is "http://127.0.0.1:8080/?token=..."; for "0.0.0.0" and "::" it has an address of
+  /// this machine that others can open, if there is one. Those of the public URLs follow.
+  std::vector<std::string> operatorUrls() const;
 
   /// Whether any client watches the vehicle's camera. Otherwise it need not be rendered. Any thread.
   bool cameraWanted(std::size_t vehicle = 0) const;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "common/command.hpp"
 #include "common/mailbox.hpp"
@@ -19,8 +20,11 @@ class MissionShelf;
 struct WebServerOptions {
   std::string address = "127.0.0.1";  ///< IPv4 or IPv6 to listen on; "0.0.0.0" is every interface.
   int port = 8080;                    ///< Port; 0 for any free one.
-  std::string token;                  ///< The token of an operator; at least 8 characters of [A-Za-z0-9_-].
-  std::string title;                  ///< Shown on the page: "explore_and_return in unb_case1".
+  /// Addresses by which the page is opened besides the one listened on: "https://field.example/swiftlet/" of a proxy,
+  /// "http://drone.local:8080/". Their names are accepted as Host, their pages as those of this server.
+  std::vector<std::string> public_urls;
+  std::string token;  ///< The token of an operator; at least 8 characters of [A-Za-z0-9_-].
+  std::string title;  ///< Shown on the page: "explore_and_return in unb_case1".
   double hull_diameter_m = 0.55;
   double command_timeout_s = 2.0;     ///< How long an answer waits for the CommandResult.
   double stall_timeout_s = 10.0;      ///< A stream's client that takes nothing for this long is dropped.
