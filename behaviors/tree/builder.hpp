@@ -72,8 +72,11 @@ class Builder {
   bool gave_up_ = false;
 };
 
-/// Entries that are read but never set, or set to a value that their readers cannot take. Leniently, one that is never
-/// set and may be a constant of another program (RED, of a script) is a warning.
-void checkEntries(const TreeParts& tree, Problems& problems, bool lenient);
+/// Entries that are read but never set, or set to a value that their readers cannot take. One that is never set is a
+/// warning if the host may set it, and, leniently, if it may be a constant of another program (RED, of a script).
+void checkEntries(const TreeParts& tree, Problems& problems, const ParseOptions& options);
+
+/// Warns of scripts that compare or add texts that look like numbers.
+void warnOfNumberTexts(const TreeParts& tree, Problems& problems);
 
 }  // namespace swiftlet::tree
