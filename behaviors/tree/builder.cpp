@@ -148,7 +148,7 @@ void Builder::checkUnused(const Place& place, const Scope& inner, int record) {
     if (!candidates) candidates = namesOfNodes(inner.names);
     report({place.document->at(*place.element, port), "SubTree", "the tree `" + id + "` has no entry {" + port + "}",
             didYouMean(port, *candidates)},
-           record);
+           record, options_.lenient);
   }
 }
 
@@ -287,20 +287,23 @@ bool Builder::tooLarge(const Place& place) {
   return true;
 }
 
-void Builder::report(Problem problem, int node) {
-  if (!foundEnough()) found_.push_back({std::move(problem), node});
+void Builder::report(Problem problem, int node, bool is_warning) {
+  if (!foundEnough()) found_.push_back({std::move(problem), node, is_warning});
 }
 
 bool Builder::foundEnough() const { return found_.size() > static_cast<std::size_t>(options_.limits.problems); }
 
 /// Paths count siblings, so that they are known when the tree is complete.
 void Builder::addFound() {
-  for (auto& [problem, node] : found_) {
+  for (auto& [problem, node, is_warning] : found_) {
     std::string path = node < 0 ? tree_->name : tree_->pathOf(node);
     constexpr std::size_t kMost = 400;
     if (path.size() > kMost) path = path.substr(0, kMost / 2) + " ... " + path.substr(path.size() - kMost / 2);
     problem.path = path + problem.path;
-    problems_.add(std::move(problem));
+    if (is_warning)
+      problems_.warn(std::move(problem));
+    else
+      problems_.add(std::move(problem));
   }
 }
 

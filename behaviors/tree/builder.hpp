@@ -45,7 +45,7 @@ class Builder {
   void bindSubTree(const Place& place, Scope& outer, Scope& inner, int record);
   void checkUnused(const Place& place, const Scope& inner, int record);
   /// Of a node that may not be complete yet.
-  void report(Problem problem, int node);
+  void report(Problem problem, int node, bool is_warning = false);
   /// There is no need to look for more.
   bool foundEnough() const;
   void addFound();
@@ -68,7 +68,12 @@ class Builder {
   std::unique_ptr<TreeParts> tree_;
   FlowRecorder flow_;
   Scope* main_scope_ = nullptr;
-  std::vector<std::pair<Problem, int>> found_;  ///< With the nodes that they are about.
+  struct Found {
+    Problem problem;
+    int node = -1;  ///< That it is about.
+    bool is_warning = false;
+  };
+  std::vector<Found> found_;
   bool gave_up_ = false;
 };
 

@@ -180,9 +180,14 @@ void Checker::reportNoTree(const Document& document, const XmlElement& element, 
 }
 
 void Checker::checkNode(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
-  if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind)
-    report({document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
-            std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"});
+  if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind) {
+    Problem problem{document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
+                    std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"};
+    if (lenient_)
+      warn(std::move(problem));
+    else
+      report(std::move(problem));
+  }
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, &manifest);
   for (const PortManifest& port : manifest.ports)
     if (port.required && givenTo(port, element) == nullptr) {

@@ -136,6 +136,21 @@ TEST_F(ForeignFile, HasAttributesThatNobodyReads) {
   EXPECT_THAT(tree.warnings().size(), 3U);
 }
 
+TEST_F(ForeignFile, CallsAConditionAnAction) {
+  writeTree("<Action ID=\"ScriptCondition\" code=\"true\"/>");
+  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("write <Condition ID=\"ScriptCondition\">")));
+  EXPECT_THAT(shortLines(MockedTree(path_).problems()), IsEmpty());
+  EXPECT_EQ(firstTick(), "SUCCESS");
+}
+
+TEST_F(ForeignFile, GivesATreeMoreThanItUses) {
+  writeTree("<SubTree ID=\"Used\" more=\"1\"/>", "<BehaviorTree ID=\"Used\"><Do/></BehaviorTree>");
+  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("the tree `Used` has no entry {more}")));
+  const MockedTree tree(path_);
+  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
+  EXPECT_THAT(shortLines(tree.warnings()), ElementsAre(HasSubstr("the tree `Used` has no entry {more}")));
+}
+
 TEST_F(ForeignFile, WithoutAMainTreeIsReadByTheOneThatNoOtherUses) {
   write(
       "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><Do/></BehaviorTree><BehaviorTree ID=\"Z\"><SubTree ID=\"A\"/>"
