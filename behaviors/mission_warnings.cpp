@@ -35,7 +35,7 @@ class Warnings {
       if (traits.asks_operator && !limits_.operator_goes_on)
         warn(record.node->id(),
              std::string("nobody says `go on`, and it ") +
-                 (isAlways(tree_, record, "timeout_s", 0) ? "waits without an end" : "fails after its timeout_s"),
+                 (mayWaitForever(record) ? "waits without an end" : "fails after its timeout_s"),
              kOperatorHint);
     }
     return std::move(warnings_);
@@ -46,6 +46,11 @@ class Warnings {
     const tree::NodeRecord& record = tree_.nodes()[static_cast<std::size_t>(node)];
     warnings_.push_back({tree_.locationOf(node), std::string(typeNameOf(record)), std::move(message), std::move(hint),
                          tree_.pathOf(node)});
+  }
+
+  bool mayWaitForever(const tree::NodeRecord& waiter) const {
+    const std::vector<tree::Value> timeouts = tree_.knownValues(waiter.node->id(), "timeout_s");
+    return std::find(timeouts.begin(), timeouts.end(), tree::Value(tree::Duration{})) != timeouts.end();
   }
 
   /// The first leaf below that has the vehicle whenever it is ticked; null without one.

@@ -115,7 +115,7 @@ TEST_F(ForeignFile, HasCommentsWithDashes) {
   EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
   EXPECT_THAT(shortLines(tree.warnings()),
               ElementsAre("1:12: `--` stands in a comment, which XML does not allow, write <!-- == text == -->",
-                          HasSubstr("6:44: `<` stands for itself")));
+                          HasSubstr("6:40: `<` stands for itself")));
   writeTree("<Sequence>" + comments + "<AlwaysSuccess/></Sequence>");
   EXPECT_THAT(problemsOfMission(), IsEmpty()) << "in a mission, too";
   writeTree("<Sequence>" + comments + "\n<Nobody/></Sequence>");
