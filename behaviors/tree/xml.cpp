@@ -160,6 +160,8 @@ class Reader {
     const auto isAt = [&](std::size_t place, char c) { return place < text.size() && text[place] == c; };
     if (isAt(at, '&') || (at > 0 && isAt(at - 1, '&'))) return "write & as &amp;";
     if (isAt(at, '<')) return "in a value, write < as &lt;";
+    if (text.substr(at < 3 ? 0 : at - 3, 4).find("<!") != std::string::npos)
+      return "a comment is written as <!-- text -->";
     if (at > 0 && isAt(at - 1, '=')) return "put the value in quotes";
     if (at < text.size() && static_cast<unsigned char>(text[at]) < 0x20U)
       return "XML does not allow this control character, take it out";

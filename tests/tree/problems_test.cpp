@@ -269,6 +269,13 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
               ElementsAre(HasSubstr("`Fly` is the name of a node type")));
 }
 
+TEST(Problems, AMarkThatIsNoCommentIsTold) {
+  for (const char* mark : {"<! -- a -->", "<!- a -->", "<!a>"})
+    EXPECT_THAT(problemsIn("<Sequence>" + std::string(mark) + "<AlwaysSuccess/></Sequence>"),
+                ElementsAre(HasSubstr("a comment is written as <!-- text -->")))
+        << mark;
+}
+
 TEST(Problems, TheMainTreeIsTheOneThatNoOtherUses) {
   const auto treeWith = [](const std::string& id, const std::string& used) {
     return "<BehaviorTree ID=\"" + id + "\">" + (used.empty() ? "<AlwaysSuccess/>" : "<SubTree ID=\"" + used + "\"/>") +
