@@ -1,6 +1,9 @@
 // The files that are given together with a tree's own: which trees they have, and reading those that it uses.
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/elements.hpp"

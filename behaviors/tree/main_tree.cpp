@@ -3,7 +3,9 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/elements.hpp"
