@@ -145,8 +145,10 @@ TEST_F(CheckMission, AFileOfAnotherKindIsToldInALine) {
   expectLine({"check", trial}, no_mission);
   expectLine({"fly", trial}, no_mission);
   expectLine({"migrate", trial}, no_mission);
-  expectLine({"check", "--system", mission, mission},
-             mission + ":1:1: `<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"> ...` where keys were expected");
+  expectLine(
+      {"check", "--system", mission, mission},
+      mission +
+          ":1:1: `<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"> <Behavio ...` where keys were expected");
 }
 
 class Migrating : public test_support::Scratch {
