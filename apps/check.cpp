@@ -1,4 +1,5 @@
 // swiftlet check: validates missions without flying.
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -13,11 +14,11 @@
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
+#include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/drawing.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
-#include "common/data_paths.hpp"
-#include "common/printable.hpp"
+#include "common/error.hpp"
 #include "interfaces/files/atomic_file.hpp"
 
 namespace swiftlet::apps {
@@ -28,28 +29,48 @@ struct CheckOptions {
   std::string system = "swiftlet";
   std::string dry_run;  ///< The script; empty: none.
   std::string draw;     ///< The SVG; empty: none.
+  bool headless = false;
   bool mock_leaves = false;
   bool json = false;
 };
 
-/// A file that cannot be found is a problem.
-behaviors::MissionVerdict judge(const std::string& mission, const CheckOptions& options, const System& system) {
-  try {
-    const std::string file = common::findData(mission).string();
-    const behaviors::MissionLimits limits = missionLimits(system, true);
-    return options.mock_leaves ? behaviors::judgeMissionWithMocks(file, limits) : behaviors::judgeMission(file, limits);
-  } catch (const common::InputError& missing) {
-    behaviors::MissionVerdict verdict;
-    for (const common::Problem& problem : missing.problems())
-      verdict.problems.push_back({{problem.location.file, 0, 0}, problem.element, problem.message, problem.hint, {}});
-    return verdict;
+/// A mission that was named, and its file, or why there is none.
+struct NamedMission {
+  std::string name;
+  std::string file = {};
+  std::vector<tree::Problem> problems = {};
+};
+
+std::vector<NamedMission> find(const std::vector<std::string>& names) {
+  std::vector<NamedMission> missions;
+  for (const std::string& name : names) {
+    NamedMission& mission = missions.emplace_back(NamedMission{name});
+    try {
+      mission.file = findMission(name);
+    } catch (const common::InputError& missing) {
+      for (const common::Problem& problem : missing.problems())
+        mission.problems.push_back({{problem.location.file, 0, 0}, problem.element, problem.message, problem.hint, {}});
+    }
   }
+  return missions;
 }
 
-/// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.
-std::string lineOf(tree::Problem problem, bool warning) {
-  if (warning) problem.element = "warning" + (problem.element.empty() ? "" : ": " + problem.element);
-  return common::printable(toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]")) + "\n";
+/// The trees of files that are named together.
+tree::TreeFiles treesOf(const std::vector<NamedMission>& missions) {
+  if (missions.size() < 2) return {};
+  std::vector<std::string> files;
+  for (const NamedMission& mission : missions)
+    if (!mission.file.empty()) files.push_back(mission.file);
+  return tree::treeFiles(files);
+}
+
+behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions& options, const System& system,
+                                const tree::TreeFiles& together) {
+  if (mission.file.empty()) return {mission.problems, {}, {}};
+  behaviors::MissionLimits limits = missionLimits(system, true);
+  limits.operator_goes_on = limits.operator_gives_goals = !options.headless;
+  return options.mock_leaves ? behaviors::judgeMissionWithMocks(mission.file, limits, together)
+                             : behaviors::judgeMission(mission.file, limits, together);
 }
 
 nlohmann::json jsonOf(const std::vector<tree::Problem>& problems) {
@@ -71,14 +92,25 @@ struct CheckReport {
   std::map<std::string, std::vector<std::string>> nodes;  ///< By mission: whose they are.
 };
 
-CheckReport reportOn(const CheckOptions& options) {
+/// A file that several missions use is told of once.
+void add(std::vector<tree::Problem>& all, const std::vector<tree::Problem>& found) {
+  for (const tree::Problem& problem : found) {
+    const auto isSame = [&](const tree::Problem& known) {
+      return known.path == problem.path && toString(known) == toString(problem);
+    };
+    if (std::none_of(all.begin(), all.end(), isSame)) all.push_back(problem);
+  }
+}
+
+CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission>& missions,
+                     const tree::TreeFiles& together) {
   const System system = loadSystem(options.system);
   CheckReport report;
-  for (const std::string& mission : options.missions) {
-    behaviors::MissionVerdict verdict = judge(mission, options, system);
-    report.problems.insert(report.problems.end(), verdict.problems.begin(), verdict.problems.end());
-    report.warnings.insert(report.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
-    if (!verdict.whose.empty()) report.nodes[mission] = std::move(verdict.whose);
+  for (const NamedMission& mission : missions) {
+    behaviors::MissionVerdict verdict = judge(mission, options, system, together);
+    add(report.problems, verdict.problems);
+    add(report.warnings, verdict.warnings);
+    if (!verdict.whose.empty()) report.nodes[mission.name] = std::move(verdict.whose);
   }
   return report;
 }
@@ -95,24 +127,31 @@ void print(const CheckReport& report, std::size_t missions) {
   fmt::print("{} mission{} sound{}\n", missions, missions == 1 ? " is" : "s are", warnings);
 }
 
-void draw(const CheckOptions& options) {
-  const std::string file = common::findData(options.missions.front()).string();
+void draw(const CheckOptions& options, const std::string& file, const tree::ParseOptions& parsing) {
   const tree::Registry& ours = behaviors::missionRegistry();
   const tree::MockedRegistry known =
-      options.mock_leaves ? tree::withMocks(file, ours) : tree::MockedRegistry{ours, {}, {}};
+      options.mock_leaves ? tree::withMocks(file, ours, parsing) : tree::MockedRegistry{ours, {}, parsing};
   const tree::ParseResult parsed = tree::parseFile(file, known.registry, known.options);
   required(interfaces::writeAtomically(options.draw, tree::drawTree(*parsed.tree)));
 }
 
-int check(const CheckOptions& options) {
+/// --dry-run and --draw are of one tree. With mocks that of the first file, which may use the trees of the others.
+void requireOneTree(const CheckOptions& options) {
   for (const auto& [option, value] : {std::pair{"--dry-run", options.dry_run}, {"--draw", options.draw}})
-    if (!value.empty() && options.missions.size() != 1)
+    if (!value.empty() && options.missions.size() != 1 && !options.mock_leaves)
       throw common::InputError(common::Problem{{}, option, "the file is of one mission", "name that one alone"});
-  const CheckReport report = reportOn(options);
-  if (!options.draw.empty() && report.problems.empty()) draw(options);
+}
+
+int check(const CheckOptions& options) {
+  requireOneTree(options);
+  const std::vector<NamedMission> missions = find(options.missions);
+  tree::ParseOptions parsing;
+  parsing.trees_elsewhere = treesOf(missions);
+  const CheckReport report = reportOn(options, missions, parsing.trees_elsewhere);
+  if (!options.draw.empty() && report.problems.empty()) draw(options, missions.front().file, parsing);
   if (!options.dry_run.empty() && report.problems.empty()) {
-    if (!options.json) print(report, 1);
-    return showDryRun({options.missions.front(), options.dry_run, options.mock_leaves, options.json});
+    if (!options.json) print(report, missions.size());
+    return showDryRun({missions.front().file, options.dry_run, options.mock_leaves, options.json, parsing});
   }
   if (options.json) {
     nlohmann::json all = {{"problems", jsonOf(report.problems)}, {"warnings", jsonOf(report.warnings)}};
@@ -136,9 +175,12 @@ void addCheck(Command& program) {
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "
                  "`TakeOff: RUNNING x3, SUCCESS`. The exit code is 1 unless the mission ends with SUCCESS.");
   command.option("--draw", options->draw, "Also write a picture of the tree into this file (SVG).");
+  command.flag("--headless", options->headless,
+               "They are to be flown without the page: also warn of what waits for an operator.");
   command.flag(
       "--mock-leaves", options->mock_leaves,
-      "Let nodes that Swiftlet does not have be mocks, and say whose each node is; such a mission cannot be flown.");
+      "Let nodes that Swiftlet does not have be mocks, and say whose each node is; such a mission cannot be flown. Of "
+      "several files each may use the trees of all.");
   command.flag("--json", options->json, "Print the problems as JSON.");
   command.footer("Example: swiftlet check missions/*.xml --system swiftlet_3d");
   command.runs([options] { return check(*options); });

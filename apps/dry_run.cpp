@@ -8,7 +8,7 @@
 #include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/dry_run.hpp"
-#include "common/data_paths.hpp"
+#include "common/error.hpp"
 #include "common/printable.hpp"
 #include "common/read_bytes.hpp"
 
@@ -50,8 +50,9 @@ tree::Status printJson(tree::DryRun& run) {
 }  // namespace
 
 int showDryRun(const DryRunOptions& options) {
-  tree::DryRun run(common::findData(options.mission).string(), behaviors::missionRegistry(),
-                   tree::readOutcomeScript(common::readBytes(options.script), options.script), options.mock_leaves);
+  tree::DryRun run(options.mission, behaviors::missionRegistry(),
+                   tree::readOutcomeScript(common::readBytes(options.script), options.script), options.mock_leaves,
+                   options.parsing);
   if (!run.problems().empty()) throw common::InputError(behaviors::toCommon(run.problems()));
   const tree::Status answer = options.json ? printJson(run) : printTicks(run);
   return answer == tree::Status::kSuccess ? kDone : kFailed;

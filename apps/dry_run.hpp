@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "behaviors/tree/parse_options.hpp"
+
 namespace swiftlet::apps {
 
 struct DryRunOptions {
@@ -10,6 +12,7 @@ struct DryRunOptions {
   std::string script;
   bool mock_leaves = false;
   bool json = false;
+  tree::ParseOptions parsing = {};
 };
 
 /// Prints each tick as it happens; as JSON all of them at the end. Returns the exit code: kFailed if the mission ends

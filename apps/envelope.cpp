@@ -17,6 +17,7 @@
 #include "apps/envelope_page.hpp"
 #include "apps/flight.hpp"
 #include "apps/flights_in_parallel.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
@@ -75,7 +76,7 @@ TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, con
 
 /// The trial with everything pinned, ready to be flown.
 TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature& base) {
-  const fs::path file = common::findData(options.trial);
+  const fs::path file = findTrial(options.trial);
   if (fs::is_directory(file))
     throw common::InputError(
         common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});

@@ -14,7 +14,6 @@
 #include "apps/mission_limits.hpp"
 #include "apps/vehicle_flight.hpp"
 #include "apps/wall_clock.hpp"
-#include "common/data_paths.hpp"
 #include "interfaces/run_files.hpp"
 #include "simulation/arena.hpp"
 
@@ -167,7 +166,7 @@ std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map)
   std::map<std::string, std::vector<common::Problem>> problems;  // By file: several may fly a wrong one.
   for (const std::string& file : missionFiles(setup.scenario, setup.mission_file)) {
     try {
-      const std::string found = common::findData(file).string();
+      const std::string found = findMission(file);
       behaviors::Mission mission = soundMission(found, setup.system, has_map);
       std::vector<autonomy::OfferedMap> maps =
           offeredMaps(mission.mapFiles(), found, static_cast<std::uint64_t>(setup.scenario.seed));

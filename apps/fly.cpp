@@ -9,6 +9,7 @@
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
 #include "apps/groot_link.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/mission_shelf.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
@@ -66,7 +67,7 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
   if (options.scenario.empty()) {
     trial.scenario.world = common::findData(options.world.empty() ? kWorld : options.world).string();
   } else {
-    trial = evaluation::readTrial(common::findData(options.scenario));
+    trial = evaluation::readTrial(findTrial(options.scenario));
     findWorld(trial);
   }
   if (!options.system.empty())
@@ -80,7 +81,7 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
 FlightSetup setupOf(const FlyOptions& options) {
   for (const std::string& url : options.public_urls) (void)web::parsePublicUrl(url);
   FlightSetup setup;
-  setup.mission_file = common::findData(options.mission).string();
+  setup.mission_file = findMission(options.mission);
   const evaluation::TrialConfig trial = conditionsOf(options);
   setup.system = loadSystem(trial.system);
   setup.scenario = trial.scenario;
@@ -201,14 +202,12 @@ void printEnd(const FlightResult& result, bool json) {
 }
 
 /// What `check` warns of does not keep the vehicle on the ground.
-void showWarnings(const std::vector<FlightMission>& missions) {
-  for (const FlightMission& mission : missions) {
-    const behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file);
-    for (tree::Problem warning : verdict.warnings) {
-      warning.element = "warning: " + warning.element;
-      showError(toString(warning) + "\n");
-    }
-  }
+void showWarnings(const std::vector<FlightMission>& missions, bool headless) {
+  behaviors::MissionLimits limits;
+  limits.operator_goes_on = limits.operator_gives_goals = !headless;
+  for (const FlightMission& mission : missions)
+    for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits).warnings)
+      showError(lineOf(warning, true));
 }
 
 std::unique_ptr<WebLink> servePage(const FlyOptions& options, const FlightSetup& setup) {
@@ -227,7 +226,7 @@ std::unique_ptr<WebLink> servePage(const FlyOptions& options, const FlightSetup&
 int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
-  showWarnings(missions);
+  showWarnings(missions, options.headless);
   if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
   const StopSignals& signals = stopOnSignals();
   outliveReaders();

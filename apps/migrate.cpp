@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
@@ -22,11 +23,12 @@ struct MigrateOptions {
 };
 
 int migrate(const MigrateOptions& options) {
-  const tree::Migration migration = tree::migrateToVersion4(common::readBytes(options.file), options.file);
+  const std::string file = findMission(options.file);
+  const tree::Migration migration = tree::migrateToVersion4(common::readBytes(file), file);
   if (!migration.problems.empty()) throw common::InputError(behaviors::toCommon(migration.problems));
   // What is printed to the standard output is the file alone, so that it can be redirected.
   for (const tree::Problem& change : migration.changes) showError(common::printable(toString(change)) + "\n");
-  if (migration.changes.empty()) showError(fmt::format("{}: it is of version 4 already\n", options.file));
+  if (migration.changes.empty()) showError(fmt::format("{}: it is of version 4 already\n", file));
   if (options.out.empty()) {
     show(migration.text);
   } else {

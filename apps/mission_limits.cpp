@@ -1,8 +1,12 @@
 #include "apps/mission_limits.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "apps/given_map.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
+#include "common/printable.hpp"
 
 namespace swiftlet::apps {
 
@@ -34,16 +38,43 @@ std::vector<std::string> missionFiles(const simulation::Scenario& scenario, cons
   return files;
 }
 
+namespace {
+
+std::string findOfKind(const std::string& name, const std::vector<std::string>& endings_of_others, const char* message,
+                       const std::string& hint) {
+  const std::filesystem::path file = common::findData(name);
+  const auto& others = endings_of_others;
+  if (std::find(others.begin(), others.end(), file.extension().string()) != others.end())
+    throw common::InputError(common::Problem{{name}, "", message, hint});
+  return file.string();
+}
+
+}  // namespace
+
+std::string findMission(const std::string& name) {
+  return findOfKind(name, {".yaml", ".yml"}, "is no mission, which is an XML file",
+                    "`swiftlet trial " + name + "` flies a trial");
+}
+
+std::string findTrial(const std::string& name) {
+  return findOfKind(name, {".xml"}, "is no trial, which is a YAML file", "`swiftlet fly " + name + "` flies a mission");
+}
+
+std::string lineOf(tree::Problem problem, bool warning) {
+  if (warning) problem.element = "warning" + (problem.element.empty() ? "" : ": " + problem.element);
+  return common::printable(toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]")) + "\n";
+}
+
 std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map) {
   try {
-    return behaviors::checkMission(common::findData(mission).string(), missionLimits(system, has_map));
+    return behaviors::checkMission(findMission(mission), missionLimits(system, has_map));
   } catch (const common::InputError& missing) {
     return missing.problems();
   }
 }
 
 behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map) {
-  return behaviors::Mission::fromFile(common::findData(file).string(), missionLimits(system, has_map));
+  return behaviors::Mission::fromFile(findMission(file), missionLimits(system, has_map));
 }
 
 }  // namespace swiftlet::apps

@@ -7,6 +7,7 @@
 #include "apps/system.hpp"
 #include "behaviors/mission.hpp"
 #include "behaviors/mission_limits.hpp"
+#include "behaviors/tree/problem.hpp"
 #include "simulation/scenario.hpp"
 
 namespace swiftlet::apps {
@@ -15,6 +16,14 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 
 /// The mission file of each vehicle of the scenario, in their order: its own, or `otherwise` where it names none.
 std::vector<std::string> missionFiles(const simulation::Scenario& scenario, const std::string& otherwise);
+
+/// The file of a mission, as common::findData finds it. Throws common::InputError also for a file of another kind.
+std::string findMission(const std::string& name);
+/// The file of a trial, or the folder of several, found and judged likewise.
+std::string findTrial(const std::string& name);
+
+/// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.
+std::string lineOf(tree::Problem problem, bool warning);
 
 /// Every problem of a mission, that of its file included, if it is to be flown with this system, and with a map of
 /// the place or without.

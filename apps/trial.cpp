@@ -13,11 +13,11 @@
 #include "apps/envelope.hpp"
 #include "apps/flight.hpp"
 #include "apps/flights_in_parallel.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/trial_flight.hpp"
-#include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
 #include "evaluation/trial.hpp"
@@ -169,7 +169,7 @@ void refuseSameNames(const std::vector<TrialConfig>& trials, const fs::path& fil
 /// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial
 /// is told before the first flight.
 std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
-  const fs::path file_or_folder = common::findData(options.trials);
+  const fs::path file_or_folder = findTrial(options.trials);
   std::vector<TrialConfig> trials;
   for (TrialConfig& trial : evaluation::readTrials(file_or_folder)) {
     if (!options.nature.empty()) trial.natures = {options.nature};
@@ -179,6 +179,7 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   }
   refuseSameNames(trials, file_or_folder);
   prepare(trials, file_or_folder);
+  for (const std::string& warning : warningsOfOperator(trials)) showError(warning);
   for (const TrialConfig& trial : trials) {
     const Seeds seeds = seedsOf(trial, options);
     checkSeeds(seeds.first, seeds.count);

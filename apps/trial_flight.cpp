@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/trial_world.hpp"
+#include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
@@ -124,6 +126,24 @@ void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
     checkTargets(trial, problems);
   }
   if (!problems.empty()) throw common::InputError(std::move(problems));
+}
+
+std::vector<std::string> warningsOfOperator(const std::vector<TrialConfig>& trials) {
+  std::set<std::string> lines;
+  for (const TrialConfig& trial : trials) {
+    const auto commands = [&](evaluation::OperatorAction action) {
+      return std::any_of(trial.operator_steps.begin(), trial.operator_steps.end(),
+                         [&](const evaluation::OperatorStep& step) { return step.command == action; });
+    };
+    behaviors::MissionLimits limits;
+    limits.operator_goes_on = commands(evaluation::OperatorAction::kGoOn);
+    limits.operator_gives_goals =
+        commands(evaluation::OperatorAction::kGoal) || commands(evaluation::OperatorAction::kHome);
+    for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
+      for (const tree::Problem& warning : behaviors::operatorWarnings(findMission(mission), limits))
+        lines.insert(lineOf(warning, true));
+  }
+  return {lines.begin(), lines.end()};
 }
 
 std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {

@@ -19,6 +19,9 @@ namespace swiftlet::apps {
 /// systems that fly them. Throws common::InputError with the problems of all missions.
 void prepare(std::vector<evaluation::TrialConfig>& trials, const std::filesystem::path& file_or_folder);
 
+/// Warnings of missions that wait for an operator, in trials whose script does not answer: a line each.
+std::vector<std::string> warningsOfOperator(const std::vector<evaluation::TrialConfig>& trials);
+
 /// The map that the flights of a trial are given; null if they are given none. One that a robot makes first lies in
 /// `out`.
 std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, const std::filesystem::path& out);

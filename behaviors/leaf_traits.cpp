@@ -41,7 +41,7 @@ constexpr std::array kLines = {
     Line{"SaveMap", {.writes_file = true}},
     Line{"KeepOut", {.keeps_out = true}},
     Line{"SetFlightMode", {}},
-    Line{"WaitForOperator", {}},
+    Line{"WaitForOperator", {.asks_operator = true}},
     Line{"LogEvent", {}},
     Line{"IsBatteryLow", {}},
     Line{"IsHomeReachable", {}},

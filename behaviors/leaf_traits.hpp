@@ -23,7 +23,8 @@ struct LeafTraits {
   MapUse map = MapUse::kNone;
   bool writes_file = false;                   ///< Under the name in its port `file`.
   bool keeps_out = false;                     ///< The vehicle does not enter the area in its port `polygon`.
-  bool obeys_operator = false;                ///< The operator decides when the vehicle lands.
+  bool obeys_operator = false;                ///< The operator gives the goals, and decides when the vehicle lands.
+  bool asks_operator = false;                 ///< It waits until the operator says "go on".
   const char* never_succeeds_at_0 = nullptr;  ///< The port; null: no port decides that.
 };
 

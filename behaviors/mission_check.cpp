@@ -19,7 +19,7 @@ namespace {
 MissionVerdict verdictOf(tree::ParseResult parsed, const MissionLimits& limits) {
   if (parsed.tree) {
     parsed.problems = semanticProblems(*parsed.tree, limits);
-    const std::vector<tree::Problem> found = missionWarnings(*parsed.tree);
+    const std::vector<tree::Problem> found = missionWarnings(*parsed.tree, limits);
     parsed.warnings.insert(parsed.warnings.end(), found.begin(), found.end());
   }
   return {std::move(parsed.problems), std::move(parsed.warnings), {}};
@@ -66,12 +66,17 @@ bool hasBehaviour(const tree::Tree& tree) {
 
 }  // namespace
 
-MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits) {
-  return verdictOf(tree::parseFile(path, missionRegistry()), limits);
+MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits, const tree::TreeFiles& together) {
+  tree::ParseOptions options;
+  options.trees_elsewhere = together;
+  return verdictOf(tree::parseFile(path, missionRegistry(), options), limits);
 }
 
-MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits) {
-  const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry());
+MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits,
+                                     const tree::TreeFiles& together) {
+  tree::ParseOptions options;
+  options.trees_elsewhere = together;
+  const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry(), options);
   tree::ParseResult parsed = tree::parseFile(path, mocked.registry, mocked.options);
   std::vector<std::string> whose;
   if (parsed.tree) whose = ownersOf(*parsed.tree, mocked.mocks);
@@ -114,6 +119,11 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
   std::vector<tree::Problem> problems = flightOrderProblems(tree);
   for (tree::Problem& problem : limitProblems(tree, limits)) problems.push_back(std::move(problem));
   return problems;
+}
+
+std::vector<tree::Problem> operatorWarnings(const std::string& path, const MissionLimits& limits) {
+  const tree::ParseResult parsed = tree::parseFile(path, missionRegistry());
+  return parsed.tree ? operatorWarnings(*parsed.tree, limits) : std::vector<tree::Problem>();
 }
 
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits) {

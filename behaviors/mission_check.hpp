@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "behaviors/mission_limits.hpp"
+#include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/tree.hpp"
 #include "common/error.hpp"
@@ -34,11 +35,17 @@ struct MissionVerdict {
   /// "1 of Swiftlet: Land" or "2 mocks: GoTo, TakeOff (Swiftlet's has no port `height`)". Empty if there are problems.
   std::vector<std::string> whose;
 };
-MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {});
+/// `together` are the trees of the files that were named with this one (ParseOptions::trees_elsewhere).
+MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {},
+                            const tree::TreeFiles& together = {});
 /// Types that Swiftlet does not have are mocks (behaviors/tree/mocks.hpp). With one in the tree only the XML is judged,
 /// because nobody knows how a mock moves the vehicle, and so is a tree without any behaviour of Swiftlet. Such a
 /// mission cannot be flown. The file is read leniently (ParseOptions).
-MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
+MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {},
+                                     const tree::TreeFiles& together = {});
+
+/// Of a mission file that flies without an operator who goes on, or gives goals. Empty for one that cannot be read.
+std::vector<tree::Problem> operatorWarnings(const std::string& path, const MissionLimits& limits);
 
 MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits = {});
 

@@ -22,6 +22,10 @@ struct MissionLimits {
   std::optional<std::vector<std::string>> target_names = {};
   /// A map of the place is given; nodes that localize need one, or a LoadMap in the mission.
   bool has_map = true;
+  /// Somebody says "go on" to a WaitForOperator, and gives an OperatorCommand its goals: without the page only the
+  /// script of a trial does. Where nobody does, a node that waits for it is a warning.
+  bool operator_goes_on = true;
+  bool operator_gives_goals = true;
   /// Why the map that a LoadMap names, in that mission file, cannot be loaded, with its place; none if it can. Without
   /// a function every map is accepted.
   std::function<std::optional<common::Problem>(const std::string& map, const std::string& mission)> map_problem = {};

@@ -11,16 +11,33 @@
 namespace swiftlet::behaviors {
 namespace {
 
+constexpr const char* kOperatorHint = "fly with the page, or give the trial an `operator` script";
+
 class Warnings {
  public:
-  explicit Warnings(const tree::Tree& tree) : tree_(tree) {}
+  Warnings(const tree::Tree& tree, const MissionLimits& limits)
+      : tree_(tree), limits_(limits), unreached_(tree::unreachedNodes(tree, missionOutcomes(tree))) {}
 
   std::vector<tree::Problem> find() {
-    const std::vector<tree::Unreached> unreached = tree::unreachedNodes(tree_, missionOutcomes(tree_));
-    for (const tree::Unreached& node : unreached) warn(node.node, "is never reached: " + node.why, {});
+    for (const tree::Unreached& node : unreached_) warn(node.node, "is never reached: " + node.why, {});
     for (const tree::NodeRecord& record : tree_.nodes())
       if (typeNameOf(record).starts_with("Parallel")) checkParallel(*record.node);
-    checkLanding(unreached);
+    checkLanding();
+    return findOfOperator();
+  }
+
+  std::vector<tree::Problem> findOfOperator() {
+    for (const tree::NodeRecord& record : tree_.nodes()) {
+      const LeafTraits& traits = traitsOf(record);
+      if (isUnreached(record.node->id())) continue;
+      if (traits.obeys_operator && !limits_.operator_gives_goals)
+        warn(record.node->id(), "nobody gives it a goal, and the vehicle holds here", kOperatorHint);
+      if (traits.asks_operator && !limits_.operator_goes_on)
+        warn(record.node->id(),
+             std::string("nobody says `go on`, and it ") +
+                 (mayWaitForever(record) ? "waits without an end" : "fails after its timeout_s"),
+             kOperatorHint);
+    }
     return std::move(warnings_);
   }
 
@@ -29,6 +46,11 @@ class Warnings {
     const tree::NodeRecord& record = tree_.nodes()[static_cast<std::size_t>(node)];
     warnings_.push_back({tree_.locationOf(node), std::string(typeNameOf(record)), std::move(message), std::move(hint),
                          tree_.pathOf(node)});
+  }
+
+  bool mayWaitForever(const tree::NodeRecord& waiter) const {
+    const std::vector<tree::Value> timeouts = tree_.knownValues(waiter.node->id(), "timeout_s");
+    return std::find(timeouts.begin(), timeouts.end(), tree::Value(tree::Duration{})) != timeouts.end();
   }
 
   /// The first leaf below that has the vehicle whenever it is ticked; null without one.
@@ -49,13 +71,14 @@ class Warnings {
          "let one child fly and the others watch");
   }
 
-  void checkLanding(const std::vector<tree::Unreached>& unreached) {
-    const auto isUnreached = [&](int id) {
-      for (; id >= 0; id = tree_.nodes()[static_cast<std::size_t>(id)].parent)
-        if (std::any_of(unreached.begin(), unreached.end(), [&](const tree::Unreached& u) { return u.node == id; }))
-          return true;
-      return false;
-    };
+  bool isUnreached(int id) const {
+    for (; id >= 0; id = tree_.nodes()[static_cast<std::size_t>(id)].parent)
+      if (std::any_of(unreached_.begin(), unreached_.end(), [&](const tree::Unreached& u) { return u.node == id; }))
+        return true;
+    return false;
+  }
+
+  void checkLanding() {
     for (const tree::NodeRecord& record : tree_.nodes()) {
       const LeafTraits& traits = traitsOf(record);
       const bool lands = traits.vehicle == VehicleUse::kLands || traits.obeys_operator;
@@ -68,11 +91,19 @@ class Warnings {
   }
 
   const tree::Tree& tree_;
+  const MissionLimits& limits_;
+  std::vector<tree::Unreached> unreached_;
   std::vector<tree::Problem> warnings_;
 };
 
 }  // namespace
 
-std::vector<tree::Problem> missionWarnings(const tree::Tree& tree) { return Warnings(tree).find(); }
+std::vector<tree::Problem> missionWarnings(const tree::Tree& tree, const MissionLimits& limits) {
+  return Warnings(tree, limits).find();
+}
+
+std::vector<tree::Problem> operatorWarnings(const tree::Tree& tree, const MissionLimits& limits) {
+  return Warnings(tree, limits).findOfOperator();
+}
 
 }  // namespace swiftlet::behaviors

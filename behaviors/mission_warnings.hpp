@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "behaviors/mission_limits.hpp"
 #include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/tree.hpp"
 
@@ -13,7 +14,11 @@ namespace swiftlet::behaviors {
 /// - A Parallel of several children that fly: only the last intent of a tick is flown.
 /// - Nothing lands the vehicle, and no OperatorCommand leaves that to the operator; or the mission may succeed in the
 ///   air.
+/// - What operatorWarnings() finds.
 /// Each has the path of its node.
-std::vector<tree::Problem> missionWarnings(const tree::Tree& tree);
+std::vector<tree::Problem> missionWarnings(const tree::Tree& tree, const MissionLimits& limits);
+
+/// Nodes that wait for an operator who is not there.
+std::vector<tree::Problem> operatorWarnings(const tree::Tree& tree, const MissionLimits& limits);
 
 }  // namespace swiftlet::behaviors

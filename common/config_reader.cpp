@@ -105,8 +105,18 @@ struct YamlReader::Impl {
     return true;
   }
 
+  /// A whole file may be one text: XML is.
+  static std::string beginningOf(const std::string& text) {
+    constexpr std::size_t kMost = 60;
+    const std::size_t line = std::min(text.find('\n'), text.size());
+    if (line == text.size() && line <= kMost) return text;
+    std::size_t end = std::min(line, kMost);
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // Within a character of UTF-8.
+    return text.substr(0, end) + " ...";
+  }
+
   static std::string textOf(const YAML::Node& node) {
-    if (node.IsScalar()) return fmt::format("`{}`", node.Scalar());
+    if (node.IsScalar()) return fmt::format("`{}`", beginningOf(node.Scalar()));
     return node.IsMap() ? "a mapping" : node.IsSequence() ? "a list" : "an empty value";
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -33,16 +35,65 @@ std::vector<std::string> namesBeside(const fs::path& name, const std::vector<fs:
   return {names.begin(), names.end()};
 }
 
+bool isIn(const std::vector<fs::path>& folders, const fs::path& name) {
+  return std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+    std::error_code error;
+    return fs::exists(folder / name, error);
+  });
+}
+
+/// Like names of folders for the first part of a path that is not there: `missions/x.xml` for `mission/x.xml`. Nothing
+/// if all of its folders are there, or none is alike.
+std::optional<fs::path> withLikeFolder(const fs::path& name, const std::vector<fs::path>& folders) {
+  fs::path there;
+  for (auto part = name.begin(); part != name.end() && std::next(part) != name.end(); ++part) {
+    if (isIn(folders, there / *part)) {
+      there /= *part;
+      continue;
+    }
+    std::set<std::string> beside;
+    for (const fs::path& folder : folders) {
+      std::error_code error;
+      for (const auto& entry : fs::directory_iterator(folder / there, error))
+        if (entry.is_directory(error)) beside.insert(entry.path().filename().string());
+    }
+    const auto near = nearestWord(part->string(), std::vector<std::string>(beside.begin(), beside.end()));
+    if (!near) return std::nullopt;
+    there /= *near;
+    for (++part; part != name.end(); ++part) there /= *part;
+    return there;
+  }
+  return std::nullopt;
+}
+
+/// A name without its ending, or without its folder: `missions/hover.xml` for `missions/hover` and for `hover.xml`.
+std::optional<fs::path> completed(const fs::path& name, const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / name.parent_path(), error))
+      if (entry.path().stem() == name.filename()) return name.parent_path() / entry.path().filename();
+    // The current folder may be any, with thousands of others in it.
+    if (name.has_parent_path() || folder == ".") continue;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (fs::is_regular_file(entry.path() / name, error)) return entry.path().filename() / name;
+  }
+  return std::nullopt;
+}
+
 /// The name that was meant, or all that are there if they are few.
 std::string hintFor(const fs::path& name, const std::vector<fs::path>& folders) {
   constexpr std::size_t kFew = 30;
+  const auto didMean = [](const fs::path& path) { return fmt::format("did you mean `{}`?", path.string()); };
+  if (const auto whole = completed(name, folders)) return didMean(*whole);
+  if (const auto other = withLikeFolder(name, folders))
+    return isIn(folders, *other) ? didMean(*other) : hintFor(*other, folders);
   const std::vector<std::string> names = namesBeside(name, folders);
   std::vector<std::string> stems;
   for (const std::string& beside : names) stems.push_back(fs::path(beside).stem().string());
   // Folders and endings are the same and would make all names alike.
   if (const auto near = nearestWord(name.stem().string(), stems)) {
     const auto at = std::find(stems.begin(), stems.end(), *near) - stems.begin();
-    return fmt::format("did you mean `{}`?", (name.parent_path() / names[static_cast<std::size_t>(at)]).string());
+    return didMean(name.parent_path() / names[static_cast<std::size_t>(at)]);
   }
   if (names.empty() || names.size() > kFew || !name.has_parent_path()) return {};
   return fmt::format("{} has {}", name.parent_path().string(), fmt::join(names, ", "));
@@ -78,7 +129,7 @@ fs::path findData(const fs::path& name) {
   }
   if (unusable) throw InputError(Problem{{name.string()}, "", unusable.message(), ""});
   const std::string message = name.is_absolute() ? "no such file" : "no such file in " + places;
-  throw InputError(Problem{{name.string()}, "", message, hintFor(name, folders)});
+  throw InputError(Problem{{name.string()}, "", message, name.empty() ? std::string() : hintFor(name, folders)});
 }
 
 fs::path findBeside(const fs::path& folder, const fs::path& name) {

@@ -49,7 +49,7 @@ Builder::Builder(Documents& documents, const Registry& registry, const ParseOpti
       options_(options),
       problems_(problems),
       tree_(std::move(tree)),
-      flow_(tree_->flows) {
+      flow_(tree_->flows, tree_->pairings) {
   tree_->name = documents.main_id;
 }
 
@@ -67,7 +67,10 @@ Tree Builder::build() {
   tree_->root = makeNode({main.document, &main.element->children.front(), -1, 0}, scope);
   tree_->documents = std::move(documents_.documents);
   addFound();
-  if (!gave_up_) checkEntries(*tree_, problems_, options_.lenient);
+  if (!gave_up_) {
+    checkEntries(*tree_, problems_, options_);
+    warnOfNumberTexts(*tree_, problems_);
+  }
   return Tree(std::move(tree_));
 }
 
@@ -78,9 +81,8 @@ std::unique_ptr<Node> Builder::makeNode(const Place& place, Scope& scope) {
 
 std::unique_ptr<Node> Builder::makeSubTree(const Place& place, Scope& scope) {
   const std::string& id = *place.element->attribute("ID");
-  const std::string* name = place.element->attribute("name");
   const int record = addRecord(place, nullptr);
-  tree_->setups[static_cast<std::size_t>(record)].name = name == nullptr ? id : *name;
+  tree_->setups[static_cast<std::size_t>(record)].name = displayNameOf(*place.element);
   tree_->setups[static_cast<std::size_t>(record)].conditions = makeConditions(place, scope, "SubTree");
   tree_->subtree_ids[record] = id;
   auto node = std::make_unique<SubTree>(tree_->setups[static_cast<std::size_t>(record)]);
@@ -110,10 +112,16 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     tree_->flows[slot->id].is_set = true;
     inner.names[port] = {.slot = slot, .passed = true, .own = true};
   };
-  for (const XmlAttribute& attribute : place.element->attributes)
-    if (!attribute.name.starts_with('_') && !isStructural(*place.element, attribute.name))
-      bind(attribute.name, attribute.value);
   const auto model = documents_.subtree_models.find(*place.element->attribute("ID"));
+  // An empty attribute is as none where there is a default.
+  const auto hasDefault = [&](const std::string& port) {
+    const bool known = model != documents_.subtree_models.end() && model->second.contains(port);
+    return known && model->second.find(port)->second.has_value();
+  };
+  for (const XmlAttribute& attribute : place.element->attributes)
+    if (!attribute.name.starts_with('_') && !isStructural(*place.element, attribute.name) &&
+        (!attribute.value.empty() || !hasDefault(attribute.name)))
+      bind(attribute.name, attribute.value);
   // What the outer tree shares takes the place of defaults.
   if (model == documents_.subtree_models.end() || inner.autoremap) return;
   for (const auto& [port, text] : model->second) {
@@ -140,16 +148,15 @@ void Builder::checkUnused(const Place& place, const Scope& inner, int record) {
     if (!candidates) candidates = namesOfNodes(inner.names);
     report({place.document->at(*place.element, port), "SubTree", "the tree `" + id + "` has no entry {" + port + "}",
             didYouMean(port, *candidates)},
-           record);
+           record, options_.lenient);
   }
 }
 
 std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
   const NodeType& type = *typeOf(*place.element, registry_);
-  const std::string* name = place.element->attribute("name");
   const int record = addRecord(place, &type.manifest);
   NodeSetup setup;
-  setup.name = name == nullptr || name->empty() ? type.manifest.id : *name;
+  setup.name = displayNameOf(*place.element);
   setup.conditions = makeConditions(place, scope, type.manifest.id);
   setup.constants = &registry_.constants();
   bindPorts(place, scope, type.manifest, setup);
@@ -174,7 +181,7 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
   for (const PortManifest& port : manifest.ports) {
     PortBinding& binding = setup.ports.emplace_back();
     binding.manifest = &port;
-    const XmlAttribute* given = place.element->find(port.name);
+    const XmlAttribute* given = givenTo(port, *place.element);
     if (given == nullptr && !port.default_value) continue;
     const std::string* text = given == nullptr ? &*port.default_value : &given->value;
     if (port.type == PortType::kScript) {
@@ -201,7 +208,7 @@ Conditions* Builder::makeConditions(const Place& place, Scope& scope, const std:
   Conditions* conditions = nullptr;
   for (const XmlAttribute& attribute : place.element->attributes) {
     const auto kind = conditionOf(attribute.name);
-    if (!kind) continue;
+    if (!kind || attribute.value.empty()) continue;
     if (conditions == nullptr) conditions = &tree_->conditions.emplace_back();
     Script* script = scriptOf(attribute);
     bindScript(*script, place, scope, owner, portOf(*kind));
@@ -280,20 +287,23 @@ bool Builder::tooLarge(const Place& place) {
   return true;
 }
 
-void Builder::report(Problem problem, int node) {
-  if (!foundEnough()) found_.push_back({std::move(problem), node});
+void Builder::report(Problem problem, int node, bool is_warning) {
+  if (!foundEnough()) found_.push_back({std::move(problem), node, is_warning});
 }
 
 bool Builder::foundEnough() const { return found_.size() > static_cast<std::size_t>(options_.limits.problems); }
 
 /// Paths count siblings, so that they are known when the tree is complete.
 void Builder::addFound() {
-  for (auto& [problem, node] : found_) {
+  for (auto& [problem, node, is_warning] : found_) {
     std::string path = node < 0 ? tree_->name : tree_->pathOf(node);
     constexpr std::size_t kMost = 400;
     if (path.size() > kMost) path = path.substr(0, kMost / 2) + " ... " + path.substr(path.size() - kMost / 2);
     problem.path = path + problem.path;
-    problems_.add(std::move(problem));
+    if (is_warning)
+      problems_.warn(std::move(problem));
+    else
+      problems_.add(std::move(problem));
   }
 }
 

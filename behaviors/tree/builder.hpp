@@ -45,7 +45,7 @@ class Builder {
   void bindSubTree(const Place& place, Scope& outer, Scope& inner, int record);
   void checkUnused(const Place& place, const Scope& inner, int record);
   /// Of a node that may not be complete yet.
-  void report(Problem problem, int node);
+  void report(Problem problem, int node, bool is_warning = false);
   /// There is no need to look for more.
   bool foundEnough() const;
   void addFound();
@@ -68,12 +68,20 @@ class Builder {
   std::unique_ptr<TreeParts> tree_;
   FlowRecorder flow_;
   Scope* main_scope_ = nullptr;
-  std::vector<std::pair<Problem, int>> found_;  ///< With the nodes that they are about.
+  struct Found {
+    Problem problem;
+    int node = -1;  ///< That it is about.
+    bool is_warning = false;
+  };
+  std::vector<Found> found_;
   bool gave_up_ = false;
 };
 
-/// Entries that are read but never set, or set to a value that their readers cannot take. Leniently, one that is never
-/// set and may be a constant of another program (RED, of a script) is a warning.
-void checkEntries(const TreeParts& tree, Problems& problems, bool lenient);
+/// Entries that are read but never set, or set to a value that their readers cannot take. One that is never set is a
+/// warning if the host may set it, and, leniently, if it may be a constant of another program (RED, of a script).
+void checkEntries(const TreeParts& tree, Problems& problems, const ParseOptions& options);
+
+/// Warns of scripts that compare or add texts that look like numbers.
+void warnOfNumberTexts(const TreeParts& tree, Problems& problems);
 
 }  // namespace swiftlet::tree

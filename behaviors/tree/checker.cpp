@@ -12,7 +12,6 @@ namespace swiftlet::tree {
 namespace {
 
 constexpr const char* kIntoSequence = "put them into a <Sequence>";
-constexpr const char* kComment = "a comment is written as <!-- text -->";
 
 /// Types of BehaviorTree.CPP that this engine does not have, with what to write instead.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kElsewhere = {
@@ -56,11 +55,6 @@ std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
   return {};
 }
 
-void addSubTrees(const XmlElement& element, std::vector<std::string>& ids) {
-  if (const std::string* id = element.attribute("ID"); id != nullptr && isSubTree(element)) ids.push_back(*id);
-  for (const XmlElement& child : element.children) addSubTrees(child, ids);
-}
-
 /// The main tree and those that it uses, directly or not.
 std::set<std::string> usedTrees(const Documents& documents) {
   std::set<std::string> used;
@@ -95,7 +89,9 @@ void Checker::check() {
     for (const XmlElement& element : document->root.children) {
       const std::string* id = element.attribute("ID");
       const auto tree = documents_.trees.find(id == nullptr ? "BehaviorTree" : *id);
-      if (tree != documents_.trees.end() && tree->second.element == &element) checkTree(tree->first, tree->second);
+      const bool is_here = tree != documents_.trees.end() && tree->second.element == &element;
+      // Of a file elsewhere only what is used belongs to this tree.
+      if (is_here && (!document->is_elsewhere || used_.contains(tree->first))) checkTree(tree->first, tree->second);
     }
   }
   checkRecursion();
@@ -112,8 +108,7 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
     report({document.at(element), element.name,
             "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
             element.children.empty() ? "" : kIntoSequence});
-  if (element.text_offset)
-    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", kComment});
+  if (element.text_offset) report(strayText(document, element));
   for (const XmlElement& child : element.children) checkElement(document, child);
 }
 
@@ -126,8 +121,7 @@ void Checker::checkElement(const Document& document, const XmlElement& element) 
     checkNode(document, element, type->manifest);
   else
     checkUnknown(document, element);
-  if (element.text_offset)
-    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", kComment});
+  if (element.text_offset) report(strayText(document, element));
   for (const XmlElement& child : element.children) checkElement(document, child);
   open_.pop_back();
 }
@@ -169,23 +163,40 @@ void Checker::checkSubTree(const Document& document, const XmlElement& element) 
   if (id == nullptr)
     report({document.at(element), element.name, "the attribute `ID` is missing", {}});
   else if (!documents_.trees.contains(*id))
-    report({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + *id + "\">",
-            didYouMean(*id, tree_names_)});
+    reportNoTree(document, element, *id);
   else
     uses_[tree_id_].try_emplace(*id, Use{&document, &element});
   if (!element.children.empty()) report({document.at(element), element.name, "a SubTree has no children here", {}});
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, nullptr);
 }
 
+void Checker::reportNoTree(const Document& document, const XmlElement& element, const std::string& id) {
+  std::string hint = documents_.includeFor(document, id);
+  if (hint.empty()) hint = didYouMean(id, tree_names_);
+  if (hint.empty())
+    hint = lenient_ ? "name the file that has it too: check --mock-leaves " + document.source.file() + " OTHER.xml"
+                    : "a tree of another file needs <include path=\"OTHER.xml\"/> below <root>";
+  report({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + id + "\">", std::move(hint)});
+}
+
 void Checker::checkNode(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
-  if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind)
-    report({document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
-            std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"});
+  if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind) {
+    Problem problem{document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
+                    std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"};
+    if (lenient_)
+      warn(std::move(problem));
+    else
+      report(std::move(problem));
+  }
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, &manifest);
   for (const PortManifest& port : manifest.ports)
-    if (port.required && element.attribute(port.name) == nullptr)
-      report(
-          {document.at(element), manifest.id, "port `" + port.name + "` is missing, expected " + expectedOf(port), {}});
+    if (port.required && givenTo(port, element) == nullptr) {
+      const std::string what = element.find(port.name) == nullptr ? "missing" : "empty";
+      report({document.at(element, port.name),
+              manifest.id,
+              "port `" + port.name + "` is " + what + ", expected " + expectedOf(port),
+              {}});
+    }
   checkChildren(document, element, manifest);
 }
 
@@ -217,15 +228,16 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
   const auto place = [&] { return document.at(element, name); };
   const auto owner = [&] { return typeNameOf(element); };
   if (isStructural(element, name)) {
-    if (name == "_autoremap" && !parseValue(attribute.value, PortType::kBool, {}))
+    if (name == "_autoremap" && !attribute.value.empty() && !parseValue(attribute.value, PortType::kBool, {}))
       report({place(), owner() + "." + name, "`" + attribute.value + "` is not true or false", {}});
     return;
   }
   if (const auto condition = conditionOf(name)) {
-    checkScript(document, element, attribute, portOf(*condition));
+    if (!attribute.value.empty()) checkScript(document, element, attribute, portOf(*condition));
     return;
   }
   const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
+  if (port != nullptr && givenTo(*port, element) == nullptr) return;
   const bool script = port != nullptr && port->type == PortType::kScript;
   if (const auto entry = entryOf(attribute.value, name); entry && !script && !isEntryName(*entry)) {
     report({place(), owner() + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});

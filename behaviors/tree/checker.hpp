@@ -24,6 +24,7 @@ class Checker {
  private:
   void checkTree(const std::string& id, const TreeDefinition& tree);
   void checkElement(const Document& document, const XmlElement& element);
+  void reportNoTree(const Document& document, const XmlElement& element, const std::string& id);
   void checkSubTree(const Document& document, const XmlElement& element);
   void checkNode(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkUnknown(const Document& document, const XmlElement& element);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/version3.hpp"
 
 namespace swiftlet::tree {
@@ -34,18 +35,38 @@ bool isForEditors(std::string_view attribute) {
 
 constexpr std::array<std::string_view, 5> kModelKinds = {"Action", "Condition", "Control", "Decorator", "SubTree"};
 
+/// What the message quotes may hold a character that cannot be seen, or that looks right.
+void nameCharacters(Problem& problem) {
+  if (problem.message.find("U+") != std::string::npos) return;
+  std::string name = misleadingCharacterIn(problem.message);
+  if (name.empty()) name = misleadingCharacterIn(problem.element);
+  if (!name.empty()) problem.message += "; it holds " + name;
+}
+
 bool isPortTag(std::string_view name) { return name == "input_port" || name == "output_port" || name == "inout_port"; }
 
 }  // namespace
 
+Problem strayText(const Document& document, const XmlElement& element) {
+  const std::string& text = document.source.text();
+  const std::size_t at = *element.text_offset;
+  const std::string misleads = misleadingCharacterIn(std::string_view(text).substr(at, characterLength(text, at)));
+  return {document.source.locate(at), element.name,
+          "text is not expected here" + (misleads.empty() ? "" : "; it begins with " + misleads),
+          "a comment is written as <!-- text -->"};
+}
+
 void Problems::add(Problem problem) {
   if (full()) return;
+  nameCharacters(problem);
   if (list_.size() == limit_) problem = {{}, {}, "there are more problems", {}};
   list_.push_back(std::move(problem));
 }
 
 void Problems::warn(Problem warning) {
-  if (!fullOfWarnings()) warnings_.push_back(std::move(warning));
+  if (fullOfWarnings()) return;
+  nameCharacters(warning);
+  warnings_.push_back(std::move(warning));
 }
 
 Documents::Documents(const ParseOptions& options, Problems& problems)
@@ -53,6 +74,8 @@ Documents::Documents(const ParseOptions& options, Problems& problems)
   if (!read_file_)
     read_file_ = [limit = options.limits.file_bytes](const std::string& path) { return readFromDisk(path, limit); };
 }
+
+bool Documents::isRead(const std::string& file) const { return seen_.contains(normalized(file)); }
 
 void Documents::load(const std::string& path) {
   auto text = read_file_(path);
@@ -65,7 +88,10 @@ void Documents::load(const std::string& path) {
 
 void Documents::load(std::string text, const std::string& name) {
   // Includes are finished first, so the main file is the last.
-  if (add(std::move(text), name, nullptr, nullptr)) findMain(*documents.back());
+  if (!add(std::move(text), name, nullptr, nullptr)) return;
+  const Document& main_file = *documents.back();
+  if (options_.lenient) readElsewhere(main_file);
+  findMain(main_file);
 }
 
 bool Documents::add(std::string text, const std::string& path, const Document* from, const XmlElement* element) {
@@ -88,7 +114,7 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
     problems_.add(std::move(*xml.problem));
     return false;
   }
-  auto document = std::make_unique<Document>(Document{std::move(source), std::move(*xml.root)});
+  auto document = std::make_unique<Document>(Document{std::move(source), std::move(*xml.root), is_elsewhere_});
   const Document& kept = *document;
   const bool usable = checkRoot(kept);
   if (usable) {
@@ -102,12 +128,16 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
 
 void Documents::warnUnescaped(const SourceText& source, std::size_t offset) {
   if (problems_.fullOfWarnings()) return;
-  const bool ampersand = source.text()[offset] == '&';
-  problems_.warn(
-      {source.locate(offset),
-       {},
-       "`" + std::string(1, source.text()[offset]) + "` stands for itself in a value, which XML does not allow",
-       ampersand ? "write &amp;" : "write &lt;"});
+  const char c = source.text()[offset];
+  if (c == '-') {
+    problems_.warn(
+        {source.locate(offset), {}, "`--` stands in a comment, which XML does not allow", "write <!-- == text == -->"});
+    return;
+  }
+  problems_.warn({source.locate(offset),
+                  {},
+                  "`" + std::string(1, c) + "` stands for itself in a value, which XML does not allow",
+                  c == '&' ? "write &amp;" : "write &lt;"});
 }
 
 bool Documents::checkRoot(const Document& document) {
@@ -118,14 +148,13 @@ bool Documents::checkRoot(const Document& document) {
   }
   if (!checkFormat(document)) return false;
   const std::vector<std::string> known = {"BTCPP_format", "main_tree_to_execute"};
-  for (const XmlAttribute& attribute : root.attributes)
-    if (!problems_.full() && !isForEditors(attribute.name) &&
-        std::find(known.begin(), known.end(), attribute.name) == known.end())
-      problems_.add({document.at(root, attribute.name), "root", "unknown attribute `" + attribute.name + "`",
+  for (const XmlAttribute& attribute : root.attributes) {
+    if (options_.lenient ? problems_.fullOfWarnings() : problems_.full()) break;
+    if (!isForEditors(attribute.name) && std::find(known.begin(), known.end(), attribute.name) == known.end())
+      reportForeign({document.at(root, attribute.name), "root", "unknown attribute `" + attribute.name + "`",
                      didYouMean(attribute.name, known)});
-  if (root.text_offset)
-    problems_.add({document.source.locate(*root.text_offset), "root", "text is not expected here",
-                   "a comment is written as <!-- text -->"});
+  }
+  if (root.text_offset) problems_.add(strayText(document, root));
   return true;
 }
 
@@ -176,13 +205,13 @@ void Documents::readChildren(const Document& document, const std::string& path) 
     else if (element.name == "TreeNodesModel")
       readModel(document, element);
     else
-      reportElement({document.at(element), element.name,
+      reportForeign({document.at(element), element.name,
                      "unknown element, expected <BehaviorTree>, <include> or <TreeNodesModel>",
                      didYouMean(element.name, known)});
   }
 }
 
-void Documents::reportElement(Problem problem) {
+void Documents::reportForeign(Problem problem) {
   if (options_.lenient)
     problems_.warn(std::move(problem));
   else
@@ -231,7 +260,7 @@ bool Documents::addTree(const Document& document, const XmlElement& element, boo
   }
   const std::string name = id == nullptr ? "BehaviorTree" : *id;
   const auto [other, is_new] = trees.try_emplace(name, TreeDefinition{&document, &element});
-  if (is_new) return true;
+  if (is_new || is_elsewhere_) return true;
   const Location first = other->second.document->at(*other->second.element);
   problems_.add({document.at(element), element.name,
                  "`" + name + "` is defined twice, first at " + toString(Problem{first, {}, {}, {}}),
@@ -255,30 +284,6 @@ void Documents::readModel(const Document& document, const XmlElement& element) {
       subtree_models[*id][*name] = value == nullptr ? std::nullopt : std::optional(*value);
     }
   }
-}
-
-void Documents::findMain(const Document& document) {
-  const XmlElement& root = document.root;
-  std::vector<std::string> ids;
-  for (const auto& [id, tree] : trees) ids.push_back(id);
-  const std::string* wanted = root.attribute("main_tree_to_execute");
-  const bool missing = wanted == nullptr ? trees.empty() : !trees.contains(*wanted);
-  if (missing && lost_a_tree_) return;
-  if (wanted == nullptr && trees.size() != 1) {
-    problems_.add({document.at(root), "root",
-                   trees.empty() ? "there is no <BehaviorTree>"
-                                 : "main_tree_to_execute is missing, expected where there are several trees",
-                   trees.empty() ? "" : "write main_tree_to_execute=\"" + ids.front() + "\" for that one"});
-    return;
-  }
-  main_id = wanted == nullptr ? ids.front() : *wanted;
-  const std::string near = didYouMean(main_id, ids);
-  const std::string hint = near.empty() && !ids.empty() ? "the first one here is `" + ids.front() + "`" : near;
-  if (const auto found = trees.find(main_id); found != trees.end())
-    main = &found->second;
-  else
-    problems_.add(
-        {document.at(root, "main_tree_to_execute"), "root", "there is no <BehaviorTree ID=\"" + main_id + "\">", hint});
 }
 
 }  // namespace swiftlet::tree

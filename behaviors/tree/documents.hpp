@@ -37,6 +37,9 @@ class Problems {
   std::vector<Problem> warnings_;
 };
 
+/// Of an element that holds text.
+Problem strayText(const Document& document, const XmlElement& element);
+
 struct TreeDefinition {
   const Document* document = nullptr;
   const XmlElement* element = nullptr;  ///< <BehaviorTree>.
@@ -44,6 +47,9 @@ struct TreeDefinition {
 
 /// Ports that <TreeNodesModel> declares for a <SubTree ID>, with their defaults.
 using SubTreeModel = std::map<std::string, std::optional<std::string>, std::less<>>;
+
+/// The trees that these files define. A file that cannot be read has none.
+TreeFiles treeFiles(const std::vector<std::string>& paths);
 
 class Documents {
  public:
@@ -59,6 +65,9 @@ class Documents {
   const TreeDefinition* main = nullptr;
   std::string main_id;
 
+  /// What to write into `document` for the tree of another file; empty if no other has it.
+  std::string includeFor(const Document& document, const std::string& id) const;
+
  private:
   /// False if this file cannot contain a tree at all.
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
@@ -70,17 +79,31 @@ class Documents {
   bool checkFormat(const Document& document);
   void reportVersion3(const Document& document, const std::string* format);
   void readChildren(const Document& document, const std::string& path);
-  /// Of an element that nobody knows.
-  void reportElement(Problem problem);
+  /// Of an element or an attribute that nobody knows.
+  void reportForeign(Problem problem);
   bool addTree(const Document& document, const XmlElement& element, bool alone);
   void readModel(const Document& document, const XmlElement& element);
-  void findMain(const Document& document);
+  /// Reads the files of ParseOptions::trees_elsewhere whose trees are used.
+  void readElsewhere(const Document& main_file);
+  bool isRead(const std::string& file) const;
+  const std::string* fileElsewhere(const Document& document, const std::string& id) const;
+  /// All trees: those that no other tree uses first, then those of the main file, in the order of the files.
+  struct Mains {
+    std::vector<std::string> ids;
+    std::size_t unused = 0;
+
+    /// What to write for the first one.
+    std::string hint() const;
+  };
+  Mains likelyMains(const Document& main_file) const;
+  void findMain(const Document& main_file);
 
   const ParseOptions& options_;
   Problems& problems_;
   FileReader read_file_;
   std::set<std::string> seen_;
   std::vector<std::string> open_;  ///< The chain of includes being read.
+  bool is_elsewhere_ = false;      ///< Of the file being read, and of what it includes.
   bool lost_a_tree_ = false;       ///< A file or a tree cannot be used; what it would define is not missing.
 };
 

@@ -182,7 +182,7 @@ struct DryRun::Parts {
   bool ended = false;
 };
 
-DryRun::DryRun(const std::string& path, const Registry& base, OutcomeScript script, bool mocks)
+DryRun::DryRun(const std::string& path, const Registry& base, OutcomeScript script, bool mocks, ParseOptions options)
     : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
   parts.script = std::move(script);
@@ -190,7 +190,6 @@ DryRun::DryRun(const std::string& path, const Registry& base, OutcomeScript scri
   if (!parts.problems.empty()) return;
   const MockAnswer answer = [&parts](const Node& leaf, bool ticked) { return parts.cast.answerOf(leaf, ticked); };
   parts.registry = withStandInLeaves(base, answer);
-  ParseOptions options;
   if (mocks) {
     MockedRegistry mocked = withMocks(path, parts.registry, options, answer);
     parts.registry = std::move(mocked.registry);

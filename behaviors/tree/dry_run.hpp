@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "behaviors/tree/outcome_script.hpp"
+#include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/registry.hpp"
 
@@ -27,7 +28,7 @@ struct DryRunTick {
 /// always do.
 class DryRun {
  public:
-  DryRun(const std::string& path, const Registry& base, OutcomeScript script, bool mocks);
+  DryRun(const std::string& path, const Registry& base, OutcomeScript script, bool mocks, ParseOptions options = {});
   ~DryRun();
   DryRun(DryRun&&) noexcept;
   DryRun& operator=(DryRun&&) noexcept;

@@ -21,6 +21,18 @@ std::optional<NodeKind> explicitKind(std::string_view tag) {
   return std::nullopt;
 }
 
+void addSubTrees(const XmlElement& element, std::vector<std::string>& ids) {
+  if (const std::string* id = element.attribute("ID"); id != nullptr && isSubTree(element)) ids.push_back(*id);
+  for (const XmlElement& child : element.children) addSubTrees(child, ids);
+}
+
+std::vector<std::string> subTreesOf(const XmlElement& root) {
+  std::vector<std::string> ids;
+  for (const XmlElement& element : root.children)
+    if (element.name == "BehaviorTree") addSubTrees(element, ids);
+  return ids;
+}
+
 const std::string& typeNameOf(const XmlElement& element) {
   const std::string* id = explicitKind(element.name) ? element.attribute("ID") : nullptr;
   return id == nullptr ? element.name : *id;
@@ -34,6 +46,14 @@ const std::string& displayNameOf(const XmlElement& element) {
   if (const std::string* name = element.attribute("name"); name != nullptr && !name->empty()) return *name;
   const std::string* id = isSubTree(element) || explicitKind(element.name) ? element.attribute("ID") : nullptr;
   return id == nullptr ? element.name : *id;
+}
+
+const XmlAttribute* givenTo(const PortManifest& port, const XmlElement& element) {
+  const XmlAttribute* attribute = element.find(port.name);
+  if (attribute == nullptr || attribute->value.find_first_not_of(" \t\r\n") != std::string::npos) return attribute;
+  const bool text = (port.type == PortType::kAny || port.type == PortType::kString) && allowedTexts(port).empty() &&
+                    port.direction == Direction::kInput && !port.names_entry;
+  return text && (port.required || !attribute->value.empty()) ? attribute : nullptr;
 }
 
 bool isStructural(const XmlElement& element, std::string_view attribute) {

@@ -52,8 +52,8 @@ bool looksLikeConstant(std::string_view name) {
 
 class EntryChecker {
  public:
-  EntryChecker(const TreeParts& tree, Problems& problems, bool lenient)
-      : tree_(tree), problems_(problems), lenient_(lenient) {}
+  EntryChecker(const TreeParts& tree, Problems& problems, const ParseOptions& options)
+      : tree_(tree), problems_(problems), options_(options) {}
 
   void check(std::size_t slot) {
     const EntryFlow& flow = tree_.flows[slot];
@@ -90,11 +90,15 @@ class EntryChecker {
     Problem problem{tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
                     hintFor(tree_, name), tree_.pathOf(read.origin.node)};
     if (problem.hint.empty()) problem.hint = hintFor(tree_.flows[slot], name);
-    if (!lenient_ || read.port->type != PortType::kScript || !looksLikeConstant(name)) {
+    const bool constant = options_.lenient && read.port->type == PortType::kScript && looksLikeConstant(name);
+    if (!constant && !options_.host_sets_entries) {
       problems_.add(std::move(problem));
       return;
     }
-    problem.hint = "unless it is a constant of the program that ticks the tree";
+    if (constant)
+      problem.hint = "unless it is a constant of the program that ticks the tree";
+    else if (problem.hint.empty())
+      problem.hint = "unless the program that ticks the tree does";
     problems_.warn(std::move(problem));
   }
   void reportType(std::size_t slot, const EntryRead& read, PortType written) {
@@ -111,14 +115,14 @@ class EntryChecker {
 
   const TreeParts& tree_;
   Problems& problems_;
-  bool lenient_;
+  const ParseOptions& options_;
   std::set<std::pair<std::size_t, const PortManifest*>> judged_;
 };
 
 }  // namespace
 
-void checkEntries(const TreeParts& tree, Problems& problems, bool lenient) {
-  EntryChecker checker(tree, problems, lenient);
+void checkEntries(const TreeParts& tree, Problems& problems, const ParseOptions& options) {
+  EntryChecker checker(tree, problems, options);
   for (std::size_t i = 0; i < tree.slots.size() && !problems.full(); ++i)
     if (!tree.flows[i].reads.empty()) checker.check(i);
 }

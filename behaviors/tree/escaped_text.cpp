@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace swiftlet::tree {
 namespace {
@@ -14,10 +15,10 @@ bool beginsReference(std::string_view text) {
 
 }  // namespace
 
-EscapedText::EscapedText(std::string_view original) : original_(original) {
+EscapedText::EscapedText(std::string_view original, bool values) : original_(original), values_(values) {
   text_.reserve(original.size());
   while (at_ < original_.size()) {
-    if (takeThrough("<!--", "-->") || takeThrough("<![CDATA[", "]]>") || takeThrough("<?", "?>")) continue;
+    if (takeComment() || takeThrough("<![CDATA[", "]]>") || takeThrough("<?", "?>")) continue;
     if (take() == '<') takeTag();
   }
   original_ = {};
@@ -44,6 +45,23 @@ bool EscapedText::takeThrough(std::string_view begin, std::string_view end) {
   return true;
 }
 
+/// Between its marks a comment of XML has no `--`, and does not end with `-`. One without an end keeps none either, so
+/// that reading it tells of the end.
+bool EscapedText::takeComment() {
+  constexpr std::string_view kOpen = "<!--", kClose = "-->";
+  const std::size_t begin = at_ + kOpen.size();
+  if (!takeThrough(kOpen, kClose)) return false;
+  const bool closed = at_ >= begin + kClose.size() && original_.substr(0, at_).ends_with(kClose);
+  const std::size_t behind = closed ? kClose.size() : 0;
+  const std::string_view words = original_.substr(begin, at_ - behind - begin);
+  const std::size_t dashes = std::min(words.find("--"), words.ends_with('-') ? words.size() - 1 : words.npos);
+  if (dashes == words.npos) return true;
+  const auto end = text_.end() - static_cast<std::ptrdiff_t>(behind);
+  std::replace(end - static_cast<std::ptrdiff_t>(words.size()), end, '-', '=');
+  if (closed && !std::exchange(found_dashes_, true)) found_.push_back(begin + dashes);
+  return true;
+}
+
 void EscapedText::takeTag() {
   while (at_ < original_.size()) {
     const char c = take();
@@ -56,7 +74,7 @@ void EscapedText::takeValue(char quote) {
   bool first = true;
   while (at_ < original_.size()) {
     const char c = original_[at_];
-    if (c != '<' && (c != '&' || beginsReference(original_.substr(at_)))) {
+    if (!values_ || (c != '<' && (c != '&' || beginsReference(original_.substr(at_))))) {
       if (take() == quote) return;
       continue;
     }

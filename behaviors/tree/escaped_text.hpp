@@ -1,5 +1,5 @@
-// A text whose attribute values hold `<` and `&` as themselves, made XML. XML does not allow them there, but tinyxml2,
-// by which BehaviorTree.CPP reads, takes a value up to its closing quote.
+// A text that tinyxml2, by which BehaviorTree.CPP reads, takes and XML does not allow, made XML: a comment with `--` in
+// it, which tinyxml2 takes up to its `-->`, and a value with `<` and `&` as themselves, which it takes up to its quote.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,14 @@ namespace swiftlet::tree {
 
 class EscapedText {
  public:
-  /// Escapes each `<` in a value, and each `&` that begins neither one of the five entities nor `&#`.
-  explicit EscapedText(std::string_view original);
+  /// Replaces each `-` in such a comment. With `values` it escapes each `<` in a value, and each `&` that begins
+  /// neither one of the five entities nor `&#`.
+  EscapedText(std::string_view original, bool values);
 
   const std::string& text() const { return text_; }
   /// Where the byte at an offset of text() stands in the original.
   std::size_t originalOffset(std::size_t offset) const;
-  /// Offsets in the original of what was escaped: the first of each value.
+  /// Offsets in the original of what XML does not allow: the first of each value, and the first `--` of all comments.
   const std::vector<std::size_t>& found() const { return found_; }
 
  private:
@@ -28,10 +29,13 @@ class EscapedText {
 
   char take();
   bool takeThrough(std::string_view begin, std::string_view end);
+  bool takeComment();
   void takeTag();
   void takeValue(char quote);
 
   std::string_view original_;
+  bool values_;
+  bool found_dashes_ = false;
   std::size_t at_ = 0;  ///< In the original.
   std::string text_;
   std::vector<Shift> shifts_;

@@ -12,6 +12,8 @@ const PortBinding* copiedInput(const NodeSetup& setup) {
   return nullptr;
 }
 
+bool isText(const Value& value) { return std::holds_alternative<std::string>(value); }
+
 }  // namespace
 
 void FlowRecorder::recordPorts(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup) {
@@ -37,7 +39,7 @@ void FlowRecorder::recordOutput(const NodeOrigin& origin, const NodeSetup& setup
   else if (copied->slot != nullptr)
     recordCopy(slot, copied->slot->id);
   else if (copied->literal)
-    recordLiteral(slot, {toString(*copied->literal), origin, copied->manifest->name});
+    recordLiteral(slot, {toString(*copied->literal), origin, copied->manifest->name, isText(*copied->literal)});
 }
 
 /// False if more values may be written than these: the queue is in an entry, or it is long.
@@ -49,7 +51,7 @@ bool FlowRecorder::recordElements(const NodeOrigin& origin, const PortBinding& q
     if (i == kMost) return false;
     const std::size_t end = left.find(';');
     if (const auto element = parseValue(left.substr(0, end), output.manifest->type, {}))
-      recordLiteral(output.slot->id, {toString(*element), origin, queue.manifest->name});
+      recordLiteral(output.slot->id, {toString(*element), origin, queue.manifest->name, isText(*element)});
     left.remove_prefix(end == std::string_view::npos ? left.size() : end + 1);
   }
   return true;
@@ -60,11 +62,14 @@ void FlowRecorder::recordScript(const Script& script, const NodeOrigin& origin, 
   const auto entries = script.entries();
   for (std::size_t i = 0; i < entries.size(); ++i)
     if (entries[i].read) recordRead(script.slot(i).id, origin, owner, port);
+  for (const ScriptPairing& pairing : script.pairings())
+    pairings_.push_back({&script, pairing, {&port, owner, origin}});
   for (const ScriptWrite& write : script.writes()) {
     const std::size_t slot = script.slot(write.entry).id;
     if (write.makes) flows_[slot].is_set = true;
     if (write.constant)
-      recordLiteral(slot, {toString(script.constant(*write.constant)), origin, port.name});
+      recordLiteral(slot, {toString(script.constant(*write.constant)), origin, port.name,
+                           isText(script.constant(*write.constant))});
     else if (write.copied)
       recordCopy(slot, script.slot(*write.copied).id);
     else
@@ -81,7 +86,8 @@ void FlowRecorder::recordRead(std::size_t slot, const NodeOrigin& origin, const 
 }
 
 void FlowRecorder::recordLiteral(std::size_t slot, LiteralWrite literal) {
-  if (literals_.emplace(slot, literal.text).second) flows_[slot].literals.push_back(std::move(literal));
+  if (literals_.emplace(slot, literal.is_text, literal.text).second)
+    flows_[slot].literals.push_back(std::move(literal));
 }
 
 void FlowRecorder::recordCopy(std::size_t slot, std::size_t from) {

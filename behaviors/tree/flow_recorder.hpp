@@ -5,7 +5,9 @@
 #include <deque>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "behaviors/tree/node_manifest.hpp"
 #include "behaviors/tree/tree_parts.hpp"
@@ -15,7 +17,8 @@ namespace swiftlet::tree {
 class FlowRecorder {
  public:
   /// The flows by slot id.
-  explicit FlowRecorder(std::deque<EntryFlow>& flows) : flows_(flows) {}
+  FlowRecorder(std::deque<EntryFlow>& flows, std::vector<PairedOperands>& pairings)
+      : flows_(flows), pairings_(pairings) {}
 
   /// What the ports of a node that are bound to entries read and write.
   void recordPorts(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup);
@@ -31,8 +34,9 @@ class FlowRecorder {
   void recordType(std::size_t slot, PortType type);
 
   std::deque<EntryFlow>& flows_;
-  std::set<std::pair<std::size_t, std::string>> literals_;  ///< The texts of each slot.
-  std::set<std::pair<std::size_t, std::size_t>> copies_;    ///< The sources of each slot.
+  std::vector<PairedOperands>& pairings_;
+  std::set<std::tuple<std::size_t, bool, std::string>> literals_;  ///< The texts of each slot.
+  std::set<std::pair<std::size_t, std::size_t>> copies_;           ///< The sources of each slot.
 };
 
 }  // namespace swiftlet::tree

@@ -115,6 +115,11 @@ class MockFinder {
   bool isMocked(const std::string& id, const MockFacts& facts) const {
     return facts.used && (base_.find(id) == nullptr || !facts.missing_port.empty());
   }
+  /// A type of the registry that is not of the engine.
+  bool usesBase() const {
+    return std::any_of(facts_.begin(), facts_.end(),
+                       [&](const auto& fact) { return fact.second.used && base_.find(fact.first) != nullptr; });
+  }
 
  private:
   void readUse(const XmlElement& element) {
@@ -178,6 +183,7 @@ MockedRegistry withMocks(const std::string& path, const Registry& base, const Pa
     else
       addMockLeaf(mocked.registry, manifest, answer);
   }
+  mocked.options.host_sets_entries = !mocked.mocks.empty() || !finder.usesBase();
   return mocked;
 }
 

@@ -33,7 +33,9 @@ struct Mock {
 struct MockedRegistry {
   Registry registry;
   std::vector<Mock> mocks;  ///< By id.
-  ParseOptions options;     ///< Those that were given, and lenient: the file is to be parsed with them.
+  /// Those that were given, and lenient: the file is to be parsed with them. Unless all leaves are types of `base`, its
+  /// own program may set entries.
+  ParseOptions options;
 };
 
 /// `base` and a mock, with at most 200 ports, for each type that the file and what it includes use and `base` does not

@@ -47,11 +47,11 @@ class ParameterReader {
   }
 
   void readPort(const XmlElement& element, const std::string& path, const PortManifest& port) {
-    const std::string* given = element.attribute(port.name);
+    const XmlAttribute* given = givenTo(port, element);
     if (port.direction != Direction::kInput || port.type == PortType::kScript) return;
-    if (given != nullptr && entryOf(*given, port.name)) return;
+    if (given != nullptr && entryOf(given->value, port.name)) return;
     visit_(element, {path + "." + port.name, displayNameOf(element),
-                     given == nullptr ? port.default_value.value_or("") : *given, &port});
+                     given == nullptr ? port.default_value.value_or("") : given->value, &port});
   }
 
   const Registry& registry_;
@@ -112,7 +112,7 @@ Changed withParameters(const std::string& text, const std::string& name, const R
     for (const auto& [key, value] : values)
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
         changed.problems.push_back({{name, 0, 0}, key, "the mission has no such parameter", didYouMean(key, keys)});
-  if (changed.problems.empty()) changed.text = edited(text, std::move(edits));
+  if (changed.problems.empty()) changed.text = edited(source.text(), std::move(edits));
   return changed;
 }
 

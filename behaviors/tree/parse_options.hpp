@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct ParseLimits {
   int problems = 100;   ///< Further problems are counted, not listed.
 };
 
+/// The trees of files that belong together though none includes another: by ID, the files that define it.
+using TreeFiles = std::map<std::string, std::vector<std::string>, std::less<>>;
+
 /// The text of a file, or nothing if it cannot be read.
 using FileReader = std::function<std::optional<std::string>(const std::string& path)>;
 
@@ -28,6 +32,11 @@ struct ParseOptions {
   FileReader read_file;  ///< Null: the file system.
   /// For files of other programs: what only BehaviorTree.CPP takes, or never looks at, is a warning.
   bool lenient = false;
+  /// The program that ticks the tree may set entries that nothing in the file sets: a warning.
+  bool host_sets_entries = false;
+  /// Of the files that are given together with this one. Leniently its SubTrees find their trees there, as in a program
+  /// that registers all of them; else the hint says which <include> is missing.
+  TreeFiles trees_elsewhere;
 };
 
 }  // namespace swiftlet::tree

@@ -31,6 +31,17 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// The shortest candidate that goes on where the word, in lower case, ends: MoveToGoal for MoveTo. Null if none does.
+const std::string* completed(std::string_view low, std::span<const std::string> candidates) {
+  constexpr std::size_t kShortest = 3;
+  const std::string* best = nullptr;
+  for (const std::string& candidate : candidates)
+    if (low.size() >= kShortest && lowered(candidate).starts_with(low) &&
+        (best == nullptr || candidate.size() < best->size()))
+      best = &candidate;
+  return best;
+}
+
 const std::string* nearest(std::string_view word, std::span<const std::string> candidates) {
   constexpr std::size_t kMost = 1000;  // A longer list is nobody's, and each problem looks through it.
   candidates = candidates.first(std::min(candidates.size(), kMost));
@@ -50,7 +61,7 @@ const std::string* nearest(std::string_view word, std::span<const std::string> c
       best = &candidate;
     }
   }
-  return best;
+  return best == nullptr ? completed(low, candidates) : best;
 }
 
 }  // namespace

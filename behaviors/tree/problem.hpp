@@ -28,8 +28,9 @@ std::string toString(const Problem& problem);
 /// One line a problem.
 std::string toString(const std::vector<Problem>& problems);
 
-/// "did you mean `x`?" for the candidate nearest to `word` by edit distance, or an empty string if none is near. A name
-/// that differs only in its unit (`clearance_cm`, `clearance`) counts as nearest.
+/// "did you mean `x`?" for the candidate nearest to `word` by edit distance, else for the shortest that begins with it,
+/// or an empty string if there is none. A name that differs only in its unit (`clearance_cm`, `clearance`) counts as
+/// nearest.
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
 /// "`red`, `blue`".
 std::string quotedList(std::span<const std::string> words);

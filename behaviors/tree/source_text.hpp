@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "behaviors/tree/encoding.hpp"
 #include "behaviors/tree/problem.hpp"
 
 namespace swiftlet::tree {
@@ -21,7 +22,8 @@ struct AttributeSpan {
 /// For one thread at a time.
 class SourceText {
  public:
-  SourceText(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
+  /// The bytes may be of any encoding (encoding.hpp); text() and all offsets are those of UTF-8.
+  SourceText(std::string file, std::string bytes) : file_(std::move(file)), text_(inUtf8(std::move(bytes))) {}
 
   const std::string& file() const { return file_; }
   const std::string& text() const { return text_; }

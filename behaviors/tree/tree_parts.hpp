@@ -28,6 +28,7 @@ struct LiteralWrite {
   std::string text;
   NodeOrigin origin;
   std::string attribute;
+  bool is_text = false;  ///< For scripts too: they do not see a number in it.
 };
 
 /// A port that reads an entry.
@@ -35,6 +36,13 @@ struct EntryRead {
   const PortManifest* port = nullptr;
   std::string owner;  ///< The node's type.
   NodeOrigin origin;
+};
+
+/// A comparison or a sum in a script.
+struct PairedOperands {
+  const Script* script = nullptr;
+  ScriptPairing pairing;
+  EntryRead read;  ///< Where the script stands.
 };
 
 /// All sources and readers of one entry, as far as the file shows them; each source once.
@@ -62,6 +70,7 @@ struct TreeParts {
   std::deque<Conditions> conditions;  ///< Stable addresses.
   std::deque<Slot> slots;             ///< Stable addresses.
   std::deque<EntryFlow> flows;        ///< By slot id.
+  std::vector<PairedOperands> pairings;
 
   Location locate(const NodeOrigin& origin, std::string_view attribute = {}) const;
   /// As Tree::pathOf. The tree must be complete.

@@ -1,55 +1,31 @@
 #include "behaviors/tree/xml.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 
 #include <expat.h>
 
+#include "behaviors/tree/characters.hpp"
+#include "behaviors/tree/encoding.hpp"
 #include "behaviors/tree/escaped_text.hpp"
-#include "behaviors/tree/utf8.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
 constexpr std::string_view kXmlBlanks = " \t\r\n";
 
-/// Whether the bytes from `offset` on begin with a character of UTF-8.
-bool isUtf8At(std::string_view text, std::size_t offset) {
-  if (offset >= text.size()) return true;
-  const auto first = static_cast<unsigned char>(text[offset]);
-  if (first < 0x80U) return true;
-  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
-  if (first < 0xC2U || first > 0xF4U || offset + length > text.size()) return false;
-  return std::all_of(text.begin() + static_cast<std::ptrdiff_t>(offset) + 1,
-                     text.begin() + static_cast<std::ptrdiff_t>(offset + length), continuesCharacter);
-}
-
-/// "UTF-16" or "UTF-32", with a byte order mark or without, by the zero bytes of the first character, which is `<` or
-/// the mark: XML in UTF-8 holds none. Empty for all else.
-std::string_view wideEncoding(std::string_view text) {
-  const std::string_view first = text.substr(0, 4);
-  const bool marked = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-  if (first.find(std::string_view("\0\0", 2)) != std::string_view::npos) return "UTF-32";
-  return marked || first.substr(0, 2).find('\0') != std::string_view::npos ? "UTF-16" : "";
-}
-
 /// Elements around those whose depth is limited: <root> and <BehaviorTree>.
 constexpr int kOuterLevels = 2;
 
 class Reader {
  public:
-  /// Reads the escaped text, if there is one, in place of the source.
-  Reader(const SourceText& source, int max_depth, const EscapedText* escaped)
-      : source_(source),
-        max_depth_(max_depth),
-        escaped_(escaped),
-        text_(escaped == nullptr ? source.text() : escaped->text()) {
+  /// Reads the escaped text in place of the source.
+  Reader(const SourceText& source, int max_depth, const EscapedText& escaped)
+      : source_(source), max_depth_(max_depth), escaped_(escaped), text_(escaped.text()) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), onOpen, onClose);
     XML_SetCharacterDataHandler(parser_.get(), onText);
     XML_SetStartDoctypeDeclHandler(parser_.get(), onDoctype);
-    XML_SetXmlDeclHandler(parser_.get(), onDeclaration);
   }
 
   XmlResult read() {
@@ -58,9 +34,11 @@ class Reader {
       result.problem = Problem{{source_.file(), 0, 0}, {}, "the file is too large", {}};
       return result;
     }
-    // Expat would read it, but offsets would not be those of the text.
     if (const std::string_view wide = wideEncoding(text_); !wide.empty()) {
-      result.problem = wrongEncoding({source_.file(), 1, 1}, std::string(wide));
+      result.problem = Problem{{source_.file(), 1, 1},
+                               {},
+                               "the file begins as " + std::string(wide) + " does, but is not in it",
+                               "save it as UTF-8"};
       return result;
     }
     const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), XML_TRUE);
@@ -84,9 +62,6 @@ class Reader {
   static void onClose(void* self, const XML_Char*) { static_cast<Reader*>(self)->close(); }
   static void onText(void* self, const XML_Char* text, int length) {
     static_cast<Reader*>(self)->text({text, static_cast<std::size_t>(length)});
-  }
-  static void onDeclaration(void* self, const XML_Char*, const XML_Char* encoding, int) {
-    if (encoding != nullptr) static_cast<Reader*>(self)->declared_encoding_ = encoding;
   }
   static void onDoctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
     static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported",
@@ -127,10 +102,21 @@ class Reader {
 
   Problem malformed() const {
     const XML_Error code = XML_GetErrorCode(parser_.get());
-    if (code == XML_ERROR_INVALID_TOKEN && !isUtf8At(source_.text(), offset()))
-      return wrongEncoding(source_.locate(offset()), declared_encoding_);
+    const std::string& text = source_.text();
+    if (code == XML_ERROR_INVALID_TOKEN && offset() < text.size() && characterLength(text, offset()) == 0)
+      return wrongEncoding();
     return {source_.locate(offset()), open_.empty() ? std::string() : "<" + open_.back().element->name + ">",
-            std::string("malformed XML: ") + XML_ErrorString(code), remedyFor(code)};
+            std::string("malformed XML: ") + XML_ErrorString(code) + strangerAt(code), remedyFor(code)};
+  }
+
+  /// " at U+201C (left double quotation mark)": where expat stopped, if that is no plain sign of ASCII.
+  std::string strangerAt(XML_Error code) const {
+    const std::string& text = source_.text();
+    const bool token =
+        code == XML_ERROR_INVALID_TOKEN || code == XML_ERROR_JUNK_AFTER_DOC_ELEMENT || code == XML_ERROR_SYNTAX;
+    if (!token || offset() >= text.size()) return {};
+    const auto first = static_cast<unsigned char>(text[offset()]);
+    return first >= 0x20 && first < 0x7F ? "" : " at " + nameOfCharacter(text, offset());
   }
 
   /// Empty for what is rare or says all by itself.
@@ -174,23 +160,26 @@ class Reader {
     const auto isAt = [&](std::size_t place, char c) { return place < text.size() && text[place] == c; };
     if (isAt(at, '&') || (at > 0 && isAt(at - 1, '&'))) return "write & as &amp;";
     if (isAt(at, '<')) return "in a value, write < as &lt;";
+    if (text.substr(at < 3 ? 0 : at - 3, 4).find("<!") != std::string::npos)
+      return "a comment is written as <!-- text -->";
     if (at > 0 && isAt(at - 1, '=')) return "put the value in quotes";
     if (at < text.size() && static_cast<unsigned char>(text[at]) < 0x20U)
       return "XML does not allow this control character, take it out";
     return {};
   }
 
-  Problem wrongEncoding(const Location& place, const std::string& encoding) const {
-    const bool known = !encoding.empty() && encoding != "UTF-8" && encoding != "utf-8";
-    return {place,
+  /// At a byte that is no UTF-8.
+  Problem wrongEncoding() const {
+    const std::string declared(declaredEncoding(source_.text()));
+    return {source_.locate(offset()),
             {},
-            known ? "the file is in " + encoding + ", expected UTF-8" : "a byte that is not UTF-8",
-            "`iconv -f " + (known ? encoding : "ENCODING") + " -t UTF-8 " + source_.file() +
-                " > NEW.xml` converts it; then write encoding=\"UTF-8\" in its first line"};
+            "a byte that is not UTF-8" + (declared.empty() ? "" : ", in a file that says it is " + declared),
+            "`iconv -f WINDOWS-1252 -t UTF-8 " + source_.file() +
+                " > NEW.xml` converts a file of Western Europe; name its encoding if it is another"};
   }
 
   /// Of what expat reads now, in the source.
-  std::size_t offset() const { return escaped_ == nullptr ? readOffset() : escaped_->originalOffset(readOffset()); }
+  std::size_t offset() const { return escaped_.originalOffset(readOffset()); }
 
   std::size_t readOffset() const {
     const XML_Index index = XML_GetCurrentByteIndex(parser_.get());
@@ -199,8 +188,8 @@ class Reader {
 
   const SourceText& source_;
   int max_depth_;
-  const EscapedText* escaped_;  ///< Null if the source is read as it is.
-  const std::string& text_;     ///< What expat reads.
+  const EscapedText& escaped_;
+  const std::string& text_;  ///< What expat reads.
   // The encoding is fixed so that byte offsets are those of the text.
   std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate("UTF-8")};
   std::optional<XmlElement> root_;
@@ -211,7 +200,6 @@ class Reader {
   };
   std::vector<Open> open_;
   std::optional<Problem> problem_;
-  std::string declared_encoding_;
 };
 
 }  // namespace
@@ -228,9 +216,8 @@ const std::string* XmlElement::attribute(std::string_view attribute_name) const 
 }
 
 XmlResult parseXml(const SourceText& source, int max_depth, bool lenient) {
-  if (!lenient) return Reader(source, max_depth, nullptr).read();
-  const EscapedText escaped(source.text());
-  XmlResult result = Reader(source, max_depth, &escaped).read();
+  const EscapedText escaped(source.text(), lenient);
+  XmlResult result = Reader(source, max_depth, escaped).read();
   result.unescaped = escaped.found();
   return result;
 }

@@ -1,4 +1,4 @@
-// XML as elements with their positions. Reads UTF-8 by expat. A DOCTYPE is refused, so that there are no entities but
+// XML as elements with their positions. Reads by expat. A DOCTYPE is refused, so that there are no entities but
 // the five of XML.
 #pragma once
 
@@ -40,12 +40,13 @@ struct XmlElement {
 struct XmlResult {
   std::optional<XmlElement> root;
   std::optional<Problem> problem;  ///< Present if `root` is not.
-  /// Of a lenient reading: the offsets of `<` and `&` that stand for themselves, the first of each value.
+  /// What XML does not allow, as offsets: the first `--` within a comment, and of a lenient reading `<` and `&` that
+  /// stand for themselves, the first of each value.
   std::vector<std::size_t> unescaped;
 };
 
-/// `max_depth` limits elements within elements, below <root> and <BehaviorTree>. A lenient reading takes `<` and `&` in
-/// the values of attributes as tinyxml2 does (escaped_text.hpp); else they are a problem.
+/// `max_depth` limits elements within elements, below <root> and <BehaviorTree>. Comments are taken as tinyxml2 takes
+/// them, leniently also `<` and `&` in the values of attributes (escaped_text.hpp); else those are a problem.
 XmlResult parseXml(const SourceText& source, int max_depth, bool lenient = false);
 
 }  // namespace swiftlet::tree

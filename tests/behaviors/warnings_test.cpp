@@ -14,10 +14,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-MissionVerdict verdictOn(const std::string& inside) {
+MissionVerdict verdictOn(const std::string& inside, const MissionLimits& limits = {}) {
   return judgeMissionText("<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">\n<BehaviorTree ID=\"M\">\n" + inside +
                               "\n</BehaviorTree></root>",
-                          "m.xml");
+                          "m.xml", limits);
 }
 
 std::vector<std::string> linesOf(const std::vector<tree::Problem>& problems) {
@@ -41,6 +41,29 @@ TEST(Warnings, NameNodesThatAreNeverReached) {
                           HasSubstr("3:1: Sequence: the mission never lands")));
   EXPECT_THAT(warningsOf("<Sequence><TakeOff/>\n<OperatorCommand/><Land/></Sequence>"),
               ElementsAre(HasSubstr("Land: is never reached: `OperatorCommand` before it never succeeds")));
+}
+
+TEST(Warnings, NameWhatWaitsForAnOperatorWhoIsNotThere) {
+  const std::string inside =
+      "<Sequence><TakeOff/>\n<WaitForOperator/><WaitForOperator timeout_s=\"30\"/><LogEvent text=\"a\"/>"
+      "<OperatorCommand/></Sequence>";
+  EXPECT_THAT(warningsOf(inside), IsEmpty());
+  MissionLimits limits;
+  limits.operator_goes_on = limits.operator_gives_goals = false;
+  EXPECT_THAT(
+      linesOf(verdictOn(inside, limits).warnings),
+      ElementsAre(HasSubstr("4:1: WaitForOperator: nobody says `go on`, and it waits without an end, fly with the "
+                            "page, or give the trial an `operator` script [M/Sequence/WaitForOperator[1]]"),
+                  HasSubstr("nobody says `go on`, and it fails after its timeout_s"),
+                  HasSubstr("OperatorCommand: nobody gives it a goal, and the vehicle holds here")));
+  limits.operator_gives_goals = true;
+  EXPECT_THAT(linesOf(verdictOn(inside, limits).warnings).size(), 2U);
+  EXPECT_THAT(linesOf(verdictOn("<Sequence><TakeOff/><Land/><Fallback><AlwaysSuccess/><WaitForOperator/></Fallback>"
+                                "</Sequence>",
+                                limits)
+                          .warnings),
+              ElementsAre(HasSubstr("is never reached")))
+      << "what is never reached waits for nobody";
 }
 
 TEST(Warnings, AgreeWithTheOrderOfFlightOnWhatCannotFail) {

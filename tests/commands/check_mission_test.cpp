@@ -110,6 +110,47 @@ TEST_F(CheckMission, AMissionThatIsNotSoundHasNoDryRun) {
   EXPECT_THAT(end.err, HasSubstr("expected a TakeOff before it"));
 }
 
+TEST_F(CheckMission, WithoutThePageItWarnsOfWhatWaitsForAnOperator) {
+  const std::string mission =
+      write("m.xml", missionWith("      <TakeOff/>\n      <WaitForOperator/>\n      <Land/>\n"));
+  EXPECT_EQ(runSwiftlet({"check", mission}).err, "");
+  const ProgramEnd end = runSwiftlet({"check", "--headless", mission});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr(":5:7: warning: WaitForOperator: nobody says `go on`, and it waits without an end"));
+  const ProgramEnd flight = runSwiftlet({"fly", "--headless", "--time-limit", "0.1", "--out", path("run"), mission});
+  EXPECT_THAT(flight.err, HasSubstr("warning: WaitForOperator: nobody says `go on`"));
+  const std::string trial = "mission: " + mission + "\ntime_limit_s: 0.1\nscenario: {world: worlds/unb_case1.sdf}\n";
+  EXPECT_THAT(runSwiftlet({"trial", write("t.yaml", trial), "--out", path("t")}).err,
+              HasSubstr("warning: WaitForOperator: nobody says `go on`"));
+  const std::string with_operator = trial + "operator: [{command: go_on, at_s: 0.01, expect: any}]\n";
+  EXPECT_THAT(runSwiftlet({"trial", write("t.yaml", with_operator), "--out", path("t")}).err,
+              testing::Not(HasSubstr("warning")));
+}
+
+TEST_F(CheckMission, AFileOfAnotherKindIsToldInALine) {
+  const std::string mission = write("m.xml", missionWith(kHop));
+  const std::string trial = write("t.yaml", "mission: " + mission + "\nscenario: {world: worlds/unb_case1.sdf}\n");
+  const auto expectLine = [](const std::vector<std::string>& arguments, const std::string& line) {
+    const ProgramEnd end = runSwiftlet(arguments);
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_EQ(end.err, line + "\n");
+  };
+  const std::string no_trial =
+      mission + ": is no trial, which is a YAML file, `swiftlet fly " + mission + "` flies a mission";
+  const std::string no_mission =
+      trial + ": is no mission, which is an XML file, `swiftlet trial " + trial + "` flies a trial";
+  expectLine({"trial", mission}, no_trial);
+  expectLine({"trial", "--envelope", mission}, no_trial);
+  expectLine({"fly", mission, "--scenario", mission}, no_trial);
+  expectLine({"check", trial}, no_mission);
+  expectLine({"fly", trial}, no_mission);
+  expectLine({"migrate", trial}, no_mission);
+  expectLine(
+      {"check", "--system", mission, mission},
+      mission +
+          ":1:1: `<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"> <Behavio ...` where keys were expected");
+}
+
 class Migrating : public test_support::Scratch {
  protected:
   const std::string old_ =
@@ -133,6 +174,17 @@ TEST_F(Migrating, MakesAMissionThatCheckFindsSound) {
   const ProgramEnd after = runSwiftlet({"check", path("new.xml")});
   EXPECT_EQ(after.exit_code, 0) << describe(after);
   EXPECT_EQ(after.err, "");
+}
+
+TEST_F(Migrating, FindsItsFileWhereMissionsAre) {
+  test_support::ProgramOptions elsewhere;
+  elsewhere.working_folder = folder_.string();
+  const ProgramEnd end = runSwiftlet({"migrate", "missions/explore_and_return.xml"}, elsewhere);
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("it is of version 4 already"));
+  const ProgramEnd missing = runSwiftlet({"migrate", "mission/explore_and_return.xml"}, elsewhere);
+  EXPECT_EQ(missing.exit_code, 2) << describe(missing);
+  EXPECT_THAT(missing.err, HasSubstr("did you mean `missions/explore_and_return.xml`?"));
 }
 
 TEST_F(Migrating, PrintsTheFileAlone) {

@@ -49,6 +49,27 @@ TEST_F(MockLeaves, ATreeOfTheEngineAloneIsNoMission) {
   EXPECT_THAT(end.out, HasSubstr("ended with SUCCESS after 2 ticks"));
 }
 
+TEST_F(MockLeaves, OfSeveralFilesEachMayUseTheTreesOfAll) {
+  const std::string a = write("a.xml",
+                              "<root BTCPP_format=\"4\" main_tree_to_execute=\"A\"><BehaviorTree ID=\"A\"><Sequence>"
+                              "<TakeOff/><SubTree ID=\"B\"/><Land/></Sequence></BehaviorTree></root>");
+  const std::string b =
+      write("b.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><Wiggle v=\"{speed}\"/></BehaviorTree></root>");
+  const ProgramEnd alone = runSwiftlet({"check", "--mock-leaves", a});
+  EXPECT_EQ(alone.exit_code, 2) << describe(alone);
+  EXPECT_THAT(alone.err, HasSubstr("name the file that has it too: check --mock-leaves " + a));
+  const ProgramEnd together = runSwiftlet({"check", "--mock-leaves", a, b});
+  EXPECT_EQ(together.exit_code, 0) << describe(together);
+  EXPECT_THAT(together.out, HasSubstr("2 missions are sound"));
+  const ProgramEnd dry =
+      runSwiftlet({"check", "--mock-leaves", "--dry-run", write("s", "Wiggle: RUNNING, SUCCESS"), a, b});
+  EXPECT_EQ(dry.exit_code, 0) << describe(dry);
+  EXPECT_THAT(dry.out, HasSubstr("A/Sequence/B/Wiggle: RUNNING -> SUCCESS"));
+  const ProgramEnd missions = runSwiftlet({"check", a, b});
+  EXPECT_EQ(missions.exit_code, 2) << describe(missions);
+  EXPECT_THAT(missions.err, HasSubstr("write <include path=\"b.xml\"/> below <root>"));
+}
+
 TEST_F(MockLeaves, AreNotFlown) {
   const ProgramEnd end = runSwiftlet({"fly", mockedMission(kHop), "--mock-leaves"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -72,6 +93,7 @@ TEST(Nodes, PrintsAListAndThePortsOfThoseThatAreNamed) {
             "map.\n");
   EXPECT_THAT(runSwiftlet({"nodes", "SubTree"}).out, HasSubstr("SubTree: Runs another tree, with entries of its own;"));
   EXPECT_THAT(runSwiftlet({"nodes"}).out, HasSubstr("\nSubTree: Runs another tree"));
+  EXPECT_THAT(runSwiftlet({"nodes", "MoveTo"}).err, HasSubstr("did you mean `MoveToGoal`?"));
   EXPECT_THAT(runSwiftlet({"nodes", "Subtree"}).err, HasSubstr("did you mean `SubTree`?"));
   const ProgramEnd end = runSwiftlet({"nodes", "TakeOff", "Photografh"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

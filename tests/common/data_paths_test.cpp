@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "common/error.hpp"
 
@@ -72,6 +73,24 @@ TEST_F(DataPaths, AMissingFileGetsASuggestion) {
     EXPECT_NE(text.find("missions/only_hare.xml: no such file"), std::string::npos) << text;
     EXPECT_NE(text.find("did you mean `missions/only_here.xml`?"), std::string::npos) << text;
     EXPECT_NE(text.find(folder_.string()), std::string::npos) << text;
+  }
+}
+
+TEST_F(DataPaths, ANameWithoutItsFolderOrItsEndingGetsASuggestion) {
+  fs::create_directories(folder_ / "missions/deep/below");
+  std::ofstream(folder_ / "missions/deep/below/one.two.xml") << "<root/>";
+  for (const auto& [given, meant] : {std::pair{"mission/only_here.xml", "missions/only_here.xml"},
+                                     {"misions/only_hare.xml", "missions/only_here.xml"},
+                                     {"missions/only_here", "missions/only_here.xml"},
+                                     {"missions/only_here.yaml", "missions/only_here.xml"},
+                                     {"only_here.xml", "missions/only_here.xml"},
+                                     {"missions/depe/belwo/one.two", "missions/deep/below/one.two.xml"}}) {
+    try {
+      findData(given);
+      FAIL() << "a file that does not exist was found: " << given;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("did you mean `" + std::string(meant) + "`?"));
+    }
   }
 }
 

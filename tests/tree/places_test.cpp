@@ -40,13 +40,5 @@ TEST(Places, AreThoseOfTheSlowCount) {
   EXPECT_EQ(SourceText("f.xml", "").locate(7).column, 1);
 }
 
-TEST(Encodings, AFileOfWideCharactersIsNamed) {
-  using namespace std::string_literals;
-  EXPECT_THAT(linesIn("<\0r\0o\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
-  EXPECT_THAT(linesIn("\xFF\xFE<\0"s), ElementsAre(HasSubstr("the file is in UTF-16, expected UTF-8")));
-  for (const std::string& wide : {"\xFF\xFE\0\0<\0\0\0"s, "\0\0\xFE\xFF\0\0\0<"s, "<\0\0\0r\0\0\0"s})
-    EXPECT_THAT(linesIn(wide), ElementsAre(HasSubstr("the file is in UTF-32, expected UTF-8")));
-}
-
 }  // namespace
 }  // namespace swiftlet::tree::testing

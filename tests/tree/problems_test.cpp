@@ -247,9 +247,9 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
       "ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>";
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\">" + two),
               ElementsAre(HasSubstr("main_tree_to_execute is missing, expected where there are several trees, write "
-                                    "main_tree_to_execute=\"A\" for that one")));
+                                    "main_tree_to_execute=\"A\", or another that no tree uses: `B`")));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\" main_tree_to_execute=\"Flight\">" + two),
-              ElementsAre(HasSubstr("there is no <BehaviorTree ID=\"Flight\">, the first one here is `A`")));
+              ElementsAre(HasSubstr("there is no <BehaviorTree ID=\"Flight\">, write main_tree_to_execute=\"A\"")));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\" main_tree_to_execute=\"a\">" + two),
               ElementsAre("f.xml:1:24: root: there is no <BehaviorTree ID=\"a\">, did you mean `A`?"));
   EXPECT_THAT(
@@ -267,6 +267,31 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
               ElementsAre(HasSubstr("BehaviorTree: the attribute `ID` is missing")));
   EXPECT_THAT(problemsIn("<AlwaysSuccess/>", "<BehaviorTree ID=\"Fly\"><AlwaysSuccess/></BehaviorTree>"),
               ElementsAre(HasSubstr("`Fly` is the name of a node type")));
+}
+
+TEST(Problems, AMarkThatIsNoCommentIsTold) {
+  for (const char* mark : {"<! -- a -->", "<!- a -->", "<!a>"})
+    EXPECT_THAT(problemsIn("<Sequence>" + std::string(mark) + "<AlwaysSuccess/></Sequence>"),
+                ElementsAre(HasSubstr("a comment is written as <!-- text -->")))
+        << mark;
+}
+
+TEST(Problems, TheMainTreeIsTheOneThatNoOtherUses) {
+  const auto treeWith = [](const std::string& id, const std::string& used) {
+    return "<BehaviorTree ID=\"" + id + "\">" + (used.empty() ? "<AlwaysSuccess/>" : "<SubTree ID=\"" + used + "\"/>") +
+           "</BehaviorTree>";
+  };
+  const auto hintFor = [](const std::string& root, const std::string& trees) {
+    return problemsOf("<root BTCPP_format=\"4\" " + root + ">" + trees +
+                      "<TreeNodesModel><SubTree ID=\"Tour\"/></TreeNodesModel></root>");
+  };
+  const std::string trees = treeWith("Alpha", "") + treeWith("Beta", "Alpha") + treeWith("Tour", "Beta");
+  for (const char* root : {"", "main_tree_to_execute=\"\"", "main_tree_to_execute=\"Elsewhere\""})
+    EXPECT_THAT(hintFor(root, trees), ElementsAre(HasSubstr("write main_tree_to_execute=\"Tour\" for the only tree "
+                                                            "that no other one uses")));
+  EXPECT_THAT(hintFor("", treeWith("Z", "Y") + treeWith("X", "Y") + treeWith("Y", "")),
+              ElementsAre(HasSubstr("write main_tree_to_execute=\"Z\", or another that no tree uses: `X`")))
+      << "in the order of the file";
 }
 
 TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {

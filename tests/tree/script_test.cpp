@@ -63,7 +63,9 @@ TEST(Script, HasOnlyFiniteNumbers) {
 }
 
 TEST(Script, ShowsAWholeCharacterThatItDoesNotKnow) {
-  EXPECT_EQ(Board().set("x", 2.0).run("x \u2260 3"), "! expected an operator or `;` at `\u2260`");
+  EXPECT_EQ(
+      Board().set("x", 2.0).run("x \u2260 3"),
+      "! expected an operator or `;` at `\u2260`, which is U+2260 (not equal to, write `!=`): only texts may hold it");
 }
 
 TEST(Script, ComputesWithTheRulesOfPrecedence) {

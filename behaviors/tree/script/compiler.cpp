@@ -5,6 +5,7 @@
 #include <charconv>
 #include <optional>
 
+#include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/script/operand.hpp"
 
 namespace swiftlet::tree {
@@ -49,8 +50,11 @@ const BinarySign* binarySign(const Token& token, int loosest) {
 
 std::string place(std::string_view text, const Token& token) {
   if (token.kind == TokenKind::kEnd) return "at the end of `" + std::string(text) + "`";
-  const bool endless = token.kind == TokenKind::kBad && token.text.front() == '\'';
-  return "at `" + std::string(token.text) + "`" + (endless ? ", a text without an end" : "");
+  const std::string where = "at `" + std::string(token.text) + "`";
+  if (token.kind != TokenKind::kBad) return where;
+  if (token.text.front() == '\'' || token.text.front() == '"') return where + ", a text without an end";
+  const bool ascii = static_cast<unsigned char>(token.text.front()) < 0x80;
+  return where + (ascii ? "" : ", which is " + nameOfCharacter(token.text, 0) + ": only texts may hold it");
 }
 
 /// For those who write the operators of other languages: `and` and `or` stand where a sign is expected, and what
@@ -72,7 +76,8 @@ ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode
   position_ = 0;
   depth_ = 0;
   problem_.clear();
-  const std::size_t first_statement = code.statements.size(), first_write = code.writes.size();
+  const std::size_t first_statement = code.statements.size(), first_write = code.writes.size(),
+                    first_pairing = code.pairings.size();
   if (tokens_.size() > kMostTokens) problem_ = "it is longer than " + std::to_string(kMostTokens) + " words";
   while (problem_.empty()) {
     while (take(";")) {}
@@ -84,7 +89,8 @@ ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode
   return {{.text = text,
            .statements = {first_statement, code.statements.size()},
            .entries = {first_entry_, code.entries.size()},
-           .writes = {first_write, code.writes.size()}},
+           .writes = {first_write, code.writes.size()},
+           .pairings = {first_pairing, code.pairings.size()}},
           problem_};
 }
 
@@ -176,6 +182,7 @@ ScriptCompiler::Index ScriptCompiler::comparison(Index left) {
     ++position_;
     const std::size_t writes_before = code_->writes.size();
     const Index right = binary(kComparison + 1);
+    if (problem_.empty()) recordPairing(sign->op, linked ? code_->expressions[left].b : left, right);
     left = addBinary(sign->op, left, right, writes_before);
     if (problem_.empty()) code_->expressions[left].linked = linked;
     linked = true;
@@ -239,9 +246,21 @@ bool ScriptCompiler::isZero(const ScriptExpression& expression) const {
 /// `right` was compiled when the code had `writes_before` assignments.
 ScriptCompiler::Index ScriptCompiler::addBinary(Op op, Index left, Index right, std::size_t writes_before) {
   if (op == Op::kDivide && problem_.empty() && isZero(code_->expressions[right])) problem_ = "division by zero";
+  if (op == Op::kAdd && problem_.empty()) recordPairing(op, left, right);
   const auto buffer = static_cast<Index>(code_->joins);
   if (op == Op::kJoin || op == Op::kAdd) ++code_->joins;
   return add({.op = op, .keeps = code_->writes.size() > writes_before, .a = left, .b = right, .of = buffer});
+}
+
+std::optional<ScriptSide> ScriptCompiler::sideOf(Index operand) const {
+  const ScriptExpression& expression = code_->expressions[operand];
+  if (expression.op == Op::kEntry) return ScriptSide{true, expression.of - first_entry_};
+  return expression.op == Op::kConstant ? std::optional(ScriptSide{false, expression.of}) : std::nullopt;
+}
+
+void ScriptCompiler::recordPairing(Op op, Index left, Index right) {
+  const auto a = sideOf(left), b = sideOf(right);
+  if (a && b) code_->pairings.push_back({op, *a, *b});
 }
 
 ScriptCompiler::Index ScriptCompiler::add(ScriptExpression expression) {

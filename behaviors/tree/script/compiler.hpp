@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,8 @@ class ScriptCompiler {
   Index add(ScriptExpression expression);
   bool isZero(const ScriptExpression& expression) const;
   Index addBinary(Op op, Index left, Index right, std::size_t writes_before);
+  void recordPairing(Op op, Index left, Index right);
+  std::optional<ScriptSide> sideOf(Index operand) const;
   template <typename T>
   Index constant(T value);
   Index entry(std::string_view name, bool read);

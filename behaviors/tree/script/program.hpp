@@ -66,6 +66,18 @@ struct ScriptExpression {
   std::uint32_t of = 0;  ///< Of kConstant, kEntry, kMake, kAssign, kAdd and kJoin: which one.
 };
 
+/// An operand that is the entry of a script, by its index there, or a constant of the code.
+struct ScriptSide {
+  bool is_entry = false;
+  std::size_t index = 0;
+};
+
+/// A comparison or a sum of two such operands: texts are compared and joined as texts, whatever they look like.
+struct ScriptPairing {
+  ScriptOp op = ScriptOp::kAdd;
+  ScriptSide left, right;
+};
+
 /// What scripts do, one behind the other: a few long lists are made and freed faster than lists for each of thousands
 /// of scripts. All indices are those of these lists, unless it says otherwise.
 struct ScriptCode {
@@ -74,6 +86,7 @@ struct ScriptCode {
   std::vector<Value> constants;
   std::vector<ScriptEntry> entries;
   std::vector<ScriptWrite> writes;
+  std::vector<ScriptPairing> pairings;
   std::size_t joins = 0;  ///< Texts that `..` and `+` may make.
 };
 
@@ -90,7 +103,7 @@ struct ScriptRange {
 /// Where the code of one script is.
 struct ScriptProgram {
   std::string_view text;
-  ScriptRange statements, entries, writes;
+  ScriptRange statements, entries, writes, pairings;
 };
 
 }  // namespace swiftlet::tree

@@ -47,6 +47,7 @@ Scripts::Added Scripts::add(std::string_view text) {
 
 std::span<const ScriptEntry> Script::entries() const { return program_.entries.of(owner_->code_.entries); }
 std::span<const ScriptWrite> Script::writes() const { return program_.writes.of(owner_->code_.writes); }
+std::span<const ScriptPairing> Script::pairings() const { return program_.pairings.of(owner_->code_.pairings); }
 void Script::bind(std::size_t entry, Slot* slot) { owner_->slots_[program_.entries.begin + entry] = slot; }
 const Slot& Script::slot(std::size_t entry) const { return *owner_->slots_[program_.entries.begin + entry]; }
 const Value& Script::constant(std::size_t index) const { return owner_->code_.constants[index]; }

@@ -44,6 +44,7 @@ class Script {
   std::string_view text() const { return program_.text; }
   std::span<const ScriptEntry> entries() const;
   std::span<const ScriptWrite> writes() const;
+  std::span<const ScriptPairing> pairings() const;
   /// Each entry is bound before the first run.
   void bind(std::size_t entry, Slot* slot);
   const Slot& slot(std::size_t entry) const;

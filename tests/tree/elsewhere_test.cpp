@@ -1,0 +1,101 @@
+// Files that belong together though none includes another, as those of a program that registers all of a folder.
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "behaviors/tree/parser.hpp"
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string oneTree(const std::string& id, const std::string& inside, const std::string& root = {}) {
+  return "<root BTCPP_format=\"4\" " + root + "><BehaviorTree ID=\"" + id + "\">" + inside + "</BehaviorTree></root>";
+}
+std::string uses(const std::string& id) { return "<SubTree ID=\"" + id + "\"/>"; }
+
+class Elsewhere : public ::testing::Test {
+ protected:
+  ParseResult read(const std::string& main, bool lenient = true) {
+    ParseOptions options;
+    options.lenient = lenient;
+    options.trees_elsewhere = trees_;
+    options.read_file = [this](const std::string& path) -> std::optional<std::string> {
+      const auto found = files_.find(path);
+      return found == files_.end() ? std::nullopt : std::optional(found->second);
+    };
+    return parseFile(main, Registry::standard(), options);
+  }
+  void add(const std::string& file, const std::string& id, const std::string& text) {
+    files_[file] = text;
+    trees_[id].push_back(file);
+  }
+
+  std::map<std::string, std::string> files_;
+  TreeFiles trees_;
+};
+
+TEST_F(Elsewhere, TreesAreFoundThatAreUsedDirectlyOrNot) {
+  add("d/a.xml", "A", oneTree("A", uses("B")));
+  add("d/b.xml", "B", oneTree("B", uses("C")));
+  add("d/c.xml", "C", oneTree("C", "<AlwaysSuccess/>"));
+  add("d/broken.xml", "D", "<root>");
+  const ParseResult result = read("d/a.xml");
+  EXPECT_THAT(linesOf(result.problems), IsEmpty());
+  EXPECT_THAT(linesOf(result.warnings), IsEmpty());
+  ASSERT_TRUE(result.tree);
+  EXPECT_EQ(result.tree->nodes().size(), 3U);
+}
+
+TEST_F(Elsewhere, TheMainTreeMayBe) {
+  add("a.xml", "A", oneTree("A", "<AlwaysFailure/>", "main_tree_to_execute=\"B\""));
+  add("b.xml", "B", oneTree("B", "<AlwaysSuccess/>"));
+  const ParseResult result = read("a.xml");
+  ASSERT_TRUE(result.tree) << toString(result.problems);
+  EXPECT_EQ(result.tree->name(), "B");
+}
+
+TEST_F(Elsewhere, TheTreeOfTheOwnFolderComesFirst) {
+  add("far/b.xml", "B", oneTree("B", "<AlwaysFailure/>"));
+  add("near/b.xml", "B", oneTree("B", "<AlwaysSuccess/>"));
+  add("near/a.xml", "A", oneTree("A", uses("B")));
+  ParseResult result = read("near/a.xml");
+  ASSERT_TRUE(result.tree) << toString(result.problems);
+  TickContext context;
+  EXPECT_EQ(result.tree->tick(context), Status::kSuccess);
+}
+
+TEST_F(Elsewhere, OnlyWhatIsUsedIsJudged) {
+  files_["b.xml"] =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree>"
+      "<BehaviorTree ID=\"A\"><Nobody/></BehaviorTree><BehaviorTree ID=\"Other\"><Nobody/></BehaviorTree></root>";
+  trees_["B"] = {"b.xml"};
+  add("a.xml", "A", oneTree("A", uses("B")));
+  const ParseResult result = read("a.xml");
+  EXPECT_THAT(linesOf(result.problems), IsEmpty());
+  EXPECT_THAT(linesOf(result.warnings), IsEmpty());
+}
+
+TEST_F(Elsewhere, TreesThatContainEachOtherAreTold) {
+  add("a.xml", "A", oneTree("A", uses("B")));
+  add("b.xml", "B", oneTree("B", uses("A")));
+  EXPECT_THAT(linesOf(read("a.xml").problems), ElementsAre(HasSubstr("the tree contains itself: A -> B -> A")));
+}
+
+TEST_F(Elsewhere, AMissionIsToldWhatToInclude) {
+  add("d/a.xml", "A", oneTree("A", uses("B")));
+  add("d/sub/b.xml", "B", oneTree("B", "<AlwaysSuccess/>"));
+  EXPECT_THAT(linesOf(read("d/a.xml", false).problems),
+              ElementsAre(HasSubstr("there is no <BehaviorTree ID=\"B\">, write <include path=\"sub/b.xml\"/>")));
+  trees_.clear();
+  EXPECT_THAT(linesOf(read("d/a.xml", false).problems), ElementsAre(HasSubstr("needs <include path=\"OTHER.xml\"/>")));
+  EXPECT_THAT(linesOf(read("d/a.xml").problems), ElementsAre(HasSubstr("check --mock-leaves d/a.xml OTHER.xml")));
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing
