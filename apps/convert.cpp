@@ -32,6 +32,7 @@ namespace fs = std::filesystem;
 constexpr double kUsualResolution_m = 0.05;
 /// By how much a point may be moved where its coordinates are rounded to single precision.
 constexpr double kMostRounding_m = 0.001;
+constexpr double kTallest_m = 100.0;
 /// Points that an octree may become. A few bytes of a file can be a cube of billions of voxels.
 constexpr std::size_t kMostPoints = 50'000'000;
 
@@ -61,11 +62,11 @@ Kind kindOf(const fs::path& file, bool may_be_plan) {
   if (ending == ".bt" || ending == ".ot") return Kind::kOctree;
   if (interfaces::cloudFormatOf(file)) return Kind::kCloud;
   if (may_be_plan && ending == ".yaml") return Kind::kFloorPlan;
-  throw common::InputError(common::Problem{
-      {file.string()},
-      "",
-      fmt::format("`{}` is not a kind of 3D map", file.extension().string()),
-      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : hintFor(ending)});
+  throw common::InputError(
+      common::Problem{{file.string()},
+                      "",
+                      fmt::format("`{}` is not a kind of 3D map", file.extension().string()),
+                      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : hintFor(ending)});
 }
 
 [[noreturn]] void refuseFile(const ConvertOptions& options, const std::string& message, const std::string& hint) {
@@ -105,6 +106,8 @@ std::string originNear(const Eigen::Vector3d& point_file) {
                      std::abs(point_file.z()) < 1e4 ? 0.0 : hundreds(point_file.z()));
 }
 
+constexpr const char* kUnitHint = "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres";
+
 struct Cloud {
   std::vector<common::SurfacePoint> points;
   std::string hint_if_far;
@@ -120,8 +123,17 @@ Cloud readPoints(const ConvertOptions& options) {
         options,
         fmt::format("its coordinates are so great that they would be rounded by up to {:.3g} m", cloud.rounding_m),
         fmt::format("they are kept in single precision: give {}", nearer));
-  return {std::move(cloud.points),
-          fmt::format("are they in metres? Give --scale 0.001 if in millimetres, {} if the origin is far away", nearer)};
+  return {std::move(cloud.points), fmt::format("{}, {} if the origin is far away", kUnitHint, nearer)};
+}
+
+/// Buildings are lower than kTallest_m, but a room in centimetres is not.
+void sayIfTall(const ConvertOptions& options, const std::vector<common::SurfacePoint>& points) {
+  const auto [lowest, highest] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.position_m.z() < b.position_m.z(); });
+  if (options.scale || points.empty()) return;
+  const float height_m = highest->position_m.z() - lowest->position_m.z();
+  if (height_m > kTallest_m)
+    showNotes({fmt::format("the points reach over {:.0f} m of height: {}", height_m, kUnitHint)});
 }
 
 /// Octrees are written as OctoMap's OcTree, which has neither.
@@ -146,6 +158,7 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
     return std::move(octree.map);
   }
   const auto [points, hint_if_far] = readPoints(options);
+  sayIfTall(options, points);
   if (to == Kind::kOctree) sayWithoutColors(points);
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
   mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m, interfaces::kMostOctreeBlocks);
@@ -181,7 +194,9 @@ void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind 
     refuseFile(
         options,
         fmt::format("the plan would be {} by {} cells of {:g} m", known.width(), known.height(), plan.resolution_m()),
-        from == Kind::kCloud ? "remove points far away, give a greater --resolution, or --scale if they are not in metres" : "");
+        from == Kind::kCloud
+            ? "remove points far away, give a greater --resolution, or --scale if they are not in metres"
+            : "");
   if (from == Kind::kCloud)
     show("note: a cloud does not tell where room is free: nothing can be planned in a plan of occupied cells alone\n");
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));
@@ -222,10 +237,10 @@ int convert(const ConvertOptions& options) {
 void addConvert(Command& program) {
   auto options = std::make_shared<ConvertOptions>();
   Command command = program.command("convert", "Convert a 3D map to another format, or to a floor plan.");
-  command.argument(
-      "from", options->from,
-      "Octree of OctoMap (.bt, or .ot with an OcTree, ColorOcTree, OcTreeStamped or CountingOcTree) or a cloud of points "
-      "(.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
+  command.argument("from", options->from,
+                   "Octree of OctoMap (.bt, or .ot with an OcTree, ColorOcTree, OcTreeStamped or CountingOcTree) or a "
+                   "cloud of points "
+                   "(.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
   command.argument(
       "to", options->to,
       ".bt or .ot: an octree; .ply or .pcd: a cloud, with a point in each occupied voxel of an octree; .yaml: a "
@@ -236,8 +251,9 @@ void addConvert(Command& program) {
                  "Side of the voxels that a cloud becomes, in metres. 0.05 when not given.");
   command.option("--scale", options->scale, {1e-6, 1e6},
                  "Metres in one unit of a cloud's coordinates: 0.001 if they are in millimetres. 1 when not given.");
-  command.option("--origin", options->origin,
-                 "\"x;y;z\" of the place in a cloud that becomes the origin, in the cloud's unit. \"0;0;0\" when not given.");
+  command.option(
+      "--origin", options->origin,
+      "\"x;y;z\" of the place in a cloud that becomes the origin, in the cloud's unit. \"0;0;0\" when not given.");
   command.footer("Example: swiftlet convert runs/first/map.bt plan.yaml --low 0.8 --high 1.2");
   command.runs([options] { return convert(*options); });
 }

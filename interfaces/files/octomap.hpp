@@ -32,7 +32,8 @@ inline constexpr std::size_t kMostOctreeBlocks = 2'000'000;
 OctreeFormat octreeFormatOf(const std::filesystem::path& file);
 
 /// Eight equal voxels, or cubes of them, become one leaf, as OctoMap prunes its trees. In a .ot file an inner node has
-/// the greatest log odds of its children. Log odds of 0, which are free here, are just below. Throws InputError if a known voxel lies beyond the tree's 2^15 voxels.
+/// the greatest log odds of its children. Log odds of 0, which are free here, are just below. Throws InputError if a
+/// known voxel lies beyond the tree's 2^15 voxels.
 std::string toOctree(const common::VoxelMap& map, OctreeFormat format);
 
 /// Writes the map in one step, in the format of the name's ending.

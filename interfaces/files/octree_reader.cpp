@@ -32,11 +32,12 @@ constexpr std::string_view kBlanks = " \t\r\n";
 enum class NodeContent { kLogOdds, kLogOddsAndColor, kCount };
 
 /// The names of trees in headers. "1" is the name of OcTree in OctoMap before 1.4.
-constexpr std::array<std::pair<std::string_view, NodeContent>, 5> kTrees{{{"OcTree", NodeContent::kLogOdds},
-                                                                          {"1", NodeContent::kLogOdds},
-                                                                          {"OcTreeStamped", NodeContent::kLogOdds},
-                                                                          {"ColorOcTree", NodeContent::kLogOddsAndColor},
-                                                                          {"CountingOcTree", NodeContent::kCount}}};
+constexpr std::array<std::pair<std::string_view, NodeContent>, 5> kTrees{
+    {{"OcTree", NodeContent::kLogOdds},
+     {"1", NodeContent::kLogOdds},
+     {"OcTreeStamped", NodeContent::kLogOdds},
+     {"ColorOcTree", NodeContent::kLogOddsAndColor},
+     {"CountingOcTree", NodeContent::kCount}}};
 
 std::string shown(std::string_view text) { return common::printable(std::string(text.substr(0, 40))); }
 
@@ -109,13 +110,15 @@ class OctreeReader {
 
   /// In a .bt file all kinds of trees are alike.
   void setKind(std::string_view id) {
-    const auto* const found = std::find_if(kTrees.begin(), kTrees.end(), [&](const auto& tree) { return tree.first == id; });
+    const auto* const found =
+        std::find_if(kTrees.begin(), kTrees.end(), [&](const auto& tree) { return tree.first == id; });
     known_kind_ = found != kTrees.end();
     if (known_kind_)
       content_ = found->second;
     else if (format_ == OctreeFormat::kLogOdds)
       fail(fmt::format("holds a tree of the kind `{}`", shown(id)),
-           "OcTree, ColorOcTree, OcTreeStamped and CountingOcTree are read of .ot files, and any kind of .bt files, which "
+           "OcTree, ColorOcTree, OcTreeStamped and CountingOcTree are read of .ot files, and any kind of .bt files, "
+           "which "
            "writeBinary() of OctoMap's trees writes");
     if (format_ == OctreeFormat::kLogOdds && content_ == NodeContent::kCount)
       octree_.notes.push_back("the tree holds counts: voxels with a count are occupied, nothing is known to be free");
@@ -124,7 +127,8 @@ class OctreeReader {
   double number(std::string_view text) const {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) fail(fmt::format("`{}` is not a number", shown(text)));
+    if (error != std::errc() || end != text.data() + text.size())
+      fail(fmt::format("`{}` is not a number", shown(text)));
     return value;
   }
 

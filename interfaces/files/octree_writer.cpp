@@ -183,8 +183,10 @@ OctreeFormat octreeFormatOf(const std::filesystem::path& file) {
   const std::string ending = common::endingOf(file);
   if (ending == ".bt") return OctreeFormat::kBinary;
   if (ending == ".ot") return OctreeFormat::kLogOdds;
-  throw InputError(Problem{
-      {file.string()}, "", fmt::format("the ending `{}` is not one of an octree", file.extension().string()), "name it .bt or .ot"});
+  throw InputError(Problem{{file.string()},
+                           "",
+                           fmt::format("the ending `{}` is not one of an octree", file.extension().string()),
+                           "name it .bt or .ot"});
 }
 
 std::string toOctree(const VoxelMap& map, OctreeFormat format) { return OctreeWriter(map, format).write(); }

@@ -113,11 +113,11 @@ TEST(ForeignColours, OfPcdArePackedOrSeparate) {
 }
 
 TEST(ForeignPly, HeadersMayBeInCapitalsAndHaveAnyOrder) {
-  const StoredCloud cloud = ply(
-      "\xef\xbb\xbfPLY\r\nOBJ_INFO by hand\r\nFormat ASCII 1.0\r\nComment " + std::string(9000, 'c') +
-      "\r\nElement Vertex 1\r\ncomment in between\r\nProperty Float32 X\r\nProperty List UChar Int red\r\n"
-      "Property Double Z\r\nProperty float Y\r\nproperty int64 label\r\nElement Face 2\r\n"
-      "Property List UChar Int vertex_indices\r\nEnd_Header\r\n1 2 7 8 3 2 5\r\n3 0 0 0\r\n3 0 0 0\r\n");
+  const StoredCloud cloud =
+      ply("\xef\xbb\xbfPLY\r\nOBJ_INFO by hand\r\nFormat ASCII 1.0\r\nComment " + std::string(9000, 'c') +
+          "\r\nElement Vertex 1\r\ncomment in between\r\nProperty Float32 X\r\nProperty List UChar Int red\r\n"
+          "Property Double Z\r\nProperty float Y\r\nproperty int64 label\r\nElement Face 2\r\n"
+          "Property List UChar Int vertex_indices\r\nEnd_Header\r\n1 2 7 8 3 2 5\r\n3 0 0 0\r\n3 0 0 0\r\n");
   ASSERT_EQ(cloud.points.size(), 1U);
   EXPECT_EQ(cloud.points[0].position_m, Eigen::Vector3f(1, 2, 3));
   EXPECT_EQ(cloud.points[0].rgb, common::kUnknownColor) << "a list is no channel";
@@ -125,9 +125,9 @@ TEST(ForeignPly, HeadersMayBeInCapitalsAndHaveAnyOrder) {
 }
 
 TEST(ForeignPly, OfTwoColumnsOfOneNameTheOneInSmallLettersCounts) {
-  const StoredCloud cloud = ply(
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty int X\nproperty int Y\nproperty int Z\nproperty double x\n"
-      "property double y\nproperty double z\nend_header\n100 200 300 1 2 3\n");
+  const StoredCloud cloud =
+      ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty int X\nproperty int Y\nproperty int Z\nproperty double x\n"
+          "property double y\nproperty double z\nend_header\n100 200 300 1 2 3\n");
   EXPECT_EQ(cloud.points.at(0).position_m, Eigen::Vector3f(1, 2, 3));
   EXPECT_THAT(cloud.notes, ElementsAre("columns left out: X, Y, Z"));
 }
@@ -158,7 +158,8 @@ TEST(ForeignPcd, PaddingIsNoColumnAndOtherColumnsAreNamed) {
   }
   const StoredCloud cloud = pcd(head + row);
   EXPECT_EQ(cloud.points.at(0).position_m, Eigen::Vector3f(1, 2, 3));
-  EXPECT_THAT(cloud.notes, ElementsAre(HasSubstr("VIEWPOINT 1 2 3 1 0 0 0 left out"), "columns left out: intensity, ring"));
+  EXPECT_THAT(cloud.notes,
+              ElementsAre(HasSubstr("VIEWPOINT 1 2 3 1 0 0 0 left out"), "columns left out: intensity, ring"));
 }
 
 TEST(ForeignPcd, WhereTheHeaderContradictsItselfTheFileDecides) {
@@ -190,9 +191,9 @@ TEST(ForeignPcd, PointsThatWereStoredInsteadOfCompressedAreRead) {
 }
 
 TEST(ForeignText, OfWindowsHasNumbersOfItsOwnThatAreNotFinite) {
-  const StoredCloud cloud = pcd(
-      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 4\nDATA ascii\n1.#QNAN 1.#QNAN 1.#QNAN\n-1.#IND 0 0\n"
-      "-nan(ind) 0 0\n1 2 3\n");
+  const StoredCloud cloud =
+      pcd("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 4\nDATA ascii\n1.#QNAN 1.#QNAN 1.#QNAN\n-1.#IND 0 0\n"
+          "-nan(ind) 0 0\n1 2 3\n");
   EXPECT_EQ(cloud.not_finite, 3U);
   EXPECT_EQ(cloud.points.size(), 1U);
 }

@@ -154,12 +154,27 @@ TEST_F(Convert, AsksForTheUnitWhereMostPointsAreFarAndTakesOneThatIsGiven) {
   const ProgramEnd far = runSwiftlet({"convert", room, path("far.bt")});
   ASSERT_EQ(far.exit_code, 0) << describe(far);
   EXPECT_THAT(far.out, HasSubstr("note: 3 of 4 points left out"));
-  EXPECT_THAT(far.out, HasSubstr("are they in metres? Give --scale 0.001 if in millimetres"));
+  EXPECT_THAT(far.out,
+              HasSubstr("left out: farther than 1638 m from the origin, where an octree of this resolution ends: "
+                        "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres"));
   const ProgramEnd near = runSwiftlet({"convert", room, path("near.bt"), "--scale", "0.001"});
   ASSERT_EQ(near.exit_code, 0) << describe(near);
   EXPECT_THAT(near.out, Not(HasSubstr("note:")));
   const common::VoxelMap map = interfaces::readOctree(path("near.bt")).map;
   EXPECT_TRUE(map.isOccupied(map.voxelAt({4.0, 4.0, 2.4})));
+}
+
+/// No point of them is far enough to be left out.
+TEST_F(Convert, AsksForTheUnitOfWhatIsTooTallForABuilding) {
+  const std::string room = write("cm.pcd", cloudOf(2, "0 0 10\n400 400 240\n"));
+  for (const std::vector<std::string>& to :
+       {std::vector<std::string>{path("cm.bt")}, {path("cm.yaml"), "--low", "0", "--high", "300"}}) {
+    std::vector<std::string> arguments{"convert", room};
+    arguments.insert(arguments.end(), to.begin(), to.end());
+    EXPECT_THAT(runSwiftlet(arguments).out, HasSubstr("reach over 230 m of height: are they in metres?"));
+    arguments.insert(arguments.end(), {"--scale", "0.01"});
+    EXPECT_THAT(runSwiftlet(arguments).out, Not(HasSubstr("metres")));
+  }
 }
 
 /// The hint of the refusal, done literally, works.
@@ -175,11 +190,12 @@ TEST_F(Convert, NamesAnOriginWhereCoordinatesAreTooGreat) {
 }
 
 TEST_F(Convert, SaysWhatAnotherKindOfMapDoesNotKeep) {
-  const std::string colored = write(
-      "red.PLY",
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float ny\n"
-      "property ushort Red\nproperty ushort Green\nproperty ushort Blue\nproperty float time\nend_header\n"
-      "1 1 1 1 65535 32768 0 7\n");
+  const std::string colored =
+      write("red.PLY",
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty "
+            "float ny\n"
+            "property ushort Red\nproperty ushort Green\nproperty ushort Blue\nproperty float time\nend_header\n"
+            "1 1 1 1 65535 32768 0 7\n");
   const ProgramEnd cloud = runSwiftlet({"convert", colored, path("red.PCD")});
   ASSERT_EQ(cloud.exit_code, 0) << describe(cloud);
   EXPECT_THAT(cloud.out, HasSubstr("note: columns left out: time\n"));

@@ -67,7 +67,8 @@ const auto kPlain = [](auto&, VoxelIndex) {};
 TEST(OctreeKinds, AColorOcTreeKeepsItsColoursAsAFileOfPoints) {
   // One quarter of the floor has one colour and is pruned; the rest differs from voxel to voxel.
   const auto colorOf = [](VoxelIndex v) {
-    return v.x < 0 && v.y < 0 ? Rgb{255, 0, 0} : Rgb{10, static_cast<std::uint8_t>(v.x + 100), static_cast<std::uint8_t>(v.y + 100)};
+    return v.x < 0 && v.y < 0 ? Rgb{255, 0, 0}
+                              : Rgb{10, static_cast<std::uint8_t>(v.x + 100), static_cast<std::uint8_t>(v.y + 100)};
   };
   octomap::ColorOcTree tree = room<octomap::ColorOcTree>([&](octomap::ColorOcTree& of, VoxelIndex voxel) {
     const Rgb rgb = colorOf(voxel);
