@@ -99,32 +99,34 @@ interfaces::CloudPlacement placementOf(const ConvertOptions& options) {
   return placement;
 }
 
-/// An origin near the point, in whole hundreds. The height stays unless it is great too: floors are known by it.
-std::string originNear(const Eigen::Vector3d& point_file) {
-  const auto hundreds = [](double value) { return 100.0 * std::floor(value / 100.0); };
-  return fmt::format("--origin '{:.0f};{:.0f};{:.0f}'", hundreds(point_file.x()), hundreds(point_file.y()),
-                     std::abs(point_file.z()) < 1e4 ? 0.0 : hundreds(point_file.z()));
+/// An origin near most of the points, in whole hundreds. The height stays unless it is great too: floors are known by
+/// it.
+std::string originNear(const std::vector<common::SurfacePoint>& points, const interfaces::CloudPlacement& placement) {
+  const auto middle = [&](int axis) {
+    std::vector<float> values;
+    for (const common::SurfacePoint& point : points) values.push_back(point.position_m[axis]);
+    const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), median, values.end());
+    return 100.0 * std::floor((*median / placement.scale + placement.origin_file[axis]) / 100.0);
+  };
+  const double z = middle(2);
+  return fmt::format("--origin '{:.0f};{:.0f};{:.0f}'", middle(0), middle(1), std::abs(z) < 1e4 ? 0.0 : z);
 }
 
-constexpr const char* kUnitHint = "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres";
-
-struct Cloud {
-  std::vector<common::SurfacePoint> points;
-  std::string hint_if_far;
-};
-
-Cloud readPoints(const ConvertOptions& options) {
-  interfaces::StoredCloud cloud = interfaces::readCloud(options.from, placementOf(options));
+std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
+  const interfaces::CloudPlacement placement = placementOf(options);
+  interfaces::StoredCloud cloud = interfaces::readCloud(options.from, placement);
   showNotes(cloud.notes);
   sayLeftOut(options, cloud.not_finite, cloud.points.size() + cloud.not_finite, "without a finite position", "");
-  const std::string nearer = cloud.first_file ? originNear(*cloud.first_file) : "";
   if (cloud.rounding_m > kMostRounding_m)
     refuseFile(
         options,
         fmt::format("its coordinates are so great that they would be rounded by up to {:.3g} m", cloud.rounding_m),
-        fmt::format("they are kept in single precision: give {}", nearer));
-  return {std::move(cloud.points), fmt::format("{}, {} if the origin is far away", kUnitHint, nearer)};
+        fmt::format("they are kept in single precision: give {}", originNear(cloud.points, placement)));
+  return std::move(cloud.points);
 }
+
+constexpr const char* kUnitHint = "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres";
 
 /// Buildings are lower than kTallest_m, but a room in centimetres is not.
 void sayIfTall(const ConvertOptions& options, const std::vector<common::SurfacePoint>& points) {
@@ -157,7 +159,7 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
     if (to == Kind::kOctree && !octree.colors.empty()) showNotes({"colours left out: an octree is written without"});
     return std::move(octree.map);
   }
-  const auto [points, hint_if_far] = readPoints(options);
+  const std::vector<common::SurfacePoint> points = readPoints(options);
   sayIfTall(options, points);
   if (to == Kind::kOctree) sayWithoutColors(points);
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
@@ -166,16 +168,18 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
     refuseFile(options,
                fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
                            interfaces::kMostOctreeBlocks, resolution_m),
-               fmt::format("give a greater --resolution; {}", hint_if_far));
-  sayLeftOut(options, voxels.left_out, points.size(),
-             fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
-                         mapping3d::octreeReach_m(resolution_m)),
-             hint_if_far + ", or a greater --resolution");
+               fmt::format("give a greater --resolution; {}", kUnitHint));
+  if (voxels.left_out > 0)
+    sayLeftOut(options, voxels.left_out, points.size(),
+               fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
+                           mapping3d::octreeReach_m(resolution_m)),
+               fmt::format("{}, {} if the origin is far away, or a greater --resolution", kUnitHint,
+                           originNear(points, placementOf(options))));
   return std::move(voxels.map);
 }
 
 std::vector<common::SurfacePoint> pointsOf(const ConvertOptions& options, Kind from) {
-  if (from == Kind::kCloud) return readPoints(options).points;
+  if (from == Kind::kCloud) return readPoints(options);
   const interfaces::StoredOctree octree = readTree(options);
   const std::size_t occupied = mapping3d::occupiedCount(octree.map);
   if (occupied > kMostPoints)

@@ -293,7 +293,6 @@ void Builder::place() {
   if (!next_.position_m.allFinite()) return;
   const Eigen::Vector3d rounded_m = next_.position_m.cast<double>();
   cloud_.rounding_m = std::max(cloud_.rounding_m, (position_m - rounded_m).cwiseAbs().maxCoeff());
-  if (!cloud_.first_file) cloud_.first_file = position_file_;
 }
 
 void Builder::finish() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +22,6 @@ struct StoredCloud {
   /// Points that were left out because their position is not finite. PCL writes such where nothing was measured.
   std::size_t not_finite = 0;
   double rounding_m = 0.0;  ///< By how much a coordinate differs at most from that of the file, which may be a double.
-  std::optional<Eigen::Vector3d> first_file;  ///< The first finite position as it is in the file.
   /// What was left out, and what the file does not say and was taken from its numbers; for people.
   std::vector<std::string> notes;
 };

@@ -203,8 +203,6 @@ TEST(ForeignUnits, AreScaledAroundTheOriginBeforeTheyAreRounded) {
       "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS 1\nDATA ascii\n512345678.5 5412345678.25 1500\n";
   const StoredCloud far = pcd(text);
   EXPECT_GT(far.rounding_m, 1.0);
-  ASSERT_TRUE(far.first_file.has_value());
-  EXPECT_EQ(*far.first_file, Eigen::Vector3d(512345678.5, 5412345678.25, 1500));
   const StoredCloud near = parseCloud(text, "near", CloudFormat::kPcd, {{512345000, 5412345000, 0}, 0.001});
   EXPECT_LT(near.rounding_m, 1e-6);
   EXPECT_TRUE(near.points.at(0).position_m.isApprox(Eigen::Vector3f(0.6785F, 0.67825F, 1.5F)));
