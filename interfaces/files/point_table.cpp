@@ -288,11 +288,14 @@ void Builder::set(const Column& column, double value) {
 
 /// The position in the map; not finite where that of the file is not, or is too great for single precision.
 void Builder::place() {
-  const Eigen::Vector3d position_m = placement_.scale * (position_file_ - placement_.origin_file);
-  next_.position_m = position_m.cast<float>();
-  if (!next_.position_m.allFinite()) return;
-  const Eigen::Vector3d rounded_m = next_.position_m.cast<double>();
-  cloud_.rounding_m = std::max(cloud_.rounding_m, (position_m - rounded_m).cwiseAbs().maxCoeff());
+  double rounding_m = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value_m = placement_.scale * (position_file_[axis] - placement_.origin_file[axis]);
+    const auto rounded_m = static_cast<float>(value_m);
+    next_.position_m[axis] = rounded_m;
+    rounding_m = std::max(rounding_m, std::abs(value_m - static_cast<double>(rounded_m)));
+  }
+  if (next_.position_m.allFinite()) cloud_.rounding_m = std::max(cloud_.rounding_m, rounding_m);
 }
 
 void Builder::finish() {

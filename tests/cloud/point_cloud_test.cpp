@@ -251,7 +251,7 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
   pcd(head + "POINTS 9999999999\nDATA binary\n0123456789", "the file is cut");
   pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\3\0\0\0\14\0\0\0abc", 11), "the compressed points");
   pcd(head + "POINTS 357913941\nDATA binary_compressed\n" + std::string("\3\0\0\0\374\377\377\377abc", 11),
-      "fewer compressed points");
+      "points are fewer than their header");
   pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\2\0\0\0\14\0\0\0\xff\x01", 10), "compressed points");
 }
 

@@ -150,7 +150,7 @@ TEST_F(Convert, SaysHowManyPointsAreLeftOut) {
 
 TEST_F(Convert, AsksForTheUnitWhereMostPointsAreFarAndTakesOneThatIsGiven) {
   // A room of 4 m in millimetres whose corner is the origin.
-  const std::string room = write("mm.pcd", cloudOf(4, "0 0 100\n4000 0 100\n0 4000 100\n4000 4000 2400\n"));
+  const std::string room = write("mm.pcd", cloudOf(4, "0 0 100\n4000 0 100\n0 4000 100\n4010 4010 2410\n"));
   const ProgramEnd far = runSwiftlet({"convert", room, path("far.bt")});
   ASSERT_EQ(far.exit_code, 0) << describe(far);
   EXPECT_THAT(far.out, HasSubstr("note: 3 of 4 points left out"));
@@ -161,7 +161,7 @@ TEST_F(Convert, AsksForTheUnitWhereMostPointsAreFarAndTakesOneThatIsGiven) {
   ASSERT_EQ(near.exit_code, 0) << describe(near);
   EXPECT_THAT(near.out, Not(HasSubstr("note:")));
   const common::VoxelMap map = interfaces::readOctree(path("near.bt")).map;
-  EXPECT_TRUE(map.isOccupied(map.voxelAt({4.0, 4.0, 2.4})));
+  EXPECT_TRUE(map.isOccupied(map.voxelAt({4.01, 4.01, 2.41})));
 }
 
 /// No point of them is far enough to be left out.
