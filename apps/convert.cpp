@@ -160,7 +160,6 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
     return std::move(octree.map);
   }
   const std::vector<common::SurfacePoint> points = readPoints(options);
-  sayIfTall(options, points);
   if (to == Kind::kOctree) sayWithoutColors(points);
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
   mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m, interfaces::kMostOctreeBlocks);
@@ -169,7 +168,9 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
                fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
                            interfaces::kMostOctreeBlocks, resolution_m),
                fmt::format("give a greater --resolution; {}", kUnitHint));
-  if (voxels.left_out > 0)
+  if (voxels.left_out == 0)
+    sayIfTall(options, points);
+  else
     sayLeftOut(options, voxels.left_out, points.size(),
                fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
                            mapping3d::octreeReach_m(resolution_m)),
