@@ -1,4 +1,6 @@
 // swiftlet convert: between the formats of 3D maps, and from a 3D map to a floor plan.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,7 +13,9 @@
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
+#include "apps/three_numbers.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
 #include "interfaces/files/point_cloud.hpp"
@@ -28,10 +32,15 @@ namespace fs = std::filesystem;
 constexpr double kUsualResolution_m = 0.05;
 /// By how much a point may be moved where its coordinates are rounded to single precision.
 constexpr double kMostRounding_m = 0.001;
+constexpr double kTallest_m = 100.0;
+/// Points that an octree may become. A few bytes of a file can be a cube of billions of voxels.
+constexpr std::size_t kMostPoints = 50'000'000;
 
 struct ConvertOptions {
   std::string from;
   std::string to;
+  std::optional<double> scale;
+  std::string origin;
   std::optional<double> low_m;
   std::optional<double> high_m;
   std::optional<double> resolution_m;
@@ -39,57 +48,145 @@ struct ConvertOptions {
 
 enum class Kind { kOctree, kCloud, kFloorPlan };
 
-/// Throws InputError for a name with another ending.
+/// What to do with files of other kinds.
+std::string hintFor(const std::string& ending) {
+  constexpr const char* kRead = "it must be .bt, .ot, .ply or .pcd, plain or packed by gzip, bzip2 or xz";
+  for (const char* table : {".xyz", ".txt", ".asc", ".csv", ".pts", ".ptx", ".las", ".laz", ".e57", ".obj", ".stl"})
+    if (ending == table) return fmt::format("{}: save it as .ply, for instance with CloudCompare", kRead);
+  return kRead;
+}
+
+/// By the ending, in any case. Throws InputError for a name with another ending.
 Kind kindOf(const fs::path& file, bool may_be_plan) {
-  if (file.extension() == ".bt" || file.extension() == ".ot") return Kind::kOctree;
+  const std::string ending = common::endingOf(file);
+  if (ending == ".bt" || ending == ".ot") return Kind::kOctree;
   if (interfaces::cloudFormatOf(file)) return Kind::kCloud;
-  if (may_be_plan && file.extension() == ".yaml") return Kind::kFloorPlan;
-  throw common::InputError(common::Problem{
-      {file.string()},
-      "",
-      fmt::format("`{}` is not a kind of 3D map", file.extension().string()),
-      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : "it must be .bt, .ot, .ply or .pcd"});
+  if (may_be_plan && ending == ".yaml") return Kind::kFloorPlan;
+  throw common::InputError(
+      common::Problem{{file.string()},
+                      "",
+                      fmt::format("`{}` is not a kind of 3D map", file.extension().string()),
+                      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : hintFor(ending)});
 }
 
 [[noreturn]] void refuseFile(const ConvertOptions& options, const std::string& message, const std::string& hint) {
   throw common::InputError(common::Problem{{options.from}, "", message, hint});
 }
 
-/// Says how many points are left out. Throws InputError if none is left.
+void showNotes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) show(fmt::format("note: {}\n", note));
+}
+
+/// Says how many points are left out, with the hint if most are. Throws InputError if none is left.
 void sayLeftOut(const ConvertOptions& options, std::size_t left_out, std::size_t all, const std::string& where,
                 const std::string& hint) {
   if (left_out == 0) return;
   const std::string points = plural(all, "point", "points");
   if (left_out == all) refuseFile(options, fmt::format("all of its {} are {}", points, where), hint);
-  show(fmt::format("note: {} of {} left out: {}\n", left_out, points, where));
+  const bool most = left_out > all / 2 && !hint.empty();
+  showNotes({fmt::format("{} of {} left out: {}{}", left_out, points, where, most ? ": " + hint : "")});
+}
+
+interfaces::CloudPlacement placementOf(const ConvertOptions& options) {
+  interfaces::CloudPlacement placement;
+  placement.scale = options.scale.value_or(1.0);
+  if (options.origin.empty()) return placement;
+  const auto origin = threeNumbers(options.origin);
+  if (!origin)
+    throw common::InputError(common::Problem{
+        {}, "--origin", fmt::format("`{}` is not x;y;z", options.origin), "for instance 512300;5412300;0"});
+  placement.origin_file = {(*origin)[0], (*origin)[1], (*origin)[2]};
+  return placement;
+}
+
+/// An origin near most of the points, in whole hundreds. The height stays unless it is great too: floors are known by
+/// it.
+std::string originNear(const std::vector<common::SurfacePoint>& points, const interfaces::CloudPlacement& placement) {
+  const auto middle = [&](int axis) {
+    std::vector<float> values;
+    for (const common::SurfacePoint& point : points) values.push_back(point.position_m[axis]);
+    const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), median, values.end());
+    return 100.0 * std::floor((*median / placement.scale + placement.origin_file[axis]) / 100.0);
+  };
+  const double z = middle(2);
+  return fmt::format("--origin '{:.0f};{:.0f};{:.0f}'", middle(0), middle(1), std::abs(z) < 1e4 ? 0.0 : z);
 }
 
 std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
-  interfaces::StoredCloud cloud = interfaces::readCloud(options.from);
+  const interfaces::CloudPlacement placement = placementOf(options);
+  interfaces::StoredCloud cloud = interfaces::readCloud(options.from, placement);
+  showNotes(cloud.notes);
   sayLeftOut(options, cloud.not_finite, cloud.points.size() + cloud.not_finite, "without a finite position", "");
   if (cloud.rounding_m > kMostRounding_m)
     refuseFile(
         options,
         fmt::format("its coordinates are so great that they would be rounded by up to {:.3g} m", cloud.rounding_m),
-        "subtract an offset from them first: they are kept in single precision");
+        fmt::format("they are kept in single precision: give {}", originNear(cloud.points, placement)));
   return std::move(cloud.points);
 }
 
-common::VoxelMap readVoxels(const ConvertOptions& options, Kind from) {
-  if (from == Kind::kOctree) return interfaces::readOctree(options.from);
+constexpr const char* kUnitHint = "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres";
+
+/// Buildings are lower than kTallest_m, but a room in centimetres is not.
+void sayIfTall(const ConvertOptions& options, const std::vector<common::SurfacePoint>& points) {
+  const auto [lowest, highest] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.position_m.z() < b.position_m.z(); });
+  if (options.scale || points.empty()) return;
+  const float height_m = highest->position_m.z() - lowest->position_m.z();
+  if (height_m > kTallest_m)
+    showNotes({fmt::format("the points reach over {:.0f} m of height: {}", height_m, kUnitHint)});
+}
+
+/// Octrees are written as OctoMap's OcTree, which has neither.
+void sayWithoutColors(const std::vector<common::SurfacePoint>& points) {
+  const auto any = [&](const auto& has) { return std::any_of(points.begin(), points.end(), has); };
+  if (any([](const common::SurfacePoint& point) { return point.rgb != common::kUnknownColor; }))
+    showNotes({"colours left out: an octree is written without"});
+  if (any([](const common::SurfacePoint& point) { return !point.normal.isZero(); }))
+    showNotes({"normals left out: an octree has none"});
+}
+
+interfaces::StoredOctree readTree(const ConvertOptions& options) {
+  interfaces::StoredOctree octree = interfaces::readOctree(options.from);
+  showNotes(octree.notes);
+  return octree;
+}
+
+common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
+  if (from == Kind::kOctree) {
+    interfaces::StoredOctree octree = readTree(options);
+    if (to == Kind::kOctree && !octree.colors.empty()) showNotes({"colours left out: an octree is written without"});
+    return std::move(octree.map);
+  }
   const std::vector<common::SurfacePoint> points = readPoints(options);
+  if (to == Kind::kOctree) sayWithoutColors(points);
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
   mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m, interfaces::kMostOctreeBlocks);
   if (voxels.full)
     refuseFile(options,
                fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
                            interfaces::kMostOctreeBlocks, resolution_m),
-               "give a greater --resolution");
-  sayLeftOut(options, voxels.left_out, points.size(),
-             fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
-                         mapping3d::octreeReach_m(resolution_m)),
-             "are they in metres? Move them to the origin, or give a greater --resolution");
+               fmt::format("give a greater --resolution; {}", kUnitHint));
+  if (voxels.left_out == 0)
+    sayIfTall(options, points);
+  else
+    sayLeftOut(options, voxels.left_out, points.size(),
+               fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
+                           mapping3d::octreeReach_m(resolution_m)),
+               fmt::format("{}, {} if the origin is far away, or a greater --resolution", kUnitHint,
+                           originNear(points, placementOf(options))));
   return std::move(voxels.map);
+}
+
+std::vector<common::SurfacePoint> pointsOf(const ConvertOptions& options, Kind from) {
+  if (from == Kind::kCloud) return readPoints(options);
+  const interfaces::StoredOctree octree = readTree(options);
+  const std::size_t occupied = mapping3d::occupiedCount(octree.map);
+  if (occupied > kMostPoints)
+    refuseFile(options, fmt::format("its {} occupied voxels are more than {} points", occupied, kMostPoints),
+               "name the result .bt or .ot, which keep a cube of voxels as one");
+  return octree.colors.empty() ? mapping3d::occupiedCenters(octree.map) : interfaces::coloredCenters(octree);
 }
 
 void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind from) {
@@ -102,7 +199,9 @@ void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind 
     refuseFile(
         options,
         fmt::format("the plan would be {} by {} cells of {:g} m", known.width(), known.height(), plan.resolution_m()),
-        from == Kind::kCloud ? "remove points far away, or give a greater --resolution" : "");
+        from == Kind::kCloud
+            ? "remove points far away, give a greater --resolution, or --scale if they are not in metres"
+            : "");
   if (from == Kind::kCloud)
     show("note: a cloud does not tell where room is free: nothing can be planned in a plan of occupied cells alone\n");
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));
@@ -115,6 +214,8 @@ void checkOptions(const ConvertOptions& options, Kind from, Kind to) {
   };
   if (options.resolution_m && (from != Kind::kCloud || to == Kind::kCloud))
     refuse("--resolution", "only a cloud that becomes voxels has a resolution to choose", "");
+  if (from != Kind::kCloud && (options.scale || !options.origin.empty()))
+    refuse(options.scale ? "--scale" : "--origin", "only the coordinates of a cloud can be changed", "");
   if (to != Kind::kFloorPlan && (options.low_m || options.high_m))
     refuse("--low", "heights are those of a floor plan", "name it .yaml");
   if (to == Kind::kFloorPlan && (!options.low_m || !options.high_m))
@@ -127,13 +228,11 @@ int convert(const ConvertOptions& options) {
   const Kind from = kindOf(interfaces::unpackedName(options.from), false), to = kindOf(options.to, true);
   checkOptions(options, from, to);
   if (to == Kind::kFloorPlan)
-    writePlan(readVoxels(options, from), options, from);
+    writePlan(readVoxels(options, from, to), options, from);
   else if (to == Kind::kOctree)
-    required(interfaces::writeOctree(options.to, readVoxels(options, from)));
+    required(interfaces::writeOctree(options.to, readVoxels(options, from, to)));
   else
-    required(interfaces::writeCloud(
-        options.to,
-        from == Kind::kCloud ? readPoints(options) : mapping3d::occupiedCenters(interfaces::readOctree(options.from))));
+    required(interfaces::writeCloud(options.to, pointsOf(options, from)));
   show(fmt::format("written {}\n", options.to));
   return kDone;
 }
@@ -143,9 +242,10 @@ int convert(const ConvertOptions& options) {
 void addConvert(Command& program) {
   auto options = std::make_shared<ConvertOptions>();
   Command command = program.command("convert", "Convert a 3D map to another format, or to a floor plan.");
-  command.argument(
-      "from", options->from,
-      "Octree of OctoMap (.bt or .ot) or a cloud of points (.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
+  command.argument("from", options->from,
+                   "Octree of OctoMap (.bt, or .ot with an OcTree, ColorOcTree, OcTreeStamped or CountingOcTree) or a "
+                   "cloud of points "
+                   "(.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
   command.argument(
       "to", options->to,
       ".bt or .ot: an octree; .ply or .pcd: a cloud, with a point in each occupied voxel of an octree; .yaml: a "
@@ -154,6 +254,11 @@ void addConvert(Command& program) {
   command.option("--high", options->high_m, {-1e4, 1e4}, "Upper end.");
   command.option("--resolution", options->resolution_m, {0.001, 10.0},
                  "Side of the voxels that a cloud becomes, in metres. 0.05 when not given.");
+  command.option("--scale", options->scale, {1e-6, 1e6},
+                 "Metres in one unit of a cloud's coordinates: 0.001 if they are in millimetres. 1 when not given.");
+  command.option(
+      "--origin", options->origin,
+      "\"x;y;z\" of the place in a cloud that becomes the origin, in the cloud's unit. \"0;0;0\" when not given.");
   command.footer("Example: swiftlet convert runs/first/map.bt plan.yaml --low 0.8 --high 1.2");
   command.runs([options] { return convert(*options); });
 }

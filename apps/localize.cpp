@@ -1,7 +1,5 @@
 // swiftlet localize: where a recorded laser log was, in a given map.
-#include <cmath>
 #include <memory>
-#include <sstream>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +11,7 @@
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"
+#include "apps/three_numbers.hpp"
 #include "apps/wall_clock.hpp"
 #include "perception/localization/log_localizer.hpp"
 
@@ -37,14 +36,11 @@ struct LocalizeOptions {
 
 /// "x;y;yaw" in metres and degrees.
 common::Pose2 parseStart(const std::string& text) {
-  std::istringstream in(text);
-  double x_m = NAN, y_m = NAN, yaw_deg = NAN;
-  char first = 0, second = 0, rest = 0;
-  in >> x_m >> first >> y_m >> second >> yaw_deg;
-  if (!in || first != ';' || second != ';' || in >> rest || !std::isfinite(x_m + y_m + yaw_deg))
+  const auto start = threeNumbers(text);
+  if (!start)
     throw common::InputError(common::Problem{
         {}, "--start", fmt::format("`{}` is not x;y;yaw", text), "metres and degrees, for instance 3.0;-1.5;90"});
-  return {x_m, y_m, common::wrapAngle(yaw_deg * common::kRadPerDeg)};
+  return {(*start)[0], (*start)[1], common::wrapAngle((*start)[2] * common::kRadPerDeg)};
 }
 
 /// Throws InputError for a start outside the map: nothing seen there could contradict it.

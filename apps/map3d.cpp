@@ -243,8 +243,11 @@ int map3d(const Map3dOptions& options) {
                  {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
   if (!run.given.empty())
     shown.facts.insert(shown.facts.begin() + 3, {"with a pose", fmt::format("{}", run.with_pose)});
+  ProgressLine line(options.json);
+  line.update("100 %  making the cloud, the octree and the report", run.wall_s);
   writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run), shown, options.mesh);
   results.publish();
+  line.close();
   if (options.json) {
     const auto figures = figuresOf(options, folder, run, path_length_m, shown.warnings, results.path());
     showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");

@@ -19,6 +19,9 @@ enum Child : std::uint8_t { kUnknownChild = 0b00, kFreeChild = 0b01, kOccupiedCh
 inline constexpr char kBinaryMagic[] = "# Octomap OcTree binary file";
 inline constexpr char kLogOddsMagic[] = "# Octomap OcTree file";
 
+/// OctoMap takes log odds of 0 as occupied, and we take it as free; so what is just free for us is written as this.
+inline constexpr float kJustFree = -1e-7F;
+
 /// The voxels of the child of a cube: x is the lowest bit of the child's number.
 inline common::VoxelIndex childOf(common::VoxelIndex first, int half, int child) {
   return {first.x + half * (child & 1), first.y + half * (child >> 1 & 1), first.z + half * (child >> 2)};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "interfaces/files/octomap.hpp"
 #include "interfaces/files/octree_codes.hpp"
 
@@ -28,7 +29,9 @@ struct Node {
   std::int8_t evidence = 0;  ///< Of a leaf its own, of an inner node the greatest below it.
 };
 
-float logOdds(std::int8_t evidence) { return static_cast<float>(evidence * VoxelMap::kLogOddsStep); }
+float logOdds(std::int8_t evidence) {
+  return evidence == 0 ? octree::kJustFree : static_cast<float>(evidence * VoxelMap::kLogOddsStep);
+}
 
 /// Bits of x, y and z in turn, x lowest: the order in which a tree visits its nodes.
 std::uint64_t mortonCode(VoxelIndex block) {
@@ -177,11 +180,13 @@ class OctreeWriter {
 }  // namespace
 
 OctreeFormat octreeFormatOf(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
+  const std::string ending = common::endingOf(file);
   if (ending == ".bt") return OctreeFormat::kBinary;
   if (ending == ".ot") return OctreeFormat::kLogOdds;
-  throw InputError(Problem{
-      {file.string()}, "", fmt::format("the ending `{}` is not one of an octree", ending), "name it .bt or .ot"});
+  throw InputError(Problem{{file.string()},
+                           "",
+                           fmt::format("the ending `{}` is not one of an octree", file.extension().string()),
+                           "name it .bt or .ot"});
 }
 
 std::string toOctree(const VoxelMap& map, OctreeFormat format) { return OctreeWriter(map, format).write(); }

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
+#include "common/lower_case.hpp"
 #include "common/printable.hpp"
 #include "interfaces/files/point_table.hpp"
 
@@ -24,21 +27,27 @@ struct Field {
 
 struct PcdHeader {
   std::vector<Field> fields;
-  std::size_t points = 0;
-  std::string_view data;  ///< "ascii", "binary" or "binary_compressed".
+  std::string data;  ///< "ascii", "binary" or "binary_compressed".
+  std::optional<std::size_t> points, width, height;
 
   std::size_t rowBytes() const {
     std::size_t sum = 0;
     for (const Field& field : fields) sum += field.bytes();
     return sum;
   }
+  /// WIDTH times HEIGHT; old files have only WIDTH.
+  std::optional<std::size_t> area() const {
+    if (!width || (height && *height != 0 && *width > SIZE_MAX / *height)) return std::nullopt;
+    return *width * height.value_or(1);
+  }
 };
 
 Scalar pcdScalar(const Cursor& cursor, std::string_view type, std::size_t size) {
-  if (type == "F" && size == 4) return Scalar::kFloat;
-  if (type == "F" && size == 8) return Scalar::kDouble;
-  if (type == "I" || type == "U") {
-    const bool sign = type == "I";
+  const std::string lower = common::lowerCase(type);
+  if (lower == "f" && size == 4) return Scalar::kFloat;
+  if (lower == "f" && size == 8) return Scalar::kDouble;
+  if (lower == "i" || lower == "u") {
+    const bool sign = lower == "i";
     if (size == 1) return sign ? Scalar::kInt8 : Scalar::kUint8;
     if (size == 2) return sign ? Scalar::kInt16 : Scalar::kUint16;
     if (size == 4) return sign ? Scalar::kInt32 : Scalar::kUint32;
@@ -51,38 +60,38 @@ Scalar pcdScalar(const Cursor& cursor, std::string_view type, std::size_t size) 
 /// The lines of the header by their first word, up to DATA.
 class HeaderReader {
  public:
-  explicit HeaderReader(Cursor& cursor) : cursor_(cursor) {}
+  HeaderReader(Cursor& cursor, Builder& builder) : cursor_(cursor), builder_(builder) {}
 
   PcdHeader read() {
     PcdHeader header;
     while (header.data.empty()) {
       const std::vector<std::string_view> line = words(cursor_.line());
       if (line.empty() || line[0].starts_with('#')) continue;
+      const std::string key = common::lowerCase(line[0]);
       const std::vector<std::string_view> values(line.begin() + 1, line.end());
-      if (line[0] == "FIELDS")
+      if (key == "fields" || key == "columns")  // COLUMNS in files before version .6.
         names_ = values;
-      else if (line[0] == "SIZE")
+      else if (key == "size")
         sizes_ = values;
-      else if (line[0] == "TYPE")
+      else if (key == "type")
         types_ = values;
-      else if (line[0] == "COUNT")
+      else if (key == "count")
         counts_ = values;
-      else if (line[0] == "WIDTH")
-        width_ = one(values);
-      else if (line[0] == "HEIGHT")
-        height_ = one(values);
-      else if (line[0] == "POINTS")
-        points_ = one(values);
-      else if (line[0] == "DATA" && values.size() == 1)
-        header.data = values[0];
-      else if (line[0] != "VERSION" && line[0] != "VIEWPOINT")
+      else if (key == "width")
+        header.width = one(values);
+      else if (key == "height")
+        header.height = one(values);
+      else if (key == "points")
+        header.points = one(values);
+      else if (key == "data" && values.size() == 1)
+        header.data = common::lowerCase(values[0]);
+      else if (key == "viewpoint")
+        noteViewpoint(values);
+      else if (key != "version")
         cursor_.fail(fmt::format("`{}` is not a line of a header of .pcd",
                                  common::printable(std::string(line[0].substr(0, 40)))));
     }
-    header.fields = fields();
-    if (header.data != "ascii")
-      for (Field& field : header.fields) field.column = field.column.inBinary();
-    header.points = points();
+    header.fields = fields(header.data != "ascii");
     return header;
   }
 
@@ -92,74 +101,92 @@ class HeaderReader {
     return count(cursor_, values[0]);
   }
 
-  std::vector<Field> fields() const {
-    if (names_.empty() || sizes_.size() != names_.size() || types_.size() != names_.size() ||
-        (!counts_.empty() && counts_.size() != names_.size()))
+  /// Points are in the frame of the file to PCL too, and the pose of the sensor is beside them.
+  void noteViewpoint(const std::vector<std::string_view>& values) {
+    std::string pose;
+    bool moved = false;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string value = common::printable(values[i].substr(0, 20));
+      moved = moved || std::strtod(value.c_str(), nullptr) != (i == 3 ? 1.0 : 0.0);
+      pose += " " + value;
+    }
+    if (moved) builder_.note(fmt::format("VIEWPOINT{} left out: the points stay where they are in the file", pose));
+  }
+
+  /// Files before version .6 have no SIZE and TYPE: all fields are floats there.
+  std::vector<Field> fields(bool binary) {
+    const auto fits = [&](const auto& values) { return values.empty() || values.size() == names_.size(); };
+    if (names_.empty() || !fits(sizes_) || !fits(types_) || !fits(counts_))
       cursor_.fail("FIELDS, SIZE, TYPE and COUNT do not have as many words each");
+    const std::vector<Role> roles = rolesOf(cursor_, names_);
     std::vector<Field> fields;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      Field field{{roleOf(names_[i]), pcdScalar(cursor_, types_[i], count(cursor_, sizes_[i]))}, 1};
+      const std::size_t bytes = sizes_.empty() ? 4 : count(cursor_, sizes_[i]);
+      Field field{{roles[i], pcdScalar(cursor_, types_.empty() ? "F" : types_[i], bytes)}, 1};
       if (!counts_.empty()) field.count = count(cursor_, counts_[i]);
       if (field.count == 0 || field.count > 65536) cursor_.fail(fmt::format("a field has {} values", field.count));
+      if (binary) field.column = field.column.inBinary();
       fields.push_back(field);
     }
-    const auto has = [&](Role role) {
-      return std::any_of(fields.begin(), fields.end(),
-                         [role](const Field& field) { return field.column.role == role; });
-    };
-    if (!has(Role::kX) || !has(Role::kY) || !has(Role::kZ)) cursor_.fail("the points have no x, y and z");
+    builder_.note(leftOutColumns(names_, roles));
     return fields;
   }
 
-  /// Each point takes at least a byte, except in compressed files, whose size is checked when they are unpacked.
-  std::size_t points() const {
-    const bool has_size = width_ && height_ && (*height_ == 0 || *width_ <= SIZE_MAX / *height_);
-    if (points_ && has_size && *width_ * *height_ != *points_)
-      cursor_.fail(fmt::format("WIDTH {} times HEIGHT {} is not POINTS {}", *width_, *height_, *points_));
-    if (points_) return *points_;
-    if (has_size) return *width_ * *height_;
-    cursor_.fail("the header has neither POINTS nor WIDTH and HEIGHT");
-  }
-
   Cursor& cursor_;
+  Builder& builder_;
   std::vector<std::string_view> names_, sizes_, types_, counts_;
-  std::optional<std::size_t> width_, height_, points_;
 };
+
+/// How many points to read, of `rows` that the file holds. Where the header contradicts itself, the file decides.
+std::size_t pointCount(const Cursor& cursor, const PcdHeader& header, std::size_t rows, Builder& builder) {
+  const std::optional<std::size_t> area = header.area();
+  if (!header.points && !area) cursor.fail("the header has neither POINTS nor WIDTH and HEIGHT");
+  std::size_t points = header.points ? *header.points : *area;
+  if (area && *area != points) {
+    const std::string contradiction =
+        fmt::format("WIDTH {} times HEIGHT {} is not POINTS {}", *header.width, header.height.value_or(1), points);
+    if (rows != points && rows != *area)
+      cursor.fail(contradiction, fmt::format("the file has {} points: write that into its header", rows));
+    builder.note(fmt::format("{}: the file has {}", contradiction, rows));
+    points = rows;
+  }
+  if (rows > points)
+    builder.note(fmt::format("points left out: {} that follow the {} of the header", rows - points, points));
+  return points;
+}
 
 /// LZF, the compression of PCL: a byte below 32 is followed by that many bytes and one more; any other holds the length
 /// of a copy, less 2, in its upper three bits (7: more in the next byte) and the upper five bits of its distance,
-/// less 1.
-std::string unpacked(const Cursor& cursor, std::string_view packed, std::size_t size) {
+/// less 1. The error is why the bytes are no such data.
+tl::expected<std::string, std::string> unpacked(std::string_view packed, std::size_t size) {
+  const auto error = [](const char* text) { return tl::unexpected(std::string("the compressed points ") + text); };
   std::string bytes;
   bytes.reserve(size);
   std::size_t at = 0;
-  const auto next = [&]() -> std::size_t {
-    if (at == packed.size()) cursor.fail("the compressed points are cut");
-    return static_cast<unsigned char>(packed[at++]);
-  };
   while (at < packed.size()) {
-    const std::size_t control = next();
+    const auto byte = [&](std::size_t i) -> std::size_t { return static_cast<unsigned char>(packed[at + i]); };
+    const std::size_t control = byte(0), needed = control < 32 ? control + 2 : control < 7 << 5 ? 2 : 3;
+    if (packed.size() - at < needed) return error("are cut");
     if (control < 32) {
-      if (packed.size() - at < control + 1) cursor.fail("the compressed points are cut");
-      bytes.append(packed.substr(at, control + 1));
-      at += control + 1;
+      bytes.append(packed.substr(at + 1, control + 1));
     } else {
-      std::size_t length = control >> 5;
-      if (length == 7) length += next();
-      const std::size_t distance = ((control & 31) << 8 | next()) + 1;
-      if (distance > bytes.size()) cursor.fail("the compressed points refer to what is before them");
-      for (std::size_t i = 0; i < length + 2; ++i) bytes.push_back(bytes[bytes.size() - distance]);
+      const std::size_t length = 2 + (needed == 3 ? 7 + byte(1) : control >> 5);
+      const std::size_t distance = ((control & 31) << 8 | byte(needed - 1)) + 1;
+      if (distance > bytes.size()) return error("refer to what is before them");
+      for (std::size_t i = 0; i < length; ++i) bytes.push_back(bytes[bytes.size() - distance]);
     }
-    if (bytes.size() > size) cursor.fail("there are more compressed points than their header says");
+    at += needed;
+    if (bytes.size() > size) return error("are more than their header says");
   }
-  if (bytes.size() != size) cursor.fail("there are fewer compressed points than their header says");
+  if (bytes.size() != size) return error("are fewer than their header says");
   return bytes;
 }
 
 constexpr bool kSwapped = std::endian::native != std::endian::little;
 
 void readText(Cursor& cursor, const PcdHeader& header, Builder& builder) {
-  for (std::size_t row = 0; row < header.points; ++row) {
+  const std::size_t points = pointCount(cursor, header, cursor.rowsLeft(), builder);
+  for (std::size_t row = 0; row < points; ++row) {
     cursor.beginRow();
     for (const Field& field : header.fields)
       for (std::size_t i = 0; i < field.count; ++i) {
@@ -173,7 +200,8 @@ void readText(Cursor& cursor, const PcdHeader& header, Builder& builder) {
 
 void readBinary(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const std::size_t row_bytes = header.rowBytes();
-  for (std::size_t row = 0; row < header.points; ++row) {
+  const std::size_t points = pointCount(cursor, header, cursor.left() / row_bytes, builder);
+  for (std::size_t row = 0; row < points; ++row) {
     const char* at = cursor.take(row_bytes).data();
     for (const Field& field : header.fields) {
       builder.set(field.column, valueOf(at, field.column.type, kSwapped));
@@ -187,17 +215,20 @@ void readBinary(Cursor& cursor, const PcdHeader& header, Builder& builder) {
 void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const auto size = [&] { return static_cast<std::size_t>(valueOf(cursor.take(4).data(), Scalar::kUint32, kSwapped)); };
   const std::size_t packed_size = size(), unpacked_size = size(), row_bytes = header.rowBytes();
-  if (row_bytes == 0 || unpacked_size % row_bytes != 0 || unpacked_size / row_bytes != header.points)
-    cursor.fail("the compressed points are not as many as the header says");
+  const std::size_t points = pointCount(cursor, header, unpacked_size / row_bytes, builder);
+  if (unpacked_size != points * row_bytes) cursor.fail("the compressed points are not as many as the header says");
   const std::string_view packed = cursor.take(packed_size);
   // Three bytes stand for at most 264.
-  if (unpacked_size / 88 > packed_size) cursor.fail("there are fewer compressed points than their header says");
-  const std::string bytes = unpacked(cursor, packed, unpacked_size);
-  for (std::size_t row = 0; row < header.points; ++row) {
+  if (unpacked_size / 88 > packed_size) cursor.fail("the compressed points are fewer than their header says");
+  tl::expected<std::string, std::string> bytes = unpacked(packed, unpacked_size);
+  // Points that do not become smaller are stored as they are by some tools, which the two sizes show alone.
+  if (!bytes && packed_size == unpacked_size) bytes = std::string(packed);
+  if (!bytes) cursor.fail(bytes.error());
+  for (std::size_t row = 0; row < points; ++row) {
     std::size_t column = 0;
     for (const Field& field : header.fields) {
-      builder.set(field.column, valueOf(&bytes[column + row * field.bytes()], field.column.type, kSwapped));
-      column += header.points * field.bytes();
+      builder.set(field.column, valueOf(&(*bytes)[column + row * field.bytes()], field.column.type, kSwapped));
+      column += points * field.bytes();
     }
     builder.finish();
   }
@@ -205,10 +236,10 @@ void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
 
 }  // namespace
 
-StoredCloud parsePcd(std::string_view bytes, const std::string& name) {
+StoredCloud parsePcd(std::string_view bytes, const std::string& name, const CloudPlacement& placement) {
   Cursor cursor(bytes, name);
-  const PcdHeader header = HeaderReader(cursor).read();
-  Builder builder;
+  Builder builder(placement);
+  const PcdHeader header = HeaderReader(cursor, builder).read();
   if (header.data == "ascii")
     readText(cursor, header, builder);
   else if (header.data == "binary")

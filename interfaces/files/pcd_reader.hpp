@@ -8,6 +8,6 @@
 
 namespace swiftlet::interfaces {
 
-StoredCloud parsePcd(std::string_view bytes, const std::string& name);
+StoredCloud parsePcd(std::string_view bytes, const std::string& name, const CloudPlacement& placement);
 
 }  // namespace swiftlet::interfaces

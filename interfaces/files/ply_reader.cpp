@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lower_case.hpp"
 #include "common/printable.hpp"
 #include "interfaces/files/point_table.hpp"
 
@@ -20,6 +21,7 @@ enum class Encoding { kText, kLittleEndian, kBigEndian };
 
 /// A list has a count before its values.
 struct Property {
+  std::string_view name;
   Column column;
   std::optional<Scalar> count_type;
 };
@@ -36,7 +38,7 @@ struct PlyHeader {
 };
 
 Scalar plyScalar(const Cursor& cursor, std::string_view word) {
-  constexpr std::array<std::pair<std::string_view, Scalar>, 16> kTypes{{{"char", Scalar::kInt8},
+  constexpr std::array<std::pair<std::string_view, Scalar>, 18> kTypes{{{"char", Scalar::kInt8},
                                                                         {"int8", Scalar::kInt8},
                                                                         {"uchar", Scalar::kUint8},
                                                                         {"uint8", Scalar::kUint8},
@@ -48,54 +50,56 @@ Scalar plyScalar(const Cursor& cursor, std::string_view word) {
                                                                         {"int32", Scalar::kInt32},
                                                                         {"uint", Scalar::kUint32},
                                                                         {"uint32", Scalar::kUint32},
+                                                                        {"int64", Scalar::kInt64},
+                                                                        {"uint64", Scalar::kUint64},
                                                                         {"float", Scalar::kFloat},
                                                                         {"float32", Scalar::kFloat},
                                                                         {"double", Scalar::kDouble},
                                                                         {"float64", Scalar::kDouble}}};
-  const auto* const found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& type) { return type.first == word; });
+  const auto* const found = std::find_if(kTypes.begin(), kTypes.end(),
+                                         [&](const auto& type) { return type.first == common::lowerCase(word); });
   if (found == kTypes.end())
     cursor.fail(fmt::format("`{}` is not a type of a property", common::printable(std::string(word.substr(0, 20)))));
   return found->second;
 }
 
 Encoding encodingOf(const Cursor& cursor, std::string_view word) {
-  if (word == "ascii") return Encoding::kText;
-  if (word == "binary_little_endian") return Encoding::kLittleEndian;
-  if (word == "binary_big_endian") return Encoding::kBigEndian;
+  const std::string lower = common::lowerCase(word);
+  if (lower == "ascii") return Encoding::kText;
+  if (lower == "binary_little_endian") return Encoding::kLittleEndian;
+  if (lower == "binary_big_endian") return Encoding::kBigEndian;
   cursor.fail(fmt::format("`{}` is not a format of a .ply file", common::printable(std::string(word.substr(0, 40)))));
 }
 
 Property propertyOf(const Cursor& cursor, const std::vector<std::string_view>& line) {
-  if (line.size() == 3) return {{roleOf(line[2]), plyScalar(cursor, line[1])}, std::nullopt};
-  if (line.size() == 5 && line[1] == "list")
-    return {{Role::kOther, plyScalar(cursor, line[3])}, plyScalar(cursor, line[2])};
+  if (line.size() == 3) return {line[2], {Role::kOther, plyScalar(cursor, line[1])}, std::nullopt};
+  if (line.size() == 5 && common::lowerCase(line[1]) == "list")
+    return {line[4], {Role::kOther, plyScalar(cursor, line[3])}, plyScalar(cursor, line[2])};
   cursor.fail("a property is neither `property TYPE NAME` nor `property list TYPE TYPE NAME`");
 }
 
 PlyHeader readHeader(Cursor& cursor) {
-  if (cursor.line() != "ply") cursor.fail("the file does not begin with `ply`");
+  const std::vector<std::string_view> first = words(cursor.line());
+  if (first.size() != 1 || common::lowerCase(first[0]) != "ply") cursor.fail("the file does not begin with `ply`");
   PlyHeader header;
   bool has_format = false;
   for (;;) {
     const std::vector<std::string_view> line = words(cursor.line());
-    if (line.empty() || line[0] == "comment" || line[0] == "obj_info") continue;
-    if (line[0] == "end_header") break;
-    if (line[0] == "format" && line.size() == 3) {
+    const std::string key = line.empty() ? "" : common::lowerCase(line[0]);
+    if (key.empty() || key == "comment" || key == "obj_info") continue;
+    if (key == "end_header") break;
+    if (key == "format" && line.size() >= 2) {
       header.encoding = encodingOf(cursor, line[1]);
       has_format = true;
-    } else if (line[0] == "element" && line.size() == 3) {
+    } else if (key == "element" && line.size() == 3) {
       header.elements.push_back({line[1], count(cursor, line[2]), {}});
-    } else if (line[0] == "property" && !header.elements.empty()) {
+    } else if (key == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(propertyOf(cursor, line));
     } else {
       cursor.fail(fmt::format("`{}` is not a line of a header", common::printable(std::string(line[0].substr(0, 40)))));
     }
   }
   if (!has_format) cursor.fail("the header has no line `format`");
-  if (header.encoding != Encoding::kText)
-    for (Element& element : header.elements)
-      for (Property& property : element.properties) property.column = property.column.inBinary();
   return header;
 }
 
@@ -139,25 +143,46 @@ class ElementReader {
   bool swapped_;
 };
 
-bool has(const Element& element, Role role) {
-  return std::any_of(element.properties.begin(), element.properties.end(),
-                     [role](const Property& property) { return property.column.role == role; });
+bool isNamed(const Element& element, std::string_view name) { return common::lowerCase(element.name) == name; }
+
+/// Finds out which properties of the points are of use, and says which are not.
+void assignRoles(const Cursor& cursor, Element& element, bool binary, Builder& builder) {
+  std::vector<std::string_view> names, scalars;
+  for (const Property& property : element.properties) {
+    names.push_back(property.name);
+    scalars.push_back(property.count_type ? "" : property.name);
+  }
+  const std::vector<Role> roles = rolesOf(cursor, scalars);
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    Column& column = element.properties[i].column;
+    column.role = roles[i];
+    if (binary) column = column.inBinary();
+  }
+  builder.note(leftOutColumns(names, roles));
+}
+
+void noteOtherElements(const PlyHeader& header, Builder& builder) {
+  for (const Element& element : header.elements)
+    if (element.count > 0 && !isNamed(element, "vertex"))
+      builder.note(fmt::format("elements left out: {} of `{}`", element.count, common::printable(element.name)));
 }
 
 }  // namespace
 
-StoredCloud parsePly(std::string_view bytes, const std::string& name) {
+StoredCloud parsePly(std::string_view bytes, const std::string& name, const CloudPlacement& placement) {
   Cursor cursor(bytes, name);
-  const PlyHeader header = readHeader(cursor);
-  Builder builder;
+  PlyHeader header = readHeader(cursor);
+  Builder builder(placement);
   ElementReader reader(cursor, header.encoding);
-  for (const Element& element : header.elements) {
-    const bool points = element.name == "vertex";
-    if (points && !(has(element, Role::kX) && has(element, Role::kY) && has(element, Role::kZ)))
-      cursor.fail("the points have no x, y and z");
+  for (Element& element : header.elements) {
+    const bool points = isNamed(element, "vertex");
+    if (points) assignRoles(cursor, element, header.encoding != Encoding::kText, builder);
     reader.read(element, points ? &builder : nullptr);
     // What follows the points is of no use here.
-    if (points) return builder.take();
+    if (points) {
+      noteOtherElements(header, builder);
+      return builder.take();
+    }
   }
   cursor.fail("the file has no element `vertex`");
 }

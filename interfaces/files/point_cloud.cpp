@@ -8,6 +8,7 @@
 
 #include "common/check.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "interfaces/files/pcd_reader.hpp"
 #include "interfaces/files/ply_reader.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
@@ -66,8 +67,9 @@ void writePieces(std::span<const SurfacePoint> points, CloudFormat format, const
 }  // namespace
 
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
-  if (file.extension() == ".ply") return CloudFormat::kPly;
-  if (file.extension() == ".pcd") return CloudFormat::kPcd;
+  const std::string ending = common::endingOf(file);
+  if (ending == ".ply") return CloudFormat::kPly;
+  if (ending == ".pcd") return CloudFormat::kPcd;
   return std::nullopt;
 }
 
@@ -96,15 +98,16 @@ Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& 
   return writeAtomically(file, bytes);
 }
 
-StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format) {
-  return format == CloudFormat::kPly ? parsePly(bytes, name) : parsePcd(bytes, name);
+StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format,
+                       const CloudPlacement& placement) {
+  return format == CloudFormat::kPly ? parsePly(bytes, name, placement) : parsePcd(bytes, name, placement);
 }
 
-StoredCloud readCloud(const std::filesystem::path& file) {
+StoredCloud readCloud(const std::filesystem::path& file, const CloudPlacement& placement) {
   const auto format = cloudFormatOf(unpackedName(file));
   if (!format)
     throw common::InputError(common::Problem{{file.string()}, "", "is not named .ply or .pcd, plain or packed", ""});
-  return parseCloud(readUnpacked(file), file.string(), *format);
+  return parseCloud(readUnpacked(file), file.string(), *format, placement);
 }
 
 }  // namespace swiftlet::interfaces

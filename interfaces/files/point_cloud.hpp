@@ -36,10 +36,12 @@ std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat fo
 [[nodiscard]] Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh);
 
 /// Reads text and binary files of either format, those of PCL compressed too, and such files packed by gzip, bzip2 or
-/// xz. Colours and normals that a file does not have are grey and unknown; faces are left out. Throws InputError for
-/// anything that is not such a file, whatever its name is.
-StoredCloud readCloud(const std::filesystem::path& file);
+/// xz. Names and words of the header may be in capitals. Colours and normals that a file does not have are grey and
+/// unknown; faces and other columns are left out. Throws InputError for anything that is not such a file, whatever its
+/// name is.
+StoredCloud readCloud(const std::filesystem::path& file, const CloudPlacement& placement = {});
 /// Reads the bytes of a file as readCloud() does. Messages use `name` as the file.
-StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format);
+StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format,
+                       const CloudPlacement& placement = {});
 
 }  // namespace swiftlet::interfaces

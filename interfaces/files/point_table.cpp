@@ -7,20 +7,23 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/printable.hpp"
 
 namespace swiftlet::interfaces::point_table {
 namespace {
 
-/// Of a header's line: a hundred columns take less.
-constexpr std::size_t kMostLineBytes = 4096;
+/// Of a header's line. Some tools write a table of their own as a comment.
+constexpr std::size_t kMostLineBytes = std::size_t{1} << 20;
 
-constexpr std::array<std::pair<std::string_view, Role>, 19> kRoles{{{"x", Role::kX},
+/// The more usual name of a role comes first.
+constexpr std::array<std::pair<std::string_view, Role>, 20> kRoles{{{"x", Role::kX},
                                                                     {"y", Role::kY},
                                                                     {"z", Role::kZ},
                                                                     {"nx", Role::kNormalX},
@@ -38,7 +41,8 @@ constexpr std::array<std::pair<std::string_view, Role>, 19> kRoles{{{"x", Role::
                                                                     {"diffuse_red", Role::kRed},
                                                                     {"diffuse_green", Role::kGreen},
                                                                     {"diffuse_blue", Role::kBlue},
-                                                                    {"rgb", Role::kPackedRgb}}};
+                                                                    {"rgb", Role::kPackedRgb},
+                                                                    {"rgba", Role::kPackedRgb}}};
 
 bool isBlankInLine(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool isBlank(char c) { return isBlankInLine(c) || c == '\n'; }
@@ -53,10 +57,18 @@ double numberAt(const char* bytes, bool swapped) {
   return static_cast<double>(value);
 }
 
-std::uint8_t channel(double value, Scalar type) {
-  // A colour in floating point goes from 0 to 1.
-  const double scaled = type == Scalar::kFloat || type == Scalar::kDouble ? 255.0 * value : value;
-  return scaled >= 0.0 && scaled <= 255.0 ? static_cast<std::uint8_t>(std::lround(scaled)) : common::kUnknownColor[0];
+/// The first names, for messages.
+std::string listOf(const std::vector<std::string_view>& names) {
+  constexpr std::size_t kMostNames = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+    text += (i == 0 ? "" : ", ") + common::printable(names[i].substr(0, 40));
+  return names.size() <= kMostNames ? text : fmt::format("{} and {} more", text, names.size() - kMostNames);
+}
+
+ColorType colorTypeOf(Scalar type) {
+  if (type == Scalar::kFloat || type == Scalar::kDouble) return ColorType::kFloat;
+  return bytesOf(type) == 1 ? ColorType::kByte : ColorType::kShort;
 }
 
 }  // namespace
@@ -66,11 +78,9 @@ std::size_t bytesOf(Scalar type) {
   return kBytes[static_cast<std::size_t>(type)];
 }
 
-Role roleOf(std::string_view name) {
-  if (name == "rgba") return Role::kPackedRgb;
-  const auto* const found =
-      std::find_if(kRoles.begin(), kRoles.end(), [&](const auto& role) { return role.first == name; });
-  return found == kRoles.end() ? Role::kOther : found->second;
+Cursor::Cursor(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (bytes.starts_with(kByteOrderMark)) place_ = kByteOrderMark.size();
 }
 
 void Cursor::fail(const std::string& message, const std::string& hint) const {
@@ -107,6 +117,18 @@ std::string Cursor::word() const {
   return common::printable(std::string(rest.substr(0, rest.find_first_of(" \t\r\n"))));
 }
 
+std::size_t Cursor::rowsLeft() const {
+  std::size_t rows = 0;
+  bool blank = true;
+  for (const char c : bytes_.substr(place_)) {
+    if (c == '\n') blank = true;
+    if (!blank || isBlank(c)) continue;
+    blank = false;
+    ++rows;
+  }
+  return rows;
+}
+
 void Cursor::beginRow() {
   while (place_ < bytes_.size() && isBlank(bytes_[place_])) ++place_;
 }
@@ -126,7 +148,12 @@ double Cursor::number() {
   if (begin == end) fail("the file is cut: a number is missing");
   if (*begin == '\n') fail("the line has fewer numbers than the header names", "each point has a line of its own");
   double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, value);
+  auto [stop, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, value);
+  if (stop != end && *stop == '#') {
+    // 1.#QNAN, -1.#IND and 1.#INF are what programs on Windows wrote where a number is not finite.
+    value = std::numeric_limits<double>::quiet_NaN();
+    stop = std::find_if(stop, end, isBlank);
+  }
   if (error == std::errc::invalid_argument || (stop != end && !isBlank(*stop)))
     fail(fmt::format("`{}` is not a number", word()));
   // Where a number is out of range, from_chars() does not say whether it is too great: infinite, or too small: 0.
@@ -169,6 +196,36 @@ std::size_t count(const Cursor& cursor, std::string_view text) {
   return value;
 }
 
+std::vector<Role> rolesOf(const Cursor& cursor, const std::vector<std::string_view>& names) {
+  std::vector<Role> roles(names.size(), Role::kOther);
+  const auto assign = [&](const std::vector<std::string>& spelled) {
+    for (const auto& [name, role] : kRoles) {
+      const auto found = std::find(spelled.begin(), spelled.end(), name);
+      if (found != spelled.end() && std::find(roles.begin(), roles.end(), role) == roles.end())
+        roles[static_cast<std::size_t>(found - spelled.begin())] = role;
+    }
+  };
+  std::vector<std::string> spelled(names.begin(), names.end());
+  assign(spelled);
+  std::transform(names.begin(), names.end(), spelled.begin(), common::lowerCase);
+  assign(spelled);
+  const auto has = [&](Role role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
+  if (!has(Role::kX) || !has(Role::kY) || !has(Role::kZ))
+    cursor.fail(fmt::format("the points have no x, y and z, only {}", listOf(names)));
+  // One of them alone is something else, for instance the range `r`.
+  if (!has(Role::kRed) || !has(Role::kGreen) || !has(Role::kBlue))
+    std::replace_if(
+        roles.begin(), roles.end(), [](Role role) { return role >= Role::kRed && role <= Role::kBlue; }, Role::kOther);
+  return roles;
+}
+
+std::string leftOutColumns(const std::vector<std::string_view>& names, const std::vector<Role>& roles) {
+  std::vector<std::string_view> left_out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (roles[i] == Role::kOther && names[i] != "_") left_out.push_back(names[i]);
+  return left_out.empty() ? "" : "columns left out: " + listOf(left_out);
+}
+
 std::vector<std::string_view> words(std::string_view line) {
   std::vector<std::string_view> found;
   for (std::size_t begin = 0; begin < line.size();) {
@@ -184,10 +241,20 @@ std::vector<std::string_view> words(std::string_view line) {
   return found;
 }
 
-common::SurfacePoint Builder::blank() {
-  common::SurfacePoint point;
-  point.rgb = common::kUnknownColor;
-  return point;
+void Builder::note(const std::string& text) {
+  if (!text.empty()) cloud_.notes.push_back(text);
+}
+
+void Builder::setPackedColor(double value, Scalar type) {
+  // PCL keeps 0xAARRGGBB in the bits of a float, or as a whole number with or without a sign. Text may have the whole
+  // number although the column's type is a float: as the bits of one it would be far from 0 only with an odd alpha.
+  const bool floating = type == Scalar::kFloat || type == Scalar::kDouble;
+  const bool whole = value > -2147483649.0 && value < 4294967296.0 && (!floating || std::abs(value) >= 1.0);
+  if (std::isnan(value) || bytesOf(type) < 4 || (!whole && !floating)) return;
+  const std::uint32_t bits = whole ? static_cast<std::uint32_t>(static_cast<std::int64_t>(value))
+                                   : std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  next_.rgb = {static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
+               static_cast<std::uint8_t>(bits)};
 }
 
 void Builder::set(const Column& column, double value) {
@@ -195,13 +262,9 @@ void Builder::set(const Column& column, double value) {
   switch (column.role) {
     case Role::kX:
     case Role::kY:
-    case Role::kZ: {
-      const auto rounded = static_cast<float>(value);
-      next_.position_m[role - static_cast<int>(Role::kX)] = rounded;
-      if (std::isfinite(rounded))
-        cloud_.rounding_m = std::max(cloud_.rounding_m, std::abs(value - static_cast<double>(rounded)));
+    case Role::kZ:
+      position_file_[role - static_cast<int>(Role::kX)] = value;
       return;
-    }
     case Role::kNormalX:
     case Role::kNormalY:
     case Role::kNormalZ:
@@ -210,34 +273,52 @@ void Builder::set(const Column& column, double value) {
     case Role::kRed:
     case Role::kGreen:
     case Role::kBlue:
-      next_.rgb[static_cast<std::size_t>(role - static_cast<int>(Role::kRed))] = channel(value, column.type);
+      color_type_ = std::max(color_type_.value_or(ColorType::kByte), colorTypeOf(column.type));
+      // A byte with a sign holds the bits of one without.
+      color_[static_cast<std::size_t>(role - static_cast<int>(Role::kRed))] =
+          static_cast<float>(column.type == Scalar::kInt8 && value < 0.0 ? value + 256.0 : value);
       return;
-    case Role::kPackedRgb: {
-      // PCL keeps 0xAARRGGBB in the bits of a float, or as a whole number with or without a sign.
-      const std::uint32_t bits = column.type == Scalar::kFloat ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                                 : value > -2147483649.0 && value < 4294967296.0
-                                     ? static_cast<std::uint32_t>(static_cast<std::int64_t>(value))
-                                     : 0U;
-      next_.rgb = {static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
-                   static_cast<std::uint8_t>(bits)};
+    case Role::kPackedRgb:
+      setPackedColor(value, column.type);
       return;
-    }
     case Role::kOther:
       return;
   }
 }
 
+/// The position in the map; not finite where that of the file is not, or is too great for single precision.
+void Builder::place() {
+  double rounding_m = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value_m = placement_.scale * (position_file_[axis] - placement_.origin_file[axis]);
+    const auto rounded_m = static_cast<float>(value_m);
+    next_.position_m[axis] = rounded_m;
+    rounding_m = std::max(rounding_m, std::abs(value_m - static_cast<double>(rounded_m)));
+  }
+  if (next_.position_m.allFinite()) cloud_.rounding_m = std::max(cloud_.rounding_m, rounding_m);
+}
+
 void Builder::finish() {
+  place();
   const float length = next_.normal.norm();
   if (length > 1e-6F && std::isfinite(length))
     next_.normal /= length;
   else
     next_.normal.setZero();
-  if (next_.position_m.allFinite())
+  if (next_.position_m.allFinite()) {
     cloud_.points.push_back(next_);
-  else
+    if (color_type_) colors_.push_back(color_);
+  } else {
     ++cloud_.not_finite;
-  next_ = blank();
+  }
+  next_ = {};
+  next_.rgb = common::kUnknownColor;
+  color_ = {};
+}
+
+StoredCloud Builder::take() {
+  if (color_type_) note(setColors(colors_, *color_type_, cloud_.points));
+  return std::move(cloud_);
 }
 
 }  // namespace swiftlet::interfaces::point_table

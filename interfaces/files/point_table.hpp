@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "interfaces/files/point_colors.hpp"
 #include "interfaces/files/stored_cloud.hpp"
 
 namespace swiftlet::interfaces::point_table {
@@ -16,9 +18,6 @@ std::size_t bytesOf(Scalar type);
 
 /// What a column is for.
 enum class Role { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kRed, kGreen, kBlue, kPackedRgb, kOther };
-
-/// By the names that tools give to columns: "x", "nx", "normal_x", "red", "diffuse_red", "rgb" ...
-Role roleOf(std::string_view name);
 
 struct Column {
   Role role = Role::kOther;
@@ -34,7 +33,8 @@ struct Column {
 /// Reads a file from its beginning: first as text, from the first take() on as binary.
 class Cursor {
  public:
-  Cursor(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  /// A byte order mark, which some editors put before text, is skipped.
+  Cursor(std::string_view bytes, const std::string& name);
 
   std::size_t place() const { return place_; }
   std::size_t left() const { return bytes_.size() - place_; }
@@ -44,6 +44,8 @@ class Cursor {
   std::string_view line();
   /// Throws InputError if fewer are left.
   std::string_view take(std::size_t count);
+  /// How many lines that are not blank are left in text.
+  std::size_t rowsLeft() const;
   /// Goes to the next line in text that is not blank. A row begins there.
   void beginRow();
   /// The next number in text, between blanks. Throws InputError if the line has none.
@@ -71,18 +73,37 @@ std::size_t count(const Cursor& cursor, std::string_view text);
 
 std::vector<std::string_view> words(std::string_view line);
 
+/// Of all columns of a file, by the names that tools give to them: "x", "nx", "normal_x", "red", "diffuse_red", "rgb"
+/// ..., in any case. Each role has one column at most: a name in small letters counts before one in capitals, then the
+/// more usual name. Red, green and blue come together. Throws InputError through the cursor without x, y and z.
+std::vector<Role> rolesOf(const Cursor& cursor, const std::vector<std::string_view>& names);
+
+/// "columns left out: ring, time" for those of kOther, without padding; empty if there are none.
+std::string leftOutColumns(const std::vector<std::string_view>& names, const std::vector<Role>& roles);
+
 /// Makes points from rows: set() for each column, then finish(). A point whose position is not finite is left out.
 class Builder {
  public:
+  explicit Builder(const CloudPlacement& placement) : placement_(placement) { next_.rgb = common::kUnknownColor; }
+
   void set(const Column& column, double value);
   void finish();
-  StoredCloud take() { return std::move(cloud_); }
+  /// Notes that are empty are none.
+  void note(const std::string& text);
+  StoredCloud take();
 
  private:
-  static common::SurfacePoint blank();
+  void place();
+  void setPackedColor(double value, Scalar type);
 
+  CloudPlacement placement_;
   StoredCloud cloud_;
-  common::SurfacePoint next_ = blank();
+  std::vector<RawColor> colors_;  ///< Of each point, if the file has columns of red, green and blue.
+  std::optional<ColorType> color_type_;
+
+  Eigen::Vector3d position_file_ = Eigen::Vector3d::Zero();
+  RawColor color_{};
+  common::SurfacePoint next_;
 };
 
 }  // namespace swiftlet::interfaces::point_table

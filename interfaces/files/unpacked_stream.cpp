@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/gunzip.hpp"
 
@@ -179,7 +180,7 @@ std::int64_t UnpackedStream::packedBytesRead() const { return feed_->packed_byte
 
 std::filesystem::path unpackedName(const std::filesystem::path& file) {
   for (const char* packed : {".gz", ".bz2", ".xz"})
-    if (file.extension() == packed) return file.parent_path() / file.stem();
+    if (common::endingOf(file) == packed) return file.parent_path() / file.stem();
   return file;
 }
 

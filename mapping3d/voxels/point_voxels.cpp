@@ -10,6 +10,13 @@ constexpr double kReachVoxels = 32768.0;
 
 }  // namespace
 
+std::size_t occupiedCount(const common::VoxelMap& map) {
+  std::size_t count = 0;
+  for (const common::VoxelIndex index : map.blocks())
+    for (const std::int8_t evidence : map.block(index)->evidence) count += evidence > 0 ? 1 : 0;
+  return count;
+}
+
 std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map) {
   using common::VoxelBlock;
   std::vector<common::SurfacePoint> points;

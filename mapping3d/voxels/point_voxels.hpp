@@ -9,6 +9,8 @@
 
 namespace swiftlet::mapping3d {
 
+std::size_t occupiedCount(const common::VoxelMap& map);
+
 /// The centres of the occupied voxels, grey and without normals, in ascending order of their blocks.
 std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map);
 

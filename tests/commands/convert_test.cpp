@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -22,6 +24,7 @@ using test_support::ProgramEnd;
 using test_support::readText;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
+using testing::Not;
 
 class Convert : public test_support::Scratch {
  protected:
@@ -72,7 +75,7 @@ TEST_F(Convert, OccupiedVoxelsAreAPointEachAndPointsAreOccupiedVoxels) {
   run({"convert", path("room.pcd"), path("again.bt"), "--resolution", "0.1"});
   const auto points = interfaces::readCloud(path("room.pcd")).points;
   EXPECT_EQ(points.size(), 20U * 10 + 10 * 14);
-  const common::VoxelMap map = interfaces::readOctree(from), again = interfaces::readOctree(path("again.bt"));
+  const common::VoxelMap map = interfaces::readOctree(from).map, again = interfaces::readOctree(path("again.bt")).map;
   for (int x = -1; x < 21; ++x)
     for (int y = -1; y < 11; ++y)
       for (int z = -1; z < 16; ++z) ASSERT_EQ(again.isOccupied({x, y, z}), map.isOccupied({x, y, z}));
@@ -97,10 +100,18 @@ TEST_F(Convert, WhatCannotBeConvertedIsSaid) {
   refused({"convert", from, path("plan.yaml"), "--low", "5", "--high", "6"}, "nothing is known");
   refused({"convert", from, path("room.ot"), "--low", "1"}, "name it .yaml");
   refused({"convert", from, path("room.ot"), "--resolution", "0.1"}, "only a cloud");
-  refused({"convert", write("room.obj", "v 0 0 0\n"), path("room.ot")}, "it must be .bt, .ot, .ply or .pcd");
+  refused({"convert", write("room.dae", "<COLLADA/>\n"), path("room.ot")}, "it must be .bt, .ot, .ply or .pcd");
+  refused({"convert", write("room.xyz", "1 2 3\n"), path("room.ot")}, "save it as .ply");
+  refused({"convert", from, path("room.ot"), "--scale", "0.001"}, "only the coordinates of a cloud");
+  refused({"convert", write("text.pcd", "hello\n"), path("room.ot"), "--origin", "1,2,3"}, "`1,2,3` is not x;y;z");
   refused({"convert", write("text.ply", "hello\n"), path("room.ot")}, "does not begin with `ply`");
   refused({"convert", path("none.pcd"), path("room.ot")}, "none.pcd");
   refused({"convert", path("none.bt"), path("room.ot")}, "none.bt");
+  // A cube of 512 voxels beside the origin.
+  std::string solid = "# Octomap OcTree binary file\nid OcTree\nres 0.05\ndata\n";
+  for (int depth = 0; depth < 6; ++depth) solid += depth == 0 ? std::string("\0\xc0", 2) : std::string("\x03\0", 2);
+  refused({"convert", write("solid.bt", solid + std::string("\x02\0", 2)), path("room.ply")},
+          "its 134217728 occupied voxels are more than");
   refused({"convert", write("text.bt", "hello\n"), path("room.ot")}, "begins with `hello`");
   EXPECT_FALSE(std::filesystem::exists(path("room.ot")));
 }
@@ -137,12 +148,90 @@ TEST_F(Convert, SaysHowManyPointsAreLeftOut) {
   refused("512345.67 5412345.67 100\n", "would be rounded by up to");
 }
 
+TEST_F(Convert, AsksForTheUnitWhereMostPointsAreFarAndTakesOneThatIsGiven) {
+  // A room of 4 m in millimetres whose corner is the origin.
+  const std::string room = write("mm.pcd", cloudOf(4, "0 0 100\n4000 0 100\n0 4000 100\n4010 4010 2410\n"));
+  const ProgramEnd far = runSwiftlet({"convert", room, path("far.bt")});
+  ASSERT_EQ(far.exit_code, 0) << describe(far);
+  EXPECT_THAT(far.out, HasSubstr("note: 3 of 4 points left out"));
+  EXPECT_THAT(far.out,
+              HasSubstr("left out: farther than 1638 m from the origin, where an octree of this resolution ends: "
+                        "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres"));
+  const ProgramEnd near = runSwiftlet({"convert", room, path("near.bt"), "--scale", "0.001"});
+  ASSERT_EQ(near.exit_code, 0) << describe(near);
+  EXPECT_THAT(near.out, Not(HasSubstr("note:")));
+  const common::VoxelMap map = interfaces::readOctree(path("near.bt")).map;
+  EXPECT_TRUE(map.isOccupied(map.voxelAt({4.01, 4.01, 2.41})));
+}
+
+/// No point of them is far enough to be left out.
+TEST_F(Convert, AsksForTheUnitOfWhatIsTooTallForABuilding) {
+  const std::string room = write("cm.pcd", cloudOf(2, "0 0 10\n400 400 240\n"));
+  for (const std::vector<std::string>& to :
+       {std::vector<std::string>{path("cm.bt")}, {path("cm.yaml"), "--low", "0", "--high", "300"}}) {
+    std::vector<std::string> arguments{"convert", room};
+    arguments.insert(arguments.end(), to.begin(), to.end());
+    EXPECT_THAT(runSwiftlet(arguments).out, HasSubstr("reach over 230 m of height: are they in metres?"));
+    arguments.insert(arguments.end(), {"--scale", "0.01"});
+    EXPECT_THAT(runSwiftlet(arguments).out, Not(HasSubstr("metres")));
+  }
+}
+
+/// The hint of the refusal, done literally, works.
+TEST_F(Convert, NamesAnOriginWhereCoordinatesAreTooGreat) {
+  const std::string utm = write("utm.pcd", cloudOf(2, "512345.67 5412345.67 100\n512346.67 5412345.67 102\n"));
+  const ProgramEnd refusal = runSwiftlet({"convert", utm, path("utm.bt")});
+  EXPECT_EQ(refusal.exit_code, 2);
+  EXPECT_THAT(refusal.err, HasSubstr("give --origin '512300;5412300;0'"));
+  const ProgramEnd end = runSwiftlet({"convert", utm, path("utm.bt"), "--origin", "512300;5412300;0"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const common::VoxelMap map = interfaces::readOctree(path("utm.bt")).map;
+  EXPECT_TRUE(map.isOccupied(map.voxelAt({46.67, 45.67, 102.0})));
+}
+
+TEST_F(Convert, SaysWhatAnotherKindOfMapDoesNotKeep) {
+  const std::string colored =
+      write("red.PLY",
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty "
+            "float ny\n"
+            "property ushort Red\nproperty ushort Green\nproperty ushort Blue\nproperty float time\nend_header\n"
+            "1 1 1 1 65535 32768 0 7\n");
+  const ProgramEnd cloud = runSwiftlet({"convert", colored, path("red.PCD")});
+  ASSERT_EQ(cloud.exit_code, 0) << describe(cloud);
+  EXPECT_THAT(cloud.out, HasSubstr("note: columns left out: time\n"));
+  EXPECT_THAT(cloud.out, HasSubstr("note: colours go up to 65535: they are taken to be from 0 to 65535\n"));
+  EXPECT_THAT(cloud.out, Not(HasSubstr("note: colours left out")));
+  EXPECT_EQ(interfaces::readCloud(path("red.PCD")).points.at(0).rgb, (std::array<std::uint8_t, 3>{255, 128, 0}));
+  const ProgramEnd octree = runSwiftlet({"convert", colored, path("red.BT")});
+  ASSERT_EQ(octree.exit_code, 0) << describe(octree);
+  EXPECT_THAT(octree.out, HasSubstr("note: colours left out"));
+  EXPECT_THAT(octree.out, HasSubstr("note: normals left out"));
+}
+
+/// A red voxel: each level has one child, the last one of the root and the first one below.
+TEST_F(Convert, AColorOcTreeBecomesACloudWithColours) {
+  std::string tree = "# Octomap OcTree file\nid ColorOcTree\nsize 17\nres 0.05\ndata\n";
+  const std::string node("\0\0\x80\x3f\xff\0\0", 7);
+  for (int depth = 0; depth < 16; ++depth) tree += node + (depth == 0 ? '\x80' : '\x01');
+  tree += node + '\0';
+  const std::string file = write("color.ot", tree);
+  const ProgramEnd cloud = runSwiftlet({"convert", file, path("color.ply")});
+  ASSERT_EQ(cloud.exit_code, 0) << describe(cloud);
+  const auto points = interfaces::readCloud(path("color.ply")).points;
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0].rgb, (std::array<std::uint8_t, 3>{255, 0, 0}));
+  EXPECT_TRUE(points[0].position_m.isApproxToConstant(0.025F));
+  const ProgramEnd octree = runSwiftlet({"convert", file, path("color.bt")});
+  ASSERT_EQ(octree.exit_code, 0) << describe(octree);
+  EXPECT_THAT(octree.out, HasSubstr("note: colours left out: an octree is written without"));
+}
+
 TEST_F(Convert, RefusesAFloorPlanThatIsTooLargeToBeReadAgain) {
   const ProgramEnd end = runSwiftlet({"convert", write("far.pcd", cloudOf(2, "-175 0 1\n175 0 1\n")), path("plan.yaml"),
                                       "--low", "0.5", "--high", "1.5", "--resolution", "0.01"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("the plan would be 35001 by 1 cells of 0.01 m"));
-  EXPECT_THAT(end.err, HasSubstr("remove points far away, or give a greater --resolution"));
+  EXPECT_THAT(end.err, HasSubstr("remove points far away, give a greater --resolution"));
   EXPECT_FALSE(std::filesystem::exists(path("plan.yaml")));
   EXPECT_FALSE(std::filesystem::exists(path("plan.pgm")));
 }

@@ -124,7 +124,7 @@ Eigen::Vector3d middleOfCloud(const fs::path& file) {
   return sum / static_cast<double>(points.size());
 }
 Eigen::Vector3d middleOfVoxels(const fs::path& file) {
-  const common::VoxelMap map = interfaces::readOctree(file);
+  const common::VoxelMap map = interfaces::readOctree(file).map;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   for (const common::VoxelIndex block : map.blocks())

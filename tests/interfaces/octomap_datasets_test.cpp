@@ -52,13 +52,13 @@ TEST(OctreesOfOthers, KeepLeavesAndValues) {
     const auto theirs = asOctomapReads(unpacked(entry.path()), OctreeFormat::kBinary);
     ASSERT_TRUE(theirs);
     theirs->prune();
-    const common::VoxelMap map = readOctree(entry.path());
+    const common::VoxelMap map = readOctree(entry.path()).map;
     for (const OctreeFormat format : {OctreeFormat::kBinary, OctreeFormat::kLogOdds}) {
       const auto ours = asOctomapReads(toOctree(map, format), format);
       ASSERT_TRUE(ours);
       expectSameLeaves(*theirs, *ours);
       // Saved, read and converted again: the same bytes.
-      const common::VoxelMap again = parseOctree(toOctree(map, format), name);
+      const common::VoxelMap again = parseOctree(toOctree(map, format), name).map;
       EXPECT_EQ(toOctree(again, OctreeFormat::kLogOdds), toOctree(map, OctreeFormat::kLogOdds));
     }
   }

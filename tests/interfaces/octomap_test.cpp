@@ -52,7 +52,7 @@ void expectSame(const VoxelMap& map, octomap::OcTree& tree, OctreeFormat format)
       ASSERT_EQ(node != nullptr, map.isKnown(voxel));
       if (node == nullptr) continue;
       ++known;
-      ASSERT_EQ(node->getLogOdds() > 0.0F, map.isOccupied(voxel));
+      ASSERT_EQ(tree.isNodeOccupied(node), map.isOccupied(voxel));
       if (format == OctreeFormat::kLogOdds) {
         ASSERT_NEAR(node->getLogOdds(), map.evidence(voxel) * VoxelMap::kLogOddsStep, 1e-6);
       }
@@ -79,7 +79,7 @@ TEST_P(OctreeFile, IsReadByOctomap) {
 TEST_P(OctreeFile, IsReadAgainAsItWas) {
   for (unsigned seed = 11; seed <= 15; ++seed) {
     const VoxelMap map = randomMap(seed);
-    const VoxelMap again = parseOctree(toOctree(map, GetParam()), "again");
+    const VoxelMap again = parseOctree(toOctree(map, GetParam()), "again").map;
     EXPECT_EQ(again.blocks(), map.blocks());
     for (const VoxelIndex block : map.blocks()) {
       for (std::size_t i = 0; i < VoxelBlock::kVoxels; ++i) {
@@ -111,7 +111,7 @@ TEST_P(OctreeFile, IsWrittenAsOctomapWritesIt) {
 TEST_P(OctreeFile, AnEmptyMapIsAnEmptyTree) {
   const std::string bytes = toOctree(VoxelMap(0.05), GetParam());
   EXPECT_THAT(bytes, HasSubstr("\nsize 0\n"));
-  EXPECT_EQ(parseOctree(bytes, "empty").blockCount(), 0u);
+  EXPECT_EQ(parseOctree(bytes, "empty").map.blockCount(), 0u);
 }
 
 TEST_P(OctreeFile, ThatIsCutIsRefusedWithItsPlace) {
@@ -140,12 +140,13 @@ void expectRefused(const std::string& bytes, const std::string& text) {
 TEST(BadOctree, NamesWhatIsWrong) {
   const std::string header = "# Octomap OcTree binary file\nid OcTree\nsize 1\nres 0.05\ndata\n";
   expectRefused("ply\n", "begins with `ply`");
-  expectRefused("# Octomap OcTree binary file\nid ColorOcTree\nres 0.05\ndata\n", "`ColorOcTree`");
+  expectRefused("# Octomap OcTree file\nid SemanticOcTree\nres 0.05\ndata\n", "a tree of the kind `SemanticOcTree`");
+  expectRefused("# Octomap OcTree file\nid SemanticOcTree\nres 0.05\ndata\n", "OcTree, ColorOcTree, OcTreeStamped");
   expectRefused("# Octomap OcTree binary file\nid OcTree\nres zero\ndata\n", "`zero` is not a number");
   expectRefused("# Octomap OcTree binary file\nid OcTree\nsize 1\ndata\n", "no resolution");
   expectRefused(header + std::string(100'000, '\xff'), "deeper than 16 levels");
   expectRefused(header + std::string("\x02\x00", 2), "fills more than 1000 blocks");
-  expectRefused(header + std::string("\x00\x00\x00", 3), "1 bytes follow the tree");
+  expectRefused(header + std::string("\x03\x00\x00\x00\xff", 5), "1 bytes follow the tree, which has 2 nodes, not 1");
   // Of leaves that are smaller than a block, each may be in a block of its own.
   common::VoxelMap scattered(0.05);
   for (int i = 0; i < 1001; ++i) scattered.set({common::VoxelBlock::kSide * i, 0, 0}, 10);
@@ -158,7 +159,7 @@ TEST(OctreeFiles, OfOthersKeepTheirLeaves) {
   const std::filesystem::path data = folder ? folder : std::string(SWIFTLET_SOURCE_DIR) + "/../shared/datasets";
   const std::filesystem::path file = data / "07-octomap/slambook-dense/octomap.bt.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no data set " << file << "; set SWIFTLET_DATASETS";
-  const VoxelMap map = readOctree(file);
+  const VoxelMap map = readOctree(file).map;
   const std::string bytes = toOctree(map, OctreeFormat::kBinary);
   EXPECT_THAT(bytes, HasSubstr("\nsize 146768\n"));  // As the file's own header says.
   const auto tree = asOctomapReads(bytes, OctreeFormat::kBinary);
