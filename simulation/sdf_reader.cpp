@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -136,9 +137,12 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   }
   // These are echoes: the original message was printed, with its line.
   if (sorted.problems.empty() && first_echo != nullptr && (sorted.warnings.empty() || !console.empty())) {
-    std::string message = trimmed(first_echo->Message());
-    for (const std::string& line : console) message += ": " + line;
-    sorted.problems.push_back({locate(*first_echo, file, text), "", message, ""});
+    Problem problem{locate(*first_echo, file, text), "", trimmed(first_echo->Message()), ""};
+    for (const std::string& line : console) problem.message += ": " + line;
+    constexpr std::string_view kLine = "Line number=";  // Of TinyXML-2.
+    if (const auto at = problem.message.find(kLine); at != std::string::npos && problem.location.line == 0)
+      problem.location.line = std::atoi(problem.message.c_str() + at + kLine.size());
+    sorted.problems.push_back(std::move(problem));
   }
   return sorted;
 }

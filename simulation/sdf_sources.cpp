@@ -207,6 +207,10 @@ void SdfSources::followInclude(Document& document, std::size_t number) {
     hint = fmt::format("{} is no file", found->string());
     found.reset();
   }
+  // libsdformat takes the text of these without looking whether there is any.
+  for (const char* name : {"name", "static", "placement_frame"})
+    if (const SdfTag* tag = document.child(number, name); tag != nullptr && textOf(*tag, document.text).empty())
+      document.replace(tag->begin, tag->end, "");
   if (found) {
     const std::string path = visit(found->string(), document.locationOf(*uri_tag));
     return document.replace(uri_tag->content, uri_tag->content_end, common::escaped(path));

@@ -15,7 +15,7 @@
 #include "fixtures.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/variation.hpp"
-#include "support/datasets.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::simulation {
 namespace {
