@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "apps/mission_limits.hpp"
+#include "apps/trial_world.hpp"
 #include "apps/vehicle_flight.hpp"
 #include "apps/wall_clock.hpp"
 #include "interfaces/run_files.hpp"
@@ -30,7 +31,7 @@ std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
   scenario.vertical_laser = setup.system.vertical_laser;
   static std::mutex sdformat_is_not_thread_safe;
   const std::scoped_lock lock(sdformat_is_not_thread_safe);
-  return std::make_shared<simulation::Arena>(simulation::loadWorld(scenario.world, scenario.model_paths), scenario);
+  return std::make_shared<simulation::Arena>(loadWorldOf(scenario), scenario);
 }
 
 fs::path folderOf(const FlightSetup& setup) {

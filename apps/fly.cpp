@@ -14,6 +14,7 @@
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
+#include "apps/start_option.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/trial_world.hpp"
 #include "apps/web_link.hpp"
@@ -38,6 +39,9 @@ const std::string kWorld = "worlds/unb_case1.sdf";
 struct FlyOptions {
   std::string mission;
   std::string world;
+  std::vector<std::string> model_paths;
+  bool allow_incomplete_world = false;
+  std::string start;  ///< Empty: the scenario's, or that of the world.
   std::string scenario;
   std::string map;
   std::string system;  ///< Empty: the first of the scenario's trial, or swiftlet.
@@ -59,13 +63,23 @@ struct FlyOptions {
   bool json = false;
 };
 
+void takeWorldOptions(const FlyOptions& options, simulation::Scenario& scenario) {
+  scenario.model_paths.insert(scenario.model_paths.begin(), options.model_paths.begin(), options.model_paths.end());
+  scenario.allow_incomplete_world = scenario.allow_incomplete_world || options.allow_incomplete_world;
+  if (options.start.empty()) return;
+  if (!scenario.vehicles.empty())
+    throw common::InputError(common::Problem{
+        {}, "--start", "the scenario has several vehicles", "say in its file where each of them starts"});
+  scenario.start = parseStart(options.start);
+}
+
 /// Of several systems, natures and batteries the first counts.
 evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
   evaluation::TrialConfig trial;
   if (!options.scenario.empty() && !options.world.empty())
     throw common::InputError(common::Problem{{}, "--scenario", "the scenario says which world", "leave out --world"});
   if (options.scenario.empty()) {
-    trial.scenario.world = common::findData(options.world.empty() ? kWorld : options.world).string();
+    trial.scenario.world = findWorldFile(options.world.empty() ? kWorld : options.world).string();
   } else {
     trial = evaluation::readTrial(findTrial(options.scenario));
     findWorld(trial);
@@ -75,6 +89,7 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
   else if (!trial.systems.empty())
     trial.system = trial.systems.front();
   if (!options.nature.empty()) trial.natures = {options.nature};
+  takeWorldOptions(options, trial.scenario);
   return trial;
 }
 
@@ -276,6 +291,13 @@ void addFly(Command& program) {
   Command command = program.command("fly", "Fly a mission in the simulator; the page shows it live.");
   command.argument("mission", options->mission, "Mission file (XML).");
   command.option("--world", options->world, fmt::format("World to fly in (SDF). Default: {}.", kWorld));
+  command.option("--model-path", options->model_paths,
+                 "Folder that holds models which the world includes; may be given several times.");
+  command.flag("--allow-incomplete-world", options->allow_incomplete_world,
+               "Fly though models, meshes or collisions of the world are missing: the vehicle meets nothing there.");
+  command.option("--start", options->start,
+                 "Where the vehicle stands in the world: \"x;y;yaw\" in metres and degrees, or \"x;y;z;yaw\". Default: "
+                 "the scenario's, or the world's frame `start`, or its origin.");
   command.option("--scenario", options->scenario,
                  "A trial file whose scenario is flown: world, start, people, weather, several vehicles; with its "
                  "profile, nature and charge.");

@@ -43,6 +43,7 @@ struct TrialOptions {
   std::string nature;  ///< Empty: those of the trial.
   bool control_log = false;
   bool record_rgbd = false;
+  bool allow_incomplete_world = false;
   std::string vehicle_memory;     ///< Empty: each flight starts from the data sheet.
   std::optional<double> battery;  ///< None: as the trial says.
   std::string out;
@@ -175,6 +176,7 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
     if (!options.nature.empty()) trial.natures = {options.nature};
     if (options.battery) trial.batteries = {*options.battery};
     if (!options.system.empty()) trial.systems = {options.system};
+    trial.scenario.allow_incomplete_world |= options.allow_incomplete_world;
     for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
   refuseSameNames(trials, file_or_folder);
@@ -265,6 +267,8 @@ void addTrial(Command& program) {
   command.option("--nature", options->nature, "Nature to fly them all in, instead of their own.");
   command.option("--battery", options->battery, {0.01, 1},
                  "Charge at the start to fly them all with, as a share of the full one.");
+  command.flag("--allow-incomplete-world", options->allow_incomplete_world,
+               "Fly though models, meshes or collisions of a world are missing: the vehicle meets nothing there.");
   command.option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
   command.flag("--envelope", options->envelope,

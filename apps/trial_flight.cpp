@@ -15,7 +15,6 @@
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/run_folder.hpp"
-#include "simulation/world_model.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -33,6 +32,17 @@ void findMap(TrialConfig& trial, const fs::path& trials) {
     throw common::InputError(
         common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});
   }
+}
+
+/// A mission that is not where data is may be beside the trial.
+void findMission(const TrialConfig& trial, std::string& mission) {
+  const auto isIn = [&mission](const fs::path& folder) {
+    std::error_code ignored;
+    return fs::exists(folder / mission, ignored);
+  };
+  const std::vector<fs::path> folders = common::dataFolders();
+  if (std::none_of(folders.begin(), folders.end(), isIn) && isIn(trial.folder))
+    mission = (trial.folder / mission).string();
 }
 
 FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
@@ -93,7 +103,7 @@ void checkControllers(const TrialConfig& trial, const System& system, std::vecto
 /// The targets that it asks for must be in its world, and its profile must look for them.
 void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& problems) {
   if (trial.targets.empty()) return;
-  const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
+  const simulation::WorldModel world = loadWorldOf(trial.scenario);
   const std::vector<std::string> models = world.modelNames();
   const std::vector<std::string> names = loadSystem(trial.system).config.autonomy.estimator.targets.names();
   const auto check = [&](const std::vector<std::string>& known, const std::string& word, const std::string& whose) {
@@ -113,7 +123,9 @@ void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& proble
 
 void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
-  for (const TrialConfig& trial : trials) {
+  for (TrialConfig& trial : trials) {
+    findMission(trial, trial.mission);
+    for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles) findMission(trial, vehicle.mission);
     const System system = loadSystem(trial.system);
     for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
       for (auto& problem : missionProblems(mission, system, trial.map.given())) problems.push_back(std::move(problem));
@@ -149,8 +161,7 @@ std::vector<std::string> warningsOfOperator(const std::vector<TrialConfig>& tria
 std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {
   if (!trial.map.given()) return nullptr;
   if (trial.map.surveyed()) {
-    const std::string& driven = trial.map.survey.world.empty() ? trial.scenario.world : trial.map.survey.world;
-    const simulation::WorldModel world = simulation::loadWorld(driven, trial.scenario.model_paths);
+    const simulation::WorldModel world = loadWorldOf(trial.scenario, trial.map.survey.world);
     return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
   }
   FlightMap map = readFlightMap(trial.map.file);

@@ -1,12 +1,22 @@
-// Where the world of a trial's scenario lies on this machine.
+// Where worlds lie on this machine.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "evaluation/trial.hpp"
+#include "simulation/world_model.hpp"
 
 namespace swiftlet::apps {
 
-/// The world's files are with the software, or in an archive of the data sets that is unpacked once. Throws
-/// common::InputError when they are nowhere.
+/// A world by its path or, as `unb_case1`, by the name of one in the folder `worlds`. Throws common::InputError.
+std::filesystem::path findWorldFile(const std::string& name);
+
+/// Sets the paths of a trial's worlds and models: beside the trial's file, with the software, in the working folder, or
+/// in an archive of the data sets that is unpacked once. Throws common::InputError when they are nowhere.
 void findWorld(evaluation::TrialConfig& trial);
+
+/// The world that a scenario is flown in, or `file` with the scenario's models. Throws common::InputError.
+simulation::WorldModel loadWorldOf(const simulation::Scenario& scenario, const std::string& file = {});
 
 }  // namespace swiftlet::apps

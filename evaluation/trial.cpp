@@ -232,6 +232,7 @@ TrialConfig readTrial(const fs::path& file) {
   for (std::size_t i = 0; i < trial.operator_steps.size(); ++i)
     trial.operator_steps[i].place = reader.locationOf(fmt::format("operator[{}].command", i));
   if (trial.name.empty()) trial.name = file.stem().string();
+  trial.folder = file.parent_path();
   return trial;
 }
 

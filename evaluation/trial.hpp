@@ -63,6 +63,7 @@ struct TrialConfig {
   std::vector<SystemBounds> asked_of;
   std::vector<TrialTarget> targets;
   simulation::Scenario scenario;
+  std::filesystem::path folder;  ///< Of the file that it was read from; it is not read itself.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -131,6 +131,7 @@ struct Scenario {
   int seed = 1;
   std::string world;
   std::vector<std::string> model_paths;
+  bool allow_incomplete_world = false;
   StartConfig start;
   double battery_remaining = 1.0;
   WindConfig wind;

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <functional>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
-#include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@
 
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
-#include "simulation/sdf_preflight.hpp"
+#include "simulation/sdf_sources.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -42,13 +41,9 @@ class ConsoleCapture {
   ConsoleCapture& operator=(const ConsoleCapture&) = delete;
 
   /// Its lines without colours and without the position in libsdformat's own source.
-  std::vector<std::string> lines() const { return linesOf(text_); }
-  std::vector<std::string> errorLines() const { return linesOf(errors_); }
-
- private:
-  static std::vector<std::string> linesOf(const std::ostringstream& text) {
+  std::vector<std::string> lines() const {
     std::vector<std::string> lines;
-    std::istringstream stream(text.str());
+    std::istringstream stream(text_.str());
     for (std::string line; std::getline(stream, line);) {
       const auto prefix_end = line.find("\033[0m ");
       if (prefix_end != std::string::npos) line.erase(0, prefix_end + 5);
@@ -57,27 +52,12 @@ class ConsoleCapture {
     return lines;
   }
 
+ private:
   sdf::Console::ConsoleStream& stream_;
   std::ostream* before_;
   std::ostringstream errors_;
   std::streambuf* cerr_before_;
   std::ostringstream text_;
-};
-
-/// libsdformat 12 reads what included files include with its global configuration (gazebosim/sdformat#881).
-class GlobalFindCallback {
- public:
-  explicit GlobalFindCallback(std::function<std::string(const std::string&)> find)
-      : before_(global().FindFileCallback()) {
-    global().SetFindCallback(std::move(find));
-  }
-  ~GlobalFindCallback() { global().SetFindCallback(before_); }
-  GlobalFindCallback(const GlobalFindCallback&) = delete;
-  GlobalFindCallback& operator=(const GlobalFindCallback&) = delete;
-
- private:
-  static sdf::ParserConfig& global() { return sdf::ParserConfig::GlobalConfig(); }
-  std::function<std::string(const std::string&)> before_;
 };
 
 bool mentions(std::string text, std::string_view word) {
@@ -140,7 +120,6 @@ common::SourceLocation locate(const sdf::Error& error, const std::string& file, 
 struct Sorted {
   std::vector<Problem> problems;
   std::vector<std::string> warnings;
-  bool wants_ground_plane = false;
 };
 
 Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& console, const std::string& file,
@@ -148,90 +127,70 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   Sorted sorted;
   const sdf::Error* first_echo = nullptr;
   for (const sdf::Error& error : errors) {
-    if (isEcho(error)) {
-      if (first_echo == nullptr) first_echo = &error;
-      continue;
-    }
-    Problem problem{locate(error, file, text), "", trimmed(error.Message()), ""};
-    const bool lookup = error.Code() == sdf::ErrorCode::URI_LOOKUP;
-    if (lookup && mentions(problem.message, "ground plane")) {
-      sorted.wants_ground_plane = true;
-      problem.message += "; a floor at z = 0 stands in for it";
-    } else if (lookup && !mentions(problem.message, "/sun]")) {
-      problem.hint = "give the folder that holds the model as a model path or in SDF_PATH";
-      sorted.problems.push_back(problem);
-      continue;
-    } else if (!lookup && !isWarning(error)) {
-      sorted.problems.push_back(problem);
-      continue;
-    }
-    sorted.warnings.push_back(toString(problem));
-  }
-  // These are echoes: the original message was printed, with its line.
-  if (sorted.problems.empty() && first_echo != nullptr && (sorted.warnings.empty() || !console.empty())) {
-    std::string message = trimmed(first_echo->Message());
-    for (const std::string& line : console) message += ": " + line;
-    sorted.problems.push_back({locate(*first_echo, file, text), "", message, ""});
-  }
-  return sorted;
-}
-
-/// If an included file includes a model that is missing, libsdformat only prints it, as "Error Code 13:
-/// [/sdf/model...:FILE:L12]: Msg: Unable to find uri[model://x]". If this were ignored, obstacles would be missing.
-void addPrinted(const std::vector<std::string>& lines, Sorted& sorted) {
-  static const std::regex kMissing(R"(:([^:\]]+):L([0-9]{1,7})\]: Msg: (Unable to find uri\[.*))");
-  for (const std::string& line : lines) {
-    std::smatch match;
-    if (line.size() > 4096 || !std::regex_search(line, match, kMissing)) continue;
-    const Problem problem{{match[1], std::stoi(match[2])},
-                          "",
-                          match[3],
-                          "give the folder that holds the model as a model path or in SDF_PATH"};
-    const bool floor = mentions(problem.message, "ground plane");
-    sorted.wants_ground_plane = sorted.wants_ground_plane || floor;
-    if (floor || mentions(problem.message, "/sun]"))
+    const Problem problem{locate(error, file, text), "", trimmed(error.Message()), ""};
+    if (isEcho(error))
+      first_echo = first_echo == nullptr ? &error : first_echo;
+    else if (isWarning(error))
       sorted.warnings.push_back(toString(problem));
     else
       sorted.problems.push_back(problem);
   }
+  // These are echoes: the original message was printed, with its line.
+  if (sorted.problems.empty() && first_echo != nullptr && (sorted.warnings.empty() || !console.empty())) {
+    Problem problem{locate(*first_echo, file, text), "", trimmed(first_echo->Message()), ""};
+    for (const std::string& line : console) problem.message += ": " + line;
+    constexpr std::string_view kLine = "Line number=";  // Of TinyXML-2.
+    if (const auto at = problem.message.find(kLine); at != std::string::npos && problem.location.line == 0)
+      problem.location.line = std::atoi(problem.message.c_str() + at + kLine.size());
+    sorted.problems.push_back(std::move(problem));
+  }
+  return sorted;
 }
 
 /// libsdformat also throws exceptions, of several kinds.
-sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::ParserConfig& config) {
+sdf::Errors loadOrExplain(sdf::Root& root, const SdfSources& sources, const sdf::ParserConfig& config) {
   try {
-    return root.Load(file, config);
+    return root.Load(sources.toRead(), config);
   } catch (const std::exception& exception) {
-    throw InputError(Problem{{file},
+    throw InputError(Problem{{sources.originalOf(sources.toRead())},
                              "",
                              fmt::format("libsdformat gave up: {}", exception.what()),
                              "leave out what was changed last, or halves of its models, to find the element"});
   }
 }
 
+/// Messages and the search for meshes go by the files that the user has.
+void nameOriginals(sdf::Element& element, const SdfSources& sources) {
+  element.SetFilePath(sources.originalOf(element.FilePath()));
+  for (sdf::ElementPtr child = element.GetFirstElement(); child; child = child->GetNextElement())
+    nameOriginals(*child, sources);
+}
+
 }  // namespace
 
 SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
-  const std::string text = common::readBytes(file);
-  checkBeforeSdf(file, text, resolver);
-
-  const auto find = [&resolver](const std::string& uri) { return resolver.findInclude(uri); };
-  const GlobalFindCallback nested_includes(find);
+  const SdfSources sources(file, resolver);
   sdf::ParserConfig config;
-  config.SetFindCallback(find);
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
 
-  SdfFile result;
+  SdfFile result{{}, sources.missing(), sources.warnings(), sources.wantsGroundPlane()};
   const ConsoleCapture console;
-  const sdf::Errors errors = loadOrExplain(result.root, file, config);
-  Sorted sorted = sortErrors(errors, console.lines(), file, text);
-  addPrinted(console.errorLines(), sorted);
+  const sdf::Errors errors = loadOrExplain(result.root, sources, config);
+  Sorted sorted = sortErrors(errors, console.lines(), sources.toRead(), utf8Text(common::readBytes(sources.toRead())));
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
     sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});
-  if (!sorted.problems.empty()) throw InputError(sorted.problems);
-  result.warnings = std::move(sorted.warnings);
-  result.wants_ground_plane = sorted.wants_ground_plane;
+  for (Problem& problem : sorted.problems) {
+    problem.location.file = sources.originalOf(problem.location.file);
+    problem.message = sources.withOriginals(problem.message);
+  }
+  if (!sorted.problems.empty()) {
+    sorted.problems.insert(sorted.problems.begin(), result.missing.begin(), result.missing.end());
+    throw InputError(sorted.problems);
+  }
+  for (const std::string& warning : sorted.warnings) result.warnings.push_back(sources.withOriginals(warning));
+  if (result.root.Element()) nameOriginals(*result.root.Element(), sources);
   return result;
 }
 

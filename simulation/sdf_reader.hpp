@@ -6,12 +6,14 @@
 
 #include <sdf/Root.hh>
 
+#include "common/error.hpp"
 #include "simulation/uri_resolver.hpp"
 
 namespace swiftlet::simulation {
 
 struct SdfFile {
   sdf::Root root;
+  std::vector<common::Problem> missing;  ///< Things that it names and that were not found.
   std::vector<std::string> warnings;
   bool wants_ground_plane = false;  ///< It includes the well-known ground plane, which could not be found.
 };

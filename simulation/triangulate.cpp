@@ -1,7 +1,9 @@
 #include "simulation/triangulate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -40,6 +42,32 @@ void addCap(Triangles& mesh, Index ring, double z_m) {
   mesh.vertices_m.emplace_back(0.0F, 0.0F, static_cast<float>(z_m));
   for (Index side = 0; side < kSidesOfCircle; ++side)
     mesh.indices.push_back({centre, ring + side, ring + (side + 1) % kSidesOfCircle});
+}
+
+using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+
+/// Adds the area between two heights y, in which no edge begins or ends: of the edges across it, sorted by x, every two
+/// bound a trapezoid.
+void addSlab(Triangles& mesh, const std::vector<Segment>& edges, double low_y_m, double high_y_m, double z_m) {
+  std::vector<std::pair<double, double>> across;  // Of each edge the x in the middle and its index.
+  const auto xAt = [](const Segment& edge, double y_m) {
+    const Eigen::Vector2d along = edge.second - edge.first;
+    return edge.first.x() + along.x() * (y_m - edge.first.y()) / along.y();
+  };
+  const double middle_y_m = 0.5 * (low_y_m + high_y_m);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if ((edges[i].first.y() < middle_y_m) != (edges[i].second.y() < middle_y_m))
+      across.emplace_back(xAt(edges[i], middle_y_m), static_cast<double>(i));
+  std::sort(across.begin(), across.end());
+  for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
+    const auto first = static_cast<Index>(mesh.vertices_m.size());
+    const Segment &left = edges[static_cast<std::size_t>(across[i].second)],
+                  &right = edges[static_cast<std::size_t>(across[i + 1].second)];
+    for (const auto& [edge, y_m] :
+         {std::pair{&left, low_y_m}, {&right, low_y_m}, {&right, high_y_m}, {&left, high_y_m}})
+      mesh.vertices_m.push_back(Eigen::Vector3d(xAt(*edge, y_m), y_m, z_m).cast<float>());
+    addQuad(mesh, first, first + 1, first + 2, first + 3);
+  }
 }
 
 }  // namespace
@@ -84,6 +112,53 @@ Triangles capsuleTriangles(double radius_m, double length_m, const Eigen::Vector
   addCap(mesh, 0, -0.5 * length_m - radius_m);
   addCap(mesh, last_ring, 0.5 * length_m + radius_m);
   for (Eigen::Vector3f& vertex : mesh.vertices_m) vertex = vertex.cwiseProduct(scale.cast<float>());
+  return mesh;
+}
+
+Triangles coneTriangles(double radius_m, double length_m) {
+  Triangles mesh;
+  addRing(mesh, radius_m, -0.5 * length_m, false);
+  addCap(mesh, 0, -0.5 * length_m);
+  addCap(mesh, 0, 0.5 * length_m);
+  return mesh;
+}
+
+Triangles prismTriangles(const std::vector<std::vector<Eigen::Vector2d>>& outlines_m, double height_m) {
+  Triangles mesh;
+  std::vector<Segment> edges;
+  std::vector<double> slabs_y_m;
+  for (const auto& outline : outlines_m)
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      edges.emplace_back(outline[i], outline[(i + 1) % outline.size()]);
+      slabs_y_m.push_back(outline[i].y());
+    }
+  for (const auto& [from, to] : edges) {
+    const auto first = static_cast<Index>(mesh.vertices_m.size());
+    for (const double z_m : {0.0, height_m})
+      for (const Eigen::Vector2d& point : {from, to})
+        mesh.vertices_m.push_back(Eigen::Vector3d(point.x(), point.y(), z_m).cast<float>());
+    addQuad(mesh, first, first + 1, first + 3, first + 2);
+  }
+  std::sort(slabs_y_m.begin(), slabs_y_m.end());
+  for (std::size_t i = 0; i + 1 < slabs_y_m.size(); ++i)
+    for (const double z_m : {0.0, height_m})
+      if (slabs_y_m[i] < slabs_y_m[i + 1]) addSlab(mesh, edges, slabs_y_m[i], slabs_y_m[i + 1], z_m);
+  return mesh;
+}
+
+Triangles terrainTriangles(const std::vector<double>& heights_m, std::size_t columns, const Eigen::Vector2d& size_m) {
+  Triangles mesh;
+  const std::size_t rows = heights_m.size() / columns;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double x = static_cast<double>(column) / static_cast<double>(columns - 1) - 0.5;
+      const double y = 0.5 - static_cast<double>(row) / static_cast<double>(rows - 1);
+      mesh.vertices_m.push_back(
+          Eigen::Vector3d(x * size_m.x(), y * size_m.y(), heights_m[row * columns + column]).cast<float>());
+      if (row == 0 || column == 0) continue;
+      const auto last = static_cast<Index>(row * columns + column), above = last - static_cast<Index>(columns);
+      addQuad(mesh, above - 1, above, last, last - 1);
+    }
   return mesh;
 }
 

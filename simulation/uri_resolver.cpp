@@ -1,18 +1,25 @@
 #include "simulation/uri_resolver.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace swiftlet::simulation {
 namespace fs = std::filesystem;
 namespace {
 
-void addFolders(const char* list, std::vector<fs::path>& folders) {
+void addFolders(const char* variable, std::vector<fs::path>& folders) {
+  const char* list = std::getenv(variable);
   if (list == nullptr) return;
   std::istringstream stream(list);
   for (std::string folder; std::getline(stream, folder, ':');)
     if (!folder.empty()) folders.emplace_back(folder);
 }
+
+bool isOnTheWeb(const std::string& uri) { return uri.starts_with("http://") || uri.starts_with("https://"); }
 
 /// The part after the scheme. The leading slashes of `model://` URIs, whose path is always relative, are removed.
 std::string pathOf(const std::string& uri) {
@@ -23,40 +30,84 @@ std::string pathOf(const std::string& uri) {
   return path;
 }
 
-std::optional<fs::path> existing(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::nullopt;
-  return path.lexically_normal();
-}
-
 }  // namespace
 
 UriResolver::UriResolver(const fs::path& sdf_file, const std::vector<std::string>& model_paths)
     : folders_(model_paths.begin(), model_paths.end()) {
-  addFolders(std::getenv("SDF_PATH"), folders_);
+  for (const char* variable :
+       {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH"})
+    addFolders(variable, folders_);
   const fs::path folder = fs::absolute(sdf_file).parent_path();
   for (const fs::path& base : {folder, folder.parent_path()})
     for (const char* inside : {"", "models", "media"})
       if (base == folder || *inside != '\0') folders_.push_back(base / inside);
   folders_.push_back(folder.parent_path());  // The file of a bare model, models/NAME/model.sdf, uses uris such as
                                              // model://NAME/meshes/...
+  folders_.emplace_back(".");
+  for (const char* variable : {"GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH"}) addFolders(variable, folders_);
+  if (const char* home = std::getenv("HOME"))
+    for (const char* cache : {".gz/fuel", ".ignition/fuel", ".gazebo/models"})
+      folders_.push_back(fs::path(home) / cache);
+}
+
+/// Where the file of a URI may lie, the likeliest place first.
+std::vector<UriResolver::Place> UriResolver::placesOf(const std::string& uri, const fs::path& used_in) const {
+  std::vector<Place> places;
+  const std::string raw = pathOf(uri);
+  for (const std::string& path : {raw, percentDecoded(raw)}) {
+    if (path.empty()) continue;
+    if (fs::path(path).is_absolute()) {
+      places.push_back({"/", path.substr(1)});
+      continue;
+    }
+    if (!used_in.empty()) places.push_back({used_in.parent_path(), path});
+    for (const fs::path& folder : folders_) places.push_back({folder, path});
+    // A model finds its own files if its folder has another name, as each version in a cache of Fuel has.
+    if (const auto slash = path.find('/');
+        !used_in.empty() && uri.starts_with("model://") && slash != std::string::npos)
+      places.push_back({used_in.parent_path(), path.substr(slash + 1)});
+  }
+  return places;
 }
 
 std::optional<fs::path> UriResolver::find(const std::string& uri, const fs::path& used_in) const {
-  if (uri.starts_with("http://") || uri.starts_with("https://")) return std::nullopt;
-  const fs::path path = pathOf(uri);
-  if (path.empty()) return std::nullopt;
-  if (path.is_absolute()) return existing(path);
-  if (!used_in.empty())
-    if (auto found = existing(used_in.parent_path() / path)) return found;
-  for (const fs::path& folder : folders_)
-    if (auto found = existing(folder / path)) return found;
+  if (const auto address = fuelAddress(uri)) return findFuel(*address);
+  if (isOnTheWeb(uri)) return std::nullopt;
+  for (const auto& [folder, path] : placesOf(uri, used_in)) {
+    std::error_code error;
+    if (fs::exists(folder / path, error)) return (folder / path).lexically_normal();
+  }
   return std::nullopt;
 }
 
-std::string UriResolver::findInclude(const std::string& uri) const {
-  const auto found = find(uri);
-  return found ? found->string() : std::string();
+std::optional<fs::path> UriResolver::findFuel(const FuelAddress& address) const {
+  for (const fs::path& folder : folders_)
+    if (const auto model = findModelOfFuel(folder, address))
+      return address.inside.empty() ? model : findIgnoringCase(*model, address.inside);
+  return std::nullopt;
+}
+
+std::string UriResolver::hintFor(const std::string& uri, const fs::path& used_in) const {
+  std::vector<std::string> searched;
+  for (const fs::path& folder : folders_)
+    if (const std::string name = (folder / "").lexically_normal().parent_path().string();
+        std::find(searched.begin(), searched.end(), name) == searched.end())
+      searched.push_back(name);
+  const std::string there = fmt::format(
+      "give the folder that holds it as a model path (fly --model-path, a trial's "
+      "model_paths) or in SDF_PATH; searched: {}",
+      fmt::join(searched, ", "));
+  if (const auto address = fuelAddress(uri))
+    return fmt::format(
+        "download it with `gz fuel download -u \"https://fuel.gazebosim.org/1.0/{}/models/{}\"`, or, as "
+        "`{}`, {}",
+        address->owner, address->name, address->name, there);
+  if (isOnTheWeb(uri)) return "download it, and name the file instead";
+  for (const auto& [folder, path] : placesOf(uri, used_in))
+    if (const auto alike = findIgnoringCase(folder, path))
+      return fmt::format("did you mean `{}{}`?", uri.substr(0, uri.find(path)),
+                         alike->lexically_relative(folder).string());
+  return there;
 }
 
 }  // namespace swiftlet::simulation

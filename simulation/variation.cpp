@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -86,14 +87,47 @@ Drawn drawOnce(const WorldModel& world, const PlacedVehicle& nominal, int draw) 
   return drawn;
 }
 
-Problem startProblem(const Drawn& drawn, const std::string& message, const std::string& hint) {
+Problem startProblem(const PlacedVehicle& drawn, const WorldModel& world, const std::string& message,
+                     const std::string& hint) {
   const StartConfig& start = drawn.scenario.start;
-  return {drawn.world.start_source, drawn.name.empty() ? "start" : "start of `" + drawn.name + "`",
+  return {world.start_source, drawn.name.empty() ? "start" : "start of `" + drawn.name + "`",
           fmt::format("at ({:.2f}, {:.2f}, {:.2f}) {}", start.x_m, start.y_m, start.z_m, message), hint};
 }
 
+/// How often a vertical ray from `from` meets a shape, upwards and downwards.
+std::pair<int, int> crossings(const Shape& shape, const Eigen::Vector3d& from) {
+  std::pair<int, int> count{0, 0};
+  for (const auto& corners : shape.triangles) {
+    const auto corner = [&](std::size_t i) -> Eigen::Vector3d {
+      return shape.vertices_world_m[corners[i]].cast<double>() - from;
+    };
+    const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2);
+    const auto area = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return p.x() * q.y() - p.y() * q.x(); };
+    const double u = area(b, c), v = area(c, a), w = area(a, b);
+    if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) continue;
+    if (u + v + w == 0.0) continue;  // Seen edge-on.
+    ++((u * a.z() + v * b.z() + w * c.z()) / (u + v + w) > 0.0 ? count.first : count.second);
+  }
+  return count;
+}
+
+/// The solid that a point is in: nothing touches a hull in the middle of a large box. A mesh may be a house.
+const Shape* solidAround(const WorldModel& world, const RayCaster& rays, const Eigen::Vector3d& point) {
+  constexpr std::size_t kMostTriangles = 5000;  // Solids have less; terrain is no solid.
+  const Eigen::Vector3d beside = point + Eigen::Vector3d(1.3e-4, 0.7e-4, 0.0);  // Edges are met twice.
+  for (const double up : {1.0, -1.0}) {
+    const Hit hit = rays.cast(beside, up * Eigen::Vector3d::UnitZ(), 1e4);
+    if (!hit || static_cast<std::size_t>(hit.shape) >= world.shapes.size()) continue;
+    const Shape& shape = world.shapes[static_cast<std::size_t>(hit.shape)];
+    if (!shape.materials.empty() || shape.triangles.size() > kMostTriangles) continue;
+    const auto [above, below] = crossings(shape, beside);
+    if (above % 2 == 1 && below % 2 == 1) return &shape;
+  }
+  return nullptr;
+}
+
 /// Puts the start on its floor; returns what blocks it, if anything does.
-std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
+std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world, const RayCaster& rays) {
   const Scenario& scenario = drawn.scenario;
   const StartConfig& start = scenario.start;
   double lowest_m = INFINITY, highest_m = -INFINITY;
@@ -103,12 +137,12 @@ std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
     const Eigen::Vector3d from(start.x_m + reach_m * std::cos(angle_rad), start.y_m + reach_m * std::sin(angle_rad),
                                start.z_m + kSearchFloorFrom_m);
     const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
-    if (!hit) return startProblem(drawn, "has no floor under it", "give the scenario a start over a floor");
+    if (!hit) return startProblem(drawn, world, "has no floor under it", "give the scenario a start over a floor");
     lowest_m = std::min(lowest_m, from.z() - hit.distance_m);
     highest_m = std::max(highest_m, from.z() - hit.distance_m);
   }
   if (highest_m - lowest_m > kUnevenFloor_m)
-    return startProblem(drawn,
+    return startProblem(drawn, world,
                         fmt::format("stands on an edge: its feet are {:.2f} m apart in height", highest_m - lowest_m),
                         "move the start");
   drawn.T_world_map = common::lifted({start.x_m, start.y_m, start.yaw_deg * kRadPerDeg}, highest_m);
@@ -118,24 +152,76 @@ std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
                              highest_m + scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m);
   const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
   const Clearance clearance = rays.sweep(hull, body, body, 0.01);
-  if (clearance.shape == Hit::kNothing) return std::nullopt;
-  const Shape& shape = drawn.world.shapes[static_cast<std::size_t>(clearance.shape)];
-  return startProblem(drawn,
-                      fmt::format("is inside or touches `{}`{}", nameOf(shape),
-                                  shape.source.file.empty() ? "" : " (" + toString(shape.source) + ")"),
+  const Shape* shape = clearance.shape == Hit::kNothing ? solidAround(world, rays, body)
+                                                        : &world.shapes[static_cast<std::size_t>(clearance.shape)];
+  if (shape == nullptr) return std::nullopt;
+  return startProblem(drawn, world,
+                      fmt::format("is inside or touches `{}`{}", nameOf(*shape),
+                                  shape->source.file.empty() ? "" : " (" + toString(shape->source) + ")"),
                       "move the start");
 }
 
 /// A problem if the hull would touch that of another vehicle.
-std::optional<Problem> touchesAnother(const Drawn& drawn, const std::vector<PlacedVehicle>& others) {
+std::optional<Problem> touchesAnother(const PlacedVehicle& drawn, const WorldModel& world,
+                                      const std::vector<PlacedVehicle>& others) {
   const Eigen::Vector3d at = drawn.T_world_map.position_m;
   for (const PlacedVehicle& other : others) {
     const Eigen::Vector3d apart = other.T_world_map.position_m - at;
     const common::VehicleConfig &a = drawn.scenario.vehicle, &b = other.scenario.vehicle;
     if (apart.head<2>().norm() > a.hullRadius_m() + b.hullRadius_m() || std::abs(apart.z()) > a.hull_height_m) continue;
-    return startProblem(drawn, fmt::format("touches the vehicle `{}`", other.name), "move one of the two starts");
+    return startProblem(drawn, world, fmt::format("touches the vehicle `{}`", other.name),
+                        "move one of the two starts");
   }
   return std::nullopt;
+}
+
+/// A problem if the vehicle would touch something on its way up to its flight height: under a chair the hull may fit.
+std::optional<Problem> noRoomAbove(const PlacedVehicle& drawn, const WorldModel& world, const RayCaster& rays) {
+  const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
+  const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
+  const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
+  const double standing_m = drawn.scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m;
+  for (double height_m = standing_m; height_m < drawn.scenario.variation.flight_height_m;
+       height_m += hull.half_height_m) {
+    const Eigen::Vector3d at = floor_m + height_m * Eigen::Vector3d::UnitZ();
+    if (rays.sweep(hull, at, at, kTakeOffRoom_m).shape != Hit::kNothing)
+      return startProblem(drawn, world, "has no room above it", "move the start, or lower variation.flight_height_m");
+  }
+  return std::nullopt;
+}
+
+/// The free place nearest to a blocked start, on a floor like that of the start, or on top of everything.
+std::optional<StartConfig> nearestFree(const PlacedVehicle& blocked, const WorldModel& world, const RayCaster& rays,
+                                       const std::vector<PlacedVehicle>& others) {
+  constexpr double kStep_m = 0.25, kFarthest_m = 20.0;
+  const StartConfig& start = blocked.scenario.start;
+  const double above_m = static_cast<double>(world.bounds_world_m().max().z()) + kSearchFloorFrom_m;
+  const auto rounded = [](double value, double digits = 100.0) { return std::round(value * digits) / digits; };
+  PlacedVehicle place = blocked;
+  StartConfig& at = place.scenario.start;
+  at.yaw_deg = rounded(start.yaw_deg, 1.0);
+  for (const bool on_top : {false, true})
+    for (double ring_m = 0.0; ring_m <= kFarthest_m; ring_m += kStep_m) {
+      const int places = std::max(1, static_cast<int>(2.0 * std::numbers::pi * ring_m / kStep_m));
+      for (int i = 0; i < places; ++i) {
+        const double angle_rad = 2.0 * std::numbers::pi * i / places;
+        at.x_m = rounded(start.x_m + ring_m * std::cos(angle_rad));
+        at.y_m = rounded(start.y_m + ring_m * std::sin(angle_rad));
+        const Hit top = on_top ? rays.cast({at.x_m, at.y_m, above_m}, -Eigen::Vector3d::UnitZ(), above_m + 1e3) : Hit();
+        at.z_m = rounded(top ? above_m - top.distance_m : start.z_m);
+        if (!placeStart(place, world, rays) && !touchesAnother(place, world, others) &&
+            !noRoomAbove(place, world, rays))
+          return at;
+      }
+    }
+  return std::nullopt;
+}
+
+/// What to write for a start.
+std::string hintOf(const StartConfig& start) {
+  const std::string height = start.z_m == 0.0 ? "" : fmt::format("{:.2f};", start.z_m);
+  return fmt::format("the nearest free place is --start \"{:.2f};{:.2f};{}{:.0f}\" (in a trial: scenario.start)",
+                     start.x_m, start.y_m, height, start.yaw_deg);
 }
 
 /// The cells that the vehicle can reach at its flight height from a placed start. They are computed once, at the first
@@ -167,21 +253,6 @@ class Reach {
   std::optional<common::TiledGrid<std::uint8_t>> cells_;
 };
 
-/// A problem if the vehicle would touch something on its way up to its flight height: under a chair the hull may fit.
-std::optional<Problem> noRoomAbove(const Drawn& drawn, const RayCaster& rays) {
-  const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
-  const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
-  const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
-  const double standing_m = drawn.scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m;
-  for (double height_m = standing_m; height_m < drawn.scenario.variation.flight_height_m;
-       height_m += hull.half_height_m) {
-    const Eigen::Vector3d at = floor_m + height_m * Eigen::Vector3d::UnitZ();
-    if (rays.sweep(hull, at, at, kTakeOffRoom_m).shape != Hit::kNothing)
-      return startProblem(drawn, "has no room above it", "move the start, or lower variation.flight_height_m");
-  }
-  return std::nullopt;
-}
-
 /// Conditions for a start that is drawn: nothing is above it. In an area it is also on the floor of the nominal start,
 /// which can be reached from it.
 std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, const RayCaster& rays, Reach& reach) {
@@ -189,10 +260,11 @@ std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, 
   const bool in_area = !variation.start_area_world_m.empty();
   if (!in_area && variation.start_position_m == 0.0) return std::nullopt;
   if (in_area && std::abs(drawn.T_world_map.position_m.z() - nominal.z_m) > kSameFloor_m)
-    return startProblem(drawn, "is not on the floor of the start that is given", "choose the area elsewhere");
-  if (auto problem = noRoomAbove(drawn, rays); problem || !in_area) return problem;
+    return startProblem(drawn, drawn.world, "is not on the floor of the start that is given",
+                        "choose the area elsewhere");
+  if (auto problem = noRoomAbove(drawn, drawn.world, rays); problem || !in_area) return problem;
   if (reach.has({nominal.x_m, nominal.y_m})) return std::nullopt;
-  return startProblem(drawn, "does not lead to the start that is given", "choose the area elsewhere");
+  return startProblem(drawn, drawn.world, "does not lead to the start that is given", "choose the area elsewhere");
 }
 
 std::optional<Problem> unreachableGoal(const Drawn& drawn, Reach& reach) {
@@ -229,10 +301,12 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
     Drawn drawn = drawOnce(world, nominal, draw);
     const RayCaster rays(drawn.world);
     Reach reach(drawn, rays);
-    auto problem = placeStart(drawn, rays);
-    if (!problem) problem = touchesAnother(drawn, others);
+    auto problem = placeStart(drawn, drawn.world, rays);
+    if (!problem) problem = touchesAnother(drawn, drawn.world, others);
     if (!problem) problem = badPlace(drawn, nominalStart(world, nominal.scenario), rays, reach);
     if (problem) {
+      if (const auto free = draws == 1 ? nearestFree(drawn, drawn.world, rays, others) : std::nullopt)
+        problem->hint = hintOf(*free);
       if (!blocked) blocked = problem;
       continue;
     }

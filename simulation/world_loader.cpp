@@ -1,18 +1,13 @@
 // SDF geometry to triangles. Pose algebra is libsdformat's own (relative_to, attached_to, placement frames).
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sdf/Box.hh>
-#include <sdf/Capsule.hh>
 #include <sdf/Collision.hh>
-#include <sdf/Cylinder.hh>
 #include <sdf/Element.hh>
-#include <sdf/Ellipsoid.hh>
 #include <sdf/Frame.hh>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
@@ -20,17 +15,18 @@
 #include <sdf/Mesh.hh>
 #include <sdf/Model.hh>
 #include <sdf/Pbr.hh>
-#include <sdf/Plane.hh>
-#include <sdf/Sphere.hh>
 #include <sdf/Visual.hh>
 #include <sdf/World.hh>
 
 #include "common/error.hpp"
-#include "common/random.hpp"
+#include "common/polygon.hpp"
+#include "simulation/material_look.hpp"
 #include "simulation/mesh_loader.hpp"
+#include "simulation/sdf_math.hpp"
 #include "simulation/sdf_reader.hpp"
-#include "simulation/triangulate.hpp"
+#include "simulation/solid_geometry.hpp"
 #include "simulation/world_model.hpp"
+#include "simulation/world_state.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -38,102 +34,40 @@ namespace {
 using common::InputError;
 using common::Problem;
 
-// A collision plane is infinite in SDF.
-constexpr double kEndlessPlane_m = 200.0;
-
-Eigen::Vector3d toEigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
-
-common::Pose3 toPose(const ignition::math::Pose3d& pose) {
-  return {Eigen::Quaterniond(pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()).normalized(),
-          toEigen(pose.Pos())};
-}
-
-common::SourceLocation locationOf(const sdf::ElementPtr& element, const std::string& file) {
-  if (!element) return {file};
-  return {element->FilePath().empty() ? file : element->FilePath(), element->LineNumber().value_or(0)};
-}
-
-/// Colours of the most common material scripts of Gazebo.
-std::optional<Color> scriptColor(const std::string& script) {
-  static const std::array<std::pair<const char*, Color>, 16> kColors{{{"Gazebo/Grey", {0.7F, 0.7F, 0.7F}},
-                                                                      {"Gazebo/DarkGrey", {0.18F, 0.18F, 0.18F}},
-                                                                      {"Gazebo/Gray", {0.7F, 0.7F, 0.7F}},
-                                                                      {"Gazebo/White", {1.0F, 1.0F, 1.0F}},
-                                                                      {"Gazebo/Black", {0.05F, 0.05F, 0.05F}},
-                                                                      {"Gazebo/Red", {0.9F, 0.1F, 0.1F}},
-                                                                      {"Gazebo/Green", {0.1F, 0.8F, 0.1F}},
-                                                                      {"Gazebo/Blue", {0.1F, 0.1F, 0.9F}},
-                                                                      {"Gazebo/Yellow", {0.95F, 0.9F, 0.1F}},
-                                                                      {"Gazebo/Orange", {0.95F, 0.5F, 0.1F}},
-                                                                      {"Gazebo/Purple", {0.8F, 0.1F, 0.8F}},
-                                                                      {"Gazebo/Wood", {0.6F, 0.42F, 0.25F}},
-                                                                      {"Gazebo/WoodFloor", {0.65F, 0.45F, 0.28F}},
-                                                                      {"Gazebo/WoodPallet", {0.62F, 0.48F, 0.3F}},
-                                                                      {"Gazebo/Bricks", {0.6F, 0.3F, 0.22F}},
-                                                                      {"Gazebo/CeilingTiled", {0.9F, 0.9F, 0.88F}}}};
-  for (const auto& [name, color] : kColors)
-    if (script == name) return color;
-  return std::nullopt;
-}
-
-std::optional<Color> colorOf(const sdf::Visual* visual) {
-  if (visual == nullptr || visual->Material() == nullptr) return std::nullopt;
-  const sdf::Material& material = *visual->Material();
-  if (auto color = scriptColor(material.ScriptName())) return color;
-  if (!material.Element() || !material.Element()->HasElement("diffuse")) return std::nullopt;
-  const auto diffuse = material.Diffuse();
-  return Color(diffuse.R(), diffuse.G(), diffuse.B());
-}
-
-/// Patterns of the most common material scripts of Gazebo.
-std::optional<Pattern> scriptPattern(const std::string& script) {
-  static const std::array<std::pair<const char*, Pattern>, 5> kPatterns{{{"Gazebo/Wood", Pattern::kWood},
-                                                                         {"Gazebo/WoodFloor", Pattern::kWood},
-                                                                         {"Gazebo/WoodPallet", Pattern::kWood},
-                                                                         {"Gazebo/Bricks", Pattern::kBrick},
-                                                                         {"Gazebo/CeilingTiled", Pattern::kTiles}}};
-  for (const auto& [name, pattern] : kPatterns)
-    if (script == name) return pattern;
-  return std::nullopt;
-}
-
 /// The element of ours in a material, which other readers of SDF ignore.
 constexpr const char* kTextureElement = "swiftlet:texture";
 
-/// What the material says of a geometry.
-struct Look {
-  std::optional<Color> color;
-  bool glass = false;
-  std::optional<Pattern> pattern = {};
-  std::string image = {};  ///< A file; empty if there is none.
+/// Where a part of a model is.
+struct Scope {
+  std::string top;        ///< Name of the top-level model.
+  std::string path;       ///< Nested models inside it, "kitchen/shelf/".
+  std::string name = {};  ///< Of the model as <state> gives it, "house::kitchen::shelf".
+  Eigen::Vector3f scale = Eigen::Vector3f::Ones();
 };
-
-/// A soft colour, different for each model, for models without a colour.
-Color colorByName(const std::string& name) {
-  common::RandomStream random(0, name);
-  const auto channel = [&random] { return static_cast<float>(random.uniform(0.45, 0.85)); };
-  const float red = channel(), green = channel(), blue = channel();
-  return {red, green, blue};
-}
 
 class Loader {
  public:
-  Loader(const std::string& file, const std::vector<std::string>& model_paths) : resolver_(file, model_paths) {
+  Loader(const std::string& file, const std::vector<std::string>& model_paths, IncompleteWorld incomplete)
+      : resolver_(file, model_paths), incomplete_(incomplete) {
     world_.file = file;
   }
 
   WorldModel load() {
     const SdfFile file = readSdf(world_.file, resolver_);
     world_.warnings = file.warnings;
+    for (const Problem& problem : file.missing) addMissing(problem);
     if (const sdf::World* world = file.root.WorldByIndex(0)) {
       addWorld(*world);
+      for (std::uint64_t i = 1; i < file.root.WorldCount(); ++i)
+        warn(file.root.WorldByIndex(i)->Element(),
+             fmt::format("the file's first world is `{}`; this one is left out", world->Name()));
     } else {
       const sdf::Model& model = *file.root.Model();
-      addModel(model, common::Pose3{}, model.Name(), "");
+      addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});
       readStart(model, toPose(model.RawPose()));
     }
     if (file.wants_ground_plane)
-      addShape("ground_plane", "", {world_.file}, common::Pose3{},
+      addShape({"ground_plane", ""}, "", {world_.file}, common::Pose3{},
                planeTriangles(Eigen::Vector3d::UnitZ(), Eigen::Vector2d::Constant(kEndlessPlane_m)),
                Color::Constant(0.6F));
     if (!problems_.empty()) throw InputError(problems_);
@@ -145,13 +79,33 @@ class Loader {
 
  private:
   void addWorld(const sdf::World& world) {
+    state_ = readState(world, world_.file);
+    for (const Problem& insertion : state_.insertions) addMissing(insertion);
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
-      addModel(model, common::Pose3{}, model.Name(), "");
+      if (!state_.deleted.contains(model.Name())) addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});
     }
+    if (moved_by_state_ > 0)
+      world_.warnings.push_back(
+          toString(Problem{state_.source, "state", "models and links stand where it says, as in Gazebo classic", ""}));
+    if (world.Element() && world.Element()->HasElement("population"))
+      addMissing({locationOf(world.Element()->GetElement("population"), world_.file), "population",
+                  "its models, which Gazebo places by chance, are not read", "write them as <model>s"});
     for (std::uint64_t i = 0; i < world.ActorCount(); ++i)
       warn(world.Element(), "actors of the world's file are left out; people come from the trial's file");
     readStart(world, common::Pose3{});
+  }
+
+  /// What is said here ends the loading, unless the world may be incomplete.
+  void addMissing(Problem problem) {
+    if (incomplete_ == IncompleteWorld::kAllowed) {
+      problem.hint = "left out";
+      world_.warnings.push_back(toString(problem));
+      return;
+    }
+    problem.hint += problem.hint.empty() ? "" : "; or ";
+    problem.hint += "fly without it by --allow-incomplete-world";
+    problems_.push_back(std::move(problem));
   }
 
   template <typename Parent>
@@ -163,34 +117,46 @@ class Loader {
     if (auto pose = resolve(frame->SemanticPose(), frame->Element())) world_.T_world_start = T_world_parent * *pose;
   }
 
-  void addModel(const sdf::Model& model, const common::Pose3& T_world_parent, const std::string& top,
-                const std::string& path) {
-    const auto T_parent_model = resolve(model.SemanticPose(), model.Element());
-    if (!T_parent_model) return;
-    const common::Pose3 T_world_model = T_world_parent * *T_parent_model;
-    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) addLink(*model.LinkByIndex(i), T_world_model, top, path);
+  /// The pose by the frames of the file, unless the world's <state> has one.
+  std::optional<common::Pose3> placed(const sdf::SemanticPose& semantic, const sdf::ElementPtr& element,
+                                      const common::Pose3& T_world_parent, const EntityState* state) {
+    auto T_parent_entity = resolve(semantic, element);
+    if (!T_parent_entity) return std::nullopt;
+    const common::Pose3 T_world_entity = T_world_parent * *T_parent_entity;
+    if (state == nullptr || !state->T_world_entity) return T_world_entity;
+    const common::Pose3 difference = T_world_entity.inverse() * *state->T_world_entity;
+    constexpr double kSame = 1e-4;  // Saved with six digits.
+    if (difference.position_m.norm() > kSame || difference.rotation.vec().norm() > kSame) ++moved_by_state_;
+    return state->T_world_entity;
+  }
+
+  void addModel(const sdf::Model& model, const common::Pose3& T_world_parent, Scope scope) {
+    const EntityState* state = state_.of(scope.name);
+    const auto T_world_model = placed(model.SemanticPose(), model.Element(), T_world_parent, state);
+    if (!T_world_model) return;
+    if (state != nullptr) scope.scale = state->scale.cast<float>();
+    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) addLink(*model.LinkByIndex(i), *T_world_model, scope);
     for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
       const sdf::Model& nested = *model.ModelByIndex(i);
-      addModel(nested, T_world_model, top, path + nested.Name() + "/");
+      addModel(nested, *T_world_model,
+               {scope.top, scope.path + nested.Name() + "/", scope.name + "::" + nested.Name(), scope.scale});
     }
   }
 
-  void addLink(const sdf::Link& link, const common::Pose3& T_world_model, const std::string& top,
-               const std::string& path) {
-    const auto T_model_link = resolve(link.SemanticPose(), link.Element());
-    if (!T_model_link) return;
-    const common::Pose3 T_world_link = T_world_model * *T_model_link;
-    const std::string part = path + link.Name();
+  void addLink(const sdf::Link& link, const common::Pose3& T_world_model, const Scope& scope) {
+    const auto T_world_link =
+        placed(link.SemanticPose(), link.Element(), T_world_model, state_.of(scope.name + "::" + link.Name()));
+    if (!T_world_link) return;
     const sdf::Visual* first_visual = link.VisualCount() > 0 ? link.VisualByIndex(0) : nullptr;
     for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
       const sdf::Collision& collision = *link.CollisionByIndex(i);
       const sdf::Visual* visual = i < link.VisualCount() ? link.VisualByIndex(i) : first_visual;
-      addGeometry(collision, T_world_link, top, part, lookOf(visual), kEndlessPlane_m);
+      addGeometry(collision, *T_world_link, scope, link.Name(), lookOf(visual), kEndlessPlane_m);
     }
     if (link.CollisionCount() > 0) return;
     for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
       const sdf::Visual& visual = *link.VisualByIndex(i);
-      addGeometry(visual, T_world_link, top, part, lookOf(&visual), 0.0);
+      addGeometry(visual, *T_world_link, scope, link.Name(), lookOf(&visual), 0.0);
     }
   }
 
@@ -230,59 +196,48 @@ class Loader {
   }
 
   template <typename Item>
-  void addGeometry(const Item& item, const common::Pose3& T_world_link, const std::string& top, const std::string& part,
+  void addGeometry(const Item& item, const common::Pose3& T_world_link, const Scope& scope, const std::string& link,
                    const Look& look, double least_plane_m) {
     const auto T_link_item = resolve(item.SemanticPose(), item.Element());
     if (!T_link_item || item.Geom() == nullptr) return;
     const common::Pose3 T_world_item = T_world_link * *T_link_item;
     if (const sdf::Mesh* mesh = item.Geom()->MeshShape()) {
-      addMesh(*mesh, T_world_item, top, part, look);
+      addMesh(*mesh, T_world_item, scope, link, look);
       return;
     }
-    const Triangles triangles = solidTriangles(*item.Geom(), least_plane_m);
-    if (triangles.indices.empty()) {
-      warn(item.Element(), fmt::format("`{}` has a geometry the simulator does not know; it is left out", item.Name()));
+    const auto triangles = solidTriangles(*item.Geom(), least_plane_m, resolver_);
+    if (!triangles) {
+      const Problem problem{locationOf(item.Element(), world_.file), scope.top + "/" + scope.path + link,
+                            fmt::format("`{}`: {}", item.Name(), triangles.error()), ""};
+      if (std::is_same_v<Item, sdf::Collision>) return addMissing(problem);
+      world_.warnings.push_back(toString(problem) + "; it is left out");
       return;
     }
-    addShape(top, part, locationOf(item.Element(), world_.file), T_world_item, triangles,
-             look.color.value_or(colorByName(top)), look);
+    addShape(scope, link, locationOf(item.Element(), world_.file), T_world_item, *triangles,
+             look.color.value_or(colorByName(scope.top)), look);
   }
 
-  static Triangles solidTriangles(const sdf::Geometry& geometry, double least_plane_m) {
-    if (const auto* box = geometry.BoxShape()) return boxTriangles(toEigen(box->Size()));
-    if (const auto* cylinder = geometry.CylinderShape())
-      return cylinderTriangles(cylinder->Radius(), cylinder->Length());
-    if (const auto* sphere = geometry.SphereShape()) return capsuleTriangles(sphere->Radius(), 0.0);
-    if (const auto* capsule = geometry.CapsuleShape()) return capsuleTriangles(capsule->Radius(), capsule->Length());
-    if (const auto* ellipsoid = geometry.EllipsoidShape())
-      return capsuleTriangles(1.0, 0.0, toEigen(ellipsoid->Radii()));
-    if (const auto* plane = geometry.PlaneShape())
-      return planeTriangles(toEigen(plane->Normal()),
-                            Eigen::Vector2d(plane->Size().X(), plane->Size().Y()).cwiseMax(least_plane_m));
-    return {};
-  }
-
-  void addMesh(const sdf::Mesh& sdf_mesh, const common::Pose3& T_world_item, const std::string& top,
-               const std::string& part, const Look& look) {
+  void addMesh(const sdf::Mesh& sdf_mesh, const common::Pose3& T_world_item, const Scope& scope,
+               const std::string& link, const Look& look) {
     const auto location = locationOf(sdf_mesh.Element(), world_.file);
-    const auto path = resolver_.find(sdf_mesh.Uri(), sdf_mesh.FilePath());
+    const auto path = resolver_.find(sdf_mesh.Uri(), location.file);
     if (!path) {
-      problems_.push_back({location, "mesh", fmt::format("`{}` was not found", sdf_mesh.Uri()),
-                           "give the folder that holds it as a model path or in SDF_PATH"});
+      addMissing({location, "mesh", fmt::format("`{}` was not found", sdf_mesh.Uri()),
+                  resolver_.hintFor(sdf_mesh.Uri(), location.file)});
       return;
     }
     const auto key = std::make_pair(path->string(), sdf_mesh.Submesh());
     auto cached = meshes_.find(key);
     if (cached == meshes_.end()) cached = meshes_.emplace(key, loadMesh(key.first, key.second)).first;
     if (!cached->second) {
-      problems_.push_back({location, "mesh", fmt::format("`{}`: {}", path->string(), cached->second.error()), ""});
+      addMissing({location, "mesh", fmt::format("`{}`: {}", path->string(), cached->second.error()), ""});
       return;
     }
     Triangles triangles = cached->second->triangles;
     if (sdf_mesh.CenterSubmesh()) centre(triangles);
     const Eigen::Vector3f scale = toEigen(sdf_mesh.Scale()).cast<float>();
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex = vertex.cwiseProduct(scale);
-    addShape(top, part, location, T_world_item, triangles, look.color.value_or(cached->second->color), look);
+    addShape(scope, link, location, T_world_item, triangles, look.color.value_or(cached->second->color), look);
     addMaterials(*cached->second, *path, look, world_.shapes.back());
   }
 
@@ -307,18 +262,22 @@ class Loader {
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex -= bounds.center();
   }
 
-  void addShape(const std::string& top, const std::string& part, const common::SourceLocation& source,
+  void addShape(const Scope& scope, const std::string& link, const common::SourceLocation& source,
                 const common::Pose3& T_world_item, const Triangles& triangles, const Color& color,
                 const Look& look = {}) {
-    Shape shape{top, part, source, color, {}, triangles.indices, look.glass, look.pattern};
+    Shape shape{scope.top, scope.path + link, source, color, {}, triangles.indices, look.glass, look.pattern};
     shape.T_world_shape = T_world_item;
     shape.image = look.image;
     shape.vertices_world_m.reserve(triangles.vertices_m.size());
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
-      shape.vertices_world_m.push_back((T_world_item * vertex.cast<double>()).cast<float>());
-    const auto finite = [](const Eigen::Vector3f& vertex) { return vertex.allFinite(); };
-    if (!std::all_of(shape.vertices_world_m.begin(), shape.vertices_world_m.end(), finite))
-      problems_.push_back({source, nameOf(shape), "its size or pose is not finite", ""});
+      shape.vertices_world_m.push_back((T_world_item * vertex.cwiseProduct(scope.scale).cast<double>()).cast<float>());
+    const auto fits = [](const Eigen::Vector3f& vertex) {
+      return vertex.cwiseAbs().maxCoeff() <= static_cast<float>(2.0 * common::kGreatestCoordinate_m);
+    };
+    if (!std::all_of(shape.vertices_world_m.begin(), shape.vertices_world_m.end(), fits))
+      problems_.push_back({source, nameOf(shape),
+                           fmt::format("its size or pose is not within {:g} m", common::kGreatestCoordinate_m),
+                           "SDF's unit is the metre"});
     world_.shapes.push_back(std::move(shape));
   }
 
@@ -336,6 +295,9 @@ class Loader {
   }
 
   UriResolver resolver_;
+  IncompleteWorld incomplete_;
+  WorldState state_;
+  int moved_by_state_ = 0;
   WorldModel world_;
   std::vector<Problem> problems_;
   std::map<std::pair<std::string, std::string>, tl::expected<Mesh, std::string>> meshes_;
@@ -343,8 +305,9 @@ class Loader {
 
 }  // namespace
 
-WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths) {
-  return Loader(sdf_file, model_paths).load();
+WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths,
+                     IncompleteWorld incomplete) {
+  return Loader(sdf_file, model_paths, incomplete).load();
 }
 
 }  // namespace swiftlet::simulation

@@ -72,16 +72,21 @@ struct WorldModel {
   Eigen::AlignedBox3f bounds_world_m() const;
 };
 
-/// Reads an SDF world, or a bare `<model>` file as a world of that one model. Boxes, cylinders, spheres, capsules,
-/// ellipsoids, planes and meshes are triangulated. The collision geometry of a link is used, or its visual geometry if
-/// it has none. A visual with `<transparency>` of 0.5 or more, or with a diffuse alpha of 0.5 or less, is glass, as is
-/// the collision geometry that goes with it. A material's `<swiftlet:texture>` names a Pattern, and
-/// its albedo map or the textures of a mesh are pictures for the cameras; a picture that is not there is left out.
-/// `model://` and `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around the file
-/// itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be found and
-/// has no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
-/// common::InputError (file:line) if the file cannot be read, is malformed, or refers to something missing. Not
-/// thread-safe: libsdformat has global state.
-WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});
+/// Whether a world of which something is not to be had is refused, or is flown without it.
+enum class IncompleteWorld { kRefused, kAllowed };
+
+/// Reads an SDF world, or a bare `<model>` file as a world of that one model; of several worlds the first. Boxes,
+/// cylinders, spheres, capsules, ellipsoids, cones, planes, polylines, heightmaps and meshes are triangulated. The
+/// collision geometry of a link is used, or its visual geometry if it has none. A visual with `<transparency>` of 0.5
+/// or more, or with a diffuse alpha of 0.5 or less, is glass, as is the collision geometry that goes with it. A
+/// material's
+/// `<swiftlet:texture>` names a Pattern, and its albedo map or the textures of a mesh are pictures for the cameras; a
+/// picture that is not there is left out. The poses of a `<state>` that Gazebo classic saved replace those of the
+/// models. `model://`, `file://` and Fuel URIs are searched for as UriResolver does. The sun needs no file; the
+/// well-known ground plane is replaced by one at z = 0 if it is not found. Throws common::InputError (file:line) if the
+/// file cannot be read or is malformed, or, unless it may be incomplete, if something that it names cannot be found or
+/// a collision cannot be built; otherwise that is a warning. Not thread-safe: libsdformat has global state.
+WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {},
+                     IncompleteWorld incomplete = IncompleteWorld::kRefused);
 
 }  // namespace swiftlet::simulation

@@ -1,0 +1,115 @@
+#include "simulation/fuel_address.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace swiftlet::simulation {
+namespace fs = std::filesystem;
+namespace {
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::vector<std::string> partsOf(std::string_view path) {
+  std::vector<std::string> parts;
+  while (!path.empty()) {
+    const std::size_t slash = std::min(path.find('/'), path.size());
+    if (slash > 0) parts.emplace_back(percentDecoded(path.substr(0, slash)));
+    path.remove_prefix(std::min(slash + 1, path.size()));
+  }
+  return parts;
+}
+
+/// A version's number; none for other names.
+std::optional<int> numberOf(const std::string& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+bool isModelFolder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "model.config", ignored) || fs::exists(folder / "model.sdf", ignored);
+}
+
+/// In a model's folder of the cache each version has a folder of its own; a copy made by hand has none.
+std::optional<fs::path> versionIn(const fs::path& model, const std::string& wanted) {
+  if (isModelFolder(model)) return model;
+  std::optional<int> newest;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(model, ignored))
+    if (const auto number = numberOf(entry.path().filename().string()); number && isModelFolder(entry.path()))
+      newest = std::max(newest.value_or(*number), *number);
+  const std::string version = wanted.empty() && newest ? std::to_string(*newest) : wanted;
+  if (version.empty() || !isModelFolder(model / version)) return std::nullopt;
+  return model / version;
+}
+
+}  // namespace
+
+std::string percentDecoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    const char* digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      decoded += static_cast<char>(code);
+      i += 2;
+    } else {
+      decoded += text[i];
+    }
+  }
+  return decoded;
+}
+
+std::optional<FuelAddress> fuelAddress(std::string_view uri) {
+  const std::size_t scheme_end = uri.find("://");
+  if (scheme_end == std::string_view::npos || !uri.starts_with("http")) return std::nullopt;
+  const std::vector<std::string> parts = partsOf(uri.substr(scheme_end + 3));
+  const auto models = std::find(parts.begin(), parts.end(), "models");
+  if (parts.end() - models < 2 || models - parts.begin() < 2) return std::nullopt;
+  // The server's page has OWNER/fuel/models or OWNER/models, its interface 1.0/OWNER/models.
+  const bool versioned = parts[1].find('.') != std::string::npos && models - parts.begin() > 2;
+  FuelAddress address{parts[0], parts[versioned ? 2 : 1], models[1], {}, {}};
+  auto rest = models + 2;
+  if (rest != parts.end() && (numberOf(*rest) || *rest == "tip")) {
+    if (*rest != "tip") address.version = *rest;
+    ++rest;
+  }
+  if (rest != parts.end() && *rest == "files") ++rest;
+  for (; rest != parts.end(); ++rest) address.inside += (address.inside.empty() ? "" : "/") + *rest;
+  return address;
+}
+
+std::optional<fs::path> findIgnoringCase(const fs::path& folder, const fs::path& relative) {
+  fs::path found = folder;
+  std::error_code ignored;
+  for (const fs::path& part : relative) {
+    if (part.empty()) continue;
+    if (!fs::exists(found / part, ignored)) {
+      std::vector<fs::path> alike;
+      for (const fs::directory_entry& entry : fs::directory_iterator(found, ignored))
+        if (lowerCase(entry.path().filename().string()) == lowerCase(part.string())) alike.push_back(entry.path());
+      if (alike.empty()) return std::nullopt;
+      found = *std::min_element(alike.begin(), alike.end());
+    } else {
+      found /= part;
+    }
+  }
+  return found;
+}
+
+std::optional<fs::path> findModelOfFuel(const fs::path& folder, const FuelAddress& address) {
+  const fs::path owned = fs::path(address.owner) / "models" / address.name;
+  // The servers have had two names, under which the same models lie.
+  for (const fs::path& place : {address.server / owned, "fuel.gazebosim.org" / owned,
+                                "fuel.ignitionrobotics.org" / owned, owned, fs::path(address.name)})
+    if (const auto model = findIgnoringCase(folder, place))
+      if (auto found = versionIn(*model, address.version)) return found;
+  return std::nullopt;
+}
+
+}  // namespace swiftlet::simulation

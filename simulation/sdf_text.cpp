@@ -1,0 +1,216 @@
+#include "simulation/sdf_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/printable.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n";
+
+bool isUtf8(std::string_view bytes) {
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto first = static_cast<unsigned char>(bytes[i]);
+    if (first < 0x80U) continue;
+    const std::size_t more = first >= 0xF0U ? 3 : first >= 0xE0U ? 2 : 1;
+    if (first < 0xC2U || first > 0xF4U || i + more >= bytes.size()) return false;
+    for (std::size_t k = 0; k < more; ++k)
+      if ((static_cast<unsigned char>(bytes[++i]) & 0xC0U) != 0x80U) return false;
+  }
+  return true;
+}
+
+void addUtf8(std::uint32_t code, std::string& text) {
+  const auto more = [&text, code](unsigned shift) { text += static_cast<char>(0x80U | ((code >> shift) & 0x3FU)); };
+  if (code < 0x80U) {
+    text += static_cast<char>(code);
+  } else if (code < 0x800U) {
+    text += static_cast<char>(0xC0U | (code >> 6U));
+    more(0);
+  } else if (code < 0x10000U) {
+    text += static_cast<char>(0xE0U | (code >> 12U));
+    more(6);
+    more(0);
+  } else {
+    text += static_cast<char>(0xF0U | (code >> 18U));
+    more(12);
+    more(6);
+    more(0);
+  }
+}
+
+std::string fromUtf16(std::string_view bytes, bool big_endian) {
+  const auto unitAt = [&](std::size_t i) {
+    const auto first = static_cast<unsigned char>(bytes[i]), second = static_cast<unsigned char>(bytes[i + 1]);
+    return static_cast<std::uint32_t>(big_endian ? first << 8U | second : second << 8U | first);
+  };
+  std::string text;
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    std::uint32_t code = unitAt(i);
+    if (code == 0xFEFFU) continue;
+    const bool pair = code >= 0xD800U && code < 0xDC00U && i + 3 < bytes.size();
+    if (pair) code = 0x10000U + ((code - 0xD800U) << 10U) + ((unitAt(i += 2) - 0xDC00U) & 0x3FFU);
+    addUtf8(code, text);
+  }
+  return text;
+}
+
+/// Follows one text; the views that it gives are into it.
+class TagReader {
+ public:
+  TagReader(const std::string& file, std::string_view text) : file_(file), text_(text) {}
+
+  tl::expected<std::vector<SdfTag>, common::Problem> read() {
+    while (!problem_ && (at_ = text_.find('<', at_)) != std::string_view::npos) readMarkup();
+    if (!problem_ && !open_.empty()) fail(tags_[open_.back()].begin, "<{}> is not closed", tags_[open_.back()].name);
+    if (!problem_ && tags_.empty()) fail(text_.size(), "there is no element");
+    if (problem_) return tl::unexpected(*problem_);
+    return std::move(tags_);
+  }
+
+ private:
+  void readMarkup() {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSkipped{
+        {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}}};
+    for (const auto& [begin, end] : kSkipped)
+      if (text_.substr(at_).starts_with(begin)) return skip(begin, end);
+    if (text_.substr(at_).starts_with("</"))
+      close();
+    else
+      open();
+  }
+
+  void skip(std::string_view begin, std::string_view end) {
+    const std::size_t found = text_.find(end, at_ + begin.size());
+    if (found == std::string_view::npos) return fail(at_, "`{}` has no `{}` behind it", begin, end);
+    at_ = found + end.size();
+  }
+
+  /// Behind the `>` that ends the tag; one in quotes does not.
+  std::optional<std::size_t> endOfTag() const {
+    char quote = 0;
+    for (std::size_t i = at_; i < text_.size(); ++i) {
+      const char c = text_[i];
+      if (quote != 0)
+        quote = c == quote ? '\0' : quote;
+      else if (c == '"' || c == '\'')
+        quote = c;
+      else if (c == '>')
+        return i + 1;
+    }
+    return std::nullopt;
+  }
+
+  std::string_view nameAt(std::size_t begin) const {
+    const std::size_t end = std::min(text_.find_first_of(" \t\r\n/>", begin), text_.size());
+    return text_.substr(begin, end - begin);
+  }
+
+  void open() {
+    SdfTag tag;
+    tag.begin = at_;
+    tag.name = nameAt(at_ + 1);
+    const auto end = endOfTag();
+    if (!end) return fail(at_, "the tag <{}> has no `>`", tag.name);
+    if (tag.name.empty() || tag.name.find_first_of("<\"'&=") != std::string_view::npos)
+      return fail(at_, "`<` begins no tag; in a text it is written &lt;");
+    const bool empty = text_[*end - 2] == '/';
+    const std::size_t attributes = tag.begin + 1 + tag.name.size();
+    tag.attributes = text_.substr(attributes, *end - attributes - (empty ? 2 : 1));
+    tag.content = tag.content_end = tag.end = *end;
+    if (!open_.empty()) tag.parent = static_cast<int>(open_.back());
+    if (!empty) open_.push_back(tags_.size());
+    tags_.push_back(tag);
+    at_ = *end;
+  }
+
+  void close() {
+    const std::string_view name = nameAt(at_ + 2);
+    const auto end = endOfTag();
+    if (!end) return fail(at_, "the tag </{}> has no `>`", name);
+    if (open_.empty()) return fail(at_, "mismatched tag: </{}> closes nothing", name);
+    SdfTag& tag = tags_[open_.back()];
+    if (tag.name != name)
+      return fail(at_, "mismatched tag: </{}> where </{}> is expected, for the <{}> of line {}", name, tag.name,
+                  tag.name, locationIn(file_, text_, tag.begin).line);
+    tag.content_end = at_;
+    tag.end = *end;
+    open_.pop_back();
+    at_ = *end;
+  }
+
+  template <typename... Values>
+  void fail(std::size_t offset, std::string_view format, const Values&... values) {
+    problem_ = common::Problem{locationIn(file_, text_, offset), "",
+                               common::printable("malformed XML: " + fmt::format(fmt::runtime(format), values...)), ""};
+  }
+
+  const std::string& file_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::vector<SdfTag> tags_;
+  std::vector<std::size_t> open_;
+  std::optional<common::Problem> problem_;
+};
+
+}  // namespace
+
+std::string utf8Text(std::string_view bytes) {
+  const auto startsWith = [bytes](std::initializer_list<char> with) {
+    return bytes.starts_with(std::string_view(with.begin(), with.size()));
+  };
+  if (startsWith({'\xFF', '\xFE'}) || startsWith({'<', '\0'})) return fromUtf16(bytes, false);
+  if (startsWith({'\xFE', '\xFF'}) || startsWith({'\0', '<'})) return fromUtf16(bytes, true);
+  if (startsWith({'\xEF', '\xBB', '\xBF'})) bytes.remove_prefix(3);
+  if (isUtf8(bytes)) return std::string(bytes);
+  std::string text;
+  for (const char byte : bytes) addUtf8(static_cast<unsigned char>(byte), text);
+  return text;
+}
+
+common::SourceLocation locationIn(const std::string& file, std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0.
+  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(before.size() - line_begin)};
+}
+
+tl::expected<std::vector<SdfTag>, common::Problem> readTags(const std::string& file, std::string_view text) {
+  return TagReader(file, text).read();
+}
+
+std::optional<std::string_view> attributeOf(const SdfTag& tag, std::string_view name) {
+  std::string_view rest = tag.attributes;
+  while (true) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
+    const std::size_t equals = rest.find('=');
+    if (equals == std::string_view::npos) return std::nullopt;
+    const std::string_view key = rest.substr(0, std::min(rest.find_first_of(" \t\r\n="), rest.size()));
+    const std::size_t quote = rest.find_first_of("\"'", equals);
+    if (quote == std::string_view::npos) return std::nullopt;
+    const std::size_t end = rest.find(rest[quote], quote + 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    if (key == name) return rest.substr(quote + 1, end - quote - 1);
+    rest.remove_prefix(end + 1);
+  }
+}
+
+std::string textOf(const SdfTag& tag, std::string_view text) {
+  std::string_view inside = text.substr(tag.content, tag.content_end - tag.content);
+  inside = inside.substr(0, inside.find('<'));
+  const std::size_t begin = inside.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  std::string value(inside.substr(begin, inside.find_last_not_of(kSpace) - begin + 1));
+  for (const auto& [entity, letter] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}})
+    for (std::size_t at = 0; (at = value.find(entity, at)) != std::string::npos; ++at)
+      value.replace(at, std::string_view(entity).size(), letter);
+  return value;
+}
+
+}  // namespace swiftlet::simulation

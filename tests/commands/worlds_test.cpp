@@ -1,0 +1,56 @@
+// Worlds are found by the names that people give, and a start that is given counts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/commands/refusals.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::runSwiftlet;
+
+const std::string kMission = "missions/explore_and_return.xml";
+
+class Worlds : public RefusalsBeforeWriting {
+ protected:
+  ProgramEnd fly(std::vector<std::string> options) {
+    options.insert(options.begin(), {"fly", kMission, "--headless", "--out", path("run")});
+    return runSwiftlet(options);
+  }
+  static void expectBadStart(const ProgramEnd& end) {
+    Refusals::expectRefused(end, "--start: `.*` is not a place x;y;yaw");
+  }
+};
+
+TEST_F(Worlds, AreFoundByTheirNames) {
+  for (const std::string name : {"unb_case1", "unb_case1.sdf", "worlds/unb_case1"})
+    expectRefused(fly({"--world", name, "--start", "900;0;0"}),
+                  "unb_case1\\.sdf:[0-9]+: start: at \\(900\\.00, 0\\.00");
+  expectRefused(fly({"--world", "unb_case"}), "unb_case: no such file");
+}
+
+TEST_F(Worlds, AStartInsideAThingNamesTheNearestFreePlaceWhichWillDo) {
+  const ProgramEnd end = fly({"--start", "0;0;0"});
+  expectRefused(end, "start: at \\(0\\.00, 0\\.00, 0\\.00\\) .*the nearest free place is --start \"");
+  const std::size_t begin = end.err.find("--start \"") + 9;
+  const ProgramEnd flown =
+      fly({"--start", end.err.substr(begin, end.err.find('"', begin) - begin), "--time-limit", "0.5"});
+  EXPECT_NE(flown.exit_code, 2) << describe(flown);
+  for (const std::string text : {"here", "1;2;3;4;5", "nan;0;0"}) expectBadStart(fly({"--start", text}));
+}
+
+TEST_F(Worlds, ATrialsWorldAndMissionAreFoundBesideItsFile) {
+  write("room.sdf",
+        "<sdf version='1.9'><world name='w'><model name='pillar'><static>1</static><link name='l'><collision "
+        "name='c'><geometry><box><size>1 1 9</size></box></geometry></collision></link></model></world></sdf>");
+  write("hop.xml", test_support::readText(std::filesystem::path(SWIFTLET_SOURCE_DIR) / kMission));
+  const std::string trial = write("t.yaml", "mission: hop.xml\nscenario: {world: room.sdf}\n");
+  expectRefused(runSwiftlet({"trial", trial, "--out", path("other")}), "room\\.sdf:1.*`pillar/l`");
+}
+
+}  // namespace
+}  // namespace swiftlet::commands
