@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/build_version.hpp"
 #include "apps/command_line.hpp"
 #include "apps/envelope_page.hpp"
 #include "apps/flight.hpp"
@@ -94,7 +95,7 @@ evaluation::EnvelopeResults emptyResults(const EnvelopeOptions& options, evaluat
   results.trial = trial.name;
   results.system = trial.system;
   results.mission = trial.mission;
-  results.version = SWIFTLET_VERSION;
+  results.version = toString(buildVersion());
   results.first_seed = options.seed.value_or(trial.scenario.seed);
   for (const auto& quantity : config.quantities) {
     EnvelopeEntry& entry = results.entries.emplace_back();

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/build_version.hpp"
 #include "apps/required.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
@@ -106,6 +107,7 @@ std::string envelopePicture(const EnvelopeResults& results) {
 
 std::string envelopeReport(const EnvelopeResults& results, const std::string& started) {
   interfaces::TrialReport report;
+  report.version = buildVersion();
   report.title = fmt::format("Envelope of {}", results.trial);
   report.subtitle = started;
   report.plots_svg.push_back(envelopePicture(results));

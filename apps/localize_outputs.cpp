@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/build_version.hpp"
 #include "apps/map_png.hpp"
 #include "apps/required.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -97,6 +98,7 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
                           const LocalizeFigures& figures) {
   const rendering::MapPicture picture = pictureOf(map, inGrid(figures.paths.paths_map_m(), map.T_map_grid));
   interfaces::LocalizationReport report;
+  report.version = buildVersion();
   report.title =
       fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);
   report.facts = figures.facts;

@@ -1,5 +1,6 @@
 #include "apps/map3d_outputs.hpp"
 
+#include "apps/build_version.hpp"
 #include "apps/pictures.hpp"
 #include "apps/required.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -72,6 +73,7 @@ void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory
   if (mesh) required(interfaces::writeMesh(out / "mesh.ply", mapping3d::surfaceMesh(map.voxels, map.cloud)));
 
   interfaces::MapReport report;
+  report.version = buildVersion();
   report.title = kMap3dTitle + fs::path(figures.folder).filename().string();
   report.subtitle = figures.folder;
   report.facts = figures.facts;

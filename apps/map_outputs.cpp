@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include "apps/build_version.hpp"
 #include "apps/map_png.hpp"
 #include "apps/required.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -102,6 +103,7 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
     required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
 
   interfaces::MapReport report;
+  report.version = buildVersion();
   report.title = kMapTitle + fs::path(figures.log).filename().string();
   report.subtitle = figures.log;
   report.facts = figures.facts;

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/build_version.hpp"
 #include "apps/command.hpp"
 #include "apps/envelope.hpp"
 #include "apps/flight.hpp"
@@ -134,6 +135,7 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const Vehicle
 
 interfaces::TrialReport reportOf(const TrialResults& results) {
   interfaces::TrialReport report;
+  report.version = buildVersion();
   report.title = "Swiftlet trials";
   report.subtitle = startedNow();
   report.passed = results.passed();

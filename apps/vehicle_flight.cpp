@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/build_version.hpp"
 #include "apps/flight_sinks.hpp"
 #include "apps/groot_link.hpp"
 #include "apps/web_link.hpp"
@@ -98,7 +99,7 @@ interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::Simulate
   info.system = setup.system.name;
   info.vehicle = vehicle.name();
   info.seed = setup.scenario.seed;
-  info.version = SWIFTLET_VERSION;
+  info.version = buildVersion();
   info.started = setup.started;
   const simulation::Nature calm = simulation::Nature::calm();
   const simulation::Nature& nature = setup.scenario.nature ? *setup.scenario.nature : calm;

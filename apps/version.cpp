@@ -4,20 +4,24 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/build_version.hpp"
 #include "apps/command.hpp"
 
 namespace swiftlet::apps {
 
 void addVersion(Command& program) {
   auto json = std::make_shared<bool>(false);
-  Command command = program.command("version", "Print the version.");
+  Command command = program.command("version", "Print the version, with the commit that it was built from.");
   command.flag("--json", *json, "Print as JSON.");
   command.footer("Example: swiftlet version --json");
   command.runs([json] {
     if (*json) {
-      fmt::print("{}\n", nlohmann::json{{"name", "swiftlet"}, {"version", SWIFTLET_VERSION}}.dump());
+      const common::BuildVersion& version = buildVersion();
+      nlohmann::json told = {{"name", "swiftlet"}, {"version", version.number}, {"commit", version.commit}};
+      told["dirty"] = version.dirty ? nlohmann::json(*version.dirty) : nlohmann::json(nullptr);
+      fmt::print("{}\n", told.dump());
     } else {
-      fmt::print("swiftlet {}\n", SWIFTLET_VERSION);
+      fmt::print("swiftlet {}\n", toString(buildVersion()));
     }
     return kDone;
   });

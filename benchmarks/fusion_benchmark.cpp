@@ -51,7 +51,7 @@ BENCHMARK(BM_Predict);
 /// keep the clock going; its cost is BM_Predict.
 void BM_LateScan(benchmark::State& state) {
   Hover hover;
-  const auto late = Duration::fromMicroseconds(state.range(0) * 1000 + 1300);
+  const auto late = Duration::fromNanoseconds(state.range(0) * 1'000'000 + 1'300'000);
   for (auto _ : state) {
     hover.scan(late);
     benchmark::DoNotOptimize(hover.filter.state());
@@ -66,7 +66,7 @@ void BM_DeskewPoses(benchmark::State& state) {
   Hover hover;
   const Time from = hover.filter.newest() - Duration::fromMilliseconds(35);
   for (auto _ : state) {
-    const PoseHistory poses = hover.filter.poses(from, from + Duration::fromMilliseconds(20));
+    const PoseHistory poses = hover.filter.motion(from, from + Duration::fromMilliseconds(20));
     for (int beam = 0; beam < 1081; ++beam)
       benchmark::DoNotOptimize(poses.at(from + Duration::fromNanoseconds(beam * 17'300)));
   }

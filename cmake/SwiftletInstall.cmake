@@ -107,12 +107,22 @@ endforeach()
 if(TARGET swiftlet)
   install(TARGETS swiftlet RUNTIME COMPONENT program)
 endif()
+if(TARGET swiftlet AND NOT SWIFTLET_SANITIZE)  # What a sanitizer reports would end the build.
+  set(man_page "${PROJECT_BINARY_DIR}/swiftlet.1.gz")
+  add_custom_command(OUTPUT "${man_page}" DEPENDS swiftlet cmake/man_page.sh VERBATIM
+    COMMAND bash -o pipefail -c "\"$1\" \"$2\" \"$3\" | gzip -9n >\"$4\"" man_page
+            "${PROJECT_SOURCE_DIR}/cmake/man_page.sh" "$<TARGET_FILE:swiftlet>" ${PROJECT_VERSION} "${man_page}"
+    COMMENT "Making the man page from --help")
+  add_custom_target(swiftlet_man_page ALL DEPENDS "${man_page}")
+  install(FILES "${man_page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
+endif()
 foreach(folder missions worlds config trials)
   if(EXISTS "${PROJECT_SOURCE_DIR}/${folder}")
     install(DIRECTORY ${folder} DESTINATION "${CMAKE_INSTALL_DATADIR}/swiftlet" COMPONENT program)
   endif()
 endforeach()
 install(FILES README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT program)
 
 set(CPACK_GENERATOR DEB)

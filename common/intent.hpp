@@ -55,8 +55,6 @@ struct GoToIntent {
   double clearance_m = 0.10;   ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
-/// Greatest distance from the take-off place at which a landing counts as one at home.
-inline constexpr double kHomeWithin_m = 0.5;
 /// Where the take-off place is not free, a place this near to it is home as well; the rest is left to the controller.
 inline constexpr double kHomeShift_m = 0.4;
 /// Leave the vehicle to the reactive layer until the danger is over.

@@ -21,11 +21,6 @@ inline constexpr bool isOccupied(Cell c) { return c > 0; }
 inline constexpr bool isFree(Cell c) { return c != kUnknown && c <= 0; }
 /// In [0, 1]; 0.5 for unknown.
 double probability(Cell c);
-/// The cell after one more observation of `steps` log-odds steps (positive: hit), capped.
-inline constexpr Cell updated(Cell c, int steps) {
-  const int sum = (c == kUnknown ? 0 : c) + steps;
-  return static_cast<Cell>(sum > kMaxSteps ? kMaxSteps : sum < -kMaxSteps ? -kMaxSteps : sum);
-}
 }  // namespace occupancy
 
 using OccupancyGrid = TiledGrid<occupancy::Cell>;

@@ -14,7 +14,6 @@ class Duration {
   constexpr Duration() = default;
 
   static constexpr Duration fromNanoseconds(std::int64_t ns) { return Duration(ns); }
-  static constexpr Duration fromMicroseconds(std::int64_t us) { return Duration(us * 1'000); }
   static constexpr Duration fromMilliseconds(std::int64_t ms) { return Duration(ms * 1'000'000); }
   /// Rounds to the nearest nanosecond. The value must be finite and below 292 years.
   static Duration fromSeconds(double s) { return Duration(static_cast<std::int64_t>(std::llround(s * 1e9))); }

@@ -17,6 +17,8 @@ ordered_json orNull(const std::optional<double>& value) {
   return value ? ordered_json(rounded(*value)) : ordered_json(nullptr);
 }
 
+ordered_json orNull(const std::optional<bool>& value) { return value ? ordered_json(*value) : ordered_json(nullptr); }
+
 ordered_json phaseJson(const Phase& phase) {
   return {{"name", phase.name},
           {"begin_s", rounded(phase.begin.seconds())},
@@ -96,7 +98,9 @@ std::string toJson(const FlightSummary& summary) {
       {"world", summary.info.world},
       {"system", summary.info.system},
       {"seed", summary.info.seed},
-      {"version", summary.info.version},
+      {"version", summary.info.version.number},
+      {"commit", summary.info.version.commit},
+      {"dirty", orNull(summary.info.version.dirty)},
       {"outcome", toString(summary.outcome)},
       {"reason", summary.reason},
       {"mission_time_s", rounded(summary.mission_time.seconds())},

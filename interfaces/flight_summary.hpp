@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "common/build_version.hpp"
 #include "common/localization.hpp"
 #include "common/machine_use.hpp"
 #include "common/time.hpp"
@@ -38,7 +39,7 @@ struct RunInfo {
   std::string world;
   std::string system;  ///< Name of the profile.
   std::int64_t seed = 0;
-  std::string version;
+  common::BuildVersion version = {};
   std::string started;                   ///< Local date and time; the caller's clock.
   std::string vehicle = {};              ///< Name of the vehicle among several; empty: it flew alone.
   std::string nature = {};               ///< Name of the simulator's nature; empty: it flew in no simulator.

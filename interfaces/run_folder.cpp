@@ -216,7 +216,8 @@ void RunFolder::Impl::followCamera(const common::World& world) {
 
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
     : impl_(std::make_unique<Impl>(std::move(path), std::move(info), std::move(config_yaml))) {
-  impl_->write("config.yaml", impl_->config_yaml);
+  impl_->write("config.yaml", fmt::format("# The settings of a flight with Swiftlet {}.\n{}",
+                                          toString(impl_->summary.info.version), impl_->config_yaml));
   for (const RunText& sheet : impl_->summary.info.sheets) impl_->write(sheet.file.c_str(), sheet.text);
   if (!impl_->summary.info.nature_yaml.empty()) impl_->write("nature.yaml", impl_->summary.info.nature_yaml);
   if (!impl_->summary.info.vehicle_memory_yaml.empty())

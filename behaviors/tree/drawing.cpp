@@ -12,7 +12,8 @@ namespace {
 
 // Pixels.
 constexpr int kMargin = 12, kRow = 26, kIndent = 26, kSign = 18, kGap = 8;
-constexpr int kLetter = 7;  ///< Width of a letter, about.
+constexpr int kLetter =
+    9;  ///< Width of a letter at most, on average over a text: fonts differ, and wide ones are common.
 constexpr std::size_t kMostLetters = 110;
 
 struct Look {
@@ -73,14 +74,13 @@ class Drawing {
     text_ += "<rect x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle - kSign / 2) + "\" width=\"" +
              std::to_string(kSign) + "\" height=\"" + std::to_string(kSign) + "\" rx=\"4\" fill=\"" + look.color +
              "\"/>\n";
-    write(x + kSign / 2, middle, look.sign, "fill=\"#ffffff\" text-anchor=\"middle\"");
+    text(x + kSign / 2, middle, look.sign, " fill=\"#ffffff\" text-anchor=\"middle\"");
     words(record, x + kSign + kGap, middle);
   }
 
+  /// One text, in which the viewer sets the second part behind the first: only it knows how wide its letters are.
   void words(const NodeRecord& record, int x, int middle) {
     const std::string& name = record.node->name();
-    write(x, middle, name, "fill=\"#0f172a\" font-weight=\"bold\"");
-    x += kGap + (kLetter + 1) * static_cast<int>(name.size());
     std::string more;
     if (record.manifest != nullptr && record.manifest->id != name) more = record.manifest->id;
     for (const PortView& port : tree_.portsOf(record.node->id()))
@@ -88,8 +88,13 @@ class Drawing {
         more += (more.empty() ? "" : "  ") + port.name + "=" +
                 (port.entry.empty() ? port.value.value_or("") : "{" + port.entry + "}");
     if (more.size() > kMostLetters) more = shortened(more);
-    write(x, middle, more, "fill=\"#475569\"");
-    width_ = std::max(width_, x + kLetter * static_cast<int>(more.size()) + kMargin);
+    text(x, middle,
+         "<tspan fill=\"#0f172a\" font-weight=\"bold\">" + escaped(name) + "</tspan>" +
+             (more.empty()
+                  ? ""
+                  : "<tspan dx=\"" + std::to_string(kGap) + "\" fill=\"#475569\">" + escaped(more) + "</tspan>"),
+         "");
+    width_ = std::max(width_, x + kLetter * static_cast<int>(name.size() + more.size()) + kGap + kMargin);
   }
 
   void connect(int from_x, int from_y, int to_x, int to_y) {
@@ -97,10 +102,9 @@ class Drawing {
              std::to_string(to_x) + "\" fill=\"none\" stroke=\"#94a3b8\"/>\n";
   }
 
-  void write(int x, int middle, const std::string& words, const std::string& style) {
-    if (!words.empty())
-      text_ += "<text x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle + 5) + "\" " + style + ">" +
-               escaped(words) + "</text>\n";
+  void text(int x, int middle, const std::string& content, const std::string& style) {
+    text_ += "<text x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle + 5) + "\"" + style + ">" + content +
+             "</text>\n";
   }
 
   const Tree& tree_;

@@ -50,8 +50,12 @@ class OpencvOdometry final : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> opencvOdometry(const std::string& kind) { return std::make_unique<OpencvOdometry>(kind); }
-
-void useOneThread() { cv::setNumThreads(1); }
+std::vector<Contender> opencvContenders() {
+  cv::setNumThreads(1);  // As ours have.
+  std::vector<Contender> contenders;
+  for (const std::string kind : {"RgbdOdometry", "ICPOdometry", "RgbdICPOdometry"})
+    contenders.push_back({"cv::rgbd " + kind, [kind] { return std::make_unique<OpencvOdometry>(kind); }});
+  return contenders;
+}
 
 }  // namespace swiftlet::rgbd_peers

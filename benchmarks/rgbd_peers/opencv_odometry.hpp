@@ -1,18 +1,13 @@
-// The odometry of OpenCV's module rgbd, from frame to frame, with its own defaults.
+// The odometries of OpenCV's module rgbd, from frame to frame, with their own defaults.
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "benchmarks/rgbd_peers/peer.hpp"
 
 namespace swiftlet::rgbd_peers {
 
-/// "RgbdOdometry" (grey values), "ICPOdometry" (surfaces) or "RgbdICPOdometry" (both).
-std::unique_ptr<Peer> opencvOdometry(const std::string& kind);
-
-/// On one thread, as ours is.
-void useOneThread();
+/// RgbdOdometry (grey values), ICPOdometry (surfaces) and RgbdICPOdometry (both); none where OpenCV is not installed.
+std::vector<Contender> opencvContenders();
 
 }  // namespace swiftlet::rgbd_peers

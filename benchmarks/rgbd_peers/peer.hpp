@@ -1,6 +1,11 @@
 // What is compared: a method that is given one frame after the other.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "common/geometry.hpp"
 #include "common/rgbd_frame.hpp"
 #include "mapping3d/odometry/frame_pyramid.hpp"
@@ -15,6 +20,11 @@ class Peer {
   virtual bool add(const common::RgbdFrame& frame, const mapping3d::PyramidLevel& small) = 0;
   /// Of the frames that add() returned true for, in their order, with all corrections; axes of `camera`.
   virtual std::vector<common::Pose3> finish() = 0;
+};
+
+struct Contender {
+  std::string name;
+  std::function<std::unique_ptr<Peer>()> make;
 };
 
 }  // namespace swiftlet::rgbd_peers

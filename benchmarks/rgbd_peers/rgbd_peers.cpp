@@ -1,14 +1,13 @@
 // benchmark_rgbd_peers FOLDER [--intrinsics FILE] [--freiburg1] [--only PART]
 //
 // On one recorded RGB-D folder with a reference (TUM: groundtruth.txt; 7-Scenes: the pose files), in one run and by one
-// metric: our odometry, our map with loop closures, and OpenCV's three odometries. All on one thread, on the same
-// frames: without distortion, the depth registered. OpenCV is given them at 320 pixels of width; ours halves the
-// recorded pictures itself, which is in its time.
+// metric: our odometry, our map with loop closures, and, where OpenCV is installed, its three odometries. All on one
+// thread, on the same frames: without distortion, the depth registered. OpenCV is given them at 320 pixels of width;
+// ours halves the recorded pictures itself, which is in its time.
 #include <ctime>
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "benchmarks/rgbd_peers/opencv_odometry.hpp"
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/median_step.hpp"
 #include "common/table.hpp"
 #include "evaluation/trajectory_metrics.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
@@ -28,6 +28,7 @@ namespace {
 
 using namespace swiftlet;
 using common::Pose3;
+using rgbd_peers::Contender;
 using rgbd_peers::Peer;
 
 constexpr int kWidth_px = 320;
@@ -79,7 +80,7 @@ struct Options {
 };
 
 struct Result {
-  int frames = 0;
+  std::vector<common::Time> frames;
   std::vector<double> milliseconds;
   common::Trajectory trajectory;  ///< Of the recorder's camera, which the reference is of.
 };
@@ -92,7 +93,7 @@ Result run(Peer& peer, const Options& options) {
   Result result;
   std::vector<common::Time> stamps;
   while (const auto frame = folder.next()) {
-    ++result.frames;
+    result.frames.push_back(frame->stamps.measured);
     const mapping3d::FramePyramid small = mapping3d::makePyramid(*frame, kWidth_px, 1);
     const double begin_s = processorSeconds();
     const bool placed = peer.add(*frame, small.front());
@@ -105,27 +106,33 @@ Result run(Peer& peer, const Options& options) {
   return result;
 }
 
+double step_s(const common::Trajectory& poses) {
+  return common::medianStep_s(poses, [](const common::StampedPose& at) { return at.stamp; });
+}
+
 /// The reference at each estimate's time plus an offset, between its neighbours: a reference of 100 Hz, taken at the
-/// nearest stamp, would be up to 5 ms off, which is a quarter of a degree when the camera turns by 50 deg/s.
+/// nearest stamp, would be up to 5 ms off, which is a quarter of a degree when the camera turns by 50 deg/s. A slow
+/// reference has long steps; only what is longer than some of them is a gap.
 std::vector<evaluation::PosePair> paired(const common::Trajectory& estimate, const common::Trajectory& reference,
                                          double offset_s) {
-  constexpr common::Duration kLongestGap = common::Duration::fromMilliseconds(100);
+  const auto longest_gap = common::Duration::fromSeconds(std::max(0.1, 3.0 * step_s(reference)));
   std::vector<evaluation::PosePair> pairs;
   for (const common::StampedPose& at : estimate)
-    if (const auto pose = common::poseAt(reference, at.stamp + common::Duration::fromSeconds(offset_s), kLongestGap))
+    if (const auto pose = common::poseAt(reference, at.stamp + common::Duration::fromSeconds(offset_s), longest_gap))
       pairs.push_back({at.stamp, at.pose, *pose});
   return pairs;
 }
 
 /// The offset in time at which the rotations from frame to frame fit best; 0 where the reference has the frames'
-/// stamps.
-double bestOffset_s(const common::Trajectory& estimate, const common::Trajectory& reference) {
-  if (reference.size() < 2 * estimate.size()) return 0.0;
+/// stamps, or hardly more poses than there are frames.
+double bestOffset_s(const Result& result, const common::Trajectory& reference) {
+  if (2.0 * step_s(reference) > common::medianStep_s(result.frames, [](common::Time stamp) { return stamp; }))
+    return 0.0;
   double best_s = 0.0, least_rad = 1e9;
   for (int i = -20; i <= 20; ++i) {
-    const auto pairs = paired(estimate, reference, 0.002 * i);
+    const auto pairs = paired(result.trajectory, reference, 0.002 * i);
     const double error_rad = evaluation::relativePoseError(pairs, {}).rotation_rad.rmse;
-    if (error_rad >= least_rad) continue;
+    if (pairs.size() < 2 || error_rad >= least_rad) continue;
     least_rad = error_rad;
     best_s = 0.002 * i;
   }
@@ -133,35 +140,36 @@ double bestOffset_s(const common::Trajectory& estimate, const common::Trajectory
 }
 
 std::vector<std::string> rowOf(const std::string& name, const Result& result, const common::Trajectory& reference) {
-  const double offset_s = bestOffset_s(result.trajectory, reference);
+  const double offset_s = bestOffset_s(result, reference);
   const auto pairs = paired(result.trajectory, reference, offset_s);
   const auto absolute = evaluation::absoluteTrajectoryError(pairs, evaluation::Alignment::kSpatial);
   const auto frame = evaluation::relativePoseError(pairs, {});
   const auto second = evaluation::relativePoseError(pairs, {evaluation::Stretch::Unit::kSeconds, 1.0});
   const auto deg = [](double rad) { return rad / common::kRadPerDeg; };
+  const auto known = [](bool is_known, double value, int digits) {
+    return is_known ? fmt::format("{:.{}f}", value, digits) : "-";
+  };
+  const bool moved = frame.translation_m.count > 0, lasted = second.translation_m.count > 0;
   return {name,
-          fmt::format("{}", result.frames - static_cast<int>(result.trajectory.size())),
+          fmt::format("{}", result.frames.size() - result.trajectory.size()),
           fmt::format("{:.0f}", 1e3 * offset_s),
           fmt::format("{:.1f}", evaluation::quantile(result.milliseconds, 0.5)),
           fmt::format("{:.1f}", evaluation::quantile(result.milliseconds, 0.99)),
           absolute ? fmt::format("{:.1f}", 1e3 * absolute->translation_m.rmse) : "-",
-          fmt::format("{:.2f}", 1e3 * frame.translation_m.median),
-          fmt::format("{:.2f}", 1e3 * frame.translation_m.rmse),
-          fmt::format("{:.3f}", deg(frame.rotation_rad.median)),
-          fmt::format("{:.3f}", deg(frame.rotation_rad.rmse)),
-          fmt::format("{:.1f}", 1e3 * second.translation_m.rmse),
-          fmt::format("{:.2f}", deg(second.rotation_rad.rmse))};
+          known(moved, 1e3 * frame.translation_m.median, 2),
+          known(moved, 1e3 * frame.translation_m.rmse, 2),
+          known(moved, deg(frame.rotation_rad.median), 3),
+          known(moved, deg(frame.rotation_rad.rmse), 3),
+          known(lasted, 1e3 * second.translation_m.rmse, 1),
+          known(lasted, deg(second.rotation_rad.rmse), 2)};
 }
 
 void compare(const Options& options) {
-  using Make = std::function<std::unique_ptr<Peer>()>;
-  const std::vector<std::pair<std::string, Make>> contenders = {
+  std::vector<Contender> contenders = {
       {"ours, odometry", [] { return std::make_unique<OurOdometry>(); }},
       {"ours, map with loops", [] { return std::make_unique<OurMap>(); }},
-      {"cv::rgbd RgbdOdometry", [] { return rgbd_peers::opencvOdometry("RgbdOdometry"); }},
-      {"cv::rgbd ICPOdometry", [] { return rgbd_peers::opencvOdometry("ICPOdometry"); }},
-      {"cv::rgbd RgbdICPOdometry", [] { return rgbd_peers::opencvOdometry("RgbdICPOdometry"); }},
   };
+  std::ranges::move(rgbd_peers::opencvContenders(), std::back_inserter(contenders));
   const common::Trajectory reference = test_support::recordedReference(options.folder);
   common::Table table{"",
                       {"", "lost", "offset ms", "median ms", "p99 ms", "ATE mm", "frame mm", "rms", "frame deg", "rms",
@@ -201,7 +209,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: benchmark_rgbd_peers FOLDER [--intrinsics FILE] [--freiburg1] [--only PART]\n");
     return 2;
   }
-  rgbd_peers::useOneThread();
   try {
     compare(options);
   } catch (const common::InputError& error) {

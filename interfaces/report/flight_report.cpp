@@ -77,10 +77,9 @@ std::string header(const FlightSummary& summary) {
   if (!summary.reason.empty()) text += fmt::format("<p>{}</p>\n", escaped(summary.reason));
   if (summary.outcome == Outcome::kFlying)
     text += "<p>The flight goes on, or its program was ended before it could say how the flight ended.</p>\n";
-  text += fmt::format("<p>{} in {}, system {}{}, seed {}, version {}{}</p>", escaped(summary.info.mission_file),
+  text += fmt::format("<p>{} in {}, system {}{}, seed {}{}</p>", escaped(summary.info.mission_file),
                       escaped(summary.info.world), escaped(summary.info.system),
                       summary.info.nature.empty() ? "" : ", nature " + escaped(summary.info.nature), summary.info.seed,
-                      escaped(summary.info.version),
                       summary.info.started.empty() ? "" : ", started " + escaped(html::moment(summary.info.started)));
   return text;
 }
@@ -245,7 +244,7 @@ std::string flightReport(const FlightSummary& summary, const std::vector<common:
                            photosSection(pictures.photos) + phasesSection(summary.phases) +
                            plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
                            frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);
-  return html::page(titleOf(summary) + ": " + toString(summary.outcome), header(summary), body);
+  return html::page(titleOf(summary) + ": " + toString(summary.outcome), header(summary), body, summary.info.version);
 }
 
 }  // namespace swiftlet::interfaces

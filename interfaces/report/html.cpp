@@ -100,12 +100,13 @@ std::string table(const common::Table& table) {
   return body + "</tbody></table></div>";
 }
 
-std::string page(const std::string& title, const std::string& header, const std::string& body) {
+std::string page(const std::string& title, const std::string& header, const std::string& body,
+                 const common::BuildVersion& version) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n"
-      "</head>\n<body>\n<header>\n{}\n</header>\n<main>\n{}</main>\n<footer>Swiftlet</footer>\n</body>\n</html>\n",
-      escaped(title), kStyle, header, body);
+      "</head>\n<body>\n<header>\n{}\n</header>\n<main>\n{}</main>\n<footer>Swiftlet {}</footer>\n</body>\n</html>\n",
+      escaped(title), kStyle, header, body, escaped(toString(version)));
 }
 
 }  // namespace swiftlet::interfaces::html

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/build_version.hpp"
 #include "common/table.hpp"
 
 namespace swiftlet::interfaces::html {
@@ -34,6 +35,7 @@ std::string plots(const std::vector<std::string>& svg);
 std::string table(const common::Table& table);
 
 /// A whole document. `title` is escaped here; the other arguments are HTML.
-std::string page(const std::string& title, const std::string& header, const std::string& body);
+std::string page(const std::string& title, const std::string& header, const std::string& body,
+                 const common::BuildVersion& version);
 
 }  // namespace swiftlet::interfaces::html

@@ -29,7 +29,7 @@ std::string localizationReport(const LocalizationReport& report) {
   body +=
       html::section("Events", report.events.rows.empty() ? "<p class=\"empty\">None.</p>" : html::table(report.events));
   if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
-  return html::page(report.title, fmt::format("<h1>{}</h1>", escaped(report.title)), body);
+  return html::page(report.title, fmt::format("<h1>{}</h1>", escaped(report.title)), body, report.version);
 }
 
 std::string mapReport(const MapReport& report) {
@@ -39,7 +39,7 @@ std::string mapReport(const MapReport& report) {
   body += html::map3dSection(report.map3d_jpeg);
   body += mapPicture(report.map_svg);
   if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
-  return html::page(report.title, header, body);
+  return html::page(report.title, header, body, report.version);
 }
 
 }  // namespace swiftlet::interfaces

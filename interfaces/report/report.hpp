@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/build_version.hpp"
 #include "common/event.hpp"
 #include "common/table.hpp"
 #include "interfaces/flight_summary.hpp"
@@ -47,6 +48,7 @@ struct TrialReport {
   std::vector<common::Table> tables;
   std::vector<TrialPicture> pictures;
   std::vector<std::string> plots_svg = {};  ///< Above the tables.
+  common::BuildVersion version = {};
 };
 std::string trialReport(const TrialReport& report);
 
@@ -59,6 +61,7 @@ struct MapReport {
   std::string map_svg;
   std::vector<std::string> plots_svg;
   std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64; may be empty.
+  common::BuildVersion version = {};
 };
 std::string mapReport(const MapReport& report);
 
@@ -70,6 +73,7 @@ struct LocalizationReport {
   common::Table events;                                    ///< The events of the localization with their times.
   std::string map_svg;
   std::vector<std::string> plots_svg;
+  common::BuildVersion version = {};
 };
 std::string localizationReport(const LocalizationReport& report);
 

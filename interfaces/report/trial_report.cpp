@@ -34,7 +34,7 @@ std::string trialReport(const TrialReport& report) {
     for (const TrialPicture& picture : report.pictures) pictures += pictureOf(picture);
     body += html::section("Maps", pictures + "</div>");
   }
-  return html::page(report.title, header, body);
+  return html::page(report.title, header, body, report.version);
 }
 
 }  // namespace swiftlet::interfaces

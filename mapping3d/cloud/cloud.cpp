@@ -332,10 +332,6 @@ std::vector<SurfacePoint> cleaned(const Kinds<std::vector<Piece>>& pieces, const
 
 }  // namespace
 
-std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
-  return cleaned({{{points}}, {}}, config);
-}
-
 std::vector<SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
                                   const CloudConfig& config) {
   Kinds<std::vector<Piece>> pieces;

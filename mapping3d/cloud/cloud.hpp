@@ -24,13 +24,9 @@ struct CloudConfig {
   double deviations = 3.0;
 };
 
-/// The points must be in `map`, or in any one frame. Points that are not finite are left out. A normal that is not
-/// known becomes that of the plane through its neighbours, on the side of their known normals; it stays unknown where
-/// they have none. Equal arguments give equal bytes; one thread.
-std::vector<common::SurfacePoint> cleanCloud(const std::vector<common::SurfacePoint>& points,
-                                             const CloudConfig& config = {});
-
-/// cleanCloud() of the points of all submaps, each where its key scan is. Takes some seconds for a million points.
+/// Of the points of all submaps, each where its key scan is. Points that are not finite are left out. A normal that is
+/// not known becomes that of the plane through its neighbours, on the side of their known normals; it stays unknown
+/// where they have none. Equal arguments give equal bytes; one thread. Takes some seconds for a million points.
 std::vector<common::SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
                                           const CloudConfig& config = {});
 

@@ -80,17 +80,6 @@ void addNoise(FilterState& state, double dt_s, const ImuNoise& noise) {
 
 }  // namespace
 
-ImuValue interpolate(const ImuValue& first, const ImuValue& second, common::Time time) {
-  if (time == first.stamp) return first;
-  if (time == second.stamp) return second;
-  const double share = (time - first.stamp).seconds() / (second.stamp - first.stamp).seconds();
-  const auto mix = [share](const Eigen::Vector3d& a, const Eigen::Vector3d& b) -> Eigen::Vector3d {
-    return a + share * (b - a);
-  };
-  return {time, mix(first.angular_velocity_body_rad_s, second.angular_velocity_body_rad_s),
-          mix(first.specific_force_body_m_s2, second.specific_force_body_m_s2)};
-}
-
 void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, const ImuNoise& noise) {
   const Midpoint m = midpoint(state, begin, end);
   const Blocks f = blocks(m);

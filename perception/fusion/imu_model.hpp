@@ -15,9 +15,6 @@ struct ImuValue {
   Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();
 };
 
-/// Interpolates linearly between two samples; `time` must lie between them.
-ImuValue interpolate(const ImuValue& first, const ImuValue& second, common::Time time);
-
 struct ImuNoise {
   double accelerometer_m_s2_rthz = 0.0;
   double gyroscope_rad_s_rthz = 0.0;

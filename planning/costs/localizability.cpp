@@ -73,19 +73,4 @@ double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, 
   return walls + open > 0 ? static_cast<double>(walls) / (walls + open) : 1.0;
 }
 
-double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams) {
-  const Directions directions(beams);
-  std::vector<WallReturn> returns;
-  const int max_steps = static_cast<int>(range_m / map.resolution_m());
-  for (const Directions::Ray& ray : directions.rays()) {
-    castRay(map, place, ray, static_cast<int>(max_steps / ray.step_cells), [&](int index, int) {
-      if (map.state(index) == CellState::kFree) return true;
-      if (map.state(index) == CellState::kOccupied)
-        returns.push_back({map.centerOf(map.cellOf(index)) - map.centerOf(place), wallNormal(map, index)});
-      return false;
-    });
-  }
-  return localizability(returns, beams);
-}
-
 }  // namespace swiftlet::planning

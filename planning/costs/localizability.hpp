@@ -30,7 +30,4 @@ double localizability(const std::vector<WallReturn>& returns, int beams);
 double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m,
                    const Directions& directions);
 
-/// The localizability of a place, from `beams` rays cast up to `range_m`.
-double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams = 90);
-
 }  // namespace swiftlet::planning

@@ -114,10 +114,25 @@ TEST_F(InertialCheckStory, ASampleAllocatesNothing) {
   EXPECT_FALSE(check_.contradicted());
 }
 
-TEST_F(InertialCheckStory, WhatIsNotFiniteCountsAsNone) {
+/// A sum with one of them in it is no number, and contradicts nothing.
+TEST_F(InertialCheckStory, WhatIsNotFiniteHidesNoFault) {
   feed(1.0);
   feed(0.1, {NAN, 0.0, 0.0});
-  feed(0.1);
+  feed(0.3);
+  EXPECT_EQ(check_.fault(), "");
+  for (int i = 0; i < 10; ++i) {
+    feed(0.01, {0.0, 0.0, 6.0});
+    const ImuSample used = feed(0.005, {0.0, 0.0, NAN});
+    EXPECT_TRUE(std::isnan(used.specific_force_body_m_s2.z())) << "it is given back as it is";
+  }
+  EXPECT_NE(check_.fault().find("the accelerometer contradicts the thrust"), std::string::npos) << check_.fault();
+}
+
+TEST_F(InertialCheckStory, RatesThatAreNotFiniteAreNoFault) {
+  feed(1.0);
+  feed(0.05, Vector3d::Zero(), NAN);
+  EXPECT_EQ(check_.fault(), "");
+  feed(0.3);
   EXPECT_EQ(check_.fault(), "");
 }
 

@@ -17,6 +17,15 @@ using common::SurfacePoint;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
+/// Of points in one submap at the origin of the map.
+std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config = {}) {
+  common::KeyPoses keys;
+  keys.keys.resize(1);
+  common::Submap3d submap;
+  submap.points = std::make_shared<const std::vector<SurfacePoint>>(points);
+  return cloudOf({submap}, keys, config);
+}
+
 /// A wall of 2 m x 1.5 m at x = 1, seen from the origin, several points a cube.
 std::vector<SurfacePoint> wall(std::mt19937& random, double noise_m = 0.003) {
   std::uniform_real_distribution<float> y(-1.0F, 1.0F), z(0.0F, 1.5F);

@@ -91,14 +91,6 @@ TEST(TiledGrid, CellAtFloorsNegativeCoordinates) {
   EXPECT_EQ(grid.cellAt(grid.centerOf({-64, 63})), (CellIndex{-64, 63}));
 }
 
-TEST(Occupancy, ConfidenceIsCapped) {
-  occupancy::Cell cell = occupancy::kUnknown;
-  for (int i = 0; i < 1000; ++i) cell = occupancy::updated(cell, 17);
-  EXPECT_EQ(cell, occupancy::kMaxSteps);
-  for (int i = 0; i < 13; ++i) cell = occupancy::updated(cell, -8);
-  EXPECT_TRUE(occupancy::isFree(cell));
-}
-
 TEST(RandomStream, StreamsAreIndependentAndRepeatable) {
   RandomStream a(7, "laser", 3), b(7, "laser", 3), c(7, "laser", 4), d(7, "imu", 3);
   const auto first = a.bits();

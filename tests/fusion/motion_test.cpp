@@ -18,7 +18,7 @@ TEST(FilterMotion, InterpolatesPosesOfTheHistory) {
   const PoseHistory history = filter.motion(from, newest);
   EXPECT_LE(history.poses().size(), 10u);
   for (int i = 0; i <= 1080; ++i) {
-    const Time t = from + Duration::fromMicroseconds(std::int64_t{37} * i);
+    const Time t = from + Duration::fromNanoseconds(std::int64_t{37'000} * i);
     if (t > newest) break;
     const auto a = history.at(t), b = filter.poseAt(t);
     ASSERT_TRUE(a && b);

@@ -20,7 +20,7 @@ using testing::Not;
 
 FlightSummary summaryOf(const std::string& text) {
   FlightSummary summary;
-  summary.info = {text, text, text, text, 7, text, text};
+  summary.info = {text, text, text, text, 7, {text, text}, text};
   summary.outcome = Outcome::kFailed;
   summary.reason = text;
   summary.mission_time = common::Duration::fromSeconds(83.4);

@@ -22,9 +22,12 @@ using common::Time;
 using nlohmann::json;
 using testing::HasSubstr;
 
-const RunInfo kInfo{
-    "explore_and_return", "missions/explore_and_return.xml", "worlds/unb_case1.sdf", "swiftlet", 7, "0.1.0",
-    "2025-01-31 14:05:09"};
+const RunInfo kInfo{.mission = "explore_and_return",
+                    .mission_file = "missions/explore_and_return.xml",
+                    .world = "worlds/unb_case1.sdf",
+                    .system = "swiftlet",
+                    .seed = 7,
+                    .started = "2025-01-31 14:05:09"};
 const std::string kPng = "\x89PNG not really";
 
 /// A flight along x at 1 m/s; the map grows with it.
@@ -165,7 +168,6 @@ TEST(RunFolder, ContainsEveryFile) {
   const StoredMap map = readMap(path / "map.yaml");
   EXPECT_TRUE(common::occupancy::isOccupied(map.grid.at(map.grid.cellAt(10.0, 1.0))));
   EXPECT_EQ(bytesOf(path / "map.png"), kPng);
-  EXPECT_EQ(bytesOf(path / "config.yaml"), "speed: 1\n");
   EXPECT_THAT(bytesOf(path / "report.html"), HasSubstr("explore_and_return"));
   EXPECT_EQ(std::distance(fs::directory_iterator(path), fs::directory_iterator{}), 8) << "and nothing else";
   EXPECT_EQ(run.summary().samples.size(), 51u) << "5 Hz for 10 s";

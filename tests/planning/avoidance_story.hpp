@@ -13,6 +13,7 @@
 #include "perception/people/background_map.hpp"
 #include "perception/people/dynamic_obstacles.hpp"
 #include "planning/avoidance/avoidance.hpp"
+#include "tests/support/observed_cell.hpp"
 
 namespace swiftlet::planning::test {
 
@@ -62,10 +63,10 @@ class Story {
       common::CellIndex last = grid_.cellAt(hit);
       for (double r = step.norm() - 0.05; r > 0.0; r -= 0.05) {
         const common::CellIndex cell = grid_.cellAt(pose.position_m() + step.normalized() * r);
-        if (cell != last && cell != grid_.cellAt(hit)) grid_.set(cell, common::occupancy::updated(grid_.at(cell), -8));
+        if (cell != last && cell != grid_.cellAt(hit)) grid_.set(cell, test_support::observed(grid_.at(cell), -8));
         last = cell;
       }
-      grid_.set(grid_.cellAt(hit), common::occupancy::updated(grid_.at(grid_.cellAt(hit)), 17));
+      grid_.set(grid_.cellAt(hit), test_support::observed(grid_.at(grid_.cellAt(hit)), 17));
     }
     learn();
   }

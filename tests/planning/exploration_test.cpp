@@ -299,6 +299,23 @@ TEST(Frontiers, SplitLongOnesAndCoverEveryBorderCell) {
   EXPECT_EQ(cells, 396u);
 }
 
+/// Of a place, from rays all around.
+double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m) {
+  constexpr int kBeams = 90;
+  const Directions directions(kBeams);
+  std::vector<WallReturn> returns;
+  const int max_steps = static_cast<int>(range_m / map.resolution_m());
+  for (const Directions::Ray& ray : directions.rays()) {
+    castRay(map, place, ray, static_cast<int>(max_steps / ray.step_cells), [&](int index, int) {
+      if (map.state(index) == CellState::kFree) return true;
+      if (map.state(index) == CellState::kOccupied)
+        returns.push_back({map.centerOf(map.cellOf(index)) - map.centerOf(place), wallNormal(map, index)});
+      return false;
+    });
+  }
+  return localizability(returns, kBeams);
+}
+
 TEST(Localizability, RoomsFixThePoseCorridorsDoNot) {
   common::OccupancyGrid square = test::room(100, 100);
   common::OccupancyGrid corridor = test::room(1200, 40);

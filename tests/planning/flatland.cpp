@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planning/search/wavefront.hpp"
+#include "tests/support/observed_cell.hpp"
 
 namespace swiftlet::planning::test {
 namespace {
@@ -81,12 +82,12 @@ void scan(const Flatland& world, const Pose2& pose, const FlightConfig& config, 
       if (!world.occupiedAt(point_m)) continue;
       const CellIndex truth{cell.x + world.start.x, cell.y + world.start.y};
       for (const common::CellRect& black : world.black) lost |= black.contains(truth);
-      if (!lost) grid.set(cell, common::occupancy::updated(grid.at(cell), 17));
+      if (!lost) grid.set(cell, test_support::observed(grid.at(cell), 17));
       passed.pop_back();
       break;
     }
     if (lost) continue;
-    for (const CellIndex cell : passed) grid.set(cell, common::occupancy::updated(grid.at(cell), -8));
+    for (const CellIndex cell : passed) grid.set(cell, test_support::observed(grid.at(cell), -8));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/observed_cell.hpp"
+
 namespace swiftlet::testing {
 namespace {
 
@@ -79,11 +81,11 @@ void ExampleFlight::look() {
       const Vector2d p = pose_.position_m() + r * direction;
       const CellIndex cell = grid_.cellAt(p);
       if (isWall(p)) {
-        grid_.set(cell, common::occupancy::updated(grid_.at(cell), 18));
+        grid_.set(cell, test_support::observed(grid_.at(cell), 18));
         laser->points_map_m.push_back(p.cast<float>());
         break;
       }
-      if (cell != last) grid_.set(cell, common::occupancy::updated(grid_.at(cell), -5));
+      if (cell != last) grid_.set(cell, test_support::observed(grid_.at(cell), -5));
       last = cell;
     }
   }

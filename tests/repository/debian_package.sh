@@ -25,12 +25,26 @@ done
 program=$(echo "$scratch"/swiftlet_*.deb)
 [ "$(dpkg-deb -f "$program" Package)" = swiftlet ] || fail "no swiftlet in $scratch"
 dpkg-deb -c "$program" >"$scratch/program.txt"
-grep -q '/usr/share/doc/swiftlet/copyright' "$scratch/program.txt" || fail 'swiftlet has no licence'
+for file in doc/swiftlet/copyright doc/swiftlet/docs/tutorials/first_flight.md man/man1/swiftlet.1.gz; do
+  grep -q "/usr/share/$file" "$scratch/program.txt" || fail "swiftlet has no $file"
+done
 if [ -x "$build/swiftlet" ]; then
-  [[ $(dpkg-deb -f "$program" Depends) == *libc6* ]] || fail 'swiftlet depends on nothing'
+  depends=$(dpkg-deb -f "$program" Depends)
+  [[ $depends == *libc6* ]] || fail 'swiftlet depends on nothing'
+  [[ $depends != *atlas* ]] || fail "swiftlet needs ATLAS: $depends"
   dpkg-deb -x "$program" "$scratch/root"
   cd / # Away from the source tree's folders: the program must find its own.
-  "$scratch/root/usr/bin/swiftlet" version || fail 'the packed program does not start'
-  "$scratch/root/usr/bin/swiftlet" check missions/explore_and_return.xml || fail 'the packed program does not find its data'
+  swiftlet=$scratch/root/usr/bin/swiftlet
+  "$swiftlet" version || fail 'the packed program does not start'
+  gzip -dc "$scratch/root/usr/share/man/man1/swiftlet.1.gz" >"$scratch/swiftlet.1"
+  for command in $("$swiftlet" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z0-9]*\) .*/\1/p'); do
+    grep -q "^\.SS swiftlet $command\$" "$scratch/swiftlet.1" || fail "the man page has no $command"
+    grep -q "^swiftlet $command" "$scratch/swiftlet.1" || fail "the man page has no example of $command"
+  done
+  if command -v groff >/dev/null; then
+    warnings=$(groff -man -ww -z "$scratch/swiftlet.1" 2>&1)
+    [ -z "$warnings" ] || fail "the man page: $warnings"
+  fi
+  "$swiftlet" check missions/explore_and_return.xml || fail 'the packed program does not find its data'
 fi
 echo "Packed: $(cd "$scratch" && du -h ./*.deb | tr '\n' ' ')"

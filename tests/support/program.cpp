@@ -34,8 +34,8 @@ struct Pipe {
   std::array<int, 2> ends{};
 };
 
-[[noreturn]] void become(const std::vector<std::string>& arguments, const ProgramOptions& options, const Pipe& out,
-                         const Pipe& err) {
+[[noreturn]] void become(const std::string& name, const std::vector<std::string>& arguments,
+                         const ProgramOptions& options, const Pipe& out, const Pipe& err) {
   dup2(out.ends[1], STDOUT_FILENO);
   dup2(err.ends[1], STDERR_FILENO);
   if (options.largest_file_bytes) {
@@ -45,7 +45,7 @@ struct Pipe {
   const std::string folder = options.working_folder.empty() ? SWIFTLET_SOURCE_DIR : options.working_folder;
   if (chdir(folder.c_str()) != 0) _exit(126);
   std::vector<char*> argv;
-  std::string program = SWIFTLET_BINARY_DIR "/swiftlet";
+  std::string program = SWIFTLET_BINARY_DIR "/" + name;
   argv.push_back(program.data());
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());
@@ -65,10 +65,15 @@ bool drain(int descriptor, std::string& text) {
 }  // namespace
 
 ProgramEnd runSwiftlet(const std::vector<std::string>& arguments, const ProgramOptions& options) {
+  return runProgram("swiftlet", arguments, options);
+}
+
+ProgramEnd runProgram(const std::string& name, const std::vector<std::string>& arguments,
+                      const ProgramOptions& options) {
   Pipe out, err;
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("cannot fork");
-  if (process == 0) become(arguments, options, out, err);
+  if (process == 0) become(name, arguments, options, out, err);
   out.closeWriter();
   err.closeWriter();
 

@@ -28,6 +28,9 @@ struct ProgramEnd {
   std::string err;
 };
 
+/// A program of the build.
+ProgramEnd runProgram(const std::string& name, const std::vector<std::string>& arguments,
+                      const ProgramOptions& options = {});
 ProgramEnd runSwiftlet(const std::vector<std::string>& arguments, const ProgramOptions& options = {});
 
 /// For messages of failed checks.

@@ -45,20 +45,4 @@ std::string encodeTile(const common::OccupancyGrid& grid, common::CellIndex corn
   return bytes;
 }
 
-std::vector<int> decodeTile(const std::string& bytes) {
-  std::vector<int> shades;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(bytes[i]);
-    int n = byte & 15;
-    if (n == kLongRun) {
-      if (i + 2 >= bytes.size()) return {};
-      n = static_cast<unsigned char>(bytes[i + 1]) | static_cast<unsigned char>(bytes[i + 2]) << 8;
-      i += 2;
-    }
-    if (shades.size() + static_cast<std::size_t>(n) + 1 > static_cast<std::size_t>(kTile) * kTile) return {};
-    shades.insert(shades.end(), static_cast<std::size_t>(n) + 1, byte >> 4);
-  }
-  return shades.size() == static_cast<std::size_t>(kTile) * kTile ? shades : std::vector<int>{};
-}
-
 }  // namespace swiftlet::web

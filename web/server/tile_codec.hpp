@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "common/occupancy_grid.hpp"
 
@@ -15,8 +14,5 @@ int shadeOf(common::occupancy::Cell cell);
 /// The tile whose lower left cell is `corner`, row by row from the bottom. Each run is one byte `shade << 4 | n`, n the
 /// length minus 1 up to 14; n = 15: two more bytes, low first, hold the length minus 1.
 std::string encodeTile(const common::OccupancyGrid& grid, common::CellIndex corner);
-
-/// The shades of a tile, row by row; empty if the text is malformed.
-std::vector<int> decodeTile(const std::string& bytes);
 
 }  // namespace swiftlet::web
