@@ -8,9 +8,11 @@
 
 #include "apps/command.hpp"
 #include "apps/dry_run.hpp"
+#include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
+#include "behaviors/mission.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/drawing.hpp"
@@ -37,7 +39,13 @@ behaviors::MissionVerdict judge(const std::string& mission, const CheckOptions& 
   try {
     const std::string file = common::findData(mission).string();
     const behaviors::MissionLimits limits = missionLimits(system, true);
-    return options.mock_leaves ? behaviors::judgeMissionWithMocks(file, limits) : behaviors::judgeMission(file, limits);
+    if (options.mock_leaves) return behaviors::judgeMissionWithMocks(file, limits);
+    behaviors::MissionVerdict verdict = behaviors::judgeMission(file, limits);
+    if (!verdict.problems.empty()) return verdict;
+    for (const common::Problem& note : mapNotes(behaviors::Mission::fromFile(file).mapFiles(), file))
+      verdict.warnings.push_back(
+          {{note.location.file, note.location.line, note.location.column}, note.element, note.message, note.hint, {}});
+    return verdict;
   } catch (const common::InputError& missing) {
     behaviors::MissionVerdict verdict;
     for (const common::Problem& problem : missing.problems())

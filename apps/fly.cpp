@@ -204,6 +204,7 @@ void showWarnings(const std::vector<FlightMission>& missions) {
       warning.element = "warning: " + warning.element;
       showError(toString(warning) + "\n");
     }
+    showNotes(mapNotes(mission.mission.mapFiles(), mission.file));
   }
 }
 
@@ -211,7 +212,10 @@ int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
   showWarnings(missions);
-  if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
+  if (!options.map.empty()) {
+    setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
+    showNotes(setup.map->notes);
+  }
   const StopSignals& signals = stopOnSignals();
   outliveReaders();
 
