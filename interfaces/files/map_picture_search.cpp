@@ -1,7 +1,6 @@
 #include "interfaces/files/map_picture_search.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <string_view>
 #include <system_error>
@@ -9,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lower_case.hpp"
 #include "interfaces/files/map_picture.hpp"
 #include "interfaces/files/text_file.hpp"
 
@@ -30,12 +30,7 @@ std::vector<std::string> namesBeside(const fs::path& file) {
   return names;
 }
 
-std::string lowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string stemOf(const std::string& name) { return lowerCase(fs::path(name).stem().string()); }
+std::string stemOf(const std::string& name) { return common::lowerCase(fs::path(name).stem().string()); }
 
 /// The path without the scheme of a file:// address and its host, and with the home folder for `~`.
 fs::path localPath(std::string named) {
@@ -51,11 +46,11 @@ std::string lastPart(const std::string& path) { return path.substr(path.find_las
 
 /// The picture beside the YAML that is most probably meant; empty if there is none.
 std::string likelyPicture(const fs::path& yaml_file, const std::string& named) {
-  const std::string wanted = lowerCase(lastPart(named));
+  const std::string wanted = common::lowerCase(lastPart(named));
   std::string best;
   int best_rank = 0;
   for (const std::string& name : namesBeside(yaml_file)) {
-    const int rank = lowerCase(name) == wanted           ? 3
+    const int rank = common::lowerCase(name) == wanted   ? 3
                      : stemOf(name) == stemOf(wanted)    ? 2
                      : stemOf(name) == stemOf(yaml_file) ? 1
                                                          : 0;

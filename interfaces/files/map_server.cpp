@@ -12,6 +12,7 @@
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "common/validation.hpp"
 #include "interfaces/files/map_picture.hpp"
@@ -64,13 +65,8 @@ enum class Mode { kTrinary, kScale, kRaw };
 /// What YAML takes for false, then for true, beside the numbers of map_server.
 const std::vector<std::string> kPositive = {"0", "false", "no", "off"}, kNegated = {"1", "true", "yes", "on"};
 
-std::string lowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 bool isOneOf(const std::vector<std::string>& words, const std::string& text) {
-  return std::find(words.begin(), words.end(), lowerCase(text)) != words.end();
+  return std::find(words.begin(), words.end(), common::lowerCase(text)) != words.end();
 }
 
 struct MapYaml {
@@ -93,7 +89,7 @@ struct MapYaml {
 
   bool isNegated() const { return isOneOf(kNegated, negate_text); }
   Mode mode() const {
-    return static_cast<Mode>(std::find(kModes.begin(), kModes.end(), lowerCase(mode_text)) - kModes.begin());
+    return static_cast<Mode>(std::find(kModes.begin(), kModes.end(), common::lowerCase(mode_text)) - kModes.begin());
   }
 
   std::vector<std::string> validate() const {
@@ -151,6 +147,35 @@ class PixelRule {
   Mode mode_;
   bool is_negated_;
 };
+
+/// What is odd about the values of the YAML and the picture. The element is the key, without a location.
+std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
+  const auto counted = [](auto count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  std::vector<Problem> notes;
+  if (const std::size_t bytes = picture.left_over_bytes; bytes > 0)
+    notes.push_back(
+        {{}, "image", counted(bytes, "byte") + " after the picture's pixels are left out", "is the map shifted?"});
+  if (const double yaw = yaml.origin[2]; std::abs(yaw) > 2 * std::numbers::pi)
+    notes.push_back({{},
+                     "origin",
+                     fmt::format("a yaw of {:g} rad is more than a whole turn", yaw),
+                     fmt::format("if these are degrees, write {:.6f}", yaw * common::kRadPerDeg)});
+  const PixelRule rule(yaml);
+  const auto& pixels = picture.image.brightness;
+  const auto unknown =
+      !rule.unknownWouldBeFree()
+          ? 0
+          : std::count_if(pixels.begin(), pixels.end(), [&](std::uint8_t pixel) { return rule.isUnknown(pixel); });
+  if (unknown > 0)
+    notes.push_back({{},
+                     "free_thresh",
+                     fmt::format("{:g} would make {} free that map_saver writes for unknown; taken as unknown",
+                                 yaml.free_thresh, counted(unknown, "pixel")),
+                     ""});
+  return notes;
+}
 
 /// The grid of the picture. Its cells are shifted by whole cells as far as the origin asks.
 StoredMap place(const common::GreyImage& image, const MapYaml& yaml) {
@@ -218,28 +243,13 @@ StoredMap readMap(const std::filesystem::path& yaml_file) {
   auto reader = common::config::YamlReader::fromFile(yaml_file.string());
   MapYaml yaml;
   std::vector<Problem> notes = reader.readKnown(yaml);
-  const auto say = [&](const char* key, std::string message, std::string hint = "") {
-    notes.push_back({reader.locationOf(key), key, std::move(message), std::move(hint)});
-  };
   const FoundPicture found = findPicture(yaml_file, yaml.image, reader.locationOf("image"));
   if (found.note) notes.push_back(*found.note);
   const MapPicture picture = parsePicture(common::readBytes(found.file), found.file.string());
-  if (picture.left_over_bytes > 0)
-    say("image",
-        fmt::format("{} of `{}` follow its pixels and are left out",
-                    picture.left_over_bytes == 1 ? "1 byte" : fmt::format("{} bytes", picture.left_over_bytes),
-                    found.file.filename().string()),
-        "is the map not shifted?");
-  if (const double yaw = yaml.origin[2]; std::abs(yaw) > 2 * std::numbers::pi)
-    say("origin", fmt::format("a yaw of {:g} rad is more than a whole turn", yaw),
-        fmt::format("if these are degrees, write {:.6f}", yaw * common::kRadPerDeg));
-  const PixelRule rule(yaml);
-  if (rule.unknownWouldBeFree())
-    if (const auto count = std::count_if(picture.image.brightness.begin(), picture.image.brightness.end(),
-                                         [&](std::uint8_t pixel) { return rule.isUnknown(pixel); }))
-      say("free_thresh", fmt::format("{:g} would make {} pixels of the brightness 205 free; they stay unknown, as "
-                                     "map_saver means them",
-                                     yaml.free_thresh, count));
+  for (Problem& note : oddities(yaml, picture)) {
+    note.location = reader.locationOf(note.element);
+    notes.push_back(std::move(note));
+  }
   StoredMap map = place(picture.image, yaml);
   map.notes = std::move(notes);
   map.resolution_location = reader.locationOf("resolution");
