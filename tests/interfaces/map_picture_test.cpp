@@ -82,7 +82,7 @@ std::string bmp(int width, int height, int bits, int packing, const std::string&
     for (int i = 0; i < count; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
     return text;
   };
-  const auto header = static_cast<int>(40 + (more.size() > 16 ? more.size() : 0));
+  const auto header = static_cast<int>(40 + (packing == 3 && more.size() > 16 ? more.size() : 0));
   const int begin = 14 + 40 + static_cast<int>(more.size());
   return "BM" + little(begin + static_cast<int>(rest.size()), 4) + little(0, 4) + little(begin, 4) + little(header, 4) +
          little(width, 4) + little(height, 4) + little(1, 2) + little(bits, 2) + little(packing, 4) + little(0, 20) +
