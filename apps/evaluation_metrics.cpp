@@ -77,23 +77,25 @@ struct Compared {
   std::vector<PosePair> pairs;  ///< Not empty.
 };
 
+/// That the stamps of one file look like another unit, if they do; else `otherwise`.
+std::string unitHint(const Compared& compared, const std::string& otherwise) {
+  const std::string of_estimate = stepNote(compared.estimate), of_reference = stepNote(compared.reference);
+  if (!of_estimate.empty()) return "in the first file " + of_estimate;
+  return of_reference.empty() ? otherwise : "in the second file " + of_reference;
+}
+
 Compared compare(const EvaluateOptions& options) {
   Compared compared{read(options.estimate), read(options.against), {}};
   const common::Trajectory &estimate = compared.estimate.trajectory, &reference = compared.reference.trajectory;
   compared.pairs = evaluation::associate(estimate, reference, common::Duration::fromSeconds(options.max_difference_s));
-  if (compared.pairs.empty()) {
-    const std::string of_estimate = stepNote(compared.estimate), of_reference = stepNote(compared.reference);
-    const std::string unit = !of_estimate.empty()    ? "in the first file " + of_estimate
-                             : !of_reference.empty() ? "in the second file " + of_reference
-                                                     : "";
+  if (compared.pairs.empty())
     throw InputError(
         Problem{{options.estimate},
                 "",
                 fmt::format("no pose is within {} s of one of {}: {} to {} against {} to {}", options.max_difference_s,
                             options.against, textOf(estimate.front().stamp), textOf(estimate.back().stamp),
                             textOf(reference.front().stamp), textOf(reference.back().stamp)),
-                unit.empty() ? "see --max-difference" : unit});
-  }
+                unitHint(compared, "see --max-difference")});
   return compared;
 }
 
@@ -105,7 +107,7 @@ void requireAlignable(const EvaluateOptions& options, const Compared& compared) 
               "--align",
               fmt::format("the {} pairs do not determine the {} alignment: too few, or on one {}",
                           compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
-              "see `--align first` and `--align none`"});
+              unitHint(compared, "see `--align first` and `--align none`")});
 }
 
 void report(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,

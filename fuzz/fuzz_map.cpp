@@ -1,5 +1,6 @@
 // links: interfaces common
-// Any bytes as a map: what stands before the first line that begins as a picture does is map.yaml, the rest its picture.
+// Any bytes as a map: what stands before the first line that begins as a picture does is map.yaml, the rest its
+// picture.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
