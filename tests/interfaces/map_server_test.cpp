@@ -233,8 +233,8 @@ TEST(MapServer, TakesThePictureBesideTheYaml) {
   };
   put(folder / "m.pgm", std::string("P5 1 1 255\n\0", 12));
   for (const std::string image :
-       {"/home/robot/maps/m.pgm", "maps/m.pgm", "'C:\\maps\\m.pgm'", "'~/no such folder/m.pgm'",
-        "file:///home/robot/m.pgm", "package://robot/maps/m.pgm", "$(find robot)/maps/m.pgm"})
+       {"/opt/robot/maps/m.pgm", "maps/m.pgm", "'C:\\maps\\m.pgm'", "'~/no such folder/m.pgm'",
+        "file:///opt/robot/m.pgm", "package://robot/maps/m.pgm", "$(find robot)/maps/m.pgm"})
     EXPECT_THAT(notesOf(read(image)),
                 ElementsAre(HasSubstr("which lies beside the YAML, is taken, write `image: m.pgm`")))
         << image;
@@ -244,10 +244,10 @@ TEST(MapServer, TakesThePictureBesideTheYaml) {
   const std::string offer = "`m.pgm` lies beside the YAML: write `image: m.pgm`";
   EXPECT_THAT(problemOf([&] { read("M.PGM"); }), HasSubstr(offer));
   EXPECT_THAT(problemOf([&] { read("m.png"); }), HasSubstr(offer));
-  EXPECT_THAT(problemOf([&] { read("/home/robot/other.pgm"); }), HasSubstr(offer));
+  EXPECT_THAT(problemOf([&] { read("/opt/robot/other.pgm"); }), HasSubstr(offer));
   fs::remove(folder / "m.pgm");
-  EXPECT_THAT(problemOf([&] { read("/home/robot/m.pgm"); }),
-              HasSubstr("m.yaml:1:8: image: `/home/robot/m.pgm`: no such file"));
+  EXPECT_THAT(problemOf([&] { read("/opt/robot/m.pgm"); }),
+              HasSubstr("m.yaml:1:8: image: `/opt/robot/m.pgm`: no such file"));
 }
 
 TEST(MapServer, NamesTheYamlOfAPictureThatIsGivenInItsPlace) {
