@@ -9,9 +9,11 @@
 
 #include "apps/command.hpp"
 #include "apps/dry_run.hpp"
+#include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
+#include "behaviors/mission.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/documents.hpp"
@@ -41,6 +43,14 @@ struct NamedMission {
   std::vector<tree::Problem> problems = {};
 };
 
+tree::Problem treeProblem(const common::Problem& problem) {
+  return {{problem.location.file, problem.location.line, problem.location.column},
+          problem.element,
+          problem.message,
+          problem.hint,
+          {}};
+}
+
 std::vector<NamedMission> find(const std::vector<std::string>& names) {
   std::vector<NamedMission> missions;
   for (const std::string& name : names) {
@@ -48,8 +58,7 @@ std::vector<NamedMission> find(const std::vector<std::string>& names) {
     try {
       mission.file = findMission(name);
     } catch (const common::InputError& missing) {
-      for (const common::Problem& problem : missing.problems())
-        mission.problems.push_back({{problem.location.file, 0, 0}, problem.element, problem.message, problem.hint, {}});
+      for (const common::Problem& problem : missing.problems()) mission.problems.push_back(treeProblem(problem));
     }
   }
   return missions;
@@ -64,13 +73,25 @@ tree::TreeFiles treesOf(const std::vector<NamedMission>& missions) {
   return tree::treeFiles(files);
 }
 
+/// What is odd about the maps that a mission may load is a warning, a map that cannot be used a problem.
+void addMapNotes(const NamedMission& mission, behaviors::MissionVerdict& verdict) {
+  try {
+    for (const common::Problem& note : mapNotes(behaviors::Mission::fromFile(mission.file).mapFiles(), mission.file))
+      verdict.warnings.push_back(treeProblem(note));
+  } catch (const common::InputError& unusable) {
+    for (const common::Problem& problem : unusable.problems()) verdict.problems.push_back(treeProblem(problem));
+  }
+}
+
 behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions& options, const System& system,
                                 const tree::TreeFiles& together) {
   if (mission.file.empty()) return {mission.problems, {}, {}};
   behaviors::MissionLimits limits = missionLimits(system, true);
   limits.operator_goes_on = limits.operator_gives_goals = !options.headless;
-  return options.mock_leaves ? behaviors::judgeMissionWithMocks(mission.file, limits, together)
-                             : behaviors::judgeMission(mission.file, limits, together);
+  if (options.mock_leaves) return behaviors::judgeMissionWithMocks(mission.file, limits, together);
+  behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file, limits, together);
+  if (verdict.problems.empty()) addMapNotes(mission, verdict);
+  return verdict;
 }
 
 nlohmann::json jsonOf(const std::vector<tree::Problem>& problems) {

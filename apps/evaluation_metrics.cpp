@@ -9,9 +9,11 @@
 #include "apps/error_figures.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
+#include "common/median_step.hpp"
 #include "common/rounding.hpp"
 #include "evaluation/relations.hpp"
 #include "interfaces/files/relations.hpp"
+#include "interfaces/files/stamp_units.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/files/trajectory_file.hpp"
 
@@ -39,6 +41,12 @@ std::string textOf(common::Time stamp) {
 
 Ordered read(const std::string& file) { return common::ordered(interfaces::readPoses(file)); }
 
+/// What is odd about the steps of the stamps; empty if nothing is.
+std::string stepNote(const Ordered& poses) {
+  return interfaces::stampStepNote(
+      common::medianStep_s(poses.trajectory, [](const common::StampedPose& pose) { return pose.stamp; }));
+}
+
 /// Notes about the stamps of a file, for the reader of the figures.
 void noteStamps(const std::string& file, const Ordered& poses) {
   if (poses.went_back > 0)
@@ -46,6 +54,7 @@ void noteStamps(const std::string& file, const Ordered& poses) {
                      poses.went_back));
   if (poses.repeated > 0)
     show(fmt::format("{}: {} stamps occur again; the last pose of each is taken\n", file, poses.repeated));
+  if (const std::string note = stepNote(poses); !note.empty()) show(fmt::format("{}: {}\n", file, note));
 }
 
 void addStamps(nlohmann::json& json, const std::string& whose, const Ordered& poses) {
@@ -68,6 +77,13 @@ struct Compared {
   std::vector<PosePair> pairs;  ///< Not empty.
 };
 
+/// That the stamps of one file look like another unit, if they do; else `otherwise`.
+std::string unitHint(const Compared& compared, const std::string& otherwise) {
+  const std::string of_estimate = stepNote(compared.estimate), of_reference = stepNote(compared.reference);
+  if (!of_estimate.empty()) return "in the first file " + of_estimate;
+  return of_reference.empty() ? otherwise : "in the second file " + of_reference;
+}
+
 Compared compare(const EvaluateOptions& options) {
   Compared compared{read(options.estimate), read(options.against), {}};
   const common::Trajectory &estimate = compared.estimate.trajectory, &reference = compared.reference.trajectory;
@@ -79,7 +95,7 @@ Compared compare(const EvaluateOptions& options) {
                 fmt::format("no pose is within {} s of one of {}: {} to {} against {} to {}", options.max_difference_s,
                             options.against, textOf(estimate.front().stamp), textOf(estimate.back().stamp),
                             textOf(reference.front().stamp), textOf(reference.back().stamp)),
-                "see --max-difference"});
+                unitHint(compared, "see --max-difference")});
   return compared;
 }
 
@@ -91,7 +107,7 @@ void requireAlignable(const EvaluateOptions& options, const Compared& compared) 
               "--align",
               fmt::format("the {} pairs do not determine the {} alignment: too few, or on one {}",
                           compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
-              "see `--align first` and `--align none`"});
+              unitHint(compared, "see `--align first` and `--align none`")});
 }
 
 void report(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,

@@ -220,9 +220,11 @@ void printEnd(const FlightResult& result, bool json) {
 void showWarnings(const std::vector<FlightMission>& missions, bool headless) {
   behaviors::MissionLimits limits;
   limits.operator_goes_on = limits.operator_gives_goals = !headless;
-  for (const FlightMission& mission : missions)
+  for (const FlightMission& mission : missions) {
     for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits).warnings)
       showError(lineOf(warning, true));
+    showNotes(mapNotes(mission.mission.mapFiles(), mission.file));
+  }
 }
 
 std::unique_ptr<WebLink> servePage(const FlyOptions& options, const FlightSetup& setup) {
@@ -242,7 +244,10 @@ int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
   showWarnings(missions, options.headless);
-  if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
+  if (!options.map.empty()) {
+    setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
+    showNotes(setup.map->notes);
+  }
   const StopSignals& signals = stopOnSignals();
   outliveReaders();
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/required.hpp"
+#include "apps/show.hpp"
 #include "apps/system.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
@@ -56,6 +57,19 @@ fs::path missionMap(const std::string& map, const std::string& mission_file) {
   return common::findBeside(fs::path(mission_file).parent_path(), map);
 }
 
+std::vector<common::Problem> mapNotes(const std::vector<std::string>& maps, const std::string& mission_file) {
+  std::vector<common::Problem> notes;
+  for (const std::string& map : maps) {
+    const auto of_map = readUsableMap(missionMap(map, mission_file)).notes;
+    notes.insert(notes.end(), of_map.begin(), of_map.end());
+  }
+  return notes;
+}
+
+void showNotes(const std::vector<common::Problem>& notes) {
+  for (const common::Problem& note : notes) showError("note: " + toString(note) + "\n");
+}
+
 std::vector<autonomy::OfferedMap> offeredMaps(const std::vector<std::string>& maps, const std::string& mission_file,
                                               std::uint64_t seed) {
   std::vector<autonomy::OfferedMap> offered;
@@ -73,6 +87,7 @@ FlightMap readFlightMap(const fs::path& yaml_file) {
   map.map.name = yaml_file.string();
   map.map.grid = std::make_shared<const common::OccupancyGrid>(std::move(stored.grid));
   map.map.T_given_grid = stored.T_map_grid;
+  map.notes = std::move(stored.notes);
   return map;
 }
 

@@ -105,8 +105,11 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
   line.close();
 }
 
-std::vector<std::string> warningsOf(const RecordedLog& log, const perception::LogLocalizerCounts& counts) {
-  std::vector<std::string> warnings = log.warnings(counts.front_end);
+std::vector<std::string> warningsOf(const interfaces::StoredMap& map, const RecordedLog& log,
+                                    const perception::LogLocalizerCounts& counts) {
+  std::vector<std::string> warnings;
+  for (const common::Problem& note : map.notes) warnings.push_back(toString(note));
+  for (std::string& warning : log.warnings(counts.front_end)) warnings.push_back(std::move(warning));
   if (const auto n = counts.breaks; n > 0)
     warnings.push_back(plural(n, "time", "times") + " the scans did not follow on each other");
   return warnings;
@@ -180,7 +183,7 @@ int localize(const LocalizeOptions& options) {
   const perception::LogLocalizerCounts counts = localizer.counts();
   run.shown.map = options.map;
   run.shown.log = options.log.file;
-  run.shown.warnings = warningsOf(log, counts);
+  run.shown.warnings = warningsOf(map, log, counts);
   run.shown.has_stamps = !log.hasOneStamp();
   run.shown.facts = factsOf(log, run);
   writeLocalizeOutputs(folder.unfinished(), map, run.shown);

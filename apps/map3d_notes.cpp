@@ -7,6 +7,8 @@
 
 #include "apps/recorded_log.hpp"
 #include "common/geometry.hpp"
+#include "common/median_step.hpp"
+#include "interfaces/files/stamp_units.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -74,6 +76,9 @@ void noteOnStamps(const RgbdFolder& folder, std::vector<std::string>& notes) {
   if (folder.listing().stamps_per_s != 1.0)
     notes.push_back(fmt::format("the stamps are whole numbers: they are taken for frames, {:g} of which are a second",
                                 folder.listing().stamps_per_s));
+  const std::string steps = interfaces::stampStepNote(
+      common::medianStep_s(pairs, [](const interfaces::RgbdListing::Pair& pair) { return pair.stamp; }));
+  if (!steps.empty()) notes.push_back(steps);
   double longest_s = 0.0, from_s = 0.0;
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     const double gap_s = (pairs[i].stamp - pairs[i - 1].stamp).seconds();

@@ -202,10 +202,10 @@ int optimizeGraph(const OptimizeOptions& options) {
 void addOptimize(Command& program) {
   auto options = std::make_shared<OptimizeOptions>();
   Command command = program.command("optimize", "Find the poses that best satisfy a pose graph (g2o).");
-  command.argument(
-      "graph", options->graph,
-      "Graph in the plane or in space (SE2 or SE3:QUAT), plain or compressed by gzip, bzip2 or xz. Without "
-      "vertices, the guess follows from the shortest chains of edges.");
+  command.argument("graph", options->graph,
+                   "Graph in the plane or in space, of g2o (SE2 or SE3:QUAT) or TORO (2 or 3), plain or compressed by "
+                   "gzip, bzip2 or xz. Without "
+                   "vertices, the guess follows from the shortest chains of edges.");
   command.option("--out", options->out,
                  "Folder for the optimized graph, graph.g2o, and its figures, optimized.json; new, empty or with older "
                  "ones.");

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "apps/system.hpp"
+#include "common/median_step.hpp"
+#include "interfaces/files/stamp_units.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
 
@@ -19,6 +21,9 @@ std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) 
   if (!options.sensor.empty()) log_options.sensor = loadLaser(options.sensor);
   return interfaces::openLaserLog(options.file, log_options);
 }
+
+/// So many stamps tell the rate of a laser.
+constexpr std::size_t kFirstStamps = 1000;
 
 /// The name without the first of these endings that it has.
 std::string without(std::string name, std::initializer_list<std::string_view> endings) {
@@ -60,9 +65,7 @@ std::optional<interfaces::LoggedScan> RecordedLog::next() {
     if (!logged) return logged;
     ++scans_;
     countRanges(logged->scan);
-    if (!first_stamp_) first_stamp_ = logged->scan.stamps.measured;
-    duration_s_ = (logged->scan.stamps.measured - *first_stamp_).seconds();
-    stamps_differ_ = stamps_differ_ || logged->scan.stamps.measured != *first_stamp_;
+    countStamp(logged->scan.stamps.measured);
     return logged;
   } catch (const common::InputError& e) {
     if (scans_ == 0) throw;
@@ -86,6 +89,7 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
   }
   if (const auto n = reader_->counts().invalid_ranges; n > 0)
     warnings.push_back(plural(n, "range is", "ranges are") + " negative or not a number");
+  if (const std::string note = stampNote(); !note.empty()) warnings.push_back(note);
   if (hasOneStamp())
     warnings.push_back(
         fmt::format("all scans have the same stamp, {:.3f} s: the order of the file is believed; the poses of the "
@@ -111,6 +115,17 @@ std::vector<std::pair<std::string, std::string>> RecordedLog::facts() const {
                                                          {"scans", fmt::format("{}", scans_)}};
   if (duration_s_ > 0.0) facts.emplace_back("duration", fmt::format("{:.1f} s", duration_s_));
   return facts;
+}
+
+void RecordedLog::countStamp(common::Time stamp) {
+  if (!first_stamp_) first_stamp_ = stamp;
+  if (first_stamps_.size() < kFirstStamps) first_stamps_.push_back(stamp);
+  duration_s_ = (stamp - *first_stamp_).seconds();
+  stamps_differ_ = stamps_differ_ || stamp != *first_stamp_;
+}
+
+std::string RecordedLog::stampNote() const {
+  return interfaces::stampStepNote(common::medianStep_s(first_stamps_, [](common::Time stamp) { return stamp; }));
 }
 
 void RecordedLog::countRanges(const common::LaserScan& scan) {

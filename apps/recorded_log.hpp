@@ -73,6 +73,9 @@ class RecordedLog {
   common::InputError error(const std::string& message) const;
 
  private:
+  void countStamp(common::Time stamp);
+  /// What is odd about the steps of the stamps; empty if nothing is.
+  std::string stampNote() const;
   void countRanges(const common::LaserScan& scan);
 
   std::string file_;
@@ -81,6 +84,7 @@ class RecordedLog {
   std::uint64_t scans_ = 0;
   std::optional<common::Time> first_stamp_;
   bool stamps_differ_ = false;
+  std::vector<common::Time> first_stamps_;
   double duration_s_ = 0.0;                              ///< From the first stamp to the last.
   std::uint64_t ranges_ = 0, invalid_ = 0, beyond_ = 0;  ///< All; those that tell nothing; those without a hit.
   double nearest_m_ = 0.0, farthest_m_ = 0.0;            ///< What the laser of the last scan measures.

@@ -165,6 +165,7 @@ std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::pa
     return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
   }
   FlightMap map = readFlightMap(trial.map.file);
+  showNotes(map.notes);
   map.T_world_given = common::Pose2{trial.map.x_m, trial.map.y_m, trial.map.yaw_deg * common::kRadPerDeg};
   return std::make_shared<const FlightMap>(std::move(map));
 }

@@ -31,6 +31,15 @@ class YamlReader final : public Fields {
     finish(relationProblems(config));
   }
 
+  /// As `read`, for files that other programs write as well: a key at the top that is not known is no mistake, unless
+  /// it is a likely misspelling of one that the file lacks. Returns a note for each.
+  template <typename Config>
+  std::vector<Problem> readKnown(Config& config) {
+    keepUnknownKeys();
+    read(config);
+    return unknownKeys();
+  }
+
   /// Paths of the values that the file gives, in the order they were read: "limits.speed_m_s", "walkers[0].mode".
   const std::vector<std::string>& writtenKeys() const;
   /// Where the file gives the value with that path; without line and column if it does not.
@@ -58,6 +67,8 @@ class YamlReader final : public Fields {
   struct Impl;
   explicit YamlReader(std::unique_ptr<Impl> impl);
   void finish(const std::vector<std::string>& problems);
+  void keepUnknownKeys();
+  std::vector<Problem> unknownKeys() const;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -27,6 +27,8 @@ struct YamlReader::Impl {
   std::vector<YAML::Node> lists;
   std::vector<std::string> list_names;
   std::vector<Problem> problems;
+  bool keeps_unknown_keys = false;
+  std::vector<Problem> unknown_keys;
   std::vector<std::string> written;
   std::map<std::string, SourceLocation> places;
 
@@ -126,9 +128,13 @@ struct YamlReader::Impl {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
       if (!met.insert(key).second) report(entry.first, "", fmt::format("key `{}` is given twice", key), "");
       const auto& known = level.known_keys;
-      if (std::find(known.begin(), known.end(), key) == known.end())
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      const auto nearest = nearestWord(key, known);
+      if (keeps_unknown_keys && levels.size() == 1 && !(nearest && !level.node[*nearest].IsDefined()))
+        unknown_keys.push_back({at(entry.first), "", fmt::format("unknown key `{}`, not used", key), ""});
+      else
         report(entry.first, "", fmt::format("unknown key `{}`", key),
-               didYouMean(key, known).empty() ? "known are: " + listed(known) : didYouMean(key, known));
+               nearest ? didYouMean(key, known) : "known are: " + listed(known));
     }
   }
 
@@ -267,6 +273,9 @@ void YamlReader::endList() {
   impl_->lists.pop_back();
   impl_->list_names.pop_back();
 }
+
+void YamlReader::keepUnknownKeys() { impl_->keeps_unknown_keys = true; }
+std::vector<Problem> YamlReader::unknownKeys() const { return impl_->unknown_keys; }
 
 void YamlReader::finish(const std::vector<std::string>& problems) {
   impl_->closeLevel(problems);

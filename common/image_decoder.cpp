@@ -27,7 +27,10 @@ bool isSizeAllowed(int width_px, int height_px) {
 
 // --- PNG ------------------------------------------------------------------------------------------------------------
 
-enum class Wanted { kRgb, kGray16 };
+enum class Wanted { kRgb, kGray16, kGrey };
+
+/// Deflate packs at most so many bytes into one. A header that promises more pixels must not allocate them.
+constexpr std::size_t kMostUnpacked = 1032;
 
 /// A PNG while it is read. libpng leaves by longjmp to `readPng`, which has no objects with destructors.
 struct PngRead {
@@ -35,7 +38,7 @@ struct PngRead {
   std::size_t at = 0;
   png_structp png = nullptr;
   png_infop info = nullptr;
-  int width_px = 0, height_px = 0;
+  int width_px = 0, height_px = 0, channels = 0;
   std::vector<std::uint8_t> pixels;
   std::vector<png_bytep> rows;
   std::string problem;
@@ -67,6 +70,7 @@ void convertTo(PngRead& read, Wanted wanted) {
     return;
   }
   png_set_expand(read.png);
+  if (wanted == Wanted::kGrey) return png_set_scale_16(read.png);
   png_set_strip_16(read.png);
   png_set_strip_alpha(read.png);
   if (!(type & PNG_COLOR_MASK_COLOR)) png_set_gray_to_rgb(read.png);
@@ -88,14 +92,19 @@ bool readPng(PngRead& read, Wanted wanted) {
   }
   if (setjmp(png_jmpbuf(read.png)) != 0) return false;
   read.info = png_create_info_struct(read.png);
-  png_set_user_limits(read.png, kMostImageSide_px, kMostImageSide_px);
+  const int most_px = wanted == Wanted::kGrey ? kMostGreySide_px : kMostImageSide_px;
+  png_set_user_limits(read.png, static_cast<png_uint_32>(most_px), static_cast<png_uint_32>(most_px));
   png_set_read_fn(read.png, &read, onRead);
   png_read_info(read.png, read.info);
+  read.height_px = static_cast<int>(png_get_image_height(read.png, read.info));
+  if (png_get_rowbytes(read.png, read.info) * static_cast<std::size_t>(read.height_px) / kMostUnpacked >
+      read.bytes.size())
+    png_error(read.png, "is cut off");
   convertTo(read, wanted);
   png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
   read.width_px = static_cast<int>(png_get_image_width(read.png, read.info));
-  read.height_px = static_cast<int>(png_get_image_height(read.png, read.info));
+  read.channels = png_get_channels(read.png, read.info);
   placeRows(read);
   png_read_image(read.png, read.rows.data());
   png_read_end(read.png, nullptr);
@@ -108,6 +117,21 @@ tl::expected<Image, std::string> colorFromPng(std::string_view bytes) {
   if (read.pixels.size() != 3 * samples(read.width_px, read.height_px))
     return unexpected(std::string("is not an 8-bit RGB image"));
   return Image{read.width_px, read.height_px, std::move(read.pixels)};
+}
+
+/// From pixels of one or three colours, with or without a last channel for opacity.
+GreyImage greyOf(int width_px, int height_px, const std::vector<std::uint8_t>& pixels, int channels) {
+  const auto step = static_cast<std::size_t>(channels);
+  const std::size_t colors = channels < 3 ? 1 : 3, count = samples(width_px, height_px);
+  GreyImage image{width_px, height_px, {}, {}};
+  image.brightness.reserve(count);
+  if (step > colors) image.opacity.reserve(count);
+  for (std::size_t at = 0; at < count * step; at += step) {
+    const int sum = colors == 1 ? 3 * pixels[at] : pixels[at] + pixels[at + 1] + pixels[at + 2];
+    image.brightness.push_back(static_cast<std::uint8_t>((2 * sum + 3) / 6));
+    if (step > colors) image.opacity.push_back(pixels[at + colors]);
+  }
+  return image;
 }
 
 // --- JPEG -----------------------------------------------------------------------------------------------------------
@@ -148,6 +172,15 @@ tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes) {
   depth.codes.resize(samples(read.width_px, read.height_px));
   std::memcpy(depth.codes.data(), read.pixels.data(), read.pixels.size());
   return depth;
+}
+
+tl::expected<GreyImage, std::string> decodeGrey(std::string_view bytes) {
+  if (!isPng(bytes))
+    return decodeColor(bytes).map(
+        [](const Image& image) { return greyOf(image.width_px, image.height_px, image.rgb, 3); });
+  PngRead read(bytes);
+  if (!readPng(read, Wanted::kGrey)) return unexpected(read.problem);
+  return greyOf(read.width_px, read.height_px, read.pixels, read.channels);
 }
 
 }  // namespace swiftlet::common

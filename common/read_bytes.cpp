@@ -1,9 +1,11 @@
 #include "common/read_bytes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -14,8 +16,30 @@
 namespace swiftlet::common {
 namespace {
 
-InputError problemWith(const std::filesystem::path& file, std::string message) {
-  return InputError(Problem{{file.string()}, "", std::move(message), ""});
+InputError problemWith(const std::filesystem::path& file, std::string message, std::string hint = "") {
+  return InputError(Problem{{file.string()}, "", std::move(message), std::move(hint)});
+}
+
+/// What a clone has in place of a large file, until that is brought: a small text that says where it is.
+struct Pointer {
+  std::string_view begins_with;
+  const char* keeper;
+  const char* remedy;
+};
+constexpr std::array kPointers{
+    Pointer{"version https://git-lfs.github.com/spec/", "Git LFS", "run `git lfs pull` in its repository"},
+    Pointer{"version https://hawser.github.com/spec/", "Git LFS", "run `git lfs pull` in its repository"},
+    Pointer{"/annex/objects/", "git-annex", "run `git annex get` for it in its repository"},
+};
+
+void refusePointer(const std::filesystem::path& file) {
+  std::array<char, 64> first{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(first.data(), first.size());
+  const std::string_view text(first.data(), static_cast<std::size_t>(stream.gcount()));
+  for (const Pointer& pointer : kPointers)
+    if (text.starts_with(pointer.begins_with))
+      throw problemWith(file, fmt::format("this is a pointer of {}, not the file", pointer.keeper), pointer.remedy);
 }
 
 }  // namespace
@@ -26,6 +50,7 @@ void requireFile(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) throw problemWith(file, "is a folder, a file was expected");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw problemWith(file, "is a pipe or a device, a file was expected");
+  if (std::filesystem::is_regular_file(status)) refusePointer(file);
 }
 
 std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes) {

@@ -7,7 +7,8 @@
 
 namespace swiftlet::common {
 
-/// Throws InputError for a folder, a pipe or a device. A pipe or a device could block a reader forever.
+/// Throws InputError for a folder, a pipe or a device, and for a pointer of Git LFS or git-annex that stands for the
+/// file in a clone. A pipe or a device could block a reader forever. What cannot be opened passes.
 void requireFile(const std::filesystem::path& file);
 
 /// The default limit for the size of a file that is read into memory.

@@ -27,5 +27,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else if (depth.error().empty()) {
     std::abort();
   }
+  if (const auto grey = common::decodeGrey(bytes)) {
+    const std::size_t count = pixels(grey->width_px, grey->height_px);
+    if (grey->brightness.size() != count || (!grey->opacity.empty() && grey->opacity.size() != count)) std::abort();
+  } else if (grey.error().empty()) {
+    std::abort();
+  }
   return 0;
 }

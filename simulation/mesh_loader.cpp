@@ -10,6 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "common/error.hpp"
+#include "common/read_bytes.hpp"
+
 namespace swiftlet::simulation {
 namespace {
 
@@ -88,6 +91,12 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_root
 }  // namespace
 
 tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh) {
+  try {
+    common::requireFile(file);
+  } catch (const common::InputError& wrong) {
+    const common::Problem& problem = wrong.problems().front();
+    return tl::unexpected(problem.hint.empty() ? problem.message : problem.message + ", " + problem.hint);
+  }
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);

@@ -27,6 +27,9 @@ std::optional<std::string> readFromDisk(const std::string& path, std::size_t lim
   return text;
 }
 
+/// What a clone has in place of a file that Git LFS keeps, until it is pulled.
+constexpr std::string_view kLfsPointer = "version https://git-lfs.github.com/spec/";
+
 std::string normalized(const fs::path& path) { return path.lexically_normal().generic_string(); }
 
 bool isForEditors(std::string_view attribute) {
@@ -97,6 +100,11 @@ void Documents::load(std::string text, const std::string& name) {
 bool Documents::add(std::string text, const std::string& path, const Document* from, const XmlElement* element) {
   const Location place = from == nullptr ? Location{path, 0, 0} : from->at(*element);
   const std::string tag = from == nullptr ? std::string() : "include";
+  if (text.starts_with(kLfsPointer)) {
+    problems_.add(
+        {{path, 0, 0}, {}, "this is a pointer of Git LFS, not the file", "run `git lfs pull` in its repository"});
+    return false;
+  }
   if (text.size() > options_.limits.file_bytes) {
     problems_.add(
         {place, tag, "`" + path + "` is larger than " + std::to_string(options_.limits.file_bytes) + " bytes", {}});

@@ -1,7 +1,10 @@
 #include "interfaces/files/g2o.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -31,8 +34,28 @@ const std::set<std::string, std::less<>> kUnusedTags = {"VERTEX_XY",
                                                         "VERTEX_ODOM_DIFFERENTIAL",
                                                         "EDGE_PROJECT_DEPTH",
                                                         "DATA_END",
-                                                        "VERTEX_TAG"};
+                                                        "VERTEX_TAG",
+                                                        "EQUIV"};
+
+/// An element that is read.
+struct Element {
+  bool is_edge = false;
+  bool in_plane = true;
+  GraphFormat format = GraphFormat::kG2o;
+};
+
+const std::map<std::string, Element, std::less<>> kElements = {
+    {"VERTEX_SE2", {false, true, GraphFormat::kG2o}},       {"EDGE_SE2", {true, true, GraphFormat::kG2o}},
+    {"VERTEX_SE3:QUAT", {false, false, GraphFormat::kG2o}}, {"EDGE_SE3:QUAT", {true, false, GraphFormat::kG2o}},
+    {"VERTEX2", {false, true, GraphFormat::kToro}},         {"EDGE2", {true, true, GraphFormat::kToro}},
+    {"VERTEX", {false, true, GraphFormat::kToro}},          {"EDGE", {true, true, GraphFormat::kToro}},
+    {"VERTEX3", {false, false, GraphFormat::kToro}},        {"EDGE3", {true, false, GraphFormat::kToro}},
+};
 const std::vector<std::string> kUsedTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", "FIX"};
+
+/// More kinds of unused elements than this are not named where nothing else is in a file.
+constexpr std::size_t kMostNamed = 4;
+constexpr std::size_t kShownTag = 40;
 
 class Reading {
  public:
@@ -45,15 +68,15 @@ class Reading {
     }
     G2oFile file;
     if (!plane_.empty()) {
-      file.graph = plane_.finish(lines_.name(), fixed_);
+      file.graph = plane_.finish(lines_.name(), fixed_, leftOut());
     } else if (!space_.empty()) {
-      file.graph = space_.finish(lines_.name(), fixed_);
+      file.graph = space_.finish(lines_.name(), fixed_, leftOut());
     } else {
-      throw common::InputError(
-          common::Problem{{lines_.name()},
-                          "",
-                          "holds no pose graph, expected VERTEX_SE2, EDGE_SE2, VERTEX_SE3:QUAT or EDGE_SE3:QUAT",
-                          ""});
+      throw common::InputError(common::Problem{
+          {lines_.name()},
+          "",
+          "holds no pose graph, expected EDGE_SE2 or EDGE_SE3:QUAT of g2o, EDGE2 or EDGE3 of TORO" + leftOut(),
+          ""});
     }
     file.indefinite_edges = plane_.indefiniteEdges() + space_.indefiniteEdges();
     for (const auto& [tag, left_out] : left_out_) file.warnings.push_back(warningOf(tag, left_out));
@@ -69,14 +92,9 @@ class Reading {
   void add(G2oFields fields) {
     const int line = lines_.lineNumber();
     const std::string tag = fields.tag();
-    if (tag == "VERTEX_SE2") {
-      of(plane_, space_.empty(), fields).addVertex(fields, line);
-    } else if (tag == "EDGE_SE2") {
-      of(plane_, space_.empty(), fields).addEdge(fields, line);
-    } else if (tag == "VERTEX_SE3:QUAT") {
-      of(space_, plane_.empty(), fields).addVertex(fields, line);
-    } else if (tag == "EDGE_SE3:QUAT") {
-      of(space_, plane_.empty(), fields).addEdge(fields, line);
+    if (const auto known = kElements.find(tag); known != kElements.end()) {
+      known->second.in_plane ? addTo(plane_, space_.empty(), known->second, fields)
+                             : addTo(space_, plane_.empty(), known->second, fields);
     } else if (tag == "FIX") {
       if (fields.left() == 0) throw fields.problem(1, "expected the ids of the vertices that do not move");
       while (fields.left() > 0) {
@@ -90,9 +108,24 @@ class Reading {
   }
 
   template <typename Graph>
-  static G2oCollector<Graph>& of(G2oCollector<Graph>& collector, bool other_is_empty, const G2oFields& fields) {
+  void addTo(G2oCollector<Graph>& collector, bool other_is_empty, const Element& element, G2oFields& fields) {
     if (!other_is_empty) throw fields.problem(1, "the file mixes elements of the plane (SE2) and of space (SE3)");
-    return collector;
+    if (element.is_edge)
+      collector.addEdge(fields, lines_.lineNumber(), element.format);
+    else
+      collector.addVertex(fields, lines_.lineNumber(), element.format);
+  }
+
+  /// "; not used: 20 EDGE_SE2_XY, 5 VERTEX_XY", the most frequent first; empty if every line was used.
+  std::string leftOut() const {
+    std::vector<std::pair<int, std::string>> counts;
+    for (const auto& [tag, left_out] : left_out_) counts.emplace_back(-left_out.lines, tag);
+    std::sort(counts.begin(), counts.end());
+    std::string text;
+    for (std::size_t i = 0; i < std::min(counts.size(), kMostNamed); ++i)
+      text += fmt::format("{} {} {}", i == 0 ? "; not used:" : ",", -counts[i].first,
+                          counts[i].second.substr(0, kShownTag));
+    return counts.size() > kMostNamed ? text + " ..." : text;
   }
 
   std::string warningOf(const std::string& tag, const LeftOut& left_out) const {

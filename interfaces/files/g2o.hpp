@@ -2,6 +2,9 @@
 //   VERTEX_SE2 id x y yaw                     EDGE_SE2 from to x y yaw (6 numbers of the information)
 //   VERTEX_SE3:QUAT id x y z qx qy qz qw      EDGE_SE3:QUAT from to x y z qx qy qz qw (21 numbers of the information)
 //   FIX id [id ...]
+// The elements of TORO are read as well, those of its older form without a number too:
+//   VERTEX2 id x y yaw                        EDGE2 from to x y yaw (information: xx xy yy yawyaw xyaw yyaw)
+//   VERTEX3 id x y z roll pitch yaw           EDGE3 from to x y z roll pitch yaw (21 numbers, row by row)
 // The information is the upper triangle, row by row, of the inverse covariance of the error, which is the measurement's
 // inverse times the relative pose of the estimate: in the plane (x, y, yaw), in space (x, y, z and the vector part of
 // the unit quaternion whose w is not negative, which for small angles is half the rotation vector).

@@ -26,29 +26,30 @@ template <typename Graph>
 class G2oCollector {
  public:
   using Pose = typename Graph::Pose;
-  static constexpr std::size_t kPoseNumbers = Graph::kErrors == 3 ? 3 : 7;
+  static constexpr bool kPlane = Graph::kErrors == 3;
   static constexpr std::size_t kInformationNumbers = Graph::kErrors * (Graph::kErrors + 1) / 2;
 
   explicit G2oCollector(const G2oOptions& options) : options_(options) {}
 
-  void addVertex(G2oFields& fields, int line) {
-    fields.expectNumbers(1 + kPoseNumbers);
+  void addVertex(G2oFields& fields, int line, GraphFormat format) {
+    fields.expectNumbers(1 + poseNumbers(format));
     const int column = fields.column();
     const std::int64_t id = fields.id();
     const auto [it, is_new] = vertices_.try_emplace(id, Vertex{static_cast<int>(graph_.ids.size()), line});
     if (!is_new) throw fields.problem(column, fmt::format("vertex {} stands in line {} already", id, it->second.line));
     graph_.ids.push_back(id);
-    graph_.poses.push_back(poseIn(fields));
+    graph_.poses.push_back(poseIn(fields, format));
   }
 
-  void addEdge(G2oFields& fields, int line) {
-    fields.expectNumbers(2 + kPoseNumbers + kInformationNumbers);
+  void addEdge(G2oFields& fields, int line, GraphFormat format) {
+    fields.expectInformation(2 + poseNumbers(format), kInformationNumbers);
     const int column = fields.column();
     const std::int64_t from = fields.id(), to = fields.id();
     if (from == to) throw fields.problem(column, fmt::format("the edge leads from vertex {} to itself", from));
     typename Graph::Edge edge;
-    edge.T_from_to = poseIn(fields);
-    edge.information = definite(fields);
+    edge.T_from_to = poseIn(fields, format);
+    edge.information = definite(fields, format);
+    if (format == GraphFormat::kToro) edge.information = fromToro(edge);
     graph_.edges.push_back(edge);
     ends_.push_back({from, to, line, column});
   }
@@ -56,9 +57,11 @@ class G2oCollector {
   std::size_t indefiniteEdges() const { return indefinite_edges_; }
   bool empty() const { return graph_.ids.empty() && graph_.edges.empty(); }
 
-  Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed) {
+  /// `left_out` is for the error where no edge was read: "; not used: 20 EDGE_SE2_XY".
+  Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed,
+               const std::string& left_out) {
     if (graph_.edges.empty())
-      throw common::InputError(common::Problem{{file}, "", "holds vertices, but no edges connect them", ""});
+      throw common::InputError(common::Problem{{file}, "", "holds vertices, but no edges connect them" + left_out, ""});
     if (first_problem_) throw indefiniteError();
     if (graph_.ids.empty()) takeVerticesFromEdges();
     for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -72,15 +75,37 @@ class G2oCollector {
   }
 
  private:
-  static Pose poseIn(G2oFields& fields) {
-    if constexpr (Graph::kErrors == 3) {
+  using Information = typename Graph::Information;
+
+  static std::size_t poseNumbers(GraphFormat format) { return kPlane ? 3 : format == GraphFormat::kToro ? 6 : 7; }
+
+  static Pose poseIn(G2oFields& fields, GraphFormat format) {
+    if constexpr (kPlane) {
       return fields.pose2();
     } else {
-      return fields.pose3();
+      return format == GraphFormat::kToro ? fields.pose3OfAngles() : fields.pose3();
     }
   }
 
-  using Information = typename Graph::Information;
+  static Information informationIn(G2oFields& fields, GraphFormat format) {
+    if constexpr (kPlane)
+      if (format == GraphFormat::kToro) return fields.toroInformation();
+    return fields.template information<Information>();
+  }
+
+  /// TORO's information of an edge in the plane belongs to the error in the frame where the edge starts (its
+  /// treeoptimizer2), g2o's to that in the frame where it ends. In space TORO's is about angles, g2o's about the vector
+  /// part of a quaternion, which is half of them.
+  static Information fromToro(const typename Graph::Edge& edge) {
+    if constexpr (kPlane) {
+      return common::turned(edge.information, -edge.T_from_to.yaw_rad);
+    } else {
+      Information information = edge.information;
+      information.template bottomRows<3>() *= 2.0;
+      information.template rightCols<3>() *= 2.0;
+      return information;
+    }
+  }
 
   static bool isPositiveDefinite(const Information& information) {
     const Eigen::LLT<Information> llt(information);
@@ -88,9 +113,9 @@ class G2oCollector {
   }
 
   /// The information of an edge, if it is valid: see indefiniteError.
-  Information definite(G2oFields& fields) {
+  Information definite(G2oFields& fields, GraphFormat format) {
     const int column = fields.column();
-    Information information = fields.template information<Information>();
+    Information information = informationIn(fields, format);
     if (isPositiveDefinite(information)) return information;
     ++indefinite_edges_;
     Information diagonal = information.diagonal().asDiagonal();

@@ -12,6 +12,20 @@ void G2oFields::expectNumbers(std::size_t count) const {
   if (left() != count) throw problem(words_.back().column, fmt::format("{} numbers instead of {}", left(), count));
 }
 
+void G2oFields::expectInformation(std::size_t begin, std::size_t numbers) const {
+  if (left() == begin + numbers || left() < begin) return expectNumbers(begin + numbers);
+  std::string unit;
+  for (std::size_t size = numbers == 6 ? 3 : 6; size > 0; --size) {
+    unit += " 1";
+    for (std::size_t i = 1; i < size; ++i) unit += " 0";
+  }
+  const std::size_t given = left() - begin;
+  throw problem(words_.back().column,
+                given == 0 ? fmt::format("the information matrix ({} numbers) is missing", numbers)
+                           : fmt::format("the information matrix has {} numbers instead of {}", given, numbers),
+                "write its upper triangle row by row; for edges of equal weight it is" + unit);
+}
+
 std::int64_t G2oFields::id() {
   const Word& word = words_[next_++];
   std::int64_t value = 0;
@@ -49,6 +63,19 @@ common::Pose3 G2oFields::pose3() {
   if (!(rotation.norm() > 1e-6) || !std::isfinite(rotation.norm()))
     throw problem(begin, fmt::format("a rotation of length {}", rotation.norm()));
   return {rotation.normalized(), {x_m, y_m, z_m}};
+}
+
+common::Pose3 G2oFields::pose3OfAngles() {
+  const double x_m = coordinate_m("x"), y_m = coordinate_m("y"), z_m = coordinate_m("z");
+  const double roll_rad = number("roll"), pitch_rad = number("pitch"), yaw_rad = number("yaw");
+  return {common::quaternionFrom({roll_rad, pitch_rad, yaw_rad}), {x_m, y_m, z_m}};
+}
+
+Eigen::Matrix3d G2oFields::toroInformation() {
+  Eigen::Matrix3d matrix;
+  constexpr std::array<std::array<int, 2>, 6> kPlaces{{{0, 0}, {0, 1}, {1, 1}, {2, 2}, {0, 2}, {1, 2}}};
+  for (const auto& [row, col] : kPlaces) matrix(row, col) = matrix(col, row) = number("information");
+  return matrix;
 }
 
 }  // namespace swiftlet::interfaces

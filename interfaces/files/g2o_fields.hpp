@@ -28,18 +28,24 @@ class G2oFields {
   int column() const { return words_[std::min(next_, words_.size() - 1)].column; }
 
   void expectNumbers(std::size_t count) const;
+  /// For an edge: `begin` numbers, then those of its information.
+  void expectInformation(std::size_t begin, std::size_t numbers) const;
   std::int64_t id();
   double number(const char* name);
   /// A length within kFarthest_m.
   double coordinate_m(const char* name);
   common::Pose2 pose2();
   common::Pose3 pose3();
+  /// x, y, z, roll, pitch, yaw.
+  common::Pose3 pose3OfAngles();
   /// The upper triangle, row by row, without a check of its values.
   template <typename Matrix>
   Matrix information();
+  /// The order of TORO in the plane: xx xy yy, yaw yaw, x yaw, y yaw.
+  Eigen::Matrix3d toroInformation();
 
-  common::InputError problem(int column, const std::string& message) const {
-    return lines_.problemAt(column, tag(), message);
+  common::InputError problem(int column, const std::string& message, const std::string& hint = "") const {
+    return lines_.problemAt(column, tag(), message, hint);
   }
 
  private:

@@ -33,6 +33,9 @@ struct G2oGraph {
 using G2oGraph2D = G2oGraph<common::Pose2, 3>;
 using G2oGraph3D = G2oGraph<common::Pose3, 6>;
 
+/// Whose elements a line is one of.
+enum class GraphFormat { kG2o, kToro };
+
 struct G2oOptions {
   /// For an information that is not positive definite, use only its diagonal.
   bool ignore_cross_terms = false;

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "interfaces/files/stamp_units.hpp"
+
 namespace swiftlet::interfaces {
 
 std::string toString(const LineFormat& format) { return fmt::format("`{}`", fmt::join(format.fields, " ")); }
@@ -29,8 +31,10 @@ LineFields::LineFields(const LineReader& reader, const std::vector<Word>& words,
 
 common::Time LineFields::stamp(std::size_t field) const {
   if (const auto stamp = parseStamp(words_[field].text)) return *stamp;
+  const std::string unit = stampUnitHint(words_[field].text);
   throw problemAt(field, std::string(format_.fields[field]),
-                  fmt::format("`{}` is not a time in seconds", words_[field].text), "expected " + toString(format_));
+                  fmt::format("`{}` is not a time in seconds", words_[field].text),
+                  unit.empty() ? "expected " + toString(format_) : unit);
 }
 
 double LineFields::number(std::size_t field) const {

@@ -2,23 +2,26 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "common/validation.hpp"
+#include "interfaces/files/map_picture.hpp"
+#include "interfaces/files/map_picture_search.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
 using common::CellRect;
-using common::InputError;
 using common::OccupancyGrid;
 using common::Problem;
 namespace occupancy = common::occupancy;
@@ -56,37 +59,46 @@ std::string yamlValue(const std::string& text) {
 /// Even at the finest resolution every cell has an index.
 constexpr double kMostOrigin_m = 1e6;
 
+const std::vector<std::string> kModes = {"trinary", "scale", "raw"};
 enum class Mode { kTrinary, kScale, kRaw };
-enum class Negate { k0, k1, kFalse, kTrue };
+
+/// What YAML takes for false, then for true, beside the numbers of map_server.
+const std::vector<std::string> kPositive = {"0", "false", "no", "off"}, kNegated = {"1", "true", "yes", "on"};
+
+bool isOneOf(const std::vector<std::string>& words, const std::string& text) {
+  return std::find(words.begin(), words.end(), common::lowerCase(text)) != words.end();
+}
 
 struct MapYaml {
-  std::string image;
+  std::string image, negate_text = "0", mode_text = "trinary";
   double resolution_m = 0.0;
   std::vector<double> origin;
-  Negate negate = Negate::k0;
   double occupied_thresh = 0.65;
   double free_thresh = 0.196;
-  Mode mode = Mode::kTrinary;
 
   void describe(common::config::Fields& fields) {
     fields("image", image, "The picture, relative to this file.");
     fields("resolution", resolution_m, {1e-3, 100}, "Metres a pixel.");
     fields("origin", origin, {-kMostOrigin_m, kMostOrigin_m},
            "x, y and yaw of the lower left pixel's corner, in metres and radians.");
-    fields.choice("negate", negate, {"0", "1", "false", "true"}, "1 when white is occupied.");
+    fields("negate", negate_text, "1 when white is occupied.");
     fields("occupied_thresh", occupied_thresh, {0, 1}, "Probability from which a pixel is occupied.");
     fields("free_thresh", free_thresh, {0, 1}, "Probability up to which a pixel is free.");
-    fields.choice("mode", mode, {"trinary", "scale", "raw"}, "How pixels are understood.");
+    fields("mode", mode_text, "How pixels are understood.");
   }
 
-  bool isNegated() const { return negate == Negate::k1 || negate == Negate::kTrue; }
+  bool isNegated() const { return isOneOf(kNegated, negate_text); }
+  Mode mode() const {
+    return static_cast<Mode>(std::find(kModes.begin(), kModes.end(), common::lowerCase(mode_text)) - kModes.begin());
+  }
 
   std::vector<std::string> validate() const {
     return common::Validation()
         .require(!image.empty(), "image", "is missing")
-        .require(image.empty() || image.ends_with(".pgm"), "image",
-                 fmt::format("`{}` is not a .pgm picture; convert it, for instance by ImageMagick's `convert`", image))
         .require(origin.size() == 3, "origin", "is not a list of three numbers: x, y, yaw")
+        .require(isNegated() || isOneOf(kPositive, negate_text), "negate",
+                 fmt::format("`{}` is none of 0, 1, false, true", negate_text))
+        .require(isOneOf(kModes, mode_text), "mode", fmt::format("`{}` is none of trinary, scale, raw", mode_text))
         .require(free_thresh < occupied_thresh, "free_thresh", "is not below occupied_thresh")
         .problems();
   }
@@ -99,72 +111,75 @@ occupancy::Cell cellOfProbability(double probability) {
       std::lround(std::clamp<double>(steps, -occupancy::kMaxSteps, occupancy::kMaxSteps)));
 }
 
-/// Thresholds are inclusive, as in nav2.
-occupancy::Cell cellOf(std::uint8_t pixel, const MapYaml& yaml) {
-  if (yaml.mode == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
-  const double occupied = (yaml.isNegated() ? pixel : 255 - pixel) / 255.0;
-  if (occupied >= yaml.occupied_thresh) return occupancy::kMaxSteps;
-  if (occupied <= yaml.free_thresh) return -occupancy::kMaxSteps;
-  if (yaml.mode == Mode::kTrinary) return occupancy::kUnknown;
-  return cellOfProbability((occupied - yaml.free_thresh) / (yaml.occupied_thresh - yaml.free_thresh));
-}
+/// The brightness by which map_saver says that a cell is unknown, as closely as other greatest values than 255 give it.
+bool saysUnknown(int brightness) { return std::abs(brightness - static_cast<std::uint8_t>(kUnknownPixel)) <= 1; }
 
-/// The header of a PGM: words between blanks, `#` to the end of the line is a comment.
-class PgmHeader {
+/// What a pixel of the modes trinary and scale is: thresholds are inclusive, as in nav2. In mode trinary the brightness
+/// of unknown cells is that whatever the thresholds say: map_saver of ROS 2 writes a free_thresh of 0.25 beside it, by
+/// which all that was never seen would be free.
+class PixelRule {
  public:
-  PgmHeader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  explicit PixelRule(const MapYaml& yaml) : yaml_(yaml), mode_(yaml.mode()), is_negated_(yaml.isNegated()) {}
 
-  std::string_view word() {
-    skipBlank();
-    const std::size_t begin = at_;
-    while (at_ < bytes_.size() && !isBlank(bytes_[at_]) && bytes_[at_] != '#') ++at_;
-    return bytes_.substr(begin, at_ - begin);
+  occupancy::Cell cellOf(std::uint8_t pixel, std::uint8_t opacity) const {
+    if (mode_ == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
+    // map_saver writes unknown cells of mode scale transparent; who draws a map leaves them so in mode trinary too.
+    if (opacity < (mode_ == Mode::kScale ? kOpaque : kHalfOpaque)) return occupancy::kUnknown;
+    const int brightness = is_negated_ ? 255 - pixel : pixel;
+    if (mode_ == Mode::kTrinary && saysUnknown(brightness)) return occupancy::kUnknown;
+    const double occupied = (255 - brightness) / 255.0;
+    if (occupied >= yaml_.occupied_thresh) return occupancy::kMaxSteps;
+    if (occupied <= yaml_.free_thresh) return -occupancy::kMaxSteps;
+    if (mode_ == Mode::kTrinary) return occupancy::kUnknown;
+    return cellOfProbability((occupied - yaml_.free_thresh) / (yaml_.occupied_thresh - yaml_.free_thresh));
   }
 
-  int number(const char* element, int low, int high) {
-    const std::string_view text = word();
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
-      throw fail(element, fmt::format("`{}` is not a whole number from {} to {}", text.substr(0, 20), low, high));
-    return value;
+  /// Whether the thresholds say of the brightness of unknown cells that it is free.
+  bool unknownWouldBeFree() const {
+    return mode_ == Mode::kTrinary && (255 - static_cast<std::uint8_t>(kUnknownPixel)) / 255.0 <= yaml_.free_thresh;
   }
-
-  InputError fail(const char* element, const std::string& message, const std::string& hint = "") const {
-    return InputError(Problem{{name_, line_}, element, message, hint});
-  }
-
-  /// Whether no word follows.
-  bool atEnd() {
-    skipBlank();
-    return at_ >= bytes_.size();
-  }
-
-  /// The bytes after the one blank that ends the header.
-  std::string_view rest() const { return bytes_.substr(std::min(at_ + 1, bytes_.size())); }
+  bool isUnknown(std::uint8_t pixel) const { return saysUnknown(is_negated_ ? 255 - pixel : pixel); }
 
  private:
-  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-  void skipBlank() {
-    for (bool comment = false; at_ < bytes_.size(); ++at_) {
-      const char c = bytes_[at_];
-      if (c == '#') comment = true;
-      if (c == '\n') {
-        comment = false;
-        ++line_;
-      }
-      if (!comment && !isBlank(c)) return;
-    }
-  }
+  static constexpr std::uint8_t kOpaque = 255, kHalfOpaque = 128;
 
-  std::string_view bytes_;
-  std::string name_;
-  std::size_t at_ = 0;
-  int line_ = 1;
+  const MapYaml& yaml_;
+  Mode mode_;
+  bool is_negated_;
 };
 
+/// What is odd about the values of the YAML and the picture. The element is the key, without a location.
+std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
+  const auto counted = [](auto count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  std::vector<Problem> notes;
+  if (const std::size_t bytes = picture.left_over_bytes; bytes > 0)
+    notes.push_back(
+        {{}, "image", counted(bytes, "byte") + " after the picture's pixels are left out", "is the map shifted?"});
+  if (const double yaw = yaml.origin[2]; std::abs(yaw) > 2 * std::numbers::pi)
+    notes.push_back({{},
+                     "origin",
+                     fmt::format("a yaw of {:g} rad is more than a whole turn", yaw),
+                     fmt::format("if these are degrees, write {:.6f}", yaw * common::kRadPerDeg)});
+  const PixelRule rule(yaml);
+  const auto& pixels = picture.image.brightness;
+  const auto unknown =
+      !rule.unknownWouldBeFree()
+          ? 0
+          : std::count_if(pixels.begin(), pixels.end(), [&](std::uint8_t pixel) { return rule.isUnknown(pixel); });
+  if (unknown > 0)
+    notes.push_back({{},
+                     "free_thresh",
+                     fmt::format("{:g} would make {} free that map_saver writes for unknown; taken as unknown",
+                                 yaml.free_thresh, counted(unknown, "pixel")),
+                     ""});
+  return notes;
+}
+
 /// The grid of the picture. Its cells are shifted by whole cells as far as the origin asks.
-StoredMap place(const GreyImage& image, const MapYaml& yaml) {
+StoredMap place(const common::GreyImage& image, const MapYaml& yaml) {
+  const PixelRule rule(yaml);
   StoredMap map{.grid = common::makeOccupancyGrid(yaml.resolution_m),
                 .T_map_grid = {yaml.origin[0], yaml.origin[1], yaml.origin[2]}};
   common::CellIndex corner;
@@ -181,7 +196,8 @@ StoredMap place(const GreyImage& image, const MapYaml& yaml) {
   for (int row = 0; row < image.height_px; ++row) {
     for (int column = 0; column < image.width_px; ++column) {
       const std::size_t index = static_cast<std::size_t>(row) * image.width_px + column;
-      const occupancy::Cell cell = cellOf(static_cast<std::uint8_t>(image.pixels[index]), yaml);
+      const std::uint8_t opacity = image.opacity.empty() ? 255 : image.opacity[index];
+      const occupancy::Cell cell = rule.cellOf(image.brightness[index], opacity);
       if (!occupancy::isUnknown(cell)) map.grid.set({corner.x + column, corner.y + image.height_px - 1 - row}, cell);
     }
   }
@@ -223,48 +239,22 @@ Written writeMap(const std::filesystem::path& folder, const std::string& name, c
 }
 
 StoredMap readMap(const std::filesystem::path& yaml_file) {
+  if (isPicture(yaml_file)) throw pictureForYaml(yaml_file);
   auto reader = common::config::YamlReader::fromFile(yaml_file.string());
   MapYaml yaml;
-  reader.read(yaml);
-  const std::filesystem::path image_file = yaml_file.parent_path() / yaml.image;
-  std::error_code error;
-  if (!std::filesystem::exists(image_file, error))
-    throw InputError(
-        Problem{reader.locationOf("image"), "image",
-                fmt::format("`{}`: {}", image_file.string(), error ? error.message() : std::string("no such file")),
-                "it is looked for beside the YAML"});
-  StoredMap map = place(parsePgm(common::readBytes(image_file), image_file.string()), yaml);
+  std::vector<Problem> notes = reader.readKnown(yaml);
+  const FoundPicture found = findPicture(yaml_file, yaml.image, reader.locationOf("image"));
+  if (found.note) notes.push_back(*found.note);
+  const MapPicture picture = parsePicture(common::readBytes(found.file), found.file.string());
+  for (Problem& note : oddities(yaml, picture)) {
+    note.location = reader.locationOf(note.element);
+    notes.push_back(std::move(note));
+  }
+  StoredMap map = place(picture.image, yaml);
+  map.notes = std::move(notes);
   map.resolution_location = reader.locationOf("resolution");
   map.image_location = reader.locationOf("image");
   return map;
-}
-
-GreyImage parsePgm(std::string_view bytes, const std::string& name) {
-  PgmHeader header(bytes, name);
-  const std::string_view magic = header.word();
-  if (magic != "P5" && magic != "P2")
-    throw header.fail("PGM", fmt::format("begins with `{}`, P5 or P2 was expected", magic.substr(0, 8)));
-  GreyImage image;
-  image.width_px = header.number("width", 1, kMostSide_px);
-  image.height_px = header.number("height", 1, kMostSide_px);
-  const int greatest = header.number("greatest value", 1, 65'535);
-  if (greatest > 255)
-    throw header.fail("greatest value", fmt::format("{} is that of 16 bits a pixel, 8 can be read", greatest),
-                      "convert it, for instance by ImageMagick's `convert m.pgm -depth 8 m8.pgm`");
-  const std::size_t count = static_cast<std::size_t>(image.width_px) * image.height_px;
-
-  // Each pixel takes at least one byte. A header that promises more pixels than there are bytes must not allocate them.
-  const std::string_view data = header.rest();
-  if (data.size() < (magic == "P5" ? count : count - 1))
-    throw header.fail("pixels", fmt::format("the file ends after {} of {} pixels", data.size(), count));
-  image.pixels.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (magic == "P2" && header.atEnd())
-      throw header.fail("pixels", fmt::format("the file ends after {} of {} pixels", i, count));
-    const int value = magic == "P5" ? static_cast<std::uint8_t>(data[i]) : header.number("pixel", 0, greatest);
-    image.pixels += static_cast<char>(std::min(value, greatest) * 255 / greatest);
-  }
-  return image;
 }
 
 }  // namespace swiftlet::interfaces

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "common/error.hpp"
 #include "common/geometry.hpp"
@@ -12,9 +12,6 @@
 #include "interfaces/files/atomic_file.hpp"
 
 namespace swiftlet::interfaces {
-
-/// The greatest side of a picture that is accepted.
-inline constexpr int kMostSide_px = 1 << 15;
 
 /// The known part of a grid as a binary PGM: 0 occupied, 254 free, 205 unknown. An empty grid gives one unknown pixel.
 std::string toPgm(const common::OccupancyGrid& grid);
@@ -37,20 +34,12 @@ struct StoredMap {
   common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
   common::Pose2 T_map_grid;
   common::SourceLocation resolution_location = {}, image_location = {};  ///< Of these keys in the YAML, for messages.
+  std::vector<common::Problem> notes = {};  ///< What is odd about the files, and how it was taken.
 };
 
-/// Reads the YAML and the PGM that it names (relative to it); modes trinary, scale and raw, negate, P2 and P5 of up to
-/// 8 bits. Throws InputError with file, line and column if they are known.
+/// Reads the YAML and the picture that it names (relative to it; see map_picture.hpp for its kinds); modes trinary,
+/// scale and raw, negate. Keys of other programs are left out with a note. A picture that is not where the YAML says is
+/// taken, with a note, if it lies beside the YAML. Throws InputError with file, line and column if they are known.
 StoredMap readMap(const std::filesystem::path& yaml_file);
-
-/// A grey picture, row by row from the top.
-struct GreyImage {
-  int width_px = 0;
-  int height_px = 0;
-  std::string pixels;  ///< One byte for each pixel, scaled to 0..255.
-};
-
-/// Messages use `name` as the file. Throws InputError.
-GreyImage parsePgm(std::string_view bytes, const std::string& name);
 
 }  // namespace swiftlet::interfaces

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "interfaces/files/stamp_units.hpp"
 #include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces {
@@ -83,7 +84,11 @@ common::Pose2 LogFields::pose(const char* name) {
 common::Time LogFields::stamp(const char* name) {
   const std::string_view text = word(name);
   const auto stamp = parseStamp(text);
-  if (!stamp) failAt(text.data(), name, fmt::format("`{}` is not a time in seconds", shown(text)));
+  if (!stamp) {
+    const std::string unit = stampUnitHint(text);
+    failAt(text.data(), name,
+           fmt::format("`{}` is not a time in seconds{}{}", shown(text), unit.empty() ? "" : "; ", unit));
+  }
   return stamp.value_or(common::Time());
 }
 

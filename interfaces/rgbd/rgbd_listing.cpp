@@ -12,8 +12,10 @@
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/median_step.hpp"
 #include "interfaces/files/line_fields.hpp"
 #include "interfaces/files/line_reader.hpp"
+#include "interfaces/files/stamp_units.hpp"
 #include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces {
@@ -39,7 +41,9 @@ struct StampedFile {
 /// A stamp and a file, from two words of a line.
 StampedFile stampedFile(const LineReader& reader, const fs::path& folder, const Word& stamp, const Word& file) {
   const std::optional<Time> time = parseStamp(stamp.text);
-  if (!time) throw reader.problemAt(stamp.column, "stamp", fmt::format("`{}` is not a time in seconds", stamp.text));
+  if (!time)
+    throw reader.problemAt(stamp.column, "stamp", fmt::format("`{}` is not a time in seconds", stamp.text),
+                           stampUnitHint(stamp.text));
   return {*time, folder / fs::path(file.text)};
 }
 
@@ -70,10 +74,18 @@ int depthWords(std::string_view path) {
   return count;
 }
 
-/// The stamp of a pair is that of its colour image. Returns how far apart in time the nearest images are that make
-/// none.
-double readAssociations(const fs::path& folder, RgbdListing& listing) {
-  double nearest_s = kNoneNear_s;
+/// Images that make no pair.
+struct Unpaired {
+  double nearest_s = kNoneNear_s;  ///< How far apart in time the nearest two are.
+  double step_s = 0.0;             ///< The median of the time from one colour image to the next.
+};
+
+Time stampOf(const StampedFile& file) { return file.stamp; }
+
+/// The stamp of a pair is that of its colour image.
+Unpaired readAssociations(const fs::path& folder, RgbdListing& listing) {
+  Unpaired unpaired;
+  std::vector<StampedFile> firsts;
   LineReader reader(folder / "associations.txt");
   for (std::vector<Word> words; nextWords(reader, words);) {
     requireWords(reader, words, 4, "stamp rgb_file stamp depth_file");
@@ -83,7 +95,8 @@ double readAssociations(const fs::path& folder, RgbdListing& listing) {
     const bool depth_first = depthWords(words[1].text) > depthWords(words[3].text);
     if (const double apart_s = std::abs((first.stamp - second.stamp).seconds()); apart_s > kPairedWithin_s) {
       listing.unpaired += 2;
-      nearest_s = std::min(nearest_s, apart_s);
+      unpaired.nearest_s = std::min(unpaired.nearest_s, apart_s);
+      firsts.push_back(first);
       continue;
     }
     const StampedFile &color = depth_first ? second : first, &depth = depth_first ? first : second;
@@ -91,7 +104,8 @@ double readAssociations(const fs::path& folder, RgbdListing& listing) {
   }
   std::stable_sort(listing.pairs.begin(), listing.pairs.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  return nearest_s;
+  unpaired.step_s = common::medianStep_s(firsts, stampOf);
+  return unpaired;
 }
 
 /// Of two lists in the order of their stamps.
@@ -197,12 +211,12 @@ bool isThere(const fs::path& file) {
 }
 
 /// Why there is not a single pair.
-std::string whyNoPair(const RgbdListing& listing, double apart_s) {
+std::string whyNoPair(const RgbdListing& listing, const Unpaired& unpaired) {
   if (listing.unpaired == 0) return "lists no images";
   const std::string none = fmt::format("holds no pair of a colour and a depth image, of {} images", listing.unpaired);
-  if (!std::isfinite(apart_s)) return none;
-  return none +
-         fmt::format(": the nearest two are {:.3f} s apart, at most {:g} s are one time", apart_s, kPairedWithin_s);
+  if (!std::isfinite(unpaired.nearest_s)) return none;
+  return none + fmt::format(": the nearest two are {:.3f} s apart, at most {:g} s are one time", unpaired.nearest_s,
+                            kPairedWithin_s);
 }
 
 }  // namespace
@@ -211,18 +225,18 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
   if (!isThere(folder) || !fs::is_directory(folder))
     throw InputError(Problem{{folder.string()}, "", "is not a folder", "unpack an archive first"});
   RgbdListing listing;
-  double apart_s = kNoneNear_s;
+  Unpaired unpaired;
   if (isThere(folder / "associations.txt")) {
     listing.format = "TUM RGB-D";
     listing.calibration = tumCalibration();
-    apart_s = readAssociations(folder, listing);
+    unpaired = readAssociations(folder, listing);
     takeNumbersAsFrames(listing);
   } else if (isThere(folder / "rgb.txt") && isThere(folder / "depth.txt")) {
     listing.format = "TUM RGB-D";
     listing.calibration = tumCalibration();
     const std::vector<StampedFile> colors = readList(folder, "rgb.txt"), depths = readList(folder, "depth.txt");
     associate(colors, depths, listing);
-    apart_s = nearestPair_s(colors, depths);
+    unpaired = {nearestPair_s(colors, depths), common::medianStep_s(colors, stampOf)};
     takeNumbersAsFrames(listing);
   } else {
     listing.format = "7-Scenes";
@@ -231,7 +245,8 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
     if (listing.pairs.empty() && listing.unpaired == 0)
       throw InputError(Problem{{folder.string()}, "", "holds no RGB-D frames of a known format", kKnownFormats});
   }
-  if (listing.pairs.empty()) throw InputError(Problem{{folder.string()}, "", whyNoPair(listing, apart_s), ""});
+  if (listing.pairs.empty())
+    throw InputError(Problem{{folder.string()}, "", whyNoPair(listing, unpaired), stampStepNote(unpaired.step_s)});
   const fs::path recorded = folder / "calibration.yaml";
   const std::string calibration = calibration_file.empty() && isThere(recorded) ? recorded.string() : calibration_file;
   if (!calibration.empty()) common::config::YamlReader::fromFile(calibration).read(listing.calibration);

@@ -131,6 +131,9 @@ TEST_F(Evaluate, RefusesBadInput) {
   expectRefused({"ate", estimate(), write("odd.txt", "1 2 3\n")}, "odd.txt:1:5: pose: 3 numbers");
   expectRefused({"ate", estimate(), write("late.txt", "9 0 0 0 0\n")}, "1.000000 to 3.000000 against 9.000000");
   expectRefused({"ate", estimate(), write("one.txt", "1 0 0 0 0\n")}, "1 pairs do not determine the spatial alignment");
+  expectRefused({"ate", estimate(), write("us.txt", "7e6 0 0 0 0\n8e6 1 0 0 0\n9e6 2 0 0 0\n")},
+                "in the second file the stamps are 1e+06 s apart in the median: are they nanoseconds?");
+  expectRefused({"ate", estimate(), write("ns.txt", "1600000000000000000 0 0 0 0\n")}, "nanoseconds since 1970");
   expectRefused({"ate", estimate(), reference(), "--align", "none", "--scale"}, "--scale: is fitted with");
   expectRefused({"ate", write("up.tum", "1 0 0 0 0 0 0 1\n2 0.1 0 5 0 0 0 1\n"),
                  write("down.tum", "1 0 0 0 0 0 0 1\n2 0.1 0 -5 0 0 0 1\n"), "--align", "planar", "--scale"},

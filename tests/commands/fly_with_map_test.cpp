@@ -103,6 +103,19 @@ TEST_F(FlyWithMap, AMissionLoadsItsMapAndLooksAroundForItsPlace) {
   EXPECT_THAT(none.err, HasSubstr("LoadMap.file"));
 }
 
+TEST_F(FlyWithMap, CheckWarnsOfWhatIsOddAboutAMapThatAMissionLoads) {
+  std::string pixels(400, '\xfe');
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    if (i % 20 == 0 || i % 20 == 19 || i < 20 || i >= 380) pixels[i] = '\0';
+  write("room.pgm", "P5\n20 20\n255\n" + pixels);
+  write("room.yaml", "image: /opt/robot/room.pgm\nresolution: 0.05\norigin: [0, 0, 90]\n");
+  const ProgramEnd end =
+      runSwiftlet({"check", write("load.xml", missionOf("<LoadMap file=\"room.yaml\"/><Localize/>"))});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("room.yaml:1:8: warning: image: `/opt/robot/room.pgm` is not there"));
+  EXPECT_THAT(end.err, HasSubstr("room.yaml:3:9: warning: origin: a yaw of 90 rad is more than a whole turn"));
+}
+
 TEST_F(FlyWithMap, AMissionThatNeedsAMapIsRefusedWithoutOne) {
   const ProgramEnd end = runSwiftlet({"fly", "missions/find_yourself.xml", "--headless", "--out", path("run")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

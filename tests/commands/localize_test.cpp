@@ -136,6 +136,25 @@ TEST_F(Localize, ReportsOdditiesOfTheLog) {
   EXPECT_THAT(nlohmann::json::parse(figures.out).at("notes").dump(), HasSubstr("the robot's pose never changes"));
 }
 
+TEST_F(Localize, ShowsTheNotesOfTheMapAndOfItsStamps) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map"), yaml = readText(map) + "width: 3\n";
+  std::string log;
+  std::istringstream lines(walkThrough(building, 21, 150));
+  // The stamps, 100.00 and so on, as milliseconds.
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t dot = line.find(" robot");
+    log += line.substr(0, dot - 3) + line.substr(dot - 2, 2) + "0" + line.substr(dot) + "\n";
+  }
+  const ProgramEnd end =
+      runSwiftlet({"localize", write("map.yaml", yaml), write("ms.log", log), "--out", path("out"), "--json"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const std::string notes = nlohmann::json::parse(end.out).at("notes").dump();
+  EXPECT_THAT(notes, HasSubstr("unknown key `width`, not used"));
+  EXPECT_THAT(notes, HasSubstr("are they milliseconds? Then divide them by 1e3"));
+  EXPECT_THAT(readText(path("out/report.html")), HasSubstr("unknown key `width`, not used"));
+}
+
 TEST_F(Localize, LocalizesADamagedArchiveUpToTheDamage) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 200));

@@ -56,6 +56,19 @@ TEST_F(Optimize, ReportsAndWritesAGraphThatReadsBack) {
   EXPECT_NEAR(again.at("chi2_final").get<double>(), json.at("chi2_final").get<double>(), 1e-6);
 }
 
+// The same square as TORO writes it.
+TEST_F(Optimize, ReadsAGraphOfToro) {
+  std::string toro = kSquare;
+  for (const auto& [from, to] :
+       {std::pair{"VERTEX_SE2", "VERTEX2"}, {"EDGE_SE2", "EDGE2"}, {"100 0 0 100 0 100", "100 0 100 100 0 0"}})
+    for (std::size_t at = 0; (at = toro.find(from, at)) != std::string::npos; at += std::string(to).size())
+      toro.replace(at, std::string(from).size(), to);
+  const ProgramEnd end = runSwiftlet({"optimize", write("square.graph", toro), "--out", path("out"), "--json"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_NEAR(nlohmann::json::parse(end.out).at("chi2_final").get<double>(), 0.8, 1e-3);
+  EXPECT_THAT(readText(path("out/graph.g2o")), HasSubstr("VERTEX_SE2 5 0 0 0\n"));
+}
+
 TEST_F(Optimize, PrintsATableAndTheSameGraphGivesTheSameBytes) {
   const std::string graph = write("square.g2o", kSquare + "VERTEX_XY 9 1 1\n");
   const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("a")});

@@ -31,6 +31,22 @@ class ReadBytes : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("swiftlet-read-bytes-" + std::to_string(::getpid()));
 };
 
+TEST_F(ReadBytes, KnowsThePointersThatStandForFilesInAClone) {
+  const auto problem = [&](const std::string& bytes) {
+    std::ofstream(folder_ / "f", std::ios::binary) << bytes;
+    return problemOf(folder_ / "f");
+  };
+  const std::string lfs = "version https://git-lfs.github.com/spec/v1";
+  EXPECT_THAT(problem(lfs + "\noid sha256:83d7\nsize 234686\n"),
+              HasSubstr("f: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
+  EXPECT_THAT(problem(lfs + "\r\noid sha256:83d7\r\nsize 234686\r\n"), HasSubstr("a pointer of Git LFS"));
+  EXPECT_THAT(problem("version https://git-lfs.github.com/spec/v2\n"), HasSubstr("a pointer of Git LFS"));
+  EXPECT_THAT(problem("/annex/objects/SHA256E-s234686--83d7.pcd\n"),
+              HasSubstr("f: this is a pointer of git-annex, not the file, run `git annex get`"));
+  EXPECT_EQ(problem("version 1\n"), "");
+  EXPECT_EQ(problem("see " + lfs), "");
+}
+
 TEST_F(ReadBytes, ReturnsEveryByte) {
   const std::string bytes("a\0\r\n\xff", 5);
   std::ofstream(folder_ / "f", std::ios::binary) << bytes;

@@ -89,6 +89,64 @@ TEST(G2o, ReportsThePlaceOfMistakes) {
               HasSubstr("x.g2o:1:25: VERTEX_SE3:QUAT: a rotation of length 0"));
 }
 
+// TORO's order of the information, and the frame it belongs to (its treeoptimizer2).
+TEST(G2o, ReadsTheElementsOfToroInThePlane) {
+  const double quarter = 1.5707963267948966;
+  for (const std::string digit : {"2", ""}) {
+    const auto graph = std::get<G2oGraph2D>(parse("VERTEX" + digit + " 0 1 2 0.5\nVERTEX" + digit + " 1 2 2 0\nEDGE" +
+                                                  digit + " 0 1 1 0 1.5707963267948966 50 2 70 100 3 4\n")
+                                                .graph);
+    EXPECT_THAT(graph.ids, ElementsAre(0, 1));
+    EXPECT_EQ(graph.poses[0].yaw_rad, 0.5);
+    EXPECT_EQ(graph.edges[0].T_from_to.yaw_rad, quarter);
+    // Seen from where the edge ends, x points along the start's y and y against its x.
+    Eigen::Matrix3d information;
+    information << 70, -2, 4, -2, 50, -3, 4, -3, 100;
+    EXPECT_TRUE(graph.edges[0].information.isApprox(information, 1e-12)) << graph.edges[0].information;
+  }
+}
+
+TEST(G2o, ReadsTheElementsOfToroInSpace) {
+  const auto graph = std::get<G2oGraph3D>(
+      parse("VERTEX3 0 0 0 0 0 0 0\nVERTEX3 1 1 2 3 0.1 -0.2 1.5\nEDGE3 0 1 1 2 3 0.1 -0.2 1.5" + kUnit6).graph);
+  const common::RollPitchYaw angles = common::rollPitchYaw(graph.edges[0].T_from_to.rotation);
+  EXPECT_NEAR(angles.roll_rad, 0.1, 1e-12);
+  EXPECT_NEAR(angles.pitch_rad, -0.2, 1e-12);
+  EXPECT_NEAR(angles.yaw_rad, 1.5, 1e-12);
+  EXPECT_EQ(graph.poses[1].position_m, Eigen::Vector3d(1, 2, 3));
+  // The error of g2o is half the angle, so its square weighs four times.
+  Eigen::VectorXd diagonal(6);
+  diagonal << 1, 1, 1, 4, 4, 4;
+  EXPECT_EQ(graph.edges[0].information, (Eigen::Matrix<double, 6, 6>(diagonal.asDiagonal())));
+}
+
+TEST(G2o, SaysThatTheInformationIsMissingAndHowItIsWritten) {
+  EXPECT_THAT(
+      problem("EDGE_SE3:QUAT 0 1 1 2 3 0 0 0 1\n"),
+      HasSubstr("x.g2o:1:31: EDGE_SE3:QUAT: the information matrix (21 numbers) is missing, write its upper "
+                "triangle row by row; for edges of equal weight it is 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"));
+  EXPECT_THAT(problem("EDGE_SE2 0 1 1 2 3 4 5 6\n"),
+              HasSubstr("the information matrix has 3 numbers instead of 6, write its upper triangle"));
+  EXPECT_THAT(problem("EDGE2 0 1 1 2 3\n"), HasSubstr("EDGE2: the information matrix (6 numbers) is missing"));
+  EXPECT_THAT(problem("EDGE_SE2 0 1 1\n"), HasSubstr("3 numbers instead of 11"));
+}
+
+TEST(G2o, SaysWhatWasLeftOutWhereNothingRemains) {
+  EXPECT_THAT(problem(kPlane + "EDGE_SE2_XY 7 1 1 1 1 0 1\nEDGE_SE2_XY 7 2 1 1 1 0 1\nVERTEX_XY 1 0 0\n"),
+              HasSubstr("no edges connect them; not used: 2 EDGE_SE2_XY, 1 VERTEX_XY"));
+  EXPECT_THAT(problem("A\nB\nC\nD\nE\nE\n"), HasSubstr("TORO; not used: 2 E, 1 A, 1 B, 1 C ..."));
+}
+
+TEST(G2o, ReadsTheFieldCases) {
+  const auto folder = test_support::dataSet("10-field-cases/graph_counts_and_tags");
+  if (!folder) return;
+  const auto graph = std::get<G2oGraph2D>(readG2o(*folder / "toro.graph").graph);
+  EXPECT_EQ(graph.ids.size(), 20u);
+  EXPECT_EQ(graph.edges.size(), 20u);
+  EXPECT_TRUE(graph.edges[0].information.isApprox(Eigen::Vector3d(50, 50, 100).asDiagonal().toDenseMatrix()));
+  EXPECT_THAT(problemOf([&] { readG2o(*folder / "noinfo3.g2o"); }), HasSubstr("(21 numbers) is missing"));
+}
+
 TEST(G2o, FilesWithoutAGraphAreRefused) {
   EXPECT_THAT(problem(""), HasSubstr("x.g2o: holds no pose graph"));
   EXPECT_THAT(problem("# only a comment\nVERTEX_XY 1 0 0\n"), HasSubstr("x.g2o: holds no pose graph"));

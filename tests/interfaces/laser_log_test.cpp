@@ -167,6 +167,16 @@ TEST(LaserLog, MessagesQuoteWordsShortenedAndPrintable) {
               testing::EndsWith("a.log:1:10: range: `?[2J" + std::string(36, '?') + "...` is not a number, skipped"));
 }
 
+TEST(LaserLog, SaysWhichUnitStampsSince1970AreIn) {
+  const ScratchFolder folder;
+  put(folder / "a.log", oldScan(3, "2.5", "1600000000000000000") + "\n");
+  const auto log = openLaserLog(folder / "a.log");
+  EXPECT_FALSE(log->next());
+  EXPECT_THAT(toString(log->counts().first_problems.at(0)),
+              testing::HasSubstr("ipc_timestamp: `1600000000000000000` is not a time in seconds; it looks like "
+                                 "nanoseconds since 1970: divide the stamps by 1e9"));
+}
+
 TEST(LaserLog, SkipsImpossibleLaserGeometry) {
   const ScratchFolder folder;
   const std::string rest = " 50.0 0.1 0 3 1.0 50.0 2.0 0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0\n";

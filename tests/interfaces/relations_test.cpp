@@ -34,6 +34,7 @@ TEST(Relations, ReportThePlaceOfMistakes) {
               HasSubstr("x.relations:2:9: relation: 5 numbers instead of 8, expected `t1 t2 x y z roll pitch yaw`"));
   EXPECT_THAT(problem("1 2 0 0 0 0 0 0 9\n"), HasSubstr("x.relations:1:17: relation: 9 numbers instead of 8"));
   EXPECT_THAT(problem("1 later 0 0 0 0 0 0\n"), HasSubstr("x.relations:1:3: t2: `later` is not a time in seconds"));
+  EXPECT_THAT(problem("1 1600000000000000000 0 0 0 0 0 0\n"), HasSubstr("it looks like nanoseconds since 1970"));
   EXPECT_THAT(problem(" 1 2 0 inf 0 0 0 0\n"), HasSubstr("x.relations:1:8: y: `inf` is not a finite number"));
   EXPECT_THAT(problem("1 2 0 0 1e300 0 0 0\n"), HasSubstr("x.relations:1:9: z: is farther away than 100000000"));
   EXPECT_THAT(problem("1 2 0 0 0 0 0 0x1\n"), HasSubstr("x.relations:1:15: yaw: `0x1`"));

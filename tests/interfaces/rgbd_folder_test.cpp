@@ -207,6 +207,10 @@ TEST_F(RgbdFolders, NamesTheLineOfAListThatCannotBeRead) {
   write("depth.txt", "1.0 depth/1.png\n");
   write("rgb.txt", "# color\n1.0 rgb/1.png\nsoon rgb/2.png\n");
   EXPECT_THAT(message(), HasSubstr("rgb.txt:3:1: stamp: `soon` is not a time in seconds"));
+  write("rgb.txt", "1600000000000000000 rgb/1.png\n");
+  EXPECT_THAT(message(), HasSubstr("it looks like nanoseconds since 1970: divide the stamps by 1e9"));
+  write("rgb.txt", "0 rgb/1.png\n33333 rgb/2.png\n66666 rgb/3.png\n");
+  EXPECT_THAT(message(), HasSubstr("are they microseconds? Then divide them by 1e6"));
   write("rgb.txt", "1.0\n");
   EXPECT_THAT(message(), HasSubstr("rgb.txt:1: expected `stamp file`, this line has 1 words"));
   write("rgb.txt", "9.0 rgb/1.png\n");

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
+#include "interfaces/files/stamp_units.hpp"
 #include "support.hpp"
 #include "tests/support/datasets.hpp"
 
@@ -91,6 +92,28 @@ TEST(Tum, ReportsThePlaceOfMistakes) {
   EXPECT_EQ(problem("1 1e8 -1e8 1e8 0 0 0 1\n"), "");
   EXPECT_THAT(problem(good + good), HasSubstr("x.tum:2:1: t: 1.000000000 does not come after 1.000000000"));
   EXPECT_THAT(problemOf([] { readTum("/nowhere/x.tum"); }), HasSubstr("/nowhere/x.tum: cannot be opened"));
+}
+
+TEST(Tum, SaysWhichUnitStampsSince1970AreIn) {
+  const auto problem = [](const std::string& stamp) {
+    return problemOf([&] { parseTum(stamp + " 0 0 0 0 0 0 1\n", "x.tum"); });
+  };
+  EXPECT_THAT(problem("1600000000123456789"),
+              HasSubstr("x.tum:1:1: t: `1600000000123456789` is not a time in seconds, it looks like nanoseconds since "
+                        "1970: divide the stamps by 1e9"));
+  EXPECT_THAT(problem("1.6e18"), HasSubstr("nanoseconds since 1970: divide the stamps by 1e9"));
+  EXPECT_THAT(problem("1600000000123456"), HasSubstr("microseconds since 1970: divide the stamps by 1e6"));
+  EXPECT_THAT(problem("1600000000123.5"), HasSubstr("milliseconds since 1970: divide the stamps by 1e3"));
+  EXPECT_THAT(problem("86400000000000"), HasSubstr("if the stamps are nanoseconds, divide them by 1e9"));
+  EXPECT_EQ(problem("1600000000.123456789"), "");
+}
+
+TEST(StampUnits, AreSuspectedFromTheStepsOfASensor) {
+  for (const double step_s : {0.0, 0.001, 0.1, 1.0, 5.0, -1.0}) EXPECT_EQ(stampStepNote(step_s), "") << step_s;
+  EXPECT_EQ(stampStepNote(100.0),
+            "the stamps are 100 s apart in the median: are they milliseconds? Then divide them by 1e3");
+  EXPECT_THAT(stampStepNote(1e5), HasSubstr("are they microseconds? Then divide them by 1e6"));
+  EXPECT_THAT(stampStepNote(1e8), HasSubstr("are they nanoseconds? Then divide them by 1e9"));
 }
 
 TEST(Tum, LeavesOutPosesThatAreNotFinite) {

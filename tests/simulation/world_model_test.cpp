@@ -221,6 +221,9 @@ TEST_F(WorldFile, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(problemOf(model("a", "<mesh><uri>model://x/y.dae</uri></mesh>")),
               AllOf(HasSubstr("w.sdf:4: mesh"), HasSubstr("model://x/y.dae"), HasSubstr("not found")));
   folder_.write("bad.dae", "<COLLADA>");
+  folder_.write("lfs.dae", "version https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n");
+  EXPECT_THAT(problemOf(model("a", "<mesh><uri>lfs.dae</uri></mesh>")),
+              HasSubstr("lfs.dae`: this is a pointer of Git LFS, not the file, run `git lfs pull`"));
   EXPECT_THAT(problemOf(model("a", "<mesh><uri>bad.dae</uri></mesh>")),
               AllOf(HasSubstr("w.sdf:4: mesh"), HasSubstr("bad.dae")));
   EXPECT_THAT(problemOf(""), AllOf(HasSubstr("w.sdf: "), HasSubstr("no geometry at all, give its models")));

@@ -44,6 +44,11 @@ std::vector<std::string> problemsIn(const std::string& inside, const std::string
   return problemsOf(file(inside, more));
 }
 
+TEST(Problems, OfAPointerOfGitLfsNameIt) {
+  EXPECT_THAT(problemsOf("version https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n"),
+              ElementsAre("f.xml: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
+}
+
 TEST(Problems, AValidFileHasNone) {
   EXPECT_THAT(problemsIn(R"(<Sequence name="all of it" _description="x">
       <Fly goal="1;-2.5;3" clearance_m=" 0.1 " speed_m_s="1e0" tries="-3" careful="true" patience_s="1.5"/>
