@@ -74,6 +74,12 @@ struct CheckReport {
 CheckReport reportOn(const CheckOptions& options) {
   const System system = loadSystem(options.system);
   CheckReport report;
+  for (const common::Problem& problem : problemsOfSensors(system))
+    report.problems.push_back({{problem.location.file, problem.location.line, problem.location.column},
+                               problem.element,
+                               problem.message,
+                               problem.hint,
+                               {}});
   for (const std::string& mission : options.missions) {
     behaviors::MissionVerdict verdict = judge(mission, options, system);
     report.problems.insert(report.problems.end(), verdict.problems.begin(), verdict.problems.end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -111,8 +112,11 @@ void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& proble
 
 void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
+  std::set<std::string> systems;  // That were judged.
   for (const TrialConfig& trial : trials) {
     const System system = loadSystem(trial.system);
+    if (systems.insert(trial.system).second)
+      for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));
     for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
       for (auto& problem : missionProblems(mission, system, trial.map.given())) problems.push_back(std::move(problem));
     checkControllers(trial, system, problems);
@@ -144,6 +148,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
   std::map<std::string, evaluation::FlightScore> by_name;
   FlightHooks hooks;
   hooks.stop = &stop;
+  hooks.progress = extras.progress;
   hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
     evaluation::FlightScore& score = by_name[vehicle.name()];
     score = scoreOf(trial, seed, record, vehicle, end);
