@@ -9,6 +9,7 @@
 #include "apps/command.hpp"
 #include "apps/dry_run.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
@@ -114,6 +115,7 @@ int check(const CheckOptions& options) {
   for (const auto& [option, value] : {std::pair{"--dry-run", options.dry_run}, {"--draw", options.draw}})
     if (!value.empty() && options.missions.size() != 1)
       throw common::InputError(common::Problem{{}, option, "the file is of one mission", "name that one alone"});
+  if (!options.draw.empty()) requireWritable(options.draw, "--draw");
   const CheckReport report = reportOn(options);
   if (!options.draw.empty() && report.problems.empty()) draw(options);
   if (!options.dry_run.empty() && report.problems.empty()) {

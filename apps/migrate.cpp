@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
@@ -22,6 +23,7 @@ struct MigrateOptions {
 };
 
 int migrate(const MigrateOptions& options) {
+  if (!options.out.empty()) requireWritable(options.out, "--out");
   const tree::Migration migration = tree::migrateToVersion4(common::readBytes(options.file), options.file);
   if (!migration.problems.empty()) throw common::InputError(behaviors::toCommon(migration.problems));
   // What is printed to the standard output is the file alone, so that it can be redirected.

@@ -13,6 +13,7 @@
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
+#include "interfaces/files/unusable_folder.hpp"
 #include "interfaces/run_folder.hpp"
 #include "simulation/world_model.hpp"
 
@@ -172,9 +173,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
 
 fs::path trialFolder(const std::string& given, const std::string& noun, const TrialResultsProof& proof) {
   fs::path out = given.empty() ? interfaces::freshRunFolder("runs", startedNow(), noun) : fs::path(given);
-  std::error_code failure;
-  fs::create_directories(out, failure);
-  if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
+  interfaces::requireWritableFolder(out, "--out");
   const fs::path results = out / proof.file;
   if ((fs::exists(results) || fs::exists(reportIn(out))) && !interfaces::saysAtStart(results, proof.text, 16))
     throw common::InputError(common::Problem{

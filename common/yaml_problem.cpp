@@ -307,7 +307,12 @@ std::string numberHint(std::string_view key, std::string_view written) {
   if (rest == "%") return fmt::format("write `{}`: shares are of 1", std::strtod(number.c_str(), nullptr) / 100.0);
   const std::string unit = unitOf(rest);
   if (key.ends_with("_" + unit)) return fmt::format("write `{}`: the key's name has the unit", number);
-  return "write the number alone, in the unit that the key's name ends with";
+  constexpr std::array<std::string_view, 12> kUnits{"m",  "s", "s2", "deg", "rad", "hz",
+                                                    "kg", "v", "n",  "ah",  "px",  "m2"};
+  const bool has_unit = std::find(kUnits.begin(), kUnits.end(), key.substr(key.rfind('_') + 1)) != kUnits.end();
+  if (has_unit) return "write the number alone, in the unit that the key's name ends with";
+  const bool has_exponent = std::tolower(static_cast<unsigned char>(rest[0])) == 'e' && rest.size() > 1;
+  return has_exponent ? "" : fmt::format("write the number alone: `{}`", number);
 }
 
 std::string lookalikeHint(const std::vector<std::string_view>& lines, int line) {

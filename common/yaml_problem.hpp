@@ -18,7 +18,7 @@ namespace swiftlet::common {
 YAML::Node loadYaml(const std::string& text, const std::string& file);
 
 /// How to write a number that was written as `0,5`, `0.5 m`, `90°`, `1'000` or `1#comment`; empty if that is unknown.
-/// The unit is compared with the end of the key's name: `range_m`.
+/// The unit is compared with the end of the key's name, `range_m`; a key may have none.
 std::string numberHint(std::string_view key, std::string_view written);
 
 /// "column 5 has a no-break space (U+00A0), write a plain blank": the first character of a line, outside of comments,
