@@ -27,7 +27,7 @@ struct YamlReader::Impl {
     std::string section, key;
   };
 
-  std::string file, text;
+  std::string file, whole_text;
   std::vector<std::string_view> lines;  ///< Of the text.
   std::vector<Level> levels;
   std::vector<YAML::Node> lists;
@@ -228,8 +228,8 @@ YamlReader YamlReader::fromFile(const std::string& file) {
 YamlReader YamlReader::fromText(const std::string& text, const std::string& name) {
   auto impl = std::make_unique<Impl>();
   impl->file = name;
-  impl->text = text;
-  impl->lines = linesOf(impl->text);
+  impl->whole_text = text;
+  impl->lines = linesOf(impl->whole_text);
   impl->levels.push_back({loadYaml(text, name), "", {}});
   return YamlReader(std::move(impl));
 }

@@ -2,14 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "common/small_matrices.hpp"
+#include "perception/scan_matching/contour_normals.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::Pose2;
 using common::Pose3;
 using common::Time;
+
+namespace {
+
+/// Points beyond it are not matched.
+double rangeOf_m(const perception::MatcherChoiceConfig& matcher) {
+  switch (matcher.kind) {
+    case perception::MatcherKind::kGaussNewton:
+      return matcher.gauss_newton.max_range_m;
+    case perception::MatcherKind::kPointToLine:
+      return matcher.point_to_line.max_range_m;
+    case perception::MatcherKind::kCorrelative:
+      break;
+  }
+  return matcher.max_range_m;
+}
+
+/// The beams that fix the weakest direction: the least eigenvalue of the sum of the outer products of their surfaces'
+/// normals (Zhang, Kaess, Singh 2016, "On degeneracy of optimization-based state estimation problems").
+double beamsAlongWeakest(const std::vector<perception::OrientedPoint>& points) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const perception::OrientedPoint& point : points) {
+    const Eigen::Vector2d normal = point.normal.cast<double>();
+    information += normal * normal.transpose();
+  }
+  return common::symmetricEigenvalues(information)(0);
+}
+
+}  // namespace
 
 StartView::StartView(const LaserPipelineConfig& config, const common::LaserConfig& laser, double standing_height_m)
     : config_(config), laser_(laser), standing_height_m_(standing_height_m) {}
@@ -53,24 +85,30 @@ std::string StartView::heightProblem(const perception::ProjectedScan& view) cons
 }
 
 std::string StartView::positionProblem(const perception::ProjectedScan& view) const {
+  const perception::MatcherChoiceConfig& matcher = config_.odometry.matcher;
+  const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, rangeOf_m(matcher)});
+  const auto returns = std::count_if(view.points_level_m.begin(), view.points_level_m.end(),
+                                     [&](const Eigen::Vector2f& point_m) { return point_m.norm() <= reach_m; });
+  if (returns < matcher.minPoints())
+    return fmt::format("{} beams of the laser return from within {:.1f} m; {} are needed to fix the position",
+                       returns == 0 ? "no" : fmt::format("{}", returns), reach_m, matcher.minPoints());
+  if (beamsAlongWeakest(perception::orientedPoints(view, 0, matcher.max_gap_m, reach_m)) >= matcher.minPoints())
+    return "";
+  const auto direction = weakDirection(view);
+  if (!direction) return "";
+  const double to_the_left_deg = std::atan2(direction->y(), direction->x()) / common::kRadPerDeg;
+  return fmt::format(
+      "within {:.1f} m the laser sees nothing that fixes the position along {:.0f} deg to the left of the nose",
+      reach_m, to_the_left_deg < 0.0 ? to_the_left_deg + 180.0 : to_the_left_deg);
+}
+
+/// Of a scan with few beams across one direction, whether a match fixes it, and if not, which one it is.
+std::optional<Eigen::Vector2d> StartView::weakDirection(const perception::ProjectedScan& view) const {
   const perception::LaserOdometryConfig& odometry = config_.odometry;
-  const int needed = odometry.matcher.minPoints();
-  const double reach_m = std::min<double>(scan_->range_max_m, laser_.range_max_m);
-  if (const int returns = static_cast<int>(view.points_level_m.size()); returns < needed)
-    return fmt::format("{} beams of the laser, which reaches {:.1f} m, return; {} are needed to fix the position",
-                       returns == 0 ? "no" : fmt::format("{}", returns), reach_m, needed);
   const auto matcher = perception::makeMatcher(odometry.matcher);
   matcher->addReference(view, Pose2{});
-  const perception::MatchResult match =
-      matcher->match(view, Pose2{}, {odometry.guess_error_m, odometry.guess_error_deg * common::kRadPerDeg});
-  if (match.failed) return "what the laser sees cannot be matched";
-  if (!match.unobservable_direction) return "";
-  const double direction_deg =
-      std::atan2(match.unobservable_direction->y(), match.unobservable_direction->x()) / common::kRadPerDeg;
-  return fmt::format(
-      "the laser, which reaches {:.1f} m, sees nothing that fixes the position along {:.0f} deg to the left of the "
-      "nose",
-      reach_m, direction_deg < 0.0 ? direction_deg + 180.0 : direction_deg);
+  return matcher->match(view, Pose2{}, {odometry.guess_error_m, odometry.guess_error_deg * common::kRadPerDeg})
+      .unobservable_direction;
 }
 
 }  // namespace swiftlet::autonomy
