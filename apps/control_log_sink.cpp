@@ -60,7 +60,9 @@ void ControlLogSink::heard(const perception::FilterInput& input) {
   constexpr std::size_t kBlock = 16'384;
   if (!tape_) return;
   tape_block_ += perception::toLine(input);
-  if (tape_block_.size() >= kBlock) note(tape_->append(std::exchange(tape_block_, {})));
+  if (tape_block_.size() < kBlock) return;
+  note(tape_->append(tape_block_));
+  tape_block_.clear();
 }
 
 void ControlLogSink::finish() {

@@ -6,6 +6,7 @@
 #include "apps/command.hpp"
 #include "apps/show.hpp"
 #include "behaviors/registry.hpp"
+#include "behaviors/tree/problem.hpp"
 
 namespace swiftlet::apps {
 namespace {

@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const std::string kMissions = std::string(SWIFTLET_SOURCE_DIR) + "/missions/";
 
