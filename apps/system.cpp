@@ -265,7 +265,9 @@ std::vector<common::Problem> problemsOfLqr(const System& system) {
 
 std::vector<common::Problem> problemsOfSensors(const System& system) {
   const int least_beams = system.config.autonomy.estimator.laser.odometry.matcher.minPoints();
-  std::vector<common::Problem> problems = autonomy::problemsOfSensors(system.laser, system.vehicle, least_beams);
+  common::LaserConfig laser = system.laser;
+  laser.name = std::filesystem::path(system.config.laser).stem().string();  // A sheet made from another has its name.
+  std::vector<common::Problem> problems = autonomy::problemsOfSensors(laser, system.vehicle, least_beams);
   for (common::Problem& problem : problems) problem.location = system.laser_place;
   return problems;
 }
