@@ -11,6 +11,7 @@
 #include "apps/dry_run.hpp"
 #include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission.hpp"
@@ -127,6 +128,7 @@ CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission
                      const tree::TreeFiles& together) {
   const System system = loadSystem(options.system);
   CheckReport report;
+  for (const common::Problem& problem : problemsOfSensors(system)) report.problems.push_back(treeProblem(problem));
   for (const NamedMission& mission : missions) {
     behaviors::MissionVerdict verdict = judge(mission, options, system, together);
     add(report.problems, verdict.problems);
@@ -165,6 +167,7 @@ void requireOneTree(const CheckOptions& options) {
 
 int check(const CheckOptions& options) {
   requireOneTree(options);
+  if (!options.draw.empty()) requireWritable(options.draw, "--draw");
   const std::vector<NamedMission> missions = find(options.missions);
   tree::ParseOptions parsing;
   parsing.trees_elsewhere = treesOf(missions);

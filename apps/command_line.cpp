@@ -1,6 +1,8 @@
 #include "apps/command_line.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,19 +10,23 @@
 
 #include "apps/show.hpp"
 #include "common/error.hpp"
+#include "common/yaml_problem.hpp"
 
 namespace swiftlet::apps {
 namespace {
 
 /// A finite number within the bounds. CLI11's own check accepts nan and shows the largest double in messages.
+template <typename Number>
 CLI::Validator numberWithin(Within bounds) {
   const std::string description = fmt::format("{} to {}", bounds.low, bounds.high);
   const auto check = [bounds, description](std::string& text) -> std::string {
-    double value = 0.0;
+    Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc{} && end == text.data() + text.size();
     if (number && value >= bounds.low && value <= bounds.high) return "";
-    return fmt::format("`{}` is not a number from {}", text, description);
+    const std::string hint = common::numberHint("", text);
+    return fmt::format("`{}` is not a {} from {}{}", text, std::is_integral_v<Number> ? "whole number" : "number",
+                       description, hint.empty() ? "" : ", " + hint);
   };
   return {check, description};
 }
@@ -52,9 +58,33 @@ std::vector<std::string> commandsOf(const CLI::App& app) {
   return names;
 }
 
-/// "`x` is no ...", with the most similar word.
-std::string unknown(const std::string& what, const std::string& word, const std::vector<std::string>& known) {
-  return toString(common::Problem{{}, "", what, common::didYouMean(word, known)});
+/// The option of a command below, or of its own, that a word may mean: `seed=7`, `--seed` before `fly`; a dash of a
+/// text editor counts as two.
+std::string placeHint(const CLI::App& app, std::string name) {
+  const auto has = [](const CLI::App& command, const std::string& option) {
+    const std::vector<std::string> options = optionsOf(command);
+    return std::find(options.begin(), options.end(), option) != options.end();
+  };
+  for (const std::string_view dash : {"\xE2\x80\x93", "\xE2\x80\x94"})
+    while (name.starts_with(dash)) name.erase(0, dash.size());
+  name = "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  if (has(app, name)) return fmt::format("did you mean `{}`?", name);
+  for (const CLI::App* command : app.get_subcommands())
+    if (has(*command, name)) return fmt::format("put it behind `{}`", command->get_name());
+  return "";
+}
+
+/// What a word that is no command of `app` may be meant as.
+std::string commandHint(const CLI::App& app, const std::string& word) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  if (word == "help") return fmt::format("`{} --help` helps", fullName(chosen.empty() ? app : *chosen.front()));
+  for (const auto& [ending, command] : {std::pair{".xml", "fly"}, {".yaml", "trial"}})
+    if (word.ends_with(ending)) return fmt::format("did you mean `{} {} {}`?", fullName(app), command, word);
+  return common::didYouMean(word, commandsOf(app));
+}
+
+std::string unknown(const std::string& what, const std::string& hint) {
+  return toString(common::Problem{{}, "", what, hint});
 }
 
 /// A word that `app` cannot use. If several words remain, an option among them is the cause, because the word after it
@@ -64,13 +94,25 @@ std::optional<std::string> unknownWord(const CLI::App& app) {
   for (const std::string& word : left_over) {
     if (!isOption(word)) continue;
     const std::string name = word.substr(0, word.find('='));
-    return unknown(fmt::format("`{}` is not an option of `{}`", name, fullName(app)), name, optionsOf(app));
+    std::string hint = placeHint(app, name);
+    if (hint.empty()) hint = name == "-v" || name == "-V" ? "did you mean `--version`?" : "";
+    if (hint.empty()) hint = common::didYouMean(name, optionsOf(app));
+    return unknown(fmt::format("`{}` is not an option of `{}`", name, fullName(app)), hint);
   }
   if (left_over.empty()) return std::nullopt;
-  const std::vector<std::string> commands = commandsOf(app);
   const std::string& word = left_over.front();
-  if (commands.empty()) return fmt::format("`{}` is one argument too many for `{}`", word, fullName(app));
-  return unknown(fmt::format("`{}` is not a command of `{}`", word, fullName(app)), word, commands);
+  if (commandsOf(app).empty())
+    return unknown(fmt::format("`{}` is one argument too many for `{}`", word, fullName(app)),
+                   placeHint(app, word.substr(0, word.find('='))));
+  return unknown(fmt::format("`{}` is not a command of `{}`", word, fullName(app)), commandHint(app, word));
+}
+
+/// CLI11 speaks of an option with too few or too many values in its own words.
+std::string plainly(const CLI::ParseError& error) {
+  const std::string text = error.what(), option = text.substr(0, text.find(':'));
+  if (error.get_name() != "ArgumentMismatch" || !isOption(option)) return text;
+  if (text.ends_with("missing")) return fmt::format("{}: a value is missing behind it", option);
+  return text.find("At Most 1") == std::string::npos ? text : fmt::format("{}: is given more than once", option);
 }
 
 /// What was wrong with the arguments that `program` has just refused, and where help is.
@@ -83,7 +125,7 @@ std::string usageProblem(const CLI::App& program, const CLI::ParseError& error) 
     if (chosen.empty()) break;
     app = chosen.front();
   }
-  return fmt::format("{}\nRun `{} --help` for more information.\n", problem.value_or(error.what()), fullName(*app));
+  return fmt::format("{}\nRun `{} --help` for more information.\n", problem.value_or(plainly(error)), fullName(*app));
 }
 
 }  // namespace
@@ -124,7 +166,9 @@ void Command::option(const std::string& name, std::vector<std::string>& values, 
 
 template <typename Number>
 CLI::Option& Command::number(const std::string& name, Number& value, Within bounds, const std::string& description) {
-  return *app_->add_option(name, value, description)->check(numberWithin(bounds));
+  using Plain =
+      std::conditional_t<std::is_same_v<Number, int> || std::is_same_v<Number, std::optional<int>>, int, double>;
+  return *app_->add_option(name, value, description)->check(numberWithin<Plain>(bounds));
 }
 
 void Command::option(const std::string& name, int& value, Within bounds, const std::string& description) {

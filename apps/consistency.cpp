@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
@@ -118,6 +119,7 @@ void plotDrift(const TapedFlight& flight, const System& system, const Consistenc
 
 int consistencyOfRuns(const ConsistencyOptions& options) {
   const System system = loadSystem(options.system);
+  if (!options.drift.empty()) requireWritable(options.drift, "--drift");
   std::vector<TapedFlight> flights;
   refuseRunsGivenTwice(options.runs, "run");
   for (const std::string& run : options.runs)

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/output_file.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
@@ -227,6 +228,7 @@ void checkOptions(const ConvertOptions& options, Kind from, Kind to) {
 int convert(const ConvertOptions& options) {
   const Kind from = kindOf(interfaces::unpackedName(options.from), false), to = kindOf(options.to, true);
   checkOptions(options, from, to);
+  requireWritable(options.to, "convert");
   if (to == Kind::kFloorPlan)
     writePlan(readVoxels(options, from, to), options, from);
   else if (to == Kind::kOctree)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/build_version.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
@@ -116,7 +117,10 @@ std::string envelopeReport(const EnvelopeResults& results, const std::string& st
   return interfaces::trialReport(report);
 }
 
-void checkPage(const fs::path& page) { placeIn(readPage(page), page); }
+void checkPage(const fs::path& page) {
+  placeIn(readPage(page), page);
+  requireWritable(page, "--write");
+}
 
 void writePage(const fs::path& page, const EnvelopeResults& results) {
   const fs::path picture = fs::path("images") / page.stem().concat(".svg");

@@ -176,7 +176,7 @@ std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map)
       problems[file] = wrong.problems();
     }
   }
-  std::vector<common::Problem> all;
+  std::vector<common::Problem> all = problemsOfSensors(setup.system);
   for (const auto& [file, of_file] : problems) all.insert(all.end(), of_file.begin(), of_file.end());
   if (!all.empty()) throw common::InputError(std::move(all));
   return missions;

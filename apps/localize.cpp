@@ -99,7 +99,7 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
     if (log.scans() % 50 == 0)
       line.update(
           fmt::format("{:3.0f} %  {} scans, {}", 100.0 * log.reader().progress(), log.scans(), toString(run.state)),
-          secondsSince(begin));
+          secondsSince(begin), timeLeft_s(log.reader().progress(), secondsSince(begin)));
   }
   run.wall_s = secondsSince(begin);
   line.close();

@@ -74,7 +74,7 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
     if (log.scans() % 50 == 0)
       line.update(fmt::format("{:3.0f} %  {} scans, {} key scans, {}", 100.0 * log.reader().progress(), log.scans(),
                               run.slam.keyScans(), plural(run.slam.slam().counts().loops_closed, "loop", "loops")),
-                  secondsSince(begin));
+                  secondsSince(begin), timeLeft_s(log.reader().progress(), secondsSince(begin)));
   }
   run.slam.finish();
   run.wall_s = secondsSince(begin);

@@ -164,11 +164,10 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
   ProgressLine line(options.json);
   while (const auto frame = folder.next()) {
     addFrame(*frame, seeds, run);
-    line.update(
-        fmt::format("{:3.0f} %  {}, {}, {} lost",
-                    100.0 * static_cast<double>(folder.passed()) / static_cast<double>(folder.listing().pairs.size()),
-                    plural(run.frames, "frame", "frames"), plural(run.key_frames, "key frame", "key frames"), run.lost),
-        secondsSince(begin));
+    const double share = static_cast<double>(folder.passed()) / static_cast<double>(folder.listing().pairs.size());
+    line.update(fmt::format("{:3.0f} %  {}, {}, {} lost", 100.0 * share, plural(run.frames, "frame", "frames"),
+                            plural(run.key_frames, "key frame", "key frames"), run.lost),
+                secondsSince(begin), timeLeft_s(share, secondsSince(begin)));
   }
   run.wall_s = secondsSince(begin);
   run.disagreement_of_given = seeds.disagreement();

@@ -5,6 +5,7 @@
 
 #include "apps/command.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
@@ -23,6 +24,7 @@ struct MigrateOptions {
 };
 
 int migrate(const MigrateOptions& options) {
+  if (!options.out.empty()) requireWritable(options.out, "--out");
   const std::string file = findMission(options.file);
   const tree::Migration migration = tree::migrateToVersion4(common::readBytes(file), file);
   if (!migration.problems.empty()) throw common::InputError(behaviors::toCommon(migration.problems));

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/given_map.hpp"
+#include "autonomy/flight_sensors.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 #include "common/printable.hpp"
@@ -13,6 +14,7 @@ namespace swiftlet::apps {
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
   limits.max_height_m = system.vehicle.max_height_m;
+  limits.measured_height_m = autonomy::measuredHeight_m(system.laser);
   limits.clearance_problems = [autonomy = system.config.autonomy](double clearance_m) {
     return autonomy.problemsWith(clearance_m);
   };

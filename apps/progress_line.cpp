@@ -2,6 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "apps/show.hpp"
 #include "common/printable.hpp"
 
@@ -14,8 +19,23 @@ constexpr double kElsewhere_s = 2.0;
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), interactive_(isatty(STDOUT_FILENO) != 0) {}
 
-void ProgressLine::update(const std::string& text, double wall_s) {
+std::optional<double> timeLeft_s(double share, double wall_s) {
+  // The first part may be that of a file that is opened, or of a map that is small.
+  constexpr double kLeastShare = 0.02, kLeastWall_s = 2.0;
+  if (share < kLeastShare || wall_s < kLeastWall_s) return std::nullopt;
+  return wall_s * std::max(0.0, 1.0 - share) / share;
+}
+
+std::string leftText(double left_s) {
+  const auto minutes = std::lround(left_s / 60.0);
+  if (left_s < 100.0) return fmt::format("about {:.0f} s left", 5.0 * std::ceil(left_s / 5.0));
+  if (minutes < 60) return fmt::format("about {} min left", minutes);
+  return fmt::format("about {} h {} min left", minutes / 60, minutes % 60);
+}
+
+void ProgressLine::update(const std::string& done, double wall_s, std::optional<double> left_s) {
   if (quiet_) return;
+  const std::string text = left_s ? done + ", " + leftText(*left_s) : done;
   if (interactive_) {
     showStyled("\r\033[K" + common::printable(text));
     open_ = true;

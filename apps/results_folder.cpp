@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
+#include "interfaces/files/unusable_folder.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -48,7 +49,7 @@ ResultsFolder::ResultsFolder(fs::path path, const ResultsKind& kind)
     fs::remove_all(unfinished_);
     fs::create_directory(unfinished_);
   } catch (const fs::filesystem_error& e) {
-    throw unusable(path_, fmt::format("cannot be used: {}", e.code().message()), "");
+    throw common::InputError(interfaces::unusableFolder(path_, e.code()));
   }
 }
 

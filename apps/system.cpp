@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "autonomy/flight_sensors.hpp"
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
@@ -262,12 +263,22 @@ std::vector<common::Problem> problemsOfLqr(const System& system) {
   return problems;
 }
 
+std::vector<common::Problem> problemsOfSensors(const System& system) {
+  const int least_beams = system.config.autonomy.estimator.laser.odometry.matcher.minPoints();
+  common::LaserConfig laser = system.laser;
+  laser.name = std::filesystem::path(system.config.laser).stem().string();  // A sheet made from another has its name.
+  std::vector<common::Problem> problems = autonomy::problemsOfSensors(laser, system.vehicle, least_beams);
+  for (common::Problem& problem : problems) problem.location = system.laser_place;
+  return problems;
+}
+
 System loadSystem(const std::string& name) {
   System system;
   system.name = name;
   ProfilePlaces places;
   readProfile(fileFor(name, "systems"), system.config, places, {});
   const std::map<std::string, std::string> files = findSheets(system, places);
+  system.laser_place = places.of("laser");
   using common::config::readFile;
   system.vehicle = readFile<common::VehicleConfig>(files.at("vehicle"));
   system.laser = readFile<common::LaserConfig>(files.at("laser"));

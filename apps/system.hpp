@@ -44,6 +44,7 @@ struct System {
   std::optional<control::VehicleModel> model;
   /// The files of the sheets and of the model that are not shipped, by the keys of the profile that name them.
   std::map<std::string, std::string> own_files;
+  common::SourceLocation laser_place;  ///< Where the profile, or one that it is based on, names the laser.
 
   /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.
   std::string toYaml(bool comments) const;
@@ -62,6 +63,10 @@ System loadSystem(const std::string& name);
 
 /// Why the controller lqr cannot fly this system: messages and hints without places; empty if it can.
 std::vector<common::Problem> problemsOfLqr(const System& system);
+
+/// Why the sensors of this system cannot carry a flight, each with the place in the profile; empty if they can. They
+/// may serve for logs all the same.
+std::vector<common::Problem> problemsOfSensors(const System& system);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
 common::LaserConfig loadLaser(const std::string& name);

@@ -19,6 +19,7 @@
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/trial_flight.hpp"
+#include "apps/trial_progress.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
 #include "evaluation/trial.hpp"
@@ -107,18 +108,22 @@ fs::path runFolder(const TrialConfig& trial, int seed, const fs::path& out) {
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds. What stops a flight from
 /// being flown at all ends the trial, and is thrown once `result` has the others.
 void flyAll(const TrialConfig& trial, const TrialOptions& options, const VehicleMemorySetup& memory,
-            const fs::path& out, const std::atomic<bool>& stop, TrialResult& result) {
+            const fs::path& out, const std::atomic<bool>& stop, TrialProgress& progress, TrialResult& result) {
   const auto [first_seed, count] = seedsOf(trial, options);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::vector<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::mutex mutex;
   const auto fly = [&, first = first_seed](int i) {
     const int seed = first + i;
-    auto flown =
-        flyOne(trial, map, seed, runFolder(trial, seed, out), stop, {memory, options.control_log, options.record_rgbd});
+    const auto tell = [&, name = fmt::format("{} seed {}", trial.name, seed)](const FlightProgress& flight) {
+      progress.flies(name, flight.simulated_s);
+    };
+    auto flown = flyOne(trial, map, seed, runFolder(trial, seed, out), stop,
+                        {memory, options.control_log, options.record_rgbd, tell});
+    std::string lines;
+    for (const evaluation::FlightScore& score : flown) lines += flightLine(trial, score) + "\n";
+    progress.over(lines, std::all_of(flown.begin(), flown.end(), [](const auto& score) { return score.passed(); }));
     const std::scoped_lock lock(mutex);
-    if (!options.json)
-      for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
     scores[static_cast<std::size_t>(i)] = std::move(flown);
   };
   const auto collect = [&] {
@@ -226,17 +231,22 @@ int trial(const TrialOptions& options) {
   checkRunFolders(trials, options, out);
   clearOfOlderResults(out, kTrialResults);
   TrialResults results;
+  int flights = 0;
+  for (const TrialConfig& trial : trials) flights += seedsOf(trial, options).count;
+  TrialProgress progress(flights, options.json);
   for (const TrialConfig& trial : trials) {
     if (stop) break;
     results.trials.push_back({trial.name, trial.system, trial.paper, {}, trial.criteria, trial.figureBounds()});
     try {
-      flyAll(trial, options, memory, out, stop, results.trials.back());
+      flyAll(trial, options, memory, out, stop, progress, results.trials.back());
     } catch (...) {
+      progress.close();
       if (anyFlown(results)) writeResults(results, out);
       throw;
     }
     writeResults(results, out);
   }
+  progress.close();
   if (options.json) {
     showJson(toJson(results));
   } else {

@@ -14,6 +14,7 @@
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
+#include "interfaces/files/unusable_folder.hpp"
 #include "interfaces/run_folder.hpp"
 
 namespace swiftlet::apps {
@@ -123,10 +124,13 @@ void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& proble
 
 void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
+  std::set<std::string> systems;  // That were judged.
   for (TrialConfig& trial : trials) {
     findMission(trial, trial.mission);
     for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles) findMission(trial, vehicle.mission);
     const System system = loadSystem(trial.system);
+    if (systems.insert(trial.system).second)
+      for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));
     for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
       for (auto& problem : missionProblems(mission, system, trial.map.given())) problems.push_back(std::move(problem));
     checkControllers(trial, system, problems);
@@ -176,6 +180,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
   std::map<std::string, evaluation::FlightScore> by_name;
   FlightHooks hooks;
   hooks.stop = &stop;
+  hooks.progress = extras.progress;
   hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
     evaluation::FlightScore& score = by_name[vehicle.name()];
     score = scoreOf(trial, seed, record, vehicle, end);
@@ -199,9 +204,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
 
 fs::path trialFolder(const std::string& given, const std::string& noun, const TrialResultsProof& proof) {
   fs::path out = given.empty() ? interfaces::freshRunFolder("runs", startedNow(), noun) : fs::path(given);
-  std::error_code failure;
-  fs::create_directories(out, failure);
-  if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
+  interfaces::requireWritableFolder(out, "--out");
   const fs::path results = out / proof.file;
   if ((fs::exists(results) || fs::exists(reportIn(out))) && !interfaces::saysAtStart(results, proof.text, 16))
     throw common::InputError(common::Problem{

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/flight_setup.hpp"
 #include "apps/given_map.hpp"
 #include "apps/vehicle_memory_file.hpp"
 #include "evaluation/flight_score.hpp"
@@ -29,8 +31,9 @@ std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, 
 /// What the flights of a trial have beyond it.
 struct FlightExtras {
   VehicleMemorySetup memory = {};
-  bool control_log = false;  ///< Whether the runs keep control.tsv.
-  bool record_rgbd = false;  ///< Whether the runs keep the frames of the RGB-D camera.
+  bool control_log = false;                                  ///< Whether the runs keep control.tsv.
+  bool record_rgbd = false;                                  ///< Whether the runs keep the frames of the RGB-D camera.
+  std::function<void(const FlightProgress&)> progress = {};  ///< See FlightHooks.
 };
 
 /// Flies a prepared trial once and returns a score for each vehicle. The run lies in `folder`, and FlightScore::folder

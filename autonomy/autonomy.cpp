@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/flight_sensors.hpp"
 #include "common/check.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -25,13 +26,13 @@ constexpr double kFarFromGoal_m = 1.0;
 constexpr double kNear_m = 2.0;
 
 /// Of the missions that the operator starts in flight, as `fly` checks the first one.
-behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map,
-                                  bool has_camera, const MapShelf& maps) {
+behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySetup& setup, const MapShelf& maps) {
   return {.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); },
-          .max_height_m = vehicle.max_height_m,
-          .has_camera = has_camera,
+          .max_height_m = setup.vehicle.max_height_m,
+          .measured_height_m = measuredHeight_m(setup.laser),
+          .has_camera = setup.camera != nullptr,
           .target_names = config.estimator.targets.names(),
-          .has_map = has_map,
+          .has_map = setup.given != nullptr,
           .map_problem = [&maps](const std::string& map, const std::string&) -> std::optional<common::Problem> {
             const std::string why = maps.problemOf(map);
             return why.empty() ? std::nullopt : std::optional(common::Problem{{}, "", why, ""});
@@ -54,8 +55,7 @@ Autonomy::Autonomy(AutonomySetup setup)
       supervisor_(config_.supervisor),
       supervisor_intents_(config_.execution.clearance_m),
       requests_(vehicle_.hullRadius_m(), setup.camera),
-      missions_(std::move(setup.mission),
-                limitsOf(config_, vehicle_, setup.given != nullptr, setup.camera != nullptr, map_shelf_)),
+      missions_(std::move(setup.mission), limitsOf(config_, setup, map_shelf_)),
       jobs_(std::move(setup.jobs)),
       scans_(config_.scans, 1.0 / setup.laser.rate_hz),
       inertial_(config_.inertial, config_.control.position.attitude_lag_s),
@@ -255,7 +255,8 @@ void Autonomy::tickBehaviors(Time now) {
                  {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
                   estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
                   supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(), &estimator_.people().seen(),
-                  requests_.keepOut().zones(), common::PlaceNames::in(given_map_.T_map_given()), estimator_.map3d()});
+                  requests_.keepOut().zones(), common::PlaceNames::in(given_map_.T_map_given()), estimator_.map3d(),
+                  [this, now] { return estimator_.whyUnready(now); }});
   const bool knows_walls = drift_m_ < config_.supervisor.drift_back_m;
   controller_.setEscape(knows_walls ? executor_.escape_map_m(estimator_.state())
                                     : Eigen::Vector2d(Eigen::Vector2d::Zero()));

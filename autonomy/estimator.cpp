@@ -51,6 +51,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       explained_within_m_(config.people.explained_within_m),
       people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       laser_(config.laser, laser),
+      start_view_(config.laser, laser, standing_height_m_),
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
       localization_config_(config.localization),
@@ -90,6 +91,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   }
   // Scans that were under way when the filter started are of a time of which it knows no pose.
   if (scan.stamps.measured < started_) return std::nullopt;
+  if (filter_.atRest()) lookFromStart(scan, filter_.state().T_odom_body.rotation);
   ScanOutcome outcome;
   outcome.scan = project(scan);
   altitude_.removeGround(outcome.scan);

@@ -22,6 +22,7 @@
 #include "autonomy/estimation/laser_pipeline.hpp"
 #include "autonomy/estimation/map_pipeline.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/start_view.hpp"
 #include "autonomy/estimation/step_uncertainty.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
 #include "autonomy/estimation/vertical_laser_pipeline.hpp"
@@ -110,6 +111,9 @@ class Estimator {
   std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
 
   bool ready() const { return filter_.initialized(); }
+  /// Why a flight from where the vehicle stands would not know its height or position; empty if it would. See
+  /// StartView::problem.
+  std::string whyUnready(common::Time now) const;
   /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
   /// So much lower than the height of the map the vehicle flies, below something that hangs over its path.
@@ -151,6 +155,7 @@ class Estimator {
   /// Tells the listener and then the filter; nothing else changes the filter. Returns what perception::tell returns.
   tl::expected<perception::Insertion, std::string> tell(const perception::FilterInput& input);
   void initialize(const common::LaserScan& scan);
+  void lookFromStart(const common::LaserScan& scan, const Eigen::Quaterniond& R_odom_body);
   void sayWaiting(common::Time now, std::string reason);
   perception::ProjectedScan project(const common::LaserScan& scan) const;
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
@@ -186,6 +191,7 @@ class Estimator {
   double explained_within_m_;  ///< Of the people tracker.
   perception::PeopleTracker people_;
   LaserPipeline laser_;
+  StartView start_view_;
   AltitudePipeline altitude_;
   MapPipeline map_;
   StepUncertainty step_uncertainty_;

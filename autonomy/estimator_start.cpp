@@ -14,6 +14,13 @@ using common::Pose3;
 using common::Severity;
 using common::Time;
 
+namespace {
+
+/// Several frames of a slow camera.
+constexpr double kCameraSaw_s = 0.3;
+
+}  // namespace
+
 common::ImuSample Estimator::withAttitude(const common::ImuSample& sample) const {
   if (uses_ahrs_) return sample;
   common::ImuSample known = sample;
@@ -32,6 +39,7 @@ void Estimator::initialize(const common::LaserScan& scan) {
                  "the samples have no attitude: without an AHRS set `use_ahrs` of the filter to false");
     return;
   }
+  lookFromStart(scan, last_imu_->rotation_ahrs_body);
   const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
   const Eigen::Quaterniond R_level_body = common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0});
   const auto standing = laser_.project(scan, [&](Time) { return Pose3{R_level_body, Eigen::Vector3d::Zero()}; });
@@ -43,6 +51,15 @@ void Estimator::initialize(const common::LaserScan& scan) {
   altitude_.initialize(started_, height_m);
   say(scan.stamps.arrived, Severity::kInfo, "fusion",
       fmt::format("initialized, body {:.3f} m above the floor", height_m));
+}
+
+void Estimator::lookFromStart(const common::LaserScan& scan, const Eigen::Quaterniond& R_odom_body) {
+  const common::RollPitchYaw tilt = common::rollPitchYaw(R_odom_body);
+  start_view_.add(scan, common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0}));
+}
+
+std::string Estimator::whyUnready(Time now) const {
+  return start_view_.problem(now, rgbd_ && (now - position_seen_).seconds() < kCameraSaw_s);
 }
 
 void Estimator::sayWaiting(Time now, std::string reason) {

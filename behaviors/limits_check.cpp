@@ -129,6 +129,13 @@ class LimitsCheck {
     };
     // A height is judged as that of a goal above the take-off place.
     forEachValue<double>(node, "height_m", [&](double height_m) { checkGoal("height_m", {.height_m = height_m}); });
+    forEachValue<double>(node, "max_height_m", [&](double height_m) {
+      if (height_m > limits_.measured_height_m)
+        report(node, "max_height_m",
+               metres(height_m) + " is above " + metres(std::floor(100.0 * limits_.measured_height_m) / 100.0) +
+                   ", up to which the beams down of the laser measure the height",
+               "name a lower one, or fly with a laser that reaches farther");
+    });
     forEachValue<tree::Points>(node, "polygon", [&](const tree::Points& corners) {
       const auto [problem, hint] = areaProblem(polygonOf(corners), traitsOf(node).keeps_out, in_take_off_frame_);
       if (!problem.empty()) report(node, "polygon", problem, hint);

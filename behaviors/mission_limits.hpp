@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct MissionLimits {
   std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
   /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
   double max_height_m = 2.0;
+  /// Above the take-off floor, up to which the sensors measure the height: no TakeOff may ask for more.
+  double measured_height_m = std::numeric_limits<double>::infinity();
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
   /// Names of the targets that the profile looks for; none: any name is accepted.
   std::optional<std::vector<std::string>> target_names = {};

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -22,13 +21,22 @@ struct YamlReader::Impl {
     std::vector<std::string> known_keys;
   };
 
-  std::string file;
+  /// A key that its section does not have.
+  struct UnknownKey {
+    std::size_t problem;  ///< Its index among the problems.
+    std::string section, key;
+  };
+
+  std::string file, whole_text;
+  std::vector<std::string_view> lines;  ///< Of the text.
   std::vector<Level> levels;
   std::vector<YAML::Node> lists;
   std::vector<std::string> list_names;
   std::vector<Problem> problems;
   bool keeps_unknown_keys = false;
-  std::vector<Problem> unknown_keys;
+  std::vector<Problem> kept_keys;
+  std::vector<UnknownKey> unknown;
+  std::map<std::string, std::vector<std::string>> known;  ///< The keys of each section of the file, by its path.
   std::vector<std::string> written;
   std::map<std::string, SourceLocation> places;
 
@@ -45,7 +53,23 @@ struct YamlReader::Impl {
   }
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
-    problems.push_back({at(node), pathOf(name), std::move(message), std::move(hint)});
+    const SourceLocation place = at(node);
+    std::string lookalike = lookalikeHint(lines, place.line);
+    problems.push_back(
+        {place, pathOf(name), std::move(message), lookalike.empty() ? std::move(hint) : std::move(lookalike)});
+  }
+
+  /// What to write in place of a value that is not `expected`.
+  static std::string valueHint(std::string_view name, const YAML::Node& node, std::string_view expected) {
+    if (node.IsSequence() && node.size() == 1) return "leave out the brackets or the dash";
+    if (!node.IsScalar()) return "";
+    if (expected.ends_with("number")) return numberHint(name, node.Scalar());
+    const std::string& word = node.Scalar();
+    return expected != "true or false" ? "" : word == "1" ? "write `true`" : word == "0" ? "write `false`" : "";
+  }
+
+  void reportValue(const YAML::Node& node, std::string_view name, std::string_view expected) {
+    report(node, name, fmt::format("{} is not {}", textOf(node), expected), valueHint(name, node, expected));
   }
 
   std::optional<YAML::Node> find(std::string_view name) {
@@ -64,7 +88,7 @@ struct YamlReader::Impl {
   template <typename Value>
   void scalar(std::string_view name, Value& value, const char* expected) {
     const auto node = find(name);
-    if (node && !convert(*node, value)) report(*node, name, fmt::format("{} is not {}", textOf(*node), expected));
+    if (node && !convert(*node, value)) reportValue(*node, name, expected);
   }
 
   /// Reports a value in the file that is not a number or out of bounds, and then keeps `value`.
@@ -76,7 +100,7 @@ struct YamlReader::Impl {
       return;
     }
     Value read{};
-    if (!convert(*node, read)) return report(*node, name, fmt::format("{} is not {}", textOf(*node), expected));
+    if (!convert(*node, read)) return reportValue(*node, name, expected);
     if (!bounds.contain(read)) return report(*node, name, bounds.problem(read));
     value = read;
   }
@@ -86,11 +110,13 @@ struct YamlReader::Impl {
                 const std::optional<Bounds>& bounds = std::nullopt) {
     const auto node = find(name);
     if (!node) return;
-    if (!node->IsSequence()) return report(*node, name, fmt::format("{} is not a list", textOf(*node)));
+    if (!node->IsSequence())
+      return report(*node, name, fmt::format("{} is not a list", textOf(*node)),
+                    node->IsScalar() ? fmt::format("write `[{}]`", node->Scalar()) : "");
     std::vector<Value> read;
     for (const YAML::Node& item : *node) {
       Value value{};
-      if (!convert(item, value)) return report(item, name, fmt::format("{} is not {}", textOf(item), expected));
+      if (!convert(item, value)) return reportValue(item, name, expected);
       if constexpr (std::is_arithmetic_v<Value>)
         if (bounds && !bounds->contain(value))
           report(item, fmt::format("{}[{}]", name, read.size()), bounds->problem(value));
@@ -123,18 +149,40 @@ struct YamlReader::Impl {
   }
 
   void refuseUnknownKeys(const Level& level) {
-    std::set<std::string> met;
+    std::map<std::string, int> met;  // With their lines.
     for (const auto& entry : level.node) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-      if (!met.insert(key).second) report(entry.first, "", fmt::format("key `{}` is given twice", key), "");
-      const auto& known = level.known_keys;
-      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-      const auto nearest = nearestWord(key, known);
-      if (keeps_unknown_keys && levels.size() == 1 && !(nearest && !level.node[*nearest].IsDefined()))
-        unknown_keys.push_back({at(entry.first), "", fmt::format("unknown key `{}`, not used", key), ""});
-      else
-        report(entry.first, "", fmt::format("unknown key `{}`", key),
-               nearest ? didYouMean(key, known) : "known are: " + listed(known));
+      const auto [first, is_new] = met.emplace(key, at(entry.first).line);
+      if (!is_new)
+        report(entry.first, "", fmt::format("key `{}` is given twice", key),
+               fmt::format("it is in line {} too: leave out one of the two", first->second));
+      const auto& known_keys = level.known_keys;
+      if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) continue;
+      const auto nearest = nearestWord(key, known_keys);
+      if (keeps_unknown_keys && levels.size() == 1 && !(nearest && !level.node[*nearest].IsDefined())) {
+        kept_keys.push_back({at(entry.first), "", fmt::format("unknown key `{}`, not used", key), ""});
+        continue;
+      }
+      unknown.push_back({problems.size(), level.path, key});
+      const std::string similar = didYouMean(key, known_keys);
+      report(entry.first, "", fmt::format("unknown key `{}`", key),
+             similar.empty() ? "known are: " + listed(known_keys) : similar);
+    }
+  }
+
+  /// An unknown key may be one of another section, above or below which it was indented by mistake, and one without a
+  /// value may lack the blank behind its colon.
+  void hintAtUnknownKeys() {
+    for (const UnknownKey& one : unknown) {
+      Problem& problem = problems[one.problem];
+      if (!lookalikeHint(lines, problem.location.line).empty()) continue;
+      if (std::string hint = keyHint(one.key); !hint.empty()) problem.hint = std::move(hint);
+      if (one.key.find_first_not_of("0123456789") == std::string::npos) problem.hint = "write decimals with a point";
+      for (const auto& [section, keys] : known) {
+        if (section == one.section || std::find(keys.begin(), keys.end(), one.key) == keys.end()) continue;
+        problem.hint = section.empty() ? fmt::format("`{}` is no key of a section: do not indent it", one.key)
+                                       : fmt::format("`{}` is a key of `{}`: indent it below that", one.key, section);
+      }
     }
   }
 
@@ -174,10 +222,12 @@ struct YamlReader::Impl {
 
   void closeLevel(const std::vector<std::string>& relations) {
     const Level level = levels.back();
+    known[level.path] = level.known_keys;
     if (level.node.IsMap())
       refuseUnknownKeys(level);
     else if (!level.node.IsNull())
-      report(level.node, "", fmt::format("{} where keys were expected", textOf(level.node)));
+      report(level.node, "", fmt::format("{} where keys were expected", textOf(level.node)),
+             level.node.IsScalar() ? keyHint(level.node.Scalar()) : "leave out the dashes");
     for (const std::string& text : relations) reportRelation(level.node, text);
     levels.pop_back();
   }
@@ -195,12 +245,9 @@ YamlReader YamlReader::fromFile(const std::string& file) {
 YamlReader YamlReader::fromText(const std::string& text, const std::string& name) {
   auto impl = std::make_unique<Impl>();
   impl->file = name;
-  try {
-    YAML::Node root = YAML::Load(text);
-    impl->levels.push_back({root, "", {}});
-  } catch (const YAML::Exception& e) {
-    throw InputError(notYaml(text, {name, e.mark.line + 1, e.mark.column + 1}, e.msg));
-  }
+  impl->whole_text = text;
+  impl->lines = linesOf(impl->whole_text);
+  impl->levels.push_back({loadYaml(text, name), "", {}});
   return YamlReader(std::move(impl));
 }
 
@@ -275,10 +322,11 @@ void YamlReader::endList() {
 }
 
 void YamlReader::keepUnknownKeys() { impl_->keeps_unknown_keys = true; }
-std::vector<Problem> YamlReader::unknownKeys() const { return impl_->unknown_keys; }
+std::vector<Problem> YamlReader::unknownKeys() const { return impl_->kept_keys; }
 
 void YamlReader::finish(const std::vector<std::string>& problems) {
   impl_->closeLevel(problems);
+  impl_->hintAtUnknownKeys();
   if (!impl_->problems.empty()) throw InputError(std::move(impl_->problems));
 }
 

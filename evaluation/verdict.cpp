@@ -78,7 +78,7 @@ Judgement judge(const VerdictFacts& facts) {
   if (facts.crashed) return judgeCrash(facts);
   if (facts.mission_done) return {Verdict::kDone, "the mission was done"};
   if (facts.in_the_air) return {Verdict::kUnfinished, "it was still in the air at the end"};
-  if (!facts.inside) return {Verdict::kOutside, "it landed where nothing encloses it"};
+  if (facts.flew && !facts.inside) return {Verdict::kOutside, "it landed where nothing encloses it"};
   const std::optional<std::string> reason = confirmedReason(facts);
   if (!reason) return {Verdict::kNeedless, (facts.flew ? "landed with " : "never took off with ") + unconfirmed(facts)};
   if (!facts.flew) return {Verdict::kRefused, *reason};

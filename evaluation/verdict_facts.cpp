@@ -77,6 +77,7 @@ void lookBack(const FlightRecord& record, const TrueWorld& world, VerdictFacts& 
     no_floor += isAboveFloor(position, record, world) ? 0 : 1;
   }
   facts.position_seen = unfixed * EndingRecord::kTrailPeriod_s < kUnfixed_s;
+  if (!record.ending.flew) facts.position_seen = fixesPosition(record.last_truth.T_world_body.position_m, world);
   facts.floor_seen = no_floor * EndingRecord::kTrailPeriod_s < kNoFloor_s;
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
+#include "interfaces/files/unusable_folder.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -71,7 +72,7 @@ void usingFolder(const fs::path& path, Use use) {
   try {
     use();
   } catch (const fs::filesystem_error& e) {
-    throw unusable(path, fmt::format("cannot be used: {}", e.code().message()), "");
+    throw InputError(unusableFolder(path, e.code()));
   }
 }
 

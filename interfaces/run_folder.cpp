@@ -18,6 +18,7 @@
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/tum.hpp"
+#include "interfaces/files/unusable_folder.hpp"
 #include "interfaces/rgbd/rgbd_calibration.hpp"
 #include "interfaces/run_files.hpp"
 
@@ -85,7 +86,7 @@ fs::path freshRunFolder(const fs::path& parent, const std::string& started, cons
     fs::create_directories(parent);
     for (int number = 2; !fs::create_directory(path); ++number) path = parent / fmt::format("{}-{}", name, number);
   } catch (const fs::filesystem_error& e) {
-    throw InputError(Problem{{path.string()}, "", fmt::format("cannot be made: {}", e.code().message()), ""});
+    throw InputError(unusableFolder(path, e.code()));
   }
   return path;
 }

@@ -82,12 +82,8 @@ bool isAmong(const std::string& key, const std::vector<std::string>& keys) {
 class NatureRanges::Reader {
  public:
   Reader(const std::string& text, const std::string& file) : text_(text), file_(file) {
-    try {
-      const YAML::Node root = YAML::Load(text);
-      if (root.IsMap()) readMap(root, "");
-    } catch (const YAML::Exception& e) {
-      throw InputError(common::notYaml(text, {file, e.mark.line + 1, e.mark.column + 1}, e.msg));
-    }
+    const YAML::Node root = common::loadYaml(text, file);
+    if (root.IsMap()) readMap(root, "");
     if (!problems_.empty()) throw InputError(problems_);
   }
 

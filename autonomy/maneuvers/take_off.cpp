@@ -11,6 +11,7 @@ Progress TakeOff::step(const ManeuverInput& input) {
   if (!begun_) {
     if (!control::isAirborne(controller_.state()) && !input.take_off_refusal.empty())
       return Progress::failed("take-off refused: " + input.take_off_refusal);
+    if (auto wait = waiting(input)) return *wait;
     begin(input);
   }
   if (!commanded_)
@@ -29,6 +30,20 @@ Progress TakeOff::step(const ManeuverInput& input) {
       break;
   }
   return cannot("take off", controller_);
+}
+
+/// A laser whose motor has just started, or somebody who steps aside, may change what is seen.
+std::optional<Progress> TakeOff::waiting(const ManeuverInput& input) {
+  constexpr double kLongest_s = 5.0;
+  if (control::isAirborne(controller_.state())) return std::nullopt;
+  const std::string problem = input.unready();
+  if (problem.empty()) return std::nullopt;
+  if (!waits_since_) {
+    waits_since_ = input.now;
+    memory_.say(input.now, common::Severity::kWarning, "the take-off waits", problem);
+  }
+  if ((input.now - *waits_since_).seconds() > kLongest_s) return Progress::failed("take-off refused: " + problem);
+  return Progress::running("the take-off waits: " + problem);
 }
 
 void TakeOff::begin(const ManeuverInput& input) {

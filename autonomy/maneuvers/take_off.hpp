@@ -1,7 +1,9 @@
 // TakeOff: climbs to the intent's height; done when it hovers there. A vehicle that flies already is done at once; one
-// whose thrust or charge does not suffice fails with the figure.
+// whose thrust or charge does not suffice fails with the figure. One that could not know its height or position waits a
+// little with its motors off, and fails.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -16,12 +18,14 @@ class TakeOff final : public Maneuver {
   Progress step(const ManeuverInput& input) override;
 
  private:
+  std::optional<Progress> waiting(const ManeuverInput& input);
   void begin(const ManeuverInput& input);
 
   common::TakeOffIntent intent_;
   control::FlightController& controller_;
   FlightMemory& memory_;
   bool begun_ = false;
+  std::optional<common::Time> waits_since_;  ///< For sensors that can carry a flight.
   tl::expected<void, std::string> commanded_;
 };
 

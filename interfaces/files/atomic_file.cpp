@@ -12,7 +12,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 FileError errorOf(const std::filesystem::path& file, int error_number) {
-  return {fmt::format("{}: {}", file.string(), std::strerror(error_number))};
+  return {fmt::format("{}: {}", file.string(), std::strerror(error_number)), error_number};
 }
 
 /// Creates a file of that name and returns its descriptor as open(2) does. An older file of that name is unlinked

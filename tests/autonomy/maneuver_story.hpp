@@ -127,7 +127,8 @@ class ManeuverStory : public testing::Test {
             seen_.points_map_m.empty() ? nullptr : &seen_,
             keep_out_,
             names_,
-            map3d_};
+            map3d_,
+            [this] { return unready_; }};
   }
 
   common::Time now_;
@@ -141,6 +142,7 @@ class ManeuverStory : public testing::Test {
   std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
   common::PlaceNames names_;
   std::shared_ptr<const common::Map3dLayer> map3d_;
+  std::string unready_;  ///< Why the sensors cannot carry a flight.
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
   bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.

@@ -326,7 +326,7 @@ TEST_F(Map, AnUnwritableFolderIsRefusedBeforeMapping) {
   fs::permissions(path("out"), fs::perms::owner_read | fs::perms::owner_exec);
   const ProgramEnd end = map(write("a.log", walk(20)));
   EXPECT_EQ(end.exit_code, 2) << describe(end);
-  EXPECT_THAT(end.err, HasSubstr("cannot be used: Permission denied"));
+  EXPECT_THAT(end.err, HasSubstr("Permission denied, give a folder of yours"));
   EXPECT_THAT(end.err, Not(HasSubstr("scans"))) << "no progress was shown";
 }
 

@@ -66,7 +66,31 @@ TEST(Usage, SuggestsTheClosestName) {
        "`relation` is not a command of `swiftlet evaluate`, did you mean `relations`?");
   told({"--verison"}, "`--verison` is not an option of `swiftlet`, did you mean `--version`?");
   told({"doctor", "now"}, "`now` is one argument too many for `swiftlet doctor`");
+  told({"help"}, "`help` is not a command of `swiftlet`, `swiftlet --help` helps");
+  told({"help", "fly"}, "`help` is not a command of `swiftlet`, `swiftlet fly --help` helps");
+  told({"-v"}, "`-v` is not an option of `swiftlet`, did you mean `--version`?");
+  told({"hop.xml"}, "`hop.xml` is not a command of `swiftlet`, did you mean `swiftlet fly hop.xml`?");
+  told({"--seed", "7", "fly", "hop.xml"}, "`--seed` is not an option of `swiftlet`, put it behind `fly`");
+  told({"fly", "hop.xml", "seed=7"}, "`seed=7` is one argument too many for `swiftlet fly`, did you mean `--seed`?");
+  told({"fly", "hop.xml", "\xE2\x80\x93seed", "7"},
+       "is one argument too many for `swiftlet fly`, did you mean `--seed`?");
   told({"qqqqqqqqqq"}, "`qqqqqqqqqq` is not a command of `swiftlet`\n");
+}
+
+TEST(Usage, AValueThatCannotBeUsedIsToldInPlainWords) {
+  const auto told = [](std::vector<std::string> options, const std::string& message) {
+    options.insert(options.begin(), {"fly", "missions/explore_and_return.xml"});
+    const ProgramEnd end = runSwiftlet(options);
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_THAT(end.err, HasSubstr(message));
+  };
+  told({"--seed", "-1"}, "--seed: `-1` is not a whole number from 0 to 1000000000");
+  told({"--seed", "1.5"}, "--seed: `1.5` is not a whole number from 0");
+  told({"--seed"}, "--seed: a value is missing behind it");
+  told({"--seed", "1", "--seed", "2"}, "--seed: is given more than once");
+  told({"--battery", "90%"}, "--battery: `90%` is not a number from 0.01 to 1, write `0.9`: shares are of 1");
+  told({"--battery", "0,9"}, "--battery: `0,9` is not a number from 0.01 to 1, write `0.9`");
+  told({"--speed", "2x"}, "--speed: `2x` is neither max nor a number from 0.01 to 1000, write the number alone");
 }
 
 }  // namespace

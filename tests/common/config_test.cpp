@@ -95,7 +95,7 @@ TEST(Config, UnknownKeyIsReportedWithItsPlaceAndASuggestion) {
 
 TEST(Config, ADuplicateKeyIsReported) {
   EXPECT_EQ(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diameter_m: 0.5\nmass_kg: 1.6\n"),
-            "test.yaml:3:1: key `mass_kg` is given twice");
+            "test.yaml:3:1: key `mass_kg` is given twice, it is in line 1 too: leave out one of the two");
 }
 
 TEST(Config, WrongTypeAndRangeAreReportedTogether) {
@@ -267,24 +267,6 @@ TEST(Config, TheReferenceHasARowForEachSettingAndATableForEachSection) {
             "| `names` | `[\"a\"]` | list of texts | Some names. |\n"
             "| `color` | `blue` | red, blue | A colour. |\n"
             "| `on` | `true` | true, false | A switch. |\n");
-}
-
-TEST(Config, TabsThatIndentYamlAreNamed) {
-  const auto problem = [](const std::string& text) -> std::string {
-    try {
-      config::YamlReader::fromText(text, "a.yaml");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  const std::string tabs = ", YAML is indented by spaces, not tabs";
-  EXPECT_THAT(problem("name: a\nscenario:\n\tseed: 1\n"), EndsWith(tabs));
-  EXPECT_THAT(problem("scenario:\n\tseed: 1\n\tworld: w.sdf\n"), EndsWith(tabs));
-  EXPECT_THAT(problem("scenario:\n  seed: 1\n  \tworld: w.sdf\n"), EndsWith(tabs));
-  EXPECT_THAT(problem("a: b: c\n"), Not(HasSubstr("tabs"))) << "it has another cause";
-  EXPECT_THAT(problem("a: {b: c\n"), Not(HasSubstr("tabs")));
-  EXPECT_EQ(problem("a: 1\t# a comment\n"), "none");
 }
 
 }  // namespace

@@ -72,6 +72,12 @@ TEST(Verdicts, OfARefusedTakeOffNeedItsFigureToo) {
   EXPECT_EQ(judge(facts).verdict, Verdict::kRefused);
 }
 
+TEST(Verdicts, AVehicleThatNeverFlewHasNotLeftTheBuilding) {
+  VerdictFacts facts = landed();
+  facts.flew = facts.inside = facts.position_seen = false;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kRefused);
+}
+
 TEST(Verdicts, OnCrashesSayWhetherPhysicsForcedThem) {
   VerdictFacts facts = landed();
   facts.crashed = true;

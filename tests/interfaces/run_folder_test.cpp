@@ -326,7 +326,7 @@ TEST(RunFolder, RefusesForeignFolders) {
   EXPECT_EQ(bytesOf(folder / "mine/config.yaml"), "laser: urg_04lx") << "a name of ours makes it no file of ours";
   put(folder / "file", "");
   EXPECT_THAT(problem(folder / "file"), HasSubstr("file: is not a folder"));
-  EXPECT_THAT(problem(folder / "file/below"), HasSubstr("cannot be used: Not a directory"));
+  EXPECT_THAT(problem(folder / "file/below"), HasSubstr("is a file, and no folder can be made there"));
 }
 
 TEST(RunFolder, IsWrittenByOneFlightAtATime) {

@@ -60,8 +60,10 @@ struct GrootServer::Socket {
 GrootServer::GrootServer(const std::string& address, int port) : socket_(std::make_unique<Socket>()) {
   const std::string endpoint = "tcp://" + address + ":" + (port == 0 ? "*" : std::to_string(port));
   if (zmq_bind(socket_->socket, endpoint.c_str()) != 0)
-    throw common::InputError(
-        common::Problem{{}, "--groot", "cannot listen on " + endpoint + ": " + zmq_strerror(zmq_errno()), ""});
+    throw common::InputError(common::Problem{{},
+                                             "--groot",
+                                             "cannot listen on " + endpoint + ": " + zmq_strerror(zmq_errno()),
+                                             "choose another port above 1023; 0 picks a free one"});
   socket_->set(ZMQ_SNDTIMEO, 1000);
 }
 

@@ -34,6 +34,29 @@ TEST_F(TakeOffManeuver, FailsWhenItIsRefusedOrAborted) {
   EXPECT_EQ(executor_.status().reason, "cannot take off: landing because not hovering after 17 s");
 }
 
+TEST_F(TakeOffManeuver, WaitsALittleForSensorsThatSeeWhereItIs) {
+  unready_ = "no beams return";
+  want(common::TakeOffIntent{kHeight_m});
+  run(3.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning);
+  EXPECT_EQ(executor_.status().reason, "the take-off waits: no beams return");
+  EXPECT_EQ(controller_.state(), FlightState::kPoweredOff) << "its motors are off";
+  unready_.clear();
+  EXPECT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  unready_ = "no beams return";
+  want(common::TakeOffIntent{kHeight_m});
+  EXPECT_EQ(runToTheEnd(0.1), IntentState::kSucceeded) << "in flight it takes off no more";
+}
+
+TEST_F(TakeOffManeuver, IsRefusedWhereTheSensorsGoOnSeeingTooLittle) {
+  unready_ = "no beams return";
+  want(common::TakeOffIntent{kHeight_m});
+  EXPECT_EQ(runToTheEnd(6.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "take-off refused: no beams return");
+  EXPECT_EQ(controller_.state(), FlightState::kPoweredOff);
+  EXPECT_EQ(timesSaid("the take-off waits"), 1);
+}
+
 TEST_F(TakeOffManeuver, SucceedsAtOnceInFlightAndGivesTheHeightOfTheNextPath) {
   want(common::TakeOffIntent{kHeight_m});
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);

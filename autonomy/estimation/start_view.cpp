@@ -1,0 +1,114 @@
+#include "autonomy/estimation/start_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/small_matrices.hpp"
+#include "perception/scan_matching/contour_normals.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::Pose2;
+using common::Pose3;
+using common::Time;
+
+namespace {
+
+/// Points beyond it are not matched.
+double rangeOf_m(const perception::MatcherChoiceConfig& matcher) {
+  switch (matcher.kind) {
+    case perception::MatcherKind::kGaussNewton:
+      return matcher.gauss_newton.max_range_m;
+    case perception::MatcherKind::kPointToLine:
+      return matcher.point_to_line.max_range_m;
+    case perception::MatcherKind::kCorrelative:
+      break;
+  }
+  return matcher.max_range_m;
+}
+
+/// The beams that fix the weakest direction: the least eigenvalue of the sum of the outer products of their surfaces'
+/// normals (Zhang, Kaess, Singh 2016, "On degeneracy of optimization-based state estimation problems").
+double beamsAlongWeakest(const std::vector<perception::OrientedPoint>& points) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const perception::OrientedPoint& point : points) {
+    const Eigen::Vector2d normal = point.normal.cast<double>();
+    information += normal * normal.transpose();
+  }
+  return common::symmetricEigenvalues(information)(0);
+}
+
+}  // namespace
+
+StartView::StartView(const LaserPipelineConfig& config, const common::LaserConfig& laser, double standing_height_m)
+    : config_(config), laser_(laser), standing_height_m_(standing_height_m) {}
+
+void StartView::add(const common::LaserScan& scan, const Eigen::Quaterniond& R_level_body) {
+  scan_ = scan;
+  R_level_body_ = R_level_body;
+}
+
+std::string StartView::problem(Time now, bool position_known) const {
+  // Several periods of the slowest laser.
+  constexpr double kSilent_s = 1.0;
+  if (!scan_) return "the laser has sent no scan";
+  const double silent_s = (now - scan_->stamps.arrived).seconds();
+  if (silent_s > kSilent_s) return fmt::format("the laser has been silent for {:.1f} s", silent_s);
+  const perception::ProjectedScan view = projected();
+  std::string problem = heightProblem(view);
+  return problem.empty() && !position_known ? positionProblem(view) : problem;
+}
+
+/// Every return counts. A vehicle that stands sees far walls so low above the floor that a small error of its attitude
+/// would make floor of them.
+perception::ProjectedScan StartView::projected() const {
+  constexpr double kNoSurface_m = 1e4;
+  perception::ScanProjectionConfig config = config_.projection;
+  config.floor_height_odom_m = -kNoSurface_m;
+  config.ceiling_height_odom_m = 0.0;
+  config.max_rise_m = kNoSurface_m;
+  const Pose3 standing{R_level_body_, {0.0, 0.0, standing_height_m_}};
+  return perception::project(
+      *scan_, laser_, [&](Time) { return standing; }, config);
+}
+
+std::string StartView::heightProblem(const perception::ProjectedScan& view) const {
+  if (laser_.mirror_beams == 0) return "no beam of the laser looks down, and nothing else measures the height";
+  // From the ground the floor may be too near to be measured.
+  constexpr double kSigmas = 3.0;
+  const double floor_m = standing_height_m_ + laser_.mirror_mount.z_m - kSigmas * laser_.range_noise_m;
+  if (!view.mirror.empty() || floor_m < laser_.range_min_m) return "";
+  return fmt::format("none of the {} beams down returns, and nothing else measures the height", laser_.mirror_beams);
+}
+
+std::string StartView::positionProblem(const perception::ProjectedScan& view) const {
+  const perception::MatcherChoiceConfig& matcher = config_.odometry.matcher;
+  const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, rangeOf_m(matcher)});
+  const auto returns = std::count_if(view.points_level_m.begin(), view.points_level_m.end(),
+                                     [&](const Eigen::Vector2f& point_m) { return point_m.norm() <= reach_m; });
+  if (returns < matcher.minPoints())
+    return fmt::format("{} beams of the laser return from within {:.1f} m; {} are needed to fix the position",
+                       returns == 0 ? "no" : fmt::format("{}", returns), reach_m, matcher.minPoints());
+  if (beamsAlongWeakest(perception::orientedPoints(view, 0, matcher.max_gap_m, reach_m)) >= matcher.minPoints())
+    return "";
+  const auto direction = weakDirection(view);
+  if (!direction) return "";
+  const double to_the_left_deg = std::atan2(direction->y(), direction->x()) / common::kRadPerDeg;
+  return fmt::format(
+      "within {:.1f} m the laser sees nothing that fixes the position along {:.0f} deg to the left of the nose",
+      reach_m, to_the_left_deg < 0.0 ? to_the_left_deg + 180.0 : to_the_left_deg);
+}
+
+/// Of a scan with few beams across one direction, whether a match fixes it, and if not, which one it is.
+std::optional<Eigen::Vector2d> StartView::weakDirection(const perception::ProjectedScan& view) const {
+  const perception::LaserOdometryConfig& odometry = config_.odometry;
+  const auto matcher = perception::makeMatcher(odometry.matcher);
+  matcher->addReference(view, Pose2{});
+  return matcher->match(view, Pose2{}, {odometry.guess_error_m, odometry.guess_error_deg * common::kRadPerDeg})
+      .unobservable_direction;
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,170 @@
+// What people write into YAML by mistake: each is told its place, the key and what to write instead.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config.hpp"
+#include "common/error.hpp"
+#include "common/vehicle_config.hpp"
+
+namespace swiftlet::common {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+/// What the reader of a laser's sheet says of the text; "" if it takes it.
+std::string said(const std::string& text) {
+  LaserConfig laser;
+  try {
+    config::YamlReader::fromText(text, "f.yaml").read(laser);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct Mistake {
+  std::string what, text;
+  std::string place;   ///< With the element: "f.yaml:2:3: rate_hz: ".
+  std::string remedy;  ///< The hint's literal text.
+};
+
+class YamlMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(YamlMistake, IsToldWithPlaceAndRemedy) {
+  const Mistake& mistake = GetParam();
+  const std::string problem = said(mistake.text);
+  EXPECT_THAT(problem, testing::StartsWith(mistake.place)) << mistake.what;
+  EXPECT_THAT(problem, EndsWith(", " + mistake.remedy)) << mistake.what;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Indentation, YamlMistake,
+    testing::Values(
+        Mistake{"deeper below a value", "beams: 4\n  rate_hz: 3\n", "f.yaml:2:3: rate_hz: ", "begin it in column 1"},
+        Mistake{"back to no column", "mount:\n    x_m: 1\n  y_m: 2\n",
+                "f.yaml:3:3: y_m: ", "begin it in column 5 or 1"},
+        Mistake{"deeper than its neighbour", "mount:\n  x_m: 1\n   y_m: 2\n",
+                "f.yaml:3:4: y_m: ", "begin it in column 3"},
+        Mistake{"below nothing", "mount:\nx_m: 1\n", "f.yaml:2:1: unknown key `x_m`",
+                "`x_m` is a key of `mount`: indent it below that"},
+        Mistake{"in a section", "mount:\n  x_m: 1\n  beams: 4\n", "f.yaml:3:3: mount: unknown key `beams`",
+                "`beams` is no key of a section: do not indent it"},
+        Mistake{"dashes", "- beams: 4\n- rate_hz: 3\n", "f.yaml:1:1: a list where", "leave out the dashes"},
+        Mistake{"a list of keys in a section", "mount:\n- x_m: 1\n- y_m: 2\n", "f.yaml:2:1: mount: a list where",
+                "leave out the dashes"},
+        Mistake{"an item among keys", "beams: 4\n- rate_hz: 3\n",
+                "f.yaml:2:1: rate_hz: ", "leave out the dash, or give the list a key of its own"},
+        Mistake{"tabs", "mount:\n\tx_m: 1\n\ty_m: 2\n", "f.yaml:2:5: x_m: ", "YAML is indented by spaces, not tabs"},
+        Mistake{"tabs behind spaces", "mount:\n  x_m: 1\n  \ty_m: 2\n",
+                "f.yaml:3:3: y_m: ", "YAML is indented by spaces, not tabs"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Colons, YamlMistake,
+    testing::Values(
+        Mistake{"first", "beams:4\nrate_hz: 3\n", "f.yaml:1:1: beams: ", "put a blank behind the colon: `beams: 4`"},
+        Mistake{"last", "rate_hz: 3\nbeams:4\n", "f.yaml:2:1: unknown key `beams:4`",
+                "put a blank behind the colon: `beams: 4`"},
+        Mistake{"in braces", "mount: {x_m:0.1, y_m: 2}\n",
+                "f.yaml:1:9: mount: ", "put a blank behind the colon: `x_m: 0.1`"},
+        Mistake{"alone", "mount:\n  x_m:0.1\n", "f.yaml:2:3: mount: ", "put a blank behind the colon: `x_m: 0.1`"},
+        Mistake{"equals", "beams = 4\nrate_hz: 3\n", "f.yaml:1:1: beams: ", "write `beams: 4`"},
+        Mistake{"equals at the end", "rate_hz: 3\nbeams = 4\n", "f.yaml:2:1: unknown key", "write `beams: 4`"},
+        Mistake{"in a value", "name: a: b\n", "f.yaml:1:8: name: ", "put quotes around the value: `name: 'a: b'`"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Quotes, YamlMistake,
+    testing::Values(
+        Mistake{"brace", "beams: 4\nmount: {x_m: 1\nrate_hz: 3\n", "f.yaml:2:8: mount: ", "put a `}` where it ends"},
+        Mistake{"bracket", "beams: [4\nrate_hz: 3\n", "f.yaml:1:8: beams: ", "put a `]` where it ends"},
+        Mistake{"double quote", "name: \"x\nbeams: 4\n", "f.yaml:1:7: name: ", "put a `\"` where it ends"},
+        Mistake{"single quote", "name: 'x\nbeams: 4\n", "f.yaml:1:7: name: ", "put a `'` where it ends"},
+        Mistake{"bracket too many", "beams: 4]\n",
+                "f.yaml:1:8: beams: ", "leave out the `]`: no bracket is open there"},
+        Mistake{"path of Windows", "name: \"C:\\xq\"\n",
+                "f.yaml:1:14: name: ", "in double quotes a backslash begins a special character: use single quotes"},
+        Mistake{"special sign", "name: @x\n", "f.yaml:1:7: name: ", "put quotes around the value: `name: '@x'`"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, YamlMistake,
+    testing::Values(
+        Mistake{"comma", "range_max_m: 3,5\n", "f.yaml:1:14: range_max_m: ", "write `3.5`"},
+        Mistake{"comma in braces", "mount: {x_m: -0,05}\n", "f.yaml:1:17: mount: ", "write decimals with a point"},
+        Mistake{"two marks", "range_max_m: 1.234,5\n",
+                "f.yaml:1:14: range_max_m: ", "write decimals with a point, and no other marks"},
+        Mistake{"unit of the key", "range_max_m: 3,5 m\n",
+                "f.yaml:1:14: range_max_m: ", "write `3.5`: the key's name has the unit"},
+        Mistake{"degrees", "field_of_view_deg: 270\xc2\xb0\n",
+                "f.yaml:1:20: field_of_view_deg: ", "write `270`: the key's name has the unit"},
+        Mistake{"degrees in Latin-1", "field_of_view_deg: 270\xb0\n",
+                "f.yaml:1:20: field_of_view_deg: ", "write `270`: the key's name has the unit"},
+        Mistake{"another unit", "range_max_m: 350cm\n",
+                "f.yaml:1:14: range_max_m: ", "write the number alone, in the unit that the key's name ends with"},
+        Mistake{"per cent", "dropout_rate: 3%\n", "f.yaml:1:15: dropout_rate: ", "write `0.03`: shares are of 1"},
+        Mistake{"thousands", "beams: 1'081\n", "f.yaml:1:8: beams: ", "write `1081`"},
+        Mistake{"comment", "beams: 4#x\n", "f.yaml:1:8: beams: ", "put a blank before the comment: `4 #x`"},
+        Mistake{"list of one", "beams: [4]\n", "f.yaml:1:8: beams: ", "leave out the brackets or the dash"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Characters, YamlMistake,
+    testing::Values(
+        Mistake{"no-break space",
+                "beams:\xc2\xa0"
+                "4\nrate_hz: 3\n",
+                "f.yaml:1:1: beams: ", "line 1 has a no-break space (U+00A0) in column 7: write a plain blank"},
+        Mistake{"that indents", "mount:\n\xc2\xa0\xc2\xa0x_m: 1\n", "f.yaml:2:1: unknown key",
+                "line 2 has a no-break space (U+00A0) in column 1: write a plain blank"},
+        Mistake{"zero width",
+                "\xe2\x80\x8b"
+                "beams: 4\n",
+                "f.yaml:1:1: unknown key", "line 1 has a zero-width space (U+200B) in column 1: write nothing there"},
+        Mistake{"typographic minus",
+                "mount: {x_m: \xe2\x88\x92"
+                "0.1}\n",
+                "f.yaml:1:14: mount.x_m: ", "line 1 has a minus sign (U+2212) in column 14: write a plain minus"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Wholes, YamlMistake,
+    testing::Values(Mistake{"given twice", "beams: 4\nrate_hz: 3\nbeams: 5\n", "f.yaml:3:1: key `beams` is given twice",
+                            "it is in line 1 too: leave out one of the two"},
+                    Mistake{"two documents", "beams: 4\n---\nbeams: 5\n", "f.yaml:3:1: a second document",
+                            "leave out the line `---`, or give each its own file"},
+                    Mistake{"a merge", "<<<<<<< HEAD\nbeams: 4\n=======\nbeams: 5\n>>>>>>> b\n", "f.yaml:1:1: ",
+                            "keep one of the two, and take out the lines that begin with <<<<<<<, ======= and "
+                            ">>>>>>>"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+TEST(Yaml, WhatEditorsOfOtherSystemsSaveIsRead) {
+  EXPECT_EQ(said("\xef\xbb\xbf"
+                 "beams: 4\n"),
+            "")
+      << "a byte order mark";
+  EXPECT_EQ(said("beams: 4\r\nmount:\r\n  x_m: 1\r\n"), "") << "lines of Windows";
+  EXPECT_EQ(said("beams: 4\rmount:\r  x_m: 1\r"), "") << "lines of old Macs";
+  EXPECT_EQ(said(std::string("\xff\xfe"
+                             "b\0e\0a\0m\0s\0:\0 \0"
+                             "4\0\n\0",
+                             20)),
+            "")
+      << "UTF-16";
+  EXPECT_EQ(said("---\nbeams: 4\n...\n"), "") << "with the marks of a document";
+}
+
+TEST(Yaml, WhatIsRightIsNotDoubted) {
+  EXPECT_EQ(said("name: it's\nbeams: 4 # don't\n"), "");
+  EXPECT_EQ(said("name: \"5\xc2\xa0m: 'laser'\"\n"), "") << "a no-break space in quotes";
+  EXPECT_EQ(said("name: |\n  it's \"x\n  [\nbeams: 4\n"), "");
+  EXPECT_EQ(said("mount: {x_m: 1,\n  y_m: 2\n}\nbeams: 4\t# a comment\n"), "");
+  EXPECT_EQ(said(""), "");
+  EXPECT_THAT(said("name: a: b\n"), Not(HasSubstr("tabs"))) << "it has another cause";
+  EXPECT_THAT(said("beams: 4.5\n"), EndsWith("`4.5` is not a whole number"));
+}
+
+}  // namespace
+}  // namespace swiftlet::common
