@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "common/small_matrices.hpp"
-#include "perception/scan_matching/contour_normals.hpp"
-
 namespace swiftlet::autonomy {
 
-using common::Pose2;
 using common::Pose3;
 using common::Time;
 
@@ -28,17 +23,6 @@ double rangeOf_m(const perception::MatcherChoiceConfig& matcher) {
       break;
   }
   return matcher.max_range_m;
-}
-
-/// The beams that fix the weakest direction: the least eigenvalue of the sum of the outer products of their surfaces'
-/// normals (Zhang, Kaess, Singh 2016, "On degeneracy of optimization-based state estimation problems").
-double beamsAlongWeakest(const std::vector<perception::OrientedPoint>& points) {
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  for (const perception::OrientedPoint& point : points) {
-    const Eigen::Vector2d normal = point.normal.cast<double>();
-    information += normal * normal.transpose();
-  }
-  return common::symmetricEigenvalues(information)(0);
 }
 
 }  // namespace
@@ -84,6 +68,8 @@ std::string StartView::heightProblem(const perception::ProjectedScan& view) cons
   return fmt::format("none of the {} beams down returns, and nothing else measures the height", laser_.mirror_beams);
 }
 
+/// Returns that leave one direction free, as the walls of a long corridor, carry a flight: the drift along it is
+/// watched.
 std::string StartView::positionProblem(const perception::ProjectedScan& view) const {
   const perception::MatcherChoiceConfig& matcher = config_.odometry.matcher;
   const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, rangeOf_m(matcher)});
@@ -92,23 +78,7 @@ std::string StartView::positionProblem(const perception::ProjectedScan& view) co
   if (returns < matcher.minPoints())
     return fmt::format("{} beams of the laser return from within {:.1f} m; {} are needed to fix the position",
                        returns == 0 ? "no" : fmt::format("{}", returns), reach_m, matcher.minPoints());
-  if (beamsAlongWeakest(perception::orientedPoints(view, 0, matcher.max_gap_m, reach_m)) >= matcher.minPoints())
-    return "";
-  const auto direction = weakDirection(view);
-  if (!direction) return "";
-  const double to_the_left_deg = std::atan2(direction->y(), direction->x()) / common::kRadPerDeg;
-  return fmt::format(
-      "within {:.1f} m the laser sees nothing that fixes the position along {:.0f} deg to the left of the nose",
-      reach_m, to_the_left_deg < 0.0 ? to_the_left_deg + 180.0 : to_the_left_deg);
-}
-
-/// Of a scan with few beams across one direction, whether a match fixes it, and if not, which one it is.
-std::optional<Eigen::Vector2d> StartView::weakDirection(const perception::ProjectedScan& view) const {
-  const perception::LaserOdometryConfig& odometry = config_.odometry;
-  const auto matcher = perception::makeMatcher(odometry.matcher);
-  matcher->addReference(view, Pose2{});
-  return matcher->match(view, Pose2{}, {odometry.guess_error_m, odometry.guess_error_deg * common::kRadPerDeg})
-      .unobservable_direction;
+  return "";
 }
 
 }  // namespace swiftlet::autonomy

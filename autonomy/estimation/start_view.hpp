@@ -23,15 +23,13 @@ class StartView {
   void add(const common::LaserScan& scan, const Eigen::Quaterniond& R_level_body);
 
   /// Why a flight from here would not know its height or position, for people; empty if it would. Where the position
-  /// is known from another sensor, the height alone counts. May take as long as a match: a scan with few beams across
-  /// one direction is matched with itself, and what that does not fix, no match of a scan from here does.
+  /// is known from another sensor, the height alone counts.
   std::string problem(common::Time now, bool position_known) const;
 
  private:
   perception::ProjectedScan projected() const;
   std::string heightProblem(const perception::ProjectedScan& view) const;
   std::string positionProblem(const perception::ProjectedScan& view) const;
-  std::optional<Eigen::Vector2d> weakDirection(const perception::ProjectedScan& view) const;
 
   LaserPipelineConfig config_;
   common::LaserConfig laser_;

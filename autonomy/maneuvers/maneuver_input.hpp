@@ -38,7 +38,7 @@ struct ManeuverInput {
   std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
   common::PlaceNames names = {};                                      ///< For texts.
   std::shared_ptr<const common::Map3dLayer> map3d = {};               ///< Null without an RGB-D camera.
-  /// Why the sensors cannot carry a flight from where the vehicle stands; empty if they can. Takes as long as a match.
+  /// Why the sensors cannot carry a flight from where the vehicle stands; empty if they can.
   std::function<std::string()> unready = [] { return std::string(); };
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
