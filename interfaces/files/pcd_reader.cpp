@@ -216,7 +216,8 @@ void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const auto size = [&] { return static_cast<std::size_t>(valueOf(cursor.take(4).data(), Scalar::kUint32, kSwapped)); };
   const std::size_t packed_size = size(), unpacked_size = size(), row_bytes = header.rowBytes();
   const std::size_t points = pointCount(cursor, header, unpacked_size / row_bytes, builder);
-  if (unpacked_size != points * row_bytes) cursor.fail("the compressed points are not as many as the header says");
+  if (unpacked_size % row_bytes != 0 || unpacked_size / row_bytes != points)
+    cursor.fail("the compressed points are not as many as the header says");
   const std::string_view packed = cursor.take(packed_size);
   // Three bytes stand for at most 264.
   if (unpacked_size / 88 > packed_size) cursor.fail("the compressed points are fewer than their header says");

@@ -253,6 +253,10 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
   pcd(head + "POINTS 357913941\nDATA binary_compressed\n" + std::string("\3\0\0\0\374\377\377\377abc", 11),
       "points are fewer than their header");
   pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\2\0\0\0\14\0\0\0\xff\x01", 10), "compressed points");
+  // So many rows of 12 bytes are 12 bytes in arithmetic of 64 bits.
+  pcd(head + "POINTS 4611686018427387905\nDATA binary_compressed\n" +
+          std::string("\14\0\0\0\14\0\0\0abcdefghijkl", 20),
+      "not as many as the header says");
 }
 
 /// Read as one stream of numbers, such rows would become points at wrong places.
