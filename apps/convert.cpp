@@ -10,11 +10,11 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/listed_numbers.hpp"
 #include "apps/output_file.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
-#include "apps/three_numbers.hpp"
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "interfaces/files/map_server.hpp"
@@ -92,11 +92,11 @@ interfaces::CloudPlacement placementOf(const ConvertOptions& options) {
   interfaces::CloudPlacement placement;
   placement.scale = options.scale.value_or(1.0);
   if (options.origin.empty()) return placement;
-  const auto origin = threeNumbers(options.origin);
-  if (!origin)
+  const std::vector<double> origin = listedNumbers(options.origin);
+  if (origin.size() != 3)
     throw common::InputError(common::Problem{
         {}, "--origin", fmt::format("`{}` is not x;y;z", options.origin), "for instance 512300;5412300;0"});
-  placement.origin_file = {(*origin)[0], (*origin)[1], (*origin)[2]};
+  placement.origin_file = {origin[0], origin[1], origin[2]};
   return placement;
 }
 

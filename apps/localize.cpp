@@ -1,17 +1,18 @@
 // swiftlet localize: where a recorded laser log was, in a given map.
 #include <memory>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
 #include "apps/given_map.hpp"
+#include "apps/listed_numbers.hpp"
 #include "apps/localize_outputs.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"
-#include "apps/three_numbers.hpp"
 #include "apps/wall_clock.hpp"
 #include "perception/localization/log_localizer.hpp"
 
@@ -35,12 +36,12 @@ struct LocalizeOptions {
 };
 
 /// "x;y;yaw" in metres and degrees.
-common::Pose2 parseStart(const std::string& text) {
-  const auto start = threeNumbers(text);
-  if (!start)
+common::Pose2 startInMap(const std::string& text) {
+  const std::vector<double> start = listedNumbers(text);
+  if (start.size() != 3)
     throw common::InputError(common::Problem{
         {}, "--start", fmt::format("`{}` is not x;y;yaw", text), "metres and degrees, for instance 3.0;-1.5;90"});
-  return {(*start)[0], (*start)[1], common::wrapAngle((*start)[2] * common::kRadPerDeg)};
+  return {start[0], start[1], common::wrapAngle(start[2] * common::kRadPerDeg)};
 }
 
 /// Throws InputError for a start outside the map: nothing seen there could contradict it.
@@ -166,7 +167,7 @@ int localize(const LocalizeOptions& options) {
       {laserSlamOf(system).front_end, system.config.autonomy.estimator.localization.localizer},
       static_cast<std::uint64_t>(options.seed));
   if (!options.start.empty()) {
-    const common::Pose2 T_map_start = parseStart(options.start);
+    const common::Pose2 T_map_start = startInMap(options.start);
     refuseOutside(T_map_start, map, options.start);
     const double yaw_rad = kStart_deg * common::kRadPerDeg;
     localizer.localizer().startAt(

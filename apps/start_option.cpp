@@ -1,45 +1,29 @@
 #include "apps/start_option.hpp"
 
-#include <charconv>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "apps/listed_numbers.hpp"
 #include "common/error.hpp"
 
 namespace swiftlet::apps {
-namespace {
-
-/// The numbers between semicolons, commas or spaces; empty if there is anything else.
-std::vector<double> numbersIn(const std::string& text) {
-  std::vector<double> numbers;
-  const char *at = text.data(), *const end = text.data() + text.size();
-  while (true) {
-    while (at != end && (*at == ';' || *at == ',' || *at == ' ')) ++at;
-    if (at == end) return numbers;
-    const auto [behind, error] = std::from_chars(at, end, numbers.emplace_back());
-    if (error != std::errc{}) return {};
-    at = behind;
-  }
-}
-
-}  // namespace
 
 simulation::StartConfig parseStart(const std::string& text) {
-  std::vector<double> numbers = numbersIn(text);
+  constexpr double kMost = 1e4;  // Metres, or degrees.
+  std::vector<double> numbers = listedNumbers(text);
   if (numbers.size() == 2) numbers.push_back(0.0);
   if (numbers.size() == 3) numbers.insert(numbers.begin() + 2, 0.0);
-  simulation::StartConfig start;
-  if (numbers.size() == 4) start = {false, numbers[0], numbers[1], numbers[2], numbers[3]};
-  constexpr double kMost_m = 1e4;
-  for (const double number : numbers)
-    if (!(number >= -kMost_m && number <= kMost_m)) start.from_world = true;
-  if (start.from_world)
+  const bool in_bounds =
+      std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::abs(number) <= kMost; });
+  if (numbers.size() != 4 || !in_bounds)
     throw common::InputError(common::Problem{{},
                                              "--start",
                                              fmt::format("`{}` is not a place x;y;yaw in metres and degrees", text),
-                                             "expected is for example --start \"1.5;-2;90\""});
-  return start;
+                                             "for instance --start \"1.5;-2;90\""});
+  return {false, numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
 }  // namespace swiftlet::apps
