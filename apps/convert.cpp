@@ -246,8 +246,7 @@ void addConvert(Command& program) {
   Command command = program.command("convert", "Convert a 3D map to another format, or to a floor plan.");
   command.argument("from", options->from,
                    "Octree of OctoMap (.bt, or .ot with an OcTree, ColorOcTree, OcTreeStamped or CountingOcTree) or a "
-                   "cloud of points "
-                   "(.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
+                   "cloud of points (.ply or .pcd), plain or packed by gzip, bzip2 or xz.");
   command.argument(
       "to", options->to,
       ".bt or .ot: an octree; .ply or .pcd: a cloud, with a point in each occupied voxel of an octree; .yaml: a "

@@ -98,9 +98,8 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
       run.shown.track.add({stamp, estimate->T_map_body});
     }
     if (log.scans() % 50 == 0)
-      line.update(
-          fmt::format("{:3.0f} %  {} scans, {}", 100.0 * log.reader().progress(), log.scans(), toString(run.state)),
-          secondsSince(begin), timeLeft_s(log.reader().progress(), secondsSince(begin)));
+      line.update(log.reader().progress(), fmt::format("{} scans, {}", log.scans(), toString(run.state)),
+                  secondsSince(begin));
   }
   run.wall_s = secondsSince(begin);
   line.close();

@@ -72,9 +72,10 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
     run.unmatched += tracked->matched ? 0 : 1;
     run.track.add({logged->scan.stamps.measured, *tracked});
     if (log.scans() % 50 == 0)
-      line.update(fmt::format("{:3.0f} %  {} scans, {} key scans, {}", 100.0 * log.reader().progress(), log.scans(),
-                              run.slam.keyScans(), plural(run.slam.slam().counts().loops_closed, "loop", "loops")),
-                  secondsSince(begin), timeLeft_s(log.reader().progress(), secondsSince(begin)));
+      line.update(log.reader().progress(),
+                  fmt::format("{} scans, {} key scans, {}", log.scans(), run.slam.keyScans(),
+                              plural(run.slam.slam().counts().loops_closed, "loop", "loops")),
+                  secondsSince(begin));
   }
   run.slam.finish();
   run.wall_s = secondsSince(begin);

@@ -165,9 +165,10 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
   while (const auto frame = folder.next()) {
     addFrame(*frame, seeds, run);
     const double share = static_cast<double>(folder.passed()) / static_cast<double>(folder.listing().pairs.size());
-    line.update(fmt::format("{:3.0f} %  {}, {}, {} lost", 100.0 * share, plural(run.frames, "frame", "frames"),
+    line.update(share,
+                fmt::format("{}, {}, {} lost", plural(run.frames, "frame", "frames"),
                             plural(run.key_frames, "key frame", "key frames"), run.lost),
-                secondsSince(begin), timeLeft_s(share, secondsSince(begin)));
+                secondsSince(begin));
   }
   run.wall_s = secondsSince(begin);
   run.disagreement_of_given = seeds.disagreement();

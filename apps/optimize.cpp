@@ -204,8 +204,7 @@ void addOptimize(Command& program) {
   Command command = program.command("optimize", "Find the poses that best satisfy a pose graph (g2o).");
   command.argument("graph", options->graph,
                    "Graph in the plane or in space, of g2o (SE2 or SE3:QUAT) or TORO (2 or 3), plain or compressed by "
-                   "gzip, bzip2 or xz. Without "
-                   "vertices, the guess follows from the shortest chains of edges.");
+                   "gzip, bzip2 or xz. Without vertices, the guess follows from the shortest chains of edges.");
   command.option("--out", options->out,
                  "Folder for the optimized graph, graph.g2o, and its figures, optimized.json; new, empty or with older "
                  "ones.");

@@ -15,10 +15,7 @@ namespace {
 
 constexpr double kElsewhere_s = 2.0;
 
-}  // namespace
-
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), interactive_(isatty(STDOUT_FILENO) != 0) {}
-
+/// None before it can be told.
 std::optional<double> timeLeft_s(double share, double wall_s) {
   // The first part may be that of a file that is opened, or of a map that is small.
   constexpr double kLeastShare = 0.02, kLeastWall_s = 2.0;
@@ -33,6 +30,10 @@ std::string leftText(double left_s) {
   return fmt::format("about {} h {} min left", minutes / 60, minutes % 60);
 }
 
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), interactive_(isatty(STDOUT_FILENO) != 0) {}
+
 void ProgressLine::update(const std::string& done, double wall_s, std::optional<double> left_s) {
   if (quiet_) return;
   const std::string text = left_s ? done + ", " + leftText(*left_s) : done;
@@ -43,6 +44,10 @@ void ProgressLine::update(const std::string& done, double wall_s, std::optional<
     last_s_ = wall_s;
     show(text + "\n");
   }
+}
+
+void ProgressLine::update(double share, const std::string& done, double wall_s) {
+  update(fmt::format("{:3.0f} %  {}", 100.0 * share, done), wall_s, timeLeft_s(share, wall_s));
 }
 
 void ProgressLine::close() {

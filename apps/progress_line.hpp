@@ -7,18 +7,15 @@
 
 namespace swiftlet::apps {
 
-/// Of a run of which that share is done after so long; none before it can be told.
-std::optional<double> timeLeft_s(double share, double wall_s);
-
-/// "about 40 s left", "about 3 min left", "about 1 h 20 min left".
-std::string leftText(double left_s);
-
 /// One thread at a time.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
 
-  void update(const std::string& text, double wall_s, std::optional<double> left_s = {});
+  /// What is done after so long, and the time left if it is known: "3 of 8 flights, about 1 h 20 min left".
+  void update(const std::string& done, double wall_s, std::optional<double> left_s = {});
+  /// The same of a run of which that share is done: " 40 %  120 scans, about 3 min left".
+  void update(double share, const std::string& done, double wall_s);
   /// Call it before anything else is printed.
   void close();
   bool interactive() const { return interactive_; }
