@@ -30,7 +30,7 @@ struct GreyImage {
 
 /// Images wider or higher than this are refused.
 inline constexpr int kMostImageSide_px = 8192;
-/// The same for images of which only the brightness is read.
+/// The same for PNG of which only the brightness is read.
 inline constexpr int kMostGreySide_px = 1 << 15;
 
 /// The reason of an error is for people: "is cut off".

@@ -21,8 +21,8 @@ YAML::Node loadYaml(const std::string& text, const std::string& file);
 /// The unit is compared with the end of the key's name, `range_m`; a key may have none.
 std::string numberHint(std::string_view key, std::string_view written);
 
-/// "column 5 has a no-break space (U+00A0), write a plain blank": the first character of a line, outside of comments,
-/// that looks like another or like nothing; empty without one. Lines count from 1.
+/// "line 3 has a no-break space (U+00A0) in column 5: write a plain blank": of the first character of a line, outside
+/// of comments, that looks like another or like nothing; empty without one. Lines and columns (in bytes) count from 1.
 std::string lookalikeHint(const std::vector<std::string_view>& lines, int line);
 std::vector<std::string_view> linesOf(std::string_view text);
 

@@ -12,8 +12,8 @@ namespace {
 
 // Pixels.
 constexpr int kMargin = 12, kRow = 26, kIndent = 26, kSign = 18, kGap = 8;
-constexpr int kLetter =
-    9;  ///< Width of a letter at most, on average over a text: fonts differ, and wide ones are common.
+/// Width of a letter at most, on average over a text: fonts differ, and wide ones are common.
+constexpr int kLetter = 9;
 constexpr std::size_t kMostLetters = 110;
 
 struct Look {

@@ -1,5 +1,6 @@
 #include "behaviors/tree/encoding.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <optional>

@@ -94,7 +94,8 @@ std::uint8_t meanOf(int red, int green, int blue) {
   return static_cast<std::uint8_t>((2 * (red + green + blue) + 3) / 6);
 }
 
-/// The brightness of each colour of the palette. A pixel whose colour is not in the file is black, as elsewhere.
+/// The brightness of each colour of the palette, which ends where the pixels begin. A colour that is not in it is
+/// black.
 std::vector<std::uint8_t> paletteOf(std::string_view bytes, const Header& header) {
   std::vector<std::uint8_t> palette;
   const std::size_t entry = header.bytes == kCoreHeaderBytes ? 3 : 4;
@@ -135,7 +136,8 @@ tl::expected<common::GreyImage, std::string> decodeBmp(std::string_view bytes) {
     return unexpected(fmt::format("ends after {} of {} bytes of its pixels", bytes.size() - begin, needed));
   common::GreyImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   image.brightness.reserve(width * height);
-  const std::vector<std::uint8_t> palette = header.bits <= 8 ? paletteOf(bytes, header) : std::vector<std::uint8_t>();
+  const std::vector<std::uint8_t> palette =
+      header.bits <= 8 ? paletteOf(bytes.substr(0, begin), header) : std::vector<std::uint8_t>();
   for (std::size_t row = 0; row < height; ++row)
     addRow(bytes.substr(begin + (header.top_down ? row : height - 1 - row) * stride, stride), header, palette, image);
   // Programs that know no opacity leave it 0.

@@ -118,8 +118,7 @@ class OctreeReader {
     else if (format_ == OctreeFormat::kLogOdds)
       fail(fmt::format("holds a tree of the kind `{}`", shown(id)),
            "OcTree, ColorOcTree, OcTreeStamped and CountingOcTree are read of .ot files, and any kind of .bt files, "
-           "which "
-           "writeBinary() of OctoMap's trees writes");
+           "which writeBinary() of OctoMap's trees writes");
     if (format_ == OctreeFormat::kLogOdds && content_ == NodeContent::kCount)
       octree_.notes.push_back("the tree holds counts: voxels with a count are occupied, nothing is known to be free");
   }
@@ -139,12 +138,12 @@ class OctreeReader {
     const bool as_stated = !stated_nodes_ || *stated_nodes_ == static_cast<double>(nodes_);
     if (left != 0 && !known_kind_) fail(fmt::format("{} bytes follow the tree, of a kind that is not known", left));
     if (left != 0 && !as_stated)
-      fail(fmt::format("{} bytes follow the tree, which has {} nodes, not {:g} as its header says", left, nodes_,
+      fail(fmt::format("{} bytes follow the tree, which has {} nodes, not {} as its header says", left, nodes_,
                        *stated_nodes_),
            "it is damaged: get the file again");
     if (left != 0) octree_.notes.push_back(fmt::format("{} bytes after the tree left out", left));
     if (!as_stated)
-      octree_.notes.push_back(fmt::format("the tree has {} nodes, its header says {:g}", nodes_, *stated_nodes_));
+      octree_.notes.push_back(fmt::format("the tree has {} nodes, its header says {}", nodes_, *stated_nodes_));
   }
 
   std::string_view take(std::size_t count) {
