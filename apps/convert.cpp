@@ -57,12 +57,12 @@ std::string hintFor(const std::string& ending) {
   return kRead;
 }
 
-/// By the ending, in any case. Throws InputError for a name with another ending.
+/// By the ending, in any case; a plan is written as .yaml alone. Throws InputError for a name with another ending.
 Kind kindOf(const fs::path& file, bool may_be_plan) {
   const std::string ending = common::endingOf(file);
   if (ending == ".bt" || ending == ".ot") return Kind::kOctree;
   if (interfaces::cloudFormatOf(file)) return Kind::kCloud;
-  if (may_be_plan && ending == ".yaml") return Kind::kFloorPlan;
+  if (may_be_plan && file.extension() == ".yaml") return Kind::kFloorPlan;
   throw common::InputError(
       common::Problem{{file.string()},
                       "",

@@ -7,9 +7,22 @@
 #include "autonomy/flight_sensors.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
+#include "common/lower_case.hpp"
 #include "common/printable.hpp"
 
 namespace swiftlet::apps {
+namespace {
+
+/// The file that data of that name is. Throws common::InputError for an ending of another kind.
+std::string findOfKind(const std::string& name, const std::vector<std::string>& other_endings, const char* message,
+                       const std::string& hint) {
+  const std::filesystem::path file = common::findData(name);
+  if (std::find(other_endings.begin(), other_endings.end(), common::endingOf(file)) != other_endings.end())
+    throw common::InputError(common::Problem{{name}, "", message, hint});
+  return file.string();
+}
+
+}  // namespace
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
@@ -39,19 +52,6 @@ std::vector<std::string> missionFiles(const simulation::Scenario& scenario, cons
     files.push_back(vehicle.mission.empty() ? otherwise : vehicle.mission);
   return files;
 }
-
-namespace {
-
-std::string findOfKind(const std::string& name, const std::vector<std::string>& endings_of_others, const char* message,
-                       const std::string& hint) {
-  const std::filesystem::path file = common::findData(name);
-  const auto& others = endings_of_others;
-  if (std::find(others.begin(), others.end(), file.extension().string()) != others.end())
-    throw common::InputError(common::Problem{{name}, "", message, hint});
-  return file.string();
-}
-
-}  // namespace
 
 std::string findMission(const std::string& name) {
   return findOfKind(name, {".yaml", ".yml"}, "is no mission, which is an XML file",

@@ -36,14 +36,14 @@ void findMap(TrialConfig& trial, const fs::path& trials) {
 }
 
 /// A mission that is not where data is may be beside the trial.
-void findMission(const TrialConfig& trial, std::string& mission) {
+std::string missionOf(const TrialConfig& trial, const std::string& mission) {
   const auto isIn = [&mission](const fs::path& folder) {
     std::error_code ignored;
     return fs::exists(folder / mission, ignored);
   };
   const std::vector<fs::path> folders = common::dataFolders();
-  if (std::none_of(folders.begin(), folders.end(), isIn) && isIn(trial.folder))
-    mission = (trial.folder / mission).string();
+  const bool is_beside = std::none_of(folders.begin(), folders.end(), isIn) && isIn(trial.folder);
+  return is_beside ? (trial.folder / mission).string() : mission;
 }
 
 FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
@@ -126,8 +126,9 @@ void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
   std::set<std::string> systems;  // That were judged.
   for (TrialConfig& trial : trials) {
-    findMission(trial, trial.mission);
-    for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles) findMission(trial, vehicle.mission);
+    trial.mission = missionOf(trial, trial.mission);
+    for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles)
+      vehicle.mission = missionOf(trial, vehicle.mission);
     const System system = loadSystem(trial.system);
     if (systems.insert(trial.system).second)
       for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));

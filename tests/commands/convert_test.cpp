@@ -99,6 +99,7 @@ TEST_F(Convert, WhatCannotBeConvertedIsSaid) {
   refused({"convert", from, path("plan.yaml"), "--low", "2", "--high", "1"}, "is above --high");
   refused({"convert", from, path("plan.yaml"), "--low", "5", "--high", "6"}, "nothing is known");
   refused({"convert", from, path("room.ot"), "--low", "1"}, "name it .yaml");
+  refused({"convert", from, path("PLAN.YAML"), "--low", "0", "--high", "2"}, "or .yaml for a floor plan");
   refused({"convert", from, path("room.ot"), "--resolution", "0.1"}, "only a cloud");
   refused({"convert", write("room.dae", "<COLLADA/>\n"), path("room.ot")}, "it must be .bt, .ot, .ply or .pcd");
   refused({"convert", write("room.xyz", "1 2 3\n"), path("room.ot")}, "save it as .ply");
