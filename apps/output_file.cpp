@@ -34,8 +34,7 @@ void requireWritable(const fs::path& file, const std::string& option) {
   if (fs::exists(fs::symlink_status(file, failure)) && !fs::is_regular_file(status))
     throw unusable(file, option, "is there already, and no file", "give another name");
   if (const interfaces::Written written = interfaces::tryToWrite(file); !written) {
-    const std::error_code why(written.error().error_number, std::generic_category());
-    common::Problem problem = interfaces::unusableFolder(folder, why);
+    common::Problem problem = interfaces::unusableFolder(folder, written.error().why);
     problem.location.file = file.string();
     problem.element = option;
     throw common::InputError(std::move(problem));

@@ -1,7 +1,7 @@
 #include "interfaces/files/atomic_file.hpp"
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -12,7 +12,8 @@ namespace swiftlet::interfaces {
 namespace {
 
 FileError errorOf(const std::filesystem::path& file, int error_number) {
-  return {fmt::format("{}: {}", file.string(), std::strerror(error_number)), error_number};
+  const std::error_code why(error_number, std::generic_category());
+  return {fmt::format("{}: {}", file.string(), why.message()), why};
 }
 
 /// Creates a file of that name and returns its descriptor as open(2) does. An older file of that name is unlinked

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <tl/expected.hpp>
 
@@ -15,7 +16,7 @@ namespace swiftlet::interfaces {
 /// Why a file could not be written, for people: "out/map.pgm: No space left on device".
 struct FileError {
   std::string message;
-  int error_number = 0;  ///< Of errno; 0 where another than the system refused.
+  std::error_code why = {};  ///< None where another than the system refused.
 };
 using Written = tl::expected<void, FileError>;
 

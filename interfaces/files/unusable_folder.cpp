@@ -78,8 +78,7 @@ void requireWritableFolder(const fs::path& folder, const std::string& option) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) refuse(failure);
-  if (const Written written = tryToWrite(folder / "writable"); !written)
-    refuse(std::error_code(written.error().error_number, std::generic_category()));
+  if (const Written written = tryToWrite(folder / "writable"); !written) refuse(written.error().why);
 }
 
 }  // namespace swiftlet::interfaces
