@@ -299,7 +299,10 @@ std::string numberHint(std::string_view key, std::string_view written) {
       break;
   }
   if (number.find_first_of("0123456789") == std::string::npos) return "";
-  if (marks > 1) return "write decimals with a point, and no other marks";
+  // "1,081" may be a thousand or one; "0,081" is one.
+  const std::size_t comma = text.find(',');
+  const bool ambiguous = comma != std::string_view::npos && end == comma + 4 && text.find_first_of("123456789") < comma;
+  if (marks > 1 || ambiguous) return "write decimals with a point, and no other marks";
   const std::string_view rest = trimmed(text.substr(end));
   if (rest.empty()) return number == text ? "" : fmt::format("write `{}`", number);
   if (rest.starts_with('#')) return fmt::format("put a blank before the comment: `{} {}`", number, rest);

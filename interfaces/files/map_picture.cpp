@@ -117,8 +117,8 @@ NetpbmHeader readHeader(NetpbmWords& words, common::GreyImage& image) {
   if (!isNetpbm(magic) || magic.size() != 2)
     throw words.fail("PGM", fmt::format("begins with `{}`, P5 or P2 was expected", magic.substr(0, 8)));
   NetpbmHeader header{magic == "P2" || magic == "P3", magic == "P3" || magic == "P6" ? std::size_t{3} : 1};
-  image.width_px = words.number("width", 1, kMostSide_px);
-  image.height_px = words.number("height", 1, kMostSide_px);
+  image.width_px = words.number("width", 1, common::kMostGreySide_px);
+  image.height_px = words.number("height", 1, common::kMostGreySide_px);
   header.greatest = static_cast<std::uint32_t>(words.number("greatest value", 1, 65'535));
   header.count = static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) * header.colors;
   return header;

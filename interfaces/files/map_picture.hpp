@@ -10,9 +10,6 @@
 
 namespace swiftlet::interfaces {
 
-/// The greatest side of a picture that is accepted.
-inline constexpr int kMostSide_px = common::kMostGreySide_px;
-
 struct MapPicture {
   common::GreyImage image;
   std::size_t left_over_bytes = 0;  ///< How many bytes follow the pixels of a PGM or PPM.

@@ -219,7 +219,8 @@ std::string toPgm(const OccupancyGrid& grid) {
 bool isReadable(const OccupancyGrid& grid) {
   const CellRect rect = pictured(grid);
   const auto width = static_cast<std::size_t>(rect.width()), height = static_cast<std::size_t>(rect.height());
-  return std::max(width, height) <= kMostSide_px && width * height <= common::kMostFileBytes - kMostHeaderBytes;
+  return std::max(width, height) <= common::kMostGreySide_px &&
+         width * height <= common::kMostFileBytes - kMostHeaderBytes;
 }
 
 std::string toMapYaml(const OccupancyGrid& grid, const std::string& image) {
