@@ -44,12 +44,9 @@ struct NamedMission {
   std::vector<tree::Problem> problems = {};
 };
 
-tree::Problem treeProblem(const common::Problem& problem) {
-  return {{problem.location.file, problem.location.line, problem.location.column},
-          problem.element,
-          problem.message,
-          problem.hint,
-          {}};
+void append(const std::vector<common::Problem>& problems, std::vector<tree::Problem>& all) {
+  for (const auto& [location, element, message, hint] : problems)
+    all.push_back({{location.file, location.line, location.column}, element, message, hint, {}});
 }
 
 std::vector<NamedMission> find(const std::vector<std::string>& names) {
@@ -59,7 +56,7 @@ std::vector<NamedMission> find(const std::vector<std::string>& names) {
     try {
       mission.file = findMission(name);
     } catch (const common::InputError& missing) {
-      for (const common::Problem& problem : missing.problems()) mission.problems.push_back(treeProblem(problem));
+      append(missing.problems(), mission.problems);
     }
   }
   return missions;
@@ -75,12 +72,11 @@ tree::TreeFiles treesOf(const std::vector<NamedMission>& missions) {
 }
 
 /// What is odd about the maps that a mission may load is a warning, a map that cannot be used a problem.
-void addMapNotes(const NamedMission& mission, behaviors::MissionVerdict& verdict) {
+void addMapNotes(const std::string& file, behaviors::MissionVerdict& verdict) {
   try {
-    for (const common::Problem& note : mapNotes(behaviors::Mission::fromFile(mission.file).mapFiles(), mission.file))
-      verdict.warnings.push_back(treeProblem(note));
+    append(mapNotes(behaviors::Mission::fromFile(file).mapFiles(), file), verdict.warnings);
   } catch (const common::InputError& unusable) {
-    for (const common::Problem& problem : unusable.problems()) verdict.problems.push_back(treeProblem(problem));
+    append(unusable.problems(), verdict.problems);
   }
 }
 
@@ -91,7 +87,7 @@ behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions&
   limits.operator_goes_on = limits.operator_gives_goals = !options.headless;
   if (options.mock_leaves) return behaviors::judgeMissionWithMocks(mission.file, limits, together);
   behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file, limits, together);
-  if (verdict.problems.empty()) addMapNotes(mission, verdict);
+  if (verdict.problems.empty()) addMapNotes(mission.file, verdict);
   return verdict;
 }
 
@@ -128,7 +124,7 @@ CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission
                      const tree::TreeFiles& together) {
   const System system = loadSystem(options.system);
   CheckReport report;
-  for (const common::Problem& problem : problemsOfSensors(system)) report.problems.push_back(treeProblem(problem));
+  append(problemsOfSensors(system), report.problems);
   for (const NamedMission& mission : missions) {
     behaviors::MissionVerdict verdict = judge(mission, options, system, together);
     add(report.problems, verdict.problems);
