@@ -51,7 +51,6 @@ const std::map<std::string, Element, std::less<>> kElements = {
     {"VERTEX", {false, true, GraphFormat::kToro}},          {"EDGE", {true, true, GraphFormat::kToro}},
     {"VERTEX3", {false, false, GraphFormat::kToro}},        {"EDGE3", {true, false, GraphFormat::kToro}},
 };
-const std::vector<std::string> kUsedTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", "FIX"};
 
 /// More kinds of unused elements than this are not named where nothing else is in a file.
 constexpr std::size_t kMostNamed = 4;
@@ -133,7 +132,9 @@ class Reading {
     common::Problem warning{{lines_.name(), left_out.first_line}, tag, fmt::format("not used, {} left out", count), ""};
     if (!kUnusedTags.contains(tag)) {
       warning.message = fmt::format("unknown tag, {} left out", count);
-      warning.hint = common::didYouMean(tag, kUsedTags);
+      std::vector<std::string> used = {"FIX"};
+      for (const auto& element : kElements) used.push_back(element.first);
+      warning.hint = common::didYouMean(tag, used);
     }
     return toString(warning);
   }

@@ -42,7 +42,7 @@ class G2oCollector {
   }
 
   void addEdge(G2oFields& fields, int line, GraphFormat format) {
-    fields.expectInformation(2 + poseNumbers(format), kInformationNumbers);
+    fields.expectInformation(2 + poseNumbers(format), kInformationNumbers, informationHint(format));
     const int column = fields.column();
     const std::int64_t from = fields.id(), to = fields.id();
     if (from == to) throw fields.problem(column, fmt::format("the edge leads from vertex {} to itself", from));
@@ -78,6 +78,15 @@ class G2oCollector {
   using Information = typename Graph::Information;
 
   static std::size_t poseNumbers(GraphFormat format) { return kPlane ? 3 : format == GraphFormat::kToro ? 6 : 7; }
+
+  static const char* informationHint(GraphFormat format) {
+    if (!kPlane)
+      return "write its upper triangle row by row; for edges of equal weight it is "
+             "1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1";
+    return format == GraphFormat::kToro
+               ? "write its xx, xy, yy, yaw yaw, x yaw and y yaw; for edges of equal weight it is 1 0 1 1 0 0"
+               : "write its upper triangle row by row; for edges of equal weight it is 1 0 0 1 0 1";
+  }
 
   static Pose poseIn(G2oFields& fields, GraphFormat format) {
     if constexpr (kPlane) {

@@ -12,18 +12,13 @@ void G2oFields::expectNumbers(std::size_t count) const {
   if (left() != count) throw problem(words_.back().column, fmt::format("{} numbers instead of {}", left(), count));
 }
 
-void G2oFields::expectInformation(std::size_t begin, std::size_t numbers) const {
+void G2oFields::expectInformation(std::size_t begin, std::size_t numbers, const char* hint) const {
   if (left() == begin + numbers || left() < begin) return expectNumbers(begin + numbers);
-  std::string unit;
-  for (std::size_t size = numbers == 6 ? 3 : 6; size > 0; --size) {
-    unit += " 1";
-    for (std::size_t i = 1; i < size; ++i) unit += " 0";
-  }
   const std::size_t given = left() - begin;
   throw problem(words_.back().column,
                 given == 0 ? fmt::format("the information matrix ({} numbers) is missing", numbers)
                            : fmt::format("the information matrix has {} numbers instead of {}", given, numbers),
-                "write its upper triangle row by row; for edges of equal weight it is" + unit);
+                hint);
 }
 
 std::int64_t G2oFields::id() {

@@ -28,8 +28,8 @@ class G2oFields {
   int column() const { return words_[std::min(next_, words_.size() - 1)].column; }
 
   void expectNumbers(std::size_t count) const;
-  /// For an edge: `begin` numbers, then those of its information.
-  void expectInformation(std::size_t begin, std::size_t numbers) const;
+  /// For an edge: `begin` numbers, then those of its information. `hint` says how that is written.
+  void expectInformation(std::size_t begin, std::size_t numbers, const char* hint) const;
   std::int64_t id();
   double number(const char* name);
   /// A length within kFarthest_m.

@@ -128,6 +128,9 @@ TEST(G2o, SaysThatTheInformationIsMissingAndHowItIsWritten) {
   EXPECT_THAT(problem("EDGE_SE2 0 1 1 2 3 4 5 6\n"),
               HasSubstr("the information matrix has 3 numbers instead of 6, write its upper triangle"));
   EXPECT_THAT(problem("EDGE2 0 1 1 2 3\n"), HasSubstr("EDGE2: the information matrix (6 numbers) is missing"));
+  EXPECT_THAT(problem("EDGE2 0 1 1 2 3\n"), HasSubstr("x yaw and y yaw; for edges of equal weight it is 1 0 1 1 0 0"));
+  const auto graph = std::get<G2oGraph2D>(parse("EDGE2 0 1 1 2 3 1 0 1 1 0 0\n").graph);
+  EXPECT_TRUE(graph.edges[0].information.isIdentity(1e-12)) << "the hint, done literally";
   EXPECT_THAT(problem("EDGE_SE2 0 1 1\n"), HasSubstr("3 numbers instead of 11"));
 }
 
