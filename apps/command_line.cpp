@@ -78,9 +78,11 @@ std::string placeHint(const CLI::App& app, std::string name) {
 std::string commandHint(const CLI::App& app, const std::string& word) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   if (word == "help") return fmt::format("`{} --help` helps", fullName(chosen.empty() ? app : *chosen.front()));
+  const std::vector<std::string> known = commandsOf(app);
   for (const auto& [ending, command] : {std::pair{".xml", "fly"}, {".yaml", "trial"}})
-    if (word.ends_with(ending)) return fmt::format("did you mean `{} {} {}`?", fullName(app), command, word);
-  return common::didYouMean(word, commandsOf(app));
+    if (word.ends_with(ending) && std::find(known.begin(), known.end(), command) != known.end())
+      return fmt::format("did you mean `{} {} {}`?", fullName(app), command, word);
+  return common::didYouMean(word, known);
 }
 
 std::string unknown(const std::string& what, const std::string& hint) {
