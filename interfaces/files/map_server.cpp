@@ -111,9 +111,6 @@ occupancy::Cell cellOfProbability(double probability) {
       std::lround(std::clamp<double>(steps, -occupancy::kMaxSteps, occupancy::kMaxSteps)));
 }
 
-/// The brightness by which map_saver says that a cell is unknown, as closely as other greatest values than 255 give it.
-bool saysUnknown(int brightness) { return std::abs(brightness - static_cast<std::uint8_t>(kUnknownPixel)) <= 1; }
-
 /// What a pixel of the modes trinary and scale is: thresholds are inclusive, as in nav2. In mode trinary the brightness
 /// of unknown cells is that whatever the thresholds say: map_saver of ROS 2 writes a free_thresh of 0.25 beside it, by
 /// which all that was never seen would be free.
@@ -125,9 +122,8 @@ class PixelRule {
     if (mode_ == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
     // map_saver writes unknown cells of mode scale transparent; who draws a map leaves them so in mode trinary too.
     if (opacity < (mode_ == Mode::kScale ? kOpaque : kHalfOpaque)) return occupancy::kUnknown;
-    const int brightness = is_negated_ ? 255 - pixel : pixel;
-    if (mode_ == Mode::kTrinary && saysUnknown(brightness)) return occupancy::kUnknown;
-    const double occupied = (255 - brightness) / 255.0;
+    if (saysUnknown(pixel)) return occupancy::kUnknown;
+    const double occupied = (255 - brightnessOf(pixel)) / 255.0;
     if (occupied >= yaml_.occupied_thresh) return occupancy::kMaxSteps;
     if (occupied <= yaml_.free_thresh) return -occupancy::kMaxSteps;
     if (mode_ == Mode::kTrinary) return occupancy::kUnknown;
@@ -135,13 +131,18 @@ class PixelRule {
   }
 
   /// Whether the thresholds say of the brightness of unknown cells that it is free.
-  bool unknownWouldBeFree() const {
-    return mode_ == Mode::kTrinary && (255 - static_cast<std::uint8_t>(kUnknownPixel)) / 255.0 <= yaml_.free_thresh;
+  bool unknownWouldBeFree() const { return (255 - kUnknown) / 255.0 <= yaml_.free_thresh; }
+  /// Whether it has, in mode trinary, the brightness of unknown cells, as closely as other greatest values than 255
+  /// give it.
+  bool saysUnknown(std::uint8_t pixel) const {
+    return mode_ == Mode::kTrinary && std::abs(brightnessOf(pixel) - kUnknown) <= 1;
   }
-  bool isUnknown(std::uint8_t pixel) const { return saysUnknown(is_negated_ ? 255 - pixel : pixel); }
 
  private:
+  static constexpr int kUnknown = static_cast<std::uint8_t>(kUnknownPixel);
   static constexpr std::uint8_t kOpaque = 255, kHalfOpaque = 128;
+
+  int brightnessOf(std::uint8_t pixel) const { return is_negated_ ? 255 - pixel : pixel; }
 
   const MapYaml& yaml_;
   Mode mode_;
@@ -167,7 +168,7 @@ std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
   const auto unknown =
       !rule.unknownWouldBeFree()
           ? 0
-          : std::count_if(pixels.begin(), pixels.end(), [&](std::uint8_t pixel) { return rule.isUnknown(pixel); });
+          : std::count_if(pixels.begin(), pixels.end(), [&](std::uint8_t pixel) { return rule.saysUnknown(pixel); });
   if (unknown > 0)
     notes.push_back({{},
                      "free_thresh",
