@@ -13,7 +13,7 @@
 namespace swiftlet::apps {
 namespace {
 
-/// The file that data of that name is. Throws common::InputError for an ending of another kind.
+/// Finds a file of data by its name. Throws common::InputError for an ending of another kind.
 std::string findOfKind(const std::string& name, const std::vector<std::string>& other_endings, const char* message,
                        const std::string& hint) {
   const std::filesystem::path file = common::findData(name);

@@ -65,7 +65,7 @@ constexpr std::array<Lookalike, 17> kLookalikes{{
     {"\xE2\x80\x99", "a typographic quote (U+2019)", "a plain quote"},
 }};
 
-/// What a text that is not YAML is told: where, what and how to mend it.
+/// Where a text is not YAML, why, and how to mend it.
 struct Cause {
   int line = 0, column = 0;
   std::string message, hint;

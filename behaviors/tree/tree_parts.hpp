@@ -28,7 +28,7 @@ struct LiteralWrite {
   std::string text;
   NodeOrigin origin;
   std::string attribute;
-  bool is_text = false;  ///< For scripts too: they do not see a number in it.
+  bool is_text = false;  ///< Scripts compare and join it as a text, whatever it looks like.
 };
 
 /// A port that reads an entry.

@@ -54,7 +54,7 @@ const std::map<std::string, Element, std::less<>> kElements = {
 
 /// More kinds of unused elements than this are not named where nothing else is in a file.
 constexpr std::size_t kMostNamed = 4;
-constexpr std::size_t kShownTag = 40;
+constexpr std::size_t kMostTagBytes = 40;
 
 class Reading {
  public:
@@ -123,7 +123,7 @@ class Reading {
     std::string text;
     for (std::size_t i = 0; i < std::min(counts.size(), kMostNamed); ++i)
       text += fmt::format("{} {} {}", i == 0 ? "; not used:" : ",", -counts[i].first,
-                          counts[i].second.substr(0, kShownTag));
+                          counts[i].second.substr(0, kMostTagBytes));
     return counts.size() > kMostNamed ? text + " ..." : text;
   }
 
