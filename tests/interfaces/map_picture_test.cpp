@@ -142,11 +142,13 @@ TEST(MapPicture, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(refusalOf("P5\n# c\n0 3\n255\n"), HasSubstr("m.pgm:3: width: `0` is not a whole number from 1"));
   EXPECT_THAT(refusalOf("P5\n2\nx\n255\n"), HasSubstr("m.pgm:3: height: `x`"));
   EXPECT_THAT(refusalOf("P5\n2 2\n65536\n"), HasSubstr("m.pgm:3: greatest value: `65536`"));
-  EXPECT_THAT(refusalOf("P5\n32000 32000\n255\nabc"), HasSubstr("m.pgm:3: pixels: the file ends after 3 of 1024000000"));
+  EXPECT_THAT(refusalOf("P5\n32000 32000\n255\nabc"),
+              HasSubstr("m.pgm:3: pixels: the file ends after 3 of 1024000000"));
   EXPECT_THAT(refusalOf("P5\n2 1\n65535\nabc"), HasSubstr("the file ends after 1 of 2 pixels"));
   EXPECT_THAT(refusalOf("P6\n2 1\n255\nabcd"), HasSubstr("the file ends after 1 of 2 pixels"));
   EXPECT_THAT(refusalOf("P2\n2 2\n9\n1 2 3 "), HasSubstr("pixels: the file ends after 3 of 4 pixels"));
-  EXPECT_THAT(refusalOf("P2\n2 2\n9\n1 2\n10 3\n"), HasSubstr("m.pgm:5: pixel: `10` is not a whole number from 0 to 9"));
+  EXPECT_THAT(refusalOf("P2\n2 2\n9\n1 2\n10 3\n"),
+              HasSubstr("m.pgm:5: pixel: `10` is not a whole number from 0 to 9"));
 }
 
 // The same floor in four kinds of file.

@@ -133,8 +133,9 @@ TEST_F(WorldFile, FindsIncludedModelsAndMeshesOnThePaths) {
                 "2</scale></mesh></geometry></collision></link></model></sdf>");
   folder_.write("library/crate/meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
   const std::string file = folder_.write(
-      "w.sdf", worldFile("<include><uri>model://crate</uri><name>one</name><pose>1 0 0 0 0 0</pose></include>\n"
-                     "<model name=\"outer\"><static>1</static><include><uri>model://crate</uri></include></model>"));
+      "w.sdf",
+      worldFile("<include><uri>model://crate</uri><name>one</name><pose>1 0 0 0 0 0</pose></include>\n"
+                "<model name=\"outer\"><static>1</static><include><uri>model://crate</uri></include></model>"));
   const WorldModel w = loadWorld(file, {(folder_.path() / "library").string()});
   EXPECT_THAT(w.modelNames(), ElementsAre("one", "outer"));
   EXPECT_NEAR(w.bounds_world_m().max().x(), 3.0F, 1e-5F);
@@ -224,7 +225,7 @@ TEST_F(WorldFile, ReportsThePlaceOfMistakes) {
 
 TEST_F(WorldFile, AnyContentIsLoadedOrRefusedWithoutACrash) {
   const std::string sound = worldFile("<frame name=\"start\"><pose>1 2 0 0 0 0</pose></frame>\n" + model("box", kBox) +
-                                  model("ball", "<sphere><radius>1</radius></sphere>"));
+                                      model("ball", "<sphere><radius>1</radius></sphere>"));
   int loaded = 0, refused = 0;
   for (std::uint64_t i = 0; i < 80; ++i) {
     common::RandomStream random(1, "mutation", i);
