@@ -9,7 +9,7 @@
 
 namespace swiftlet::common {
 
-/// The text with each path shortened to the name of its file: "/home/kim/hall/map.yaml:3" becomes "map.yaml:3".
+/// The text with each path shortened to the name of its file: "/srv/kim/hall/map.yaml:3" becomes "map.yaml:3".
 std::string withoutFolders(std::string_view text);
 
 /// The problem as the operator is told: without folders, and without a hint that only helps at the command line.

@@ -15,7 +15,8 @@ using test_support::runSwiftlet;
 
 class OutputPlace : public Refusals {
  protected:
-  OutputPlace() {
+  void SetUp() override {
+    Refusals::SetUp();
     hop_ = write("hop.xml", missionWith(kHop));
     trial_ = write("t.yaml", "mission: " + hop_ + "\nscenario: {world: " + write("w.sdf", worldWith(room())) + "}\n");
     log_ = write("a.clf", "FLASER 3 1.0 1.0 1.0 0 0 0 0 0 0 0.1 host 0.1\n");

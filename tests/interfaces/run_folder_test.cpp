@@ -312,43 +312,6 @@ TEST(RunFolder, ReportsAFullDiskAndLeavesNoPartialFile) {
   for (const auto& entry : fs::directory_iterator(folder / "run")) EXPECT_NE(entry.path().extension(), ".part");
 }
 
-TEST(RunFolder, RefusesForeignFolders) {
-  const ScratchFolder folder;
-  const auto problem = [&](const fs::path& path) { return problemOf([&] { RunFolder(path, kInfo, ""); }); };
-  put(folder / "home/thesis.tex", "years of work");
-  put(folder / "home/map.pgm", "a map");
-  EXPECT_THAT(problem(folder / "home"), HasSubstr("holds `thesis.tex`, which is no file of a run, give an empty"));
-  EXPECT_EQ(bytesOf(folder / "home/map.pgm"), "a map") << "nothing is touched";
-  fs::create_directories(folder / "nested/map.pgm");
-  EXPECT_THAT(problem(folder / "nested"), HasSubstr("holds `map.pgm`"));
-  put(folder / "mine/config.yaml", "laser: urg_04lx");
-  EXPECT_THAT(problem(folder / "mine"), HasSubstr("holds no run"));
-  EXPECT_EQ(bytesOf(folder / "mine/config.yaml"), "laser: urg_04lx") << "a name of ours makes it no file of ours";
-  put(folder / "file", "");
-  EXPECT_THAT(problem(folder / "file"), HasSubstr("file: is not a folder"));
-  EXPECT_THAT(problem(folder / "file/below"), HasSubstr("is a file, and no folder can be made there"));
-}
-
-TEST(RunFolder, IsWrittenByOneFlightAtATime) {
-  const ScratchFolder folder;
-  {
-    const RunFolder first(folder / "run", kInfo, "");
-    EXPECT_THROW(RunFolder(folder / "run", kInfo, ""), common::InputError);
-    EXPECT_TRUE(fs::exists(folder / "run/mission.json"));
-  }
-  EXPECT_NO_THROW(RunFolder(folder / "run", kInfo, ""));
-}
-
-TEST(RunFolder, GivesEachRunANewName) {
-  const ScratchFolder folder;
-  const auto fresh = [&] { return freshRunFolder(folder, "2025-01-31T14:05:09", "explore and/return"); };
-  const fs::path first = fresh();
-  EXPECT_EQ(first.filename(), "2025-01-31T14-05-09-explore-and-return");
-  EXPECT_EQ(first.parent_path(), folder.path());
-  EXPECT_TRUE(fs::is_directory(first));
-  EXPECT_EQ(fresh().filename(), "2025-01-31T14-05-09-explore-and-return-2");
-}
-
 TEST(RunFolder, RoundsFiguresAndWritesNullForUnexplored) {
   const ScratchFolder folder;
   RunFolder run(folder / "run", kInfo, "");

@@ -97,5 +97,24 @@ TEST_F(Elsewhere, AMissionIsToldWhatToInclude) {
   EXPECT_THAT(linesOf(read("d/a.xml").problems), ElementsAre(HasSubstr("check --mock-leaves d/a.xml OTHER.xml")));
 }
 
+TEST(MainTree, IsTheOneThatNoOtherUses) {
+  const auto treeWith = [](const std::string& id, const std::string& used) {
+    return "<BehaviorTree ID=\"" + id + "\">" + (used.empty() ? "<AlwaysSuccess/>" : "<SubTree ID=\"" + used + "\"/>") +
+           "</BehaviorTree>";
+  };
+  const auto hintFor = [](const std::string& root, const std::string& trees) {
+    const std::string text = "<root BTCPP_format=\"4\" " + root + ">" + trees +
+                             "<TreeNodesModel><SubTree ID=\"Tour\"/></TreeNodesModel></root>";
+    return linesOf(parseText(text, "f.xml", Registry::standard()).problems);
+  };
+  const std::string trees = treeWith("Alpha", "") + treeWith("Beta", "Alpha") + treeWith("Tour", "Beta");
+  for (const char* root : {"", "main_tree_to_execute=\"\"", "main_tree_to_execute=\"Elsewhere\""})
+    EXPECT_THAT(hintFor(root, trees), ElementsAre(HasSubstr("write main_tree_to_execute=\"Tour\" for the only tree "
+                                                            "that no other one uses")));
+  EXPECT_THAT(hintFor("", treeWith("Z", "Y") + treeWith("X", "Y") + treeWith("Y", "")),
+              ElementsAre(HasSubstr("write main_tree_to_execute=\"Z\", or another that no tree uses: `X`")))
+      << "in the order of the file";
+}
+
 }  // namespace
 }  // namespace swiftlet::tree::testing

@@ -281,24 +281,6 @@ TEST(Problems, AMarkThatIsNoCommentIsTold) {
         << mark;
 }
 
-TEST(Problems, TheMainTreeIsTheOneThatNoOtherUses) {
-  const auto treeWith = [](const std::string& id, const std::string& used) {
-    return "<BehaviorTree ID=\"" + id + "\">" + (used.empty() ? "<AlwaysSuccess/>" : "<SubTree ID=\"" + used + "\"/>") +
-           "</BehaviorTree>";
-  };
-  const auto hintFor = [](const std::string& root, const std::string& trees) {
-    return problemsOf("<root BTCPP_format=\"4\" " + root + ">" + trees +
-                      "<TreeNodesModel><SubTree ID=\"Tour\"/></TreeNodesModel></root>");
-  };
-  const std::string trees = treeWith("Alpha", "") + treeWith("Beta", "Alpha") + treeWith("Tour", "Beta");
-  for (const char* root : {"", "main_tree_to_execute=\"\"", "main_tree_to_execute=\"Elsewhere\""})
-    EXPECT_THAT(hintFor(root, trees), ElementsAre(HasSubstr("write main_tree_to_execute=\"Tour\" for the only tree "
-                                                            "that no other one uses")));
-  EXPECT_THAT(hintFor("", treeWith("Z", "Y") + treeWith("X", "Y") + treeWith("Y", "")),
-              ElementsAre(HasSubstr("write main_tree_to_execute=\"Z\", or another that no tree uses: `X`")))
-      << "in the order of the file";
-}
-
 TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {
   EXPECT_THAT(problemsIn("<AlwaysSuccess _skipif=\"x==1\"/>"),
               ElementsAre(HasSubstr("unknown attribute `_skipif`, did you mean `_skipIf`?")));
