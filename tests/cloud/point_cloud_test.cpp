@@ -254,8 +254,7 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
       "points are fewer than their header");
   pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\2\0\0\0\14\0\0\0\xff\x01", 10), "compressed points");
   // So many rows of 12 bytes are 12 bytes in arithmetic of 64 bits.
-  pcd(head + "POINTS 4611686018427387905\nDATA binary_compressed\n" +
-          std::string("\14\0\0\0\14\0\0\0abcdefghijkl", 20),
+  pcd(head + "POINTS 4611686018427387905\nDATA binary_compressed\n" + std::string("\14\0\0\0\14\0\0\0abcdefghijkl", 20),
       "not as many as the header says");
 }
 
