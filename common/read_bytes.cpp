@@ -73,7 +73,8 @@ std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes)
     bytes.resize(before + static_cast<std::size_t>(stream.gcount()));
   }
   if (stream.bad()) throw InputError(problemWith(file, "cannot be read"));
-  if (bytes.size() > most_bytes) throw InputError(problemWith(file, fmt::format("is larger than {} bytes", most_bytes)));
+  if (bytes.size() > most_bytes)
+    throw InputError(problemWith(file, fmt::format("is larger than {} bytes", most_bytes)));
   return bytes;
 }
 

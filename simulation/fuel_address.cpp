@@ -88,7 +88,8 @@ std::optional<fs::path> findIgnoringCase(const fs::path& folder, const fs::path&
     if (!fs::exists(found / part, ignored)) {
       std::vector<fs::path> alike;
       for (const fs::directory_entry& entry : fs::directory_iterator(found, ignored))
-        if (common::lowerCase(entry.path().filename().string()) == common::lowerCase(part.string())) alike.push_back(entry.path());
+        if (common::lowerCase(entry.path().filename().string()) == common::lowerCase(part.string()))
+          alike.push_back(entry.path());
       if (alike.empty()) return std::nullopt;
       found = *std::min_element(alike.begin(), alike.end());
     } else {

@@ -282,7 +282,8 @@ class Loader {
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
       shape.vertices_world_m.push_back((T_world_item * vertex.cwiseProduct(scope.scale).cast<double>()).cast<float>());
     const auto fits = [](const Eigen::Vector3f& vertex) {
-      return vertex.allFinite() && vertex.cwiseAbs().maxCoeff() <= static_cast<float>(2.0 * common::kGreatestCoordinate_m);
+      return vertex.allFinite() &&
+             vertex.cwiseAbs().maxCoeff() <= static_cast<float>(2.0 * common::kGreatestCoordinate_m);
     };
     if (!std::all_of(shape.vertices_world_m.begin(), shape.vertices_world_m.end(), fits))
       problems_.push_back({source, nameOf(shape),

@@ -94,9 +94,8 @@ std::array<std::string_view, 3> shownTokens(const Request& request, const Target
 
 bool showsToken(const Request& request, const Target& target, const Policy& policy) {
   const auto shown = shownTokens(request, target);
-  return !policy.token.empty() && std::any_of(shown.begin(), shown.end(), [&](std::string_view given) {
-    return sameSecret(given, policy.token);
-  });
+  return !policy.token.empty() && std::any_of(shown.begin(), shown.end(),
+                                              [&](std::string_view given) { return sameSecret(given, policy.token); });
 }
 
 void checkToken(const Request& request, const Target& target, const Policy& policy) {
