@@ -42,9 +42,9 @@ std::optional<Origin> originOf(const Parts& parts) {
 void checkScheme(const std::string& text, const Parts& parts) {
   if (portOf(parts.scheme) != 0) return;
   if (parts.scheme.empty()) {
-    const std::size_t host = common::lowerCase(text).starts_with("http")
-                                 ? text.find_first_not_of(":/", text.find_first_of(":/"))
-                                 : text.find_first_not_of('/');
+    const std::string word = common::lowerCase(text.substr(0, text.find_first_of(":/")));
+    const bool is_scheme = word == "http" || word == "https";
+    const std::size_t host = is_scheme ? text.find_first_not_of(":/", word.size()) : text.find_first_not_of('/');
     fail(text, "does not say whether it is http or https",
          host == std::string::npos ? fmt::format("write an address such as {}", kExample)
                                    : fmt::format("write http://{0} or https://{0}", text.substr(host)));
