@@ -102,11 +102,11 @@ tl::expected<common::StartMissionCommand, std::string> FolderShelf::take(
   try {
     tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file,
                                                  behaviors::missionRegistry(), parameters);
-    if (!changed.problems.empty()) return tl::unexpected(forOperator(changed.problems.front()));
+    if (!changed.problems.empty()) return tl::unexpected(common::withoutFolders(toString(changed.problems.front())));
     std::vector<common::OfferedMap> maps = mapsOf(changed.text, file, map_seed_);
     return common::StartMissionCommand{file, std::move(changed.text), std::move(maps)};
   } catch (const common::InputError& error) {
-    return tl::unexpected(forOperator(error));
+    return tl::unexpected(common::forOperator(error));
   }
 }
 

@@ -13,17 +13,9 @@
 
 namespace swiftlet::simulation {
 
-inline Eigen::Vector3d toEigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
-
-inline common::Pose3 toPose(const ignition::math::Pose3d& pose) {
-  return {Eigen::Quaterniond(pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()).normalized(),
-          toEigen(pose.Pos())};
-}
-
+Eigen::Vector3d toEigen(const ignition::math::Vector3d& v);
+common::Pose3 toPose(const ignition::math::Pose3d& pose);
 /// Of an element that is not from a file, `file`.
-inline common::SourceLocation locationOf(const sdf::ElementPtr& element, const std::string& file) {
-  if (!element) return {file};
-  return {element->FilePath().empty() ? file : element->FilePath(), element->LineNumber().value_or(0)};
-}
+common::SourceLocation locationOf(const sdf::ElementPtr& element, const std::string& file);
 
 }  // namespace swiftlet::simulation

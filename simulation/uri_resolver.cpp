@@ -90,7 +90,7 @@ std::optional<fs::path> UriResolver::findFuel(const FuelAddress& address) const 
 std::string UriResolver::hintFor(const std::string& uri, const fs::path& used_in) const {
   std::vector<std::string> searched;
   for (const fs::path& folder : folders_)
-    if (const std::string name = (folder / "").lexically_normal().parent_path().string();
+    if (const std::string name = fs::absolute(folder / "").lexically_normal().parent_path().string();
         std::find(searched.begin(), searched.end(), name) == searched.end())
       searched.push_back(name);
   const std::string there = fmt::format(

@@ -16,7 +16,7 @@ using testing::IsEmpty;
 
 common::GreyImage image(const std::string& bytes) { return parsePicture(bytes, "p").image; }
 std::vector<std::uint8_t> brightness(const std::string& bytes) { return image(bytes).brightness; }
-std::string problem(const std::string& bytes) {
+std::string refusalOf(const std::string& bytes) {
   return problemOf([&] { parsePicture(bytes, "m.pgm"); });
 }
 std::string bytes(std::initializer_list<int> values) {
@@ -122,31 +122,33 @@ TEST(MapPicture, ReadsBmpWithMasks) {
 }
 
 TEST(MapPicture, ReportsWhatCannotBeRead) {
-  EXPECT_THAT(problem(""), HasSubstr("m.pgm: is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG"));
-  EXPECT_THAT(problem("GIF89a"), HasSubstr("convert it, for instance by ImageMagick's `convert FILE map.png`"));
-  EXPECT_THAT(problem(bmp(1, 1, 8, 1, "", "")), HasSubstr("m.pgm: is compressed by run lengths (RLE8), convert it"));
-  EXPECT_THAT(problem(bmp(1, 1, 4, 2, "", "")), HasSubstr("(RLE4)"));
-  EXPECT_THAT(problem(bmp(1, 1, 0, 4, "", "")), HasSubstr("is compressed in a way (number 4)"));
-  EXPECT_THAT(problem(bmp(1, 1, 7, 0, "", "")), HasSubstr("has 7 bits a pixel"));
-  EXPECT_THAT(problem(bmp(0, 1, 8, 0, "", "")), HasSubstr("is 0x1 pixels large, 1 to 32768 can be read"));
-  EXPECT_THAT(problem(bmp(30000, 30000, 24, 0, "", "abc")),
+  EXPECT_THAT(refusalOf(""), HasSubstr("m.pgm: is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG"));
+  EXPECT_THAT(refusalOf("GIF89a"), HasSubstr("convert it, for instance by ImageMagick's `convert FILE map.png`"));
+  EXPECT_THAT(refusalOf(bmp(1, 1, 8, 1, "", "")), HasSubstr("m.pgm: is compressed by run lengths (RLE8), convert it"));
+  EXPECT_THAT(refusalOf(bmp(1, 1, 4, 2, "", "")), HasSubstr("(RLE4)"));
+  EXPECT_THAT(refusalOf(bmp(1, 1, 0, 4, "", "")), HasSubstr("is compressed in a way (number 4)"));
+  EXPECT_THAT(refusalOf(bmp(1, 1, 7, 0, "", "")), HasSubstr("has 7 bits a pixel"));
+  EXPECT_THAT(refusalOf(bmp(0, 1, 8, 0, "", "")), HasSubstr("is 0x1 pixels large, 1 to 32768 can be read"));
+  EXPECT_THAT(refusalOf(bmp(30000, 30000, 24, 0, "", "abc")),
               HasSubstr("ends after 3 of 2700000000 bytes of its pixels"));
-  EXPECT_THAT(problem("BM"), HasSubstr("no BMP has"));
-  EXPECT_THAT(problem(pngOf(3, 1, "abc", {}).substr(0, 40)), HasSubstr("is cut off"));
+  EXPECT_THAT(refusalOf("BM"), HasSubstr("no BMP has"));
+  EXPECT_THAT(refusalOf(pngOf(3, 1, "abc", {}).substr(0, 40)), HasSubstr("is cut off"));
   std::string vast = pngOf(1, 1, "a", {});
   vast.replace(8, 25, pngChunk("IHDR", bigEndian(32768) + bigEndian(32768) + bytes({8, 6, 0, 0, 0})));
-  EXPECT_THAT(problem(vast), HasSubstr("is cut off"));
+  EXPECT_THAT(refusalOf(vast), HasSubstr("is cut off"));
 }
 
 TEST(MapPicture, ReportsThePlaceOfMistakes) {
-  EXPECT_THAT(problem("P5\n# c\n0 3\n255\n"), HasSubstr("m.pgm:3: width: `0` is not a whole number from 1"));
-  EXPECT_THAT(problem("P5\n2\nx\n255\n"), HasSubstr("m.pgm:3: height: `x`"));
-  EXPECT_THAT(problem("P5\n2 2\n65536\n"), HasSubstr("m.pgm:3: greatest value: `65536`"));
-  EXPECT_THAT(problem("P5\n32000 32000\n255\nabc"), HasSubstr("m.pgm:3: pixels: the file ends after 3 of 1024000000"));
-  EXPECT_THAT(problem("P5\n2 1\n65535\nabc"), HasSubstr("the file ends after 1 of 2 pixels"));
-  EXPECT_THAT(problem("P6\n2 1\n255\nabcd"), HasSubstr("the file ends after 1 of 2 pixels"));
-  EXPECT_THAT(problem("P2\n2 2\n9\n1 2 3 "), HasSubstr("pixels: the file ends after 3 of 4 pixels"));
-  EXPECT_THAT(problem("P2\n2 2\n9\n1 2\n10 3\n"), HasSubstr("m.pgm:5: pixel: `10` is not a whole number from 0 to 9"));
+  EXPECT_THAT(refusalOf("P5\n# c\n0 3\n255\n"), HasSubstr("m.pgm:3: width: `0` is not a whole number from 1"));
+  EXPECT_THAT(refusalOf("P5\n2\nx\n255\n"), HasSubstr("m.pgm:3: height: `x`"));
+  EXPECT_THAT(refusalOf("P5\n2 2\n65536\n"), HasSubstr("m.pgm:3: greatest value: `65536`"));
+  EXPECT_THAT(refusalOf("P5\n32000 32000\n255\nabc"),
+              HasSubstr("m.pgm:3: pixels: the file ends after 3 of 1024000000"));
+  EXPECT_THAT(refusalOf("P5\n2 1\n65535\nabc"), HasSubstr("the file ends after 1 of 2 pixels"));
+  EXPECT_THAT(refusalOf("P6\n2 1\n255\nabcd"), HasSubstr("the file ends after 1 of 2 pixels"));
+  EXPECT_THAT(refusalOf("P2\n2 2\n9\n1 2 3 "), HasSubstr("pixels: the file ends after 3 of 4 pixels"));
+  EXPECT_THAT(refusalOf("P2\n2 2\n9\n1 2\n10 3\n"),
+              HasSubstr("m.pgm:5: pixel: `10` is not a whole number from 0 to 9"));
 }
 
 // The same floor in four kinds of file.

@@ -13,6 +13,7 @@
 #include "common/image.hpp"
 #include "common/png_encoder.hpp"
 #include "fixtures.hpp"
+#include "sdf_texts.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/variation.hpp"
 #include "tests/support/datasets.hpp"
@@ -25,13 +26,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-const std::string kBox = "<box><size>1 2 3</size></box>";
-
-std::string model(const std::string& name, const std::string& geometry, const std::string& pose = "0 0 0 0 0 0") {
-  return "<model name='" + name + "'><static>1</static><pose>" + pose +
-         "</pose><link name='l'><collision name='c'><geometry>" + geometry + "</geometry></collision></link></model>\n";
-}
 
 std::string sdf(const std::string& inside, const std::string& version = "1.9") {
   return "<sdf version='" + version + "'>\n" + inside + "</sdf>\n";

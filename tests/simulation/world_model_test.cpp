@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/random.hpp"
 #include "fixtures.hpp"
+#include "sdf_texts.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/truth_map.hpp"
 
@@ -22,21 +23,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string world(const std::string& inside) {
+std::string worldFile(const std::string& inside) {
   return "<?xml version=\"1.0\"?>\n<sdf version=\"1.9\">\n<world name=\"w\">\n" + inside + "\n</world>\n</sdf>\n";
 }
 
-std::string model(const std::string& name, const std::string& geometry, const std::string& pose = "0 0 0 0 0 0") {
-  return "<model name=\"" + name + "\"><static>true</static><pose>" + pose +
-         "</pose><link name=\"l\"><collision name=\"c\"><geometry>" + geometry +
-         "</geometry></collision></link></model>\n";
-}
-
-const std::string kBox = "<box><size>1 2 3</size></box>";
-
 class WorldFile : public ::testing::Test {
  protected:
-  WorldModel load(const std::string& inside) { return loadWorld(folder_.write("w.sdf", world(inside))); }
+  WorldModel load(const std::string& inside) { return loadWorld(folder_.write("w.sdf", worldFile(inside))); }
   /// The message about a world that cannot be used; nothing goes to the terminal.
   std::string problem(const std::function<void()>& loading) {
     ::testing::internal::CaptureStderr();
@@ -140,8 +133,9 @@ TEST_F(WorldFile, FindsIncludedModelsAndMeshesOnThePaths) {
                 "2</scale></mesh></geometry></collision></link></model></sdf>");
   folder_.write("library/crate/meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
   const std::string file = folder_.write(
-      "w.sdf", world("<include><uri>model://crate</uri><name>one</name><pose>1 0 0 0 0 0</pose></include>\n"
-                     "<model name=\"outer\"><static>1</static><include><uri>model://crate</uri></include></model>"));
+      "w.sdf",
+      worldFile("<include><uri>model://crate</uri><name>one</name><pose>1 0 0 0 0 0</pose></include>\n"
+                "<model name=\"outer\"><static>1</static><include><uri>model://crate</uri></include></model>"));
   const WorldModel w = loadWorld(file, {(folder_.path() / "library").string()});
   EXPECT_THAT(w.modelNames(), ElementsAre("one", "outer"));
   EXPECT_NEAR(w.bounds_world_m().max().x(), 3.0F, 1e-5F);
@@ -189,7 +183,7 @@ TEST_F(WorldFile, WarnsOfUnknownElementsWithLineNumbers) {
   const WorldModel w = load("<frobnicate>3</frobnicate>\n" + model("box", kBox));
   EXPECT_THAT(w.warnings, ElementsAre(AllOf(HasSubstr("w.sdf:4: "), HasSubstr("frobnicate"))));
   const std::string file =
-      folder_.write("w.sdf", world(model("box", kBox) + model("odd", "<donut><size>1</size></donut>")));
+      folder_.write("w.sdf", worldFile(model("box", kBox) + model("odd", "<donut><size>1</size></donut>")));
   const WorldModel odd = loadWorld(file, {}, IncompleteWorld::kAllowed);
   EXPECT_THAT(odd.warnings, Contains(AllOf(HasSubstr("w.sdf:5"), HasSubstr("donut"))));
 }
@@ -230,8 +224,8 @@ TEST_F(WorldFile, ReportsThePlaceOfMistakes) {
 }
 
 TEST_F(WorldFile, AnyContentIsLoadedOrRefusedWithoutACrash) {
-  const std::string sound = world("<frame name=\"start\"><pose>1 2 0 0 0 0</pose></frame>\n" + model("box", kBox) +
-                                  model("ball", "<sphere><radius>1</radius></sphere>"));
+  const std::string sound = worldFile("<frame name=\"start\"><pose>1 2 0 0 0 0</pose></frame>\n" + model("box", kBox) +
+                                      model("ball", "<sphere><radius>1</radius></sphere>"));
   int loaded = 0, refused = 0;
   for (std::uint64_t i = 0; i < 80; ++i) {
     common::RandomStream random(1, "mutation", i);

@@ -43,14 +43,9 @@ TEST(Characters, ThatMisleadNobodyAreNotMentioned) {
   EXPECT_EQ(misleadingCharacterIn("\xFF\xE2 only bytes"), "");
 }
 
-std::vector<std::string> problemsOf(const std::string& text) {
-  Stage stage;
-  return linesOf(parseText(text, "f.xml", withStandIns(stage)).problems);
-}
-
 TEST(Characters, AreNamedWhereverTheyStand) {
   const auto expectNamed = [](const std::string& inside, const char* name) {
-    EXPECT_THAT(problemsOf(file(inside)), Contains(HasSubstr(name))) << inside;
+    EXPECT_THAT(problemsWithStandIns(file(inside)), Contains(HasSubstr(name))) << inside;
   };
   expectNamed("<A\u200b/>", "U+200B (zero width space");
   expectNamed("<A\u00a0name=\"a\"/>", "U+00A0 (no-break space");
@@ -72,18 +67,20 @@ TEST(Characters, AreNamedWhereverTheyStand) {
 }
 
 TEST(Characters, AreNamedAroundTheElements) {
-  EXPECT_THAT(problemsOf("\n\ufeff" + file("<A/>")), ElementsAre(HasSubstr("f.xml:2:1: malformed XML")));
-  EXPECT_THAT(problemsOf("\n\ufeff" + file("<A/>")), ElementsAre(HasSubstr("U+FEFF (byte order mark, take it out)")));
-  EXPECT_THAT(problemsOf(file("<A/>") + "\ufeff" + file("<A/>")), ElementsAre(HasSubstr("U+FEFF")));
-  EXPECT_THAT(problemsOf(file("<A/>") + "\x1a"), ElementsAre(HasSubstr("U+001A (control character")));
-  EXPECT_THAT(problemsOf("\ufeff" + file("<A/>")), ElementsAre()) << "one mark at the beginning is as it should be";
+  EXPECT_THAT(problemsWithStandIns("\n\ufeff" + file("<A/>")), ElementsAre(HasSubstr("f.xml:2:1: malformed XML")));
+  EXPECT_THAT(problemsWithStandIns("\n\ufeff" + file("<A/>")),
+              ElementsAre(HasSubstr("U+FEFF (byte order mark, take it out)")));
+  EXPECT_THAT(problemsWithStandIns(file("<A/>") + "\ufeff" + file("<A/>")), ElementsAre(HasSubstr("U+FEFF")));
+  EXPECT_THAT(problemsWithStandIns(file("<A/>") + "\x1a"), ElementsAre(HasSubstr("U+001A (control character")));
+  EXPECT_THAT(problemsWithStandIns("\ufeff" + file("<A/>")), ElementsAre())
+      << "one mark at the beginning is as it should be";
 }
 
 TEST(Characters, OfATextThatIsAllowedAreNotMentioned) {
-  EXPECT_THAT(
-      problemsOf(file("<Sequence name=\"wait \u2013 look\"><Script code=\"s := '\u201cgo\u201d'\"/></Sequence>")),
-      ElementsAre());
-  EXPECT_THAT(problemsOf(file("<Sequence name=\"\u2013\"/>")), Not(Contains(HasSubstr("U+"))));
+  EXPECT_THAT(problemsWithStandIns(
+                  file("<Sequence name=\"wait \u2013 look\"><Script code=\"s := '\u201cgo\u201d'\"/></Sequence>")),
+              ElementsAre());
+  EXPECT_THAT(problemsWithStandIns(file("<Sequence name=\"\u2013\"/>")), Not(Contains(HasSubstr("U+"))));
 }
 
 }  // namespace

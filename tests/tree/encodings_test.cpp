@@ -28,54 +28,51 @@ std::string declared(const std::string& encoding, const std::string& inside = "<
   return "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?>\n" + file(inside);
 }
 
-std::vector<std::string> problemsOf(const std::string& text) {
-  Stage stage;
-  return linesOf(parseText(text, "f.xml", withStandIns(stage)).problems);
-}
-
 TEST(Encodings, OfUnicodeAreRead) {
   for (const bool big_endian : {false, true}) {
     const std::string utf16 = wide(declared("UTF-16"), 2, big_endian), utf32 = wide(declared("utf-32"), 4, big_endian);
     const std::string mark16 = big_endian ? "\xFE\xFF" : "\xFF\xFE";
     const std::string mark32 = big_endian ? std::string("\0\0\xFE\xFF", 4) : std::string("\xFF\xFE\0\0", 4);
     for (const std::string& text : {utf16, mark16 + utf16, utf32, mark32 + utf32})
-      EXPECT_THAT(problemsOf(text), IsEmpty()) << big_endian;
+      EXPECT_THAT(problemsWithStandIns(text), IsEmpty()) << big_endian;
   }
-  EXPECT_THAT(problemsOf(wide(file("<A/>\n<Nobody/>"), 2, false)),
+  EXPECT_THAT(problemsWithStandIns(wide(file("<A/>\n<Nobody/>"), 2, false)),
               ElementsAre(HasSubstr("f.xml:2:"), HasSubstr("4:1")));
 }
 
 TEST(Encodings, OfTheNamesInAnyCaseAreRead) {
   for (const char* name : {"ASCII", "us-ascii", "utf8", "UTF-8", "Utf-8", "ISO-8859-1", "iso-8859-15", "latin1",
                            "windows-1252", "cp1251", "utf-16", "no-such-encoding"})
-    EXPECT_THAT(problemsOf(declared(name)), IsEmpty()) << name;
-  EXPECT_THAT(problemsOf(declared("ISO-8859-1",
-                                  "<!-- gr\xFC\xDF --><A name=\"K\xFC"
-                                  "che\"/>")),
+    EXPECT_THAT(problemsWithStandIns(declared(name)), IsEmpty()) << name;
+  EXPECT_THAT(problemsWithStandIns(declared("ISO-8859-1",
+                                            "<!-- gr\xFC\xDF --><A name=\"K\xFC"
+                                            "che\"/>")),
               IsEmpty());
-  EXPECT_THAT(problemsOf(declared("latin1",
-                                  "<A name=\"K\xC3\xBC"
-                                  "che\"/>")),
+  EXPECT_THAT(problemsWithStandIns(declared("latin1",
+                                            "<A name=\"K\xC3\xBC"
+                                            "che\"/>")),
               IsEmpty())
       << "it is UTF-8 nevertheless";
-  EXPECT_THAT(problemsOf(declared("Shift_JIS", "<A name=\"\x93\x8C\x8B\x9E\"/>")), IsEmpty());
+  EXPECT_THAT(problemsWithStandIns(declared("Shift_JIS", "<A name=\"\x93\x8C\x8B\x9E\"/>")), IsEmpty());
 }
 
 TEST(Encodings, ThatAreReadHaveTheirPlaces) {
-  EXPECT_THAT(problemsOf(declared("windows-1252", "<A name=\"\x84q\x93\" ten=\"1\"/>")),
+  EXPECT_THAT(problemsWithStandIns(declared("windows-1252", "<A name=\"\x84q\x93\" ten=\"1\"/>")),
               ElementsAre(HasSubstr("f.xml:4:15: A: unknown port `ten`")));
 }
 
 TEST(Encodings, ThatAreNotWhatTheySayAreToldWithARemedy) {
-  EXPECT_THAT(problemsOf(declared("UTF-8",
-                                  "<A name=\"K\xFC"
-                                  "che\"/>")),
+  EXPECT_THAT(problemsWithStandIns(declared("UTF-8",
+                                            "<A name=\"K\xFC"
+                                            "che\"/>")),
               ElementsAre(HasSubstr("f.xml:4:11: a byte that is not UTF-8, in a file that says it is UTF-8, `iconv -f "
                                     "WINDOWS-1252 -t UTF-8 f.xml > NEW.xml` converts")));
-  EXPECT_THAT(problemsOf("<root>\xFF</root>"), ElementsAre(HasSubstr("f.xml:1:7: a byte that is not UTF-8")));
-  EXPECT_THAT(problemsOf(declared("ascii", "<A name=\"\xFC\"/>")), ElementsAre(HasSubstr("says it is ascii")));
-  EXPECT_THAT(problemsOf(declared("utf-16", "<A name=\"\xFC\"/>")), ElementsAre(HasSubstr("says it is utf-16")));
-  EXPECT_THAT(problemsOf(wide("<root/>", 2, false) + "<"), ElementsAre(HasSubstr("begins as UTF-16LE does")));
+  EXPECT_THAT(problemsWithStandIns("<root>\xFF</root>"), ElementsAre(HasSubstr("f.xml:1:7: a byte that is not UTF-8")));
+  EXPECT_THAT(problemsWithStandIns(declared("ascii", "<A name=\"\xFC\"/>")),
+              ElementsAre(HasSubstr("says it is ascii")));
+  EXPECT_THAT(problemsWithStandIns(declared("utf-16", "<A name=\"\xFC\"/>")),
+              ElementsAre(HasSubstr("says it is utf-16")));
+  EXPECT_THAT(problemsWithStandIns(wide("<root/>", 2, false) + "<"), ElementsAre(HasSubstr("begins as UTF-16LE does")));
 }
 
 TEST(Encodings, OfWhatIsRewrittenAreUtf8) {
@@ -99,7 +96,7 @@ TEST(LineEnds, OfAllKindsCountLines) {
     std::string text = file("<Sequence>\n<A/>\n<Script code=\"n := 1;\n m := 2\"/>\n<Nobody/>\n</Sequence>");
     for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + end.size()))
       text.replace(at, 1, end);
-    EXPECT_THAT(problemsOf(text), ElementsAre(HasSubstr("f.xml:7:1: Nobody: unknown node")));
+    EXPECT_THAT(problemsWithStandIns(text), ElementsAre(HasSubstr("f.xml:7:1: Nobody: unknown node")));
   }
 }
 

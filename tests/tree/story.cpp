@@ -186,4 +186,9 @@ std::vector<std::string> linesOf(const std::vector<Problem>& problems) {
   return lines;
 }
 
+std::vector<std::string> problemsWithStandIns(const std::string& text) {
+  Stage stage;
+  return linesOf(parseText(text, "f.xml", withStandIns(stage)).problems);
+}
+
 }  // namespace swiftlet::tree::testing

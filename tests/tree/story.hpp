@@ -76,6 +76,8 @@ class Story {
 std::string problemText(std::string_view inside);
 /// As text, for comparisons.
 std::vector<std::string> linesOf(const std::vector<Problem>& problems);
+/// The problems of a text named f.xml whose leaves are stand-ins.
+std::vector<std::string> problemsWithStandIns(const std::string& text);
 std::string file(std::string_view inside, std::string_view more = {});
 
 }  // namespace swiftlet::tree::testing

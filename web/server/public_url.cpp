@@ -11,7 +11,7 @@
 namespace swiftlet::web {
 namespace {
 
-constexpr const char* kExample = "https://field.example/swiftlet/";
+constexpr const char* kPublicExample = "https://field.example/swiftlet/";
 
 /// "https://field.example/swiftlet/" in its three parts.
 struct Parts {
@@ -46,7 +46,7 @@ void checkScheme(const std::string& text, const Parts& parts) {
     const bool is_scheme = word == "http" || word == "https";
     const std::size_t host = is_scheme ? text.find_first_not_of(":/", word.size()) : text.find_first_not_of('/');
     fail(text, "does not say whether it is http or https",
-         host == std::string::npos ? fmt::format("write an address such as {}", kExample)
+         host == std::string::npos ? fmt::format("write an address such as {}", kPublicExample)
                                    : fmt::format("write http://{0} or https://{0}", text.substr(host)));
   }
   const std::string_view behind = std::string_view(text).substr(text.find("://"));
@@ -84,11 +84,11 @@ PublicUrl parsePublicUrl(const std::string& text) {
   const auto origin = originOf(parts);
   if (!origin)
     fail(text, fmt::format("names no host, or a wrong port: `{}`", parts.authority),
-         fmt::format("write one host, and perhaps a port, as in {}", kExample));
+         fmt::format("write one host, and perhaps a port, as in {}", kPublicExample));
   if (!surplus.empty()) fail(text, fmt::format("has more than a path: `{}`", surplus), fmt::format("write {}", bare));
   const auto target = parseTarget(slashed);
   if (!target || target->path.find("//") != std::string::npos)
-    fail(text, fmt::format("has a malformed path: `{}`", path), fmt::format("write a path as in {}", kExample));
+    fail(text, fmt::format("has a malformed path: `{}`", path), fmt::format("write a path as in {}", kPublicExample));
   return {*origin, target->path, toString(*origin) + slashed};
 }
 
