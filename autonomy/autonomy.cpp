@@ -158,7 +158,7 @@ common::Setpoint Autonomy::tick(Time now) {
   estimator_.setBelowMap(executor_.dip_m());
   estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying && executor_.dip_m() == 0.0);
   followMapHeight(flight.state.T_odom_body.position_m.z());
-  prepare();
+  prepare(now);
   return setpoint;
 }
 

@@ -153,7 +153,8 @@ class Autonomy {
   void processScan(const common::LaserScan& scan, common::Time now);
   void followMapHeight(double height_m);
   void tellInertialInput(const common::Setpoint& setpoint, bool thrust_applies);
-  void prepare();
+  void prepare(common::Time now);
+  void tellUnprepared(common::Time now);
   void restMotors(common::Time now);
   void tickBehaviors(common::Time now);
   void updateCameraObstacles();
@@ -212,6 +213,8 @@ class Autonomy {
   common::MissionStatus mission_status_;
   bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   bool prepared_ = false;
+  std::optional<common::Time> unprepared_since_;
+  bool unprepared_said_ = false;
   std::optional<common::Time> stands_since_;  ///< Since when it has stood with the motors on; none: it does not.
   double map_height_m_ = 0.0;
   std::optional<common::Time> last_behaviors_;

@@ -21,11 +21,24 @@ void Autonomy::restMotors(Time now) {
     (void)controller_.command(control::DisengageMotors{});
 }
 
-void Autonomy::prepare() {
-  if (prepared_ || !estimator_.ready()) return;
+void Autonomy::prepare(Time now) {
+  if (prepared_) return;
   const common::VehicleState state = estimator_.state();
-  if (!state.horizontal_valid || !state.vertical_valid) return;
-  prepared_ = controller_.command(control::Prepared{}).has_value();
+  if (estimator_.ready() && state.horizontal_valid && state.vertical_valid)
+    prepared_ = controller_.command(control::Prepared{}).has_value();
+  else
+    tellUnprepared(now);
+}
+
+/// The mission begins with a prepared vehicle: where a sensor never sends, nothing else would say why it does not.
+void Autonomy::tellUnprepared(Time now) {
+  constexpr double kUntilTold_s = 5.0;
+  if (!unprepared_since_) unprepared_since_ = now;
+  if (unprepared_said_ || (now - *unprepared_since_).seconds() < kUntilTold_s) return;
+  const std::string why = estimator_.whyUnready(now);
+  if (why.empty()) return;
+  unprepared_said_ = true;
+  events_.push_back({now, common::Severity::kWarning, "flight", "the vehicle is not ready to fly", why});
 }
 
 }  // namespace swiftlet::autonomy

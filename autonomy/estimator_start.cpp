@@ -33,13 +33,13 @@ common::ImuSample Estimator::withAttitude(const common::ImuSample& sample) const
 }
 
 void Estimator::initialize(const common::LaserScan& scan) {
+  lookFromStart(scan, last_imu_ ? last_imu_->rotation_ahrs_body : Eigen::Quaterniond::Identity());
   if (!last_imu_) {
     if (imu_seen_ && uses_ahrs_)
       sayWaiting(scan.stamps.arrived,
                  "the samples have no attitude: without an AHRS set `use_ahrs` of the filter to false");
     return;
   }
-  lookFromStart(scan, last_imu_->rotation_ahrs_body);
   const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
   const Eigen::Quaterniond R_level_body = common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0});
   const auto standing = laser_.project(scan, [&](Time) { return Pose3{R_level_body, Eigen::Vector3d::Zero()}; });
@@ -59,6 +59,7 @@ void Estimator::lookFromStart(const common::LaserScan& scan, const Eigen::Quater
 }
 
 std::string Estimator::whyUnready(Time now) const {
+  if (!imu_seen_) return "the IMU has sent no sample";
   return start_view_.problem(now, rgbd_ && (now - position_seen_).seconds() < kCameraSaw_s);
 }
 

@@ -3,12 +3,18 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "common/error.hpp"
 
 namespace swiftlet::common {
 
-/// Throws InputError for a folder, a pipe or a device, and for a pointer of Git LFS or git-annex that stands for the
-/// file in a clone. A pipe or a device could block a reader forever. What cannot be opened passes.
+/// What is wrong with a folder, a pipe or a device, or with a pointer of Git LFS or git-annex that stands for the file
+/// in a clone. A pipe or a device could block a reader forever. What cannot be opened passes.
+std::optional<Problem> problemOfFile(const std::filesystem::path& file);
+
+/// Throws InputError where problemOfFile() has one.
 void requireFile(const std::filesystem::path& file);
 
 /// The default limit for the size of a file that is read into memory.

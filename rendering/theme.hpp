@@ -1,6 +1,6 @@
 // The colours of a map picture. The page's style sheet has the same values, so that a stream and the page look alike.
-// Each has a contrast of at least 3:1 (WCAG 2.1, 1.4.11) with free space, also for the colour-blind; walls and free
-// space have it with the unknown, too.
+// Each but that of the grid has a contrast of at least 3:1 (WCAG 2.1, 1.4.11) with free space, also for the
+// colour-blind; walls and free space have it with the unknown, too.
 #pragma once
 
 #include <optional>

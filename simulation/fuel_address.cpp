@@ -1,17 +1,13 @@
 #include "simulation/fuel_address.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
+
+#include "common/lower_case.hpp"
 
 namespace swiftlet::simulation {
 namespace fs = std::filesystem;
 namespace {
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::vector<std::string> partsOf(std::string_view path) {
   std::vector<std::string> parts;
@@ -92,7 +88,8 @@ std::optional<fs::path> findIgnoringCase(const fs::path& folder, const fs::path&
     if (!fs::exists(found / part, ignored)) {
       std::vector<fs::path> alike;
       for (const fs::directory_entry& entry : fs::directory_iterator(found, ignored))
-        if (lowerCase(entry.path().filename().string()) == lowerCase(part.string())) alike.push_back(entry.path());
+        if (common::lowerCase(entry.path().filename().string()) == common::lowerCase(part.string()))
+          alike.push_back(entry.path());
       if (alike.empty()) return std::nullopt;
       found = *std::min_element(alike.begin(), alike.end());
     } else {

@@ -91,11 +91,9 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_root
 }  // namespace
 
 tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh) {
-  try {
-    common::requireFile(file);
-  } catch (const common::InputError& wrong) {
-    const common::Problem& problem = wrong.problems().front();
-    return tl::unexpected(problem.hint.empty() ? problem.message : problem.message + ", " + problem.hint);
+  if (auto problem = common::problemOfFile(file)) {
+    problem->location = {};  // The caller names the file.
+    return tl::unexpected(toString(*problem));
   }
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

@@ -14,6 +14,7 @@
 #include <sdf/ParserConfig.hh>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "simulation/sdf_sources.hpp"
 
@@ -60,8 +61,8 @@ class ConsoleCapture {
   std::ostringstream text_;
 };
 
-bool mentions(std::string text, std::string_view word) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+bool mentions(std::string_view message, std::string_view word) {
+  std::string text = common::lowerCase(message);
   std::replace(text.begin(), text.end(), '_', ' ');
   return text.find(word) != std::string::npos;
 }
@@ -110,8 +111,7 @@ common::SourceLocation locate(const sdf::Error& error, const std::string& file, 
     if (const auto colon = name.rfind("::"); colon != std::string::npos) name.erase(0, colon + 2);
     const auto at = name.empty() ? std::string::npos : text.find(name);
     if (at == std::string::npos) continue;
-    location.line =
-        1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    location.line = locationIn(file, text, at).line;
     return location;
   }
   return location;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lower_case.hpp"
 #include "common/markup.hpp"
 #include "common/read_bytes.hpp"
 
@@ -21,8 +22,8 @@ using common::InputError;
 using common::Problem;
 
 /// "Ground Plane" and "ground_plane" are the same.
-std::string plainWords(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+std::string plainWords(std::string_view words) {
+  std::string text = common::lowerCase(words);
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }

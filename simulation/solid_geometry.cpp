@@ -108,6 +108,7 @@ Result terrainOf(const sdf::Heightmap& heightmap, const UriResolver& resolver) {
   if (!file)
     return tl::unexpected(
         fmt::format("`{}` was not found, {}", heightmap.Uri(), resolver.hintFor(heightmap.Uri(), used_in)));
+  if (const auto problem = common::problemOfFile(*file)) return tl::unexpected(toString(*problem));
   const auto relief = readRelief(common::readBytes(*file));
   if (!relief) return tl::unexpected(fmt::format("`{}`: {}", file->string(), relief.error()));
   const Eigen::Vector3d size_m = toEigen(heightmap.Size());

@@ -104,9 +104,11 @@ std::string UriResolver::hintFor(const std::string& uri, const fs::path& used_in
         address->owner, address->name, address->name, there);
   if (isOnTheWeb(uri)) return "download it, and name the file instead";
   for (const auto& [folder, path] : placesOf(uri, used_in))
-    if (const auto alike = findIgnoringCase(folder, path))
-      return fmt::format("did you mean `{}{}`?", uri.substr(0, uri.find(path)),
+    if (const auto alike = findIgnoringCase(folder, path)) {
+      const std::string whole = uri.ends_with(path) ? uri : percentDecoded(uri);
+      return fmt::format("did you mean `{}{}`?", whole.substr(0, whole.size() - path.size()),
                          alike->lexically_relative(folder).string());
+    }
   return there;
 }
 

@@ -20,6 +20,7 @@
 
 #include "common/error.hpp"
 #include "common/polygon.hpp"
+#include "common/read_bytes.hpp"
 #include "simulation/material_look.hpp"
 #include "simulation/mesh_loader.hpp"
 #include "simulation/sdf_math.hpp"
@@ -169,14 +170,24 @@ class Loader {
     return {colorOf(visual), see_through || visual->Transparency() >= kHalf, patternOf(material), imageOf(material)};
   }
 
-  /// The albedo map, if its file is there.
-  std::string imageOf(const sdf::Material* material) const {
+  /// The albedo map.
+  std::string imageOf(const sdf::Material* material) {
     if (material == nullptr || material->PbrMaterial() == nullptr) return {};
     for (const auto type : {sdf::PbrWorkflowType::METAL, sdf::PbrWorkflowType::SPECULAR})
       if (const sdf::PbrWorkflow* workflow = material->PbrMaterial()->Workflow(type))
-        return resolver_.find(workflow->AlbedoMap(), locationOf(material->Element(), world_.file).file)
-            .value_or("")
-            .string();
+        return pictureOf(workflow->AlbedoMap(), locationOf(material->Element(), world_.file).file);
+    return {};
+  }
+
+  /// The file of a picture; empty if it is not there or stands for something else. The surface then has its colour.
+  std::string pictureOf(const std::string& uri, const std::filesystem::path& used_in) {
+    const auto file = resolver_.find(uri, used_in);
+    if (!file) return {};
+    const auto problem = common::problemOfFile(*file);
+    if (!problem) return file->string();
+    const std::string warning = toString(*problem) + "; it is left out";
+    if (std::find(world_.warnings.begin(), world_.warnings.end(), warning) == world_.warnings.end())
+      world_.warnings.push_back(warning);
     return {};
   }
 
@@ -241,9 +252,8 @@ class Loader {
     addMaterials(*cached->second, *path, look, world_.shapes.back());
   }
 
-  /// A colour or an image of the world's file replaces those of the mesh. Images that are not there are left out:
-  /// without them the surface has its colour.
-  void addMaterials(const Mesh& mesh, const std::filesystem::path& mesh_file, const Look& look, Shape& shape) const {
+  /// A colour or an image of the world's file replaces those of the mesh.
+  void addMaterials(const Mesh& mesh, const std::filesystem::path& mesh_file, const Look& look, Shape& shape) {
     shape.materials = mesh.materials;
     shape.material_of_triangle = mesh.material_of_triangle;
     shape.image_places = mesh.image_places;
@@ -251,7 +261,7 @@ class Loader {
       if (!look.image.empty() || look.color || material.image.empty())
         material.image = look.image;
       else
-        material.image = resolver_.find(material.image, mesh_file).value_or("").string();
+        material.image = pictureOf(material.image, mesh_file);
       if (look.color) material.color = *look.color;
     }
   }
@@ -272,7 +282,8 @@ class Loader {
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
       shape.vertices_world_m.push_back((T_world_item * vertex.cwiseProduct(scope.scale).cast<double>()).cast<float>());
     const auto fits = [](const Eigen::Vector3f& vertex) {
-      return vertex.cwiseAbs().maxCoeff() <= static_cast<float>(2.0 * common::kGreatestCoordinate_m);
+      return vertex.allFinite() &&
+             vertex.cwiseAbs().maxCoeff() <= static_cast<float>(2.0 * common::kGreatestCoordinate_m);
     };
     if (!std::all_of(shape.vertices_world_m.begin(), shape.vertices_world_m.end(), fits))
       problems_.push_back({source, nameOf(shape),

@@ -10,23 +10,6 @@ namespace swiftlet::autonomy {
 using common::Pose3;
 using common::Time;
 
-namespace {
-
-/// Points beyond it are not matched.
-double rangeOf_m(const perception::MatcherChoiceConfig& matcher) {
-  switch (matcher.kind) {
-    case perception::MatcherKind::kGaussNewton:
-      return matcher.gauss_newton.max_range_m;
-    case perception::MatcherKind::kPointToLine:
-      return matcher.point_to_line.max_range_m;
-    case perception::MatcherKind::kCorrelative:
-      break;
-  }
-  return matcher.max_range_m;
-}
-
-}  // namespace
-
 StartView::StartView(const LaserPipelineConfig& config, const common::LaserConfig& laser, double standing_height_m)
     : config_(config), laser_(laser), standing_height_m_(standing_height_m) {}
 
@@ -72,7 +55,7 @@ std::string StartView::heightProblem(const perception::ProjectedScan& view) cons
 /// watched.
 std::string StartView::positionProblem(const perception::ProjectedScan& view) const {
   const perception::MatcherChoiceConfig& matcher = config_.odometry.matcher;
-  const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, rangeOf_m(matcher)});
+  const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, matcher.maxRange_m()});
   const auto returns = std::count_if(view.points_level_m.begin(), view.points_level_m.end(),
                                      [&](const Eigen::Vector2f& point_m) { return point_m.norm() <= reach_m; });
   if (returns < matcher.minPoints())

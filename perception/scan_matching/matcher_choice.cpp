@@ -35,6 +35,18 @@ int MatcherChoiceConfig::minPoints() const {
   return min_points;
 }
 
+double MatcherChoiceConfig::maxRange_m() const {
+  switch (kind) {
+    case MatcherKind::kGaussNewton:
+      return gauss_newton.max_range_m;
+    case MatcherKind::kPointToLine:
+      return point_to_line.max_range_m;
+    case MatcherKind::kCorrelative:
+      break;
+  }
+  return max_range_m;
+}
+
 std::unique_ptr<ScanMatcher> makeMatcher(const MatcherChoiceConfig& config) {
   switch (config.kind) {
     case MatcherKind::kGaussNewton:

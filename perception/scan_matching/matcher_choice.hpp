@@ -25,6 +25,8 @@ struct MatcherChoiceConfig : CorrelativeMatcherConfig {
   double minQuality() const;
   /// Number of points of the chosen kind below which a match failed.
   int minPoints() const;
+  /// Points beyond it are not matched.
+  double maxRange_m() const;
 };
 
 /// Creates a matcher of the chosen kind, without a reference; never null.

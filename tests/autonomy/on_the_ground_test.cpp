@@ -39,6 +39,25 @@ TEST(OnTheGround, AStoppedMissionLeavesTheVehicleStanding) {
   EXPECT_TRUE(story.until([&] { return stands(story); }, 2.0));
 }
 
+TEST(OnTheGround, ASensorThatNeverSendsIsNamedOnce) {
+  const auto isScan = [](const common::SensorEvent& event) {
+    return std::holds_alternative<std::shared_ptr<const common::LaserScan>>(event);
+  };
+  const auto isImu = [](const common::SensorEvent& event) { return std::holds_alternative<common::ImuSample>(event); };
+  const auto toldWithout = [](auto isOfSensor) {
+    AutonomyStory story("<TakeOff/>");
+    story.hand = [isOfSensor](common::SensorEvent& event) { return !isOfSensor(event); };
+    EXPECT_TRUE(story.fly(8.0));
+    std::string told;
+    for (const common::Event& event : story.events)
+      if (event.text == "the vehicle is not ready to fly") told += event.reason + ";";
+    return told;
+  };
+  EXPECT_EQ(toldWithout(isScan), "the laser has sent no scan;");
+  EXPECT_EQ(toldWithout(isImu), "the IMU has sent no sample;");
+  EXPECT_EQ(toldWithout([](const common::SensorEvent&) { return false; }), "");
+}
+
 /// A laser that has gone blind sends whole scans in which nothing returns.
 TEST(Autonomy, BetweenWallsALaserThatReturnsNothingIsNoSight) {
   AutonomyStory story(R"(<TakeOff/><OperatorCommand/>)");

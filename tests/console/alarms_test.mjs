@@ -43,6 +43,9 @@ async function open(change = () => {}, options = {}) {
   return page;
 }
 
+/** Longer than taps are dropped where a notice has come. */
+const kSettle_ms = 1000;
+
 const counts = (page) => page.evaluate(() => window.counted);
 const kTurnBack = { text: 'turn back', alarm: 'turn back', reason: 'turned back with 28 % of the battery left' };
 
@@ -110,10 +113,45 @@ const tests = {
     await eventually('a second call', async () => (await counts(page)).vibrations >= 2);
     await page.reload();
     await page.locator('#alarms').getByText('turned back').waitFor();
+    await page.waitForTimeout(kSettle_ms);
     await page.getByRole('button', { name: 'Read' }).tap();
     await page.reload();
     await page.locator('#events').getByText('turn back').waitFor();
     assert.equal(await page.locator('#alarms').isVisible(), false);
+    return page;
+  },
+
+  async 'a tap where a notice has just come or gone does nothing'() {
+    const page = await open();
+    const given = [];
+    await page.route('**/api/*', (route) => {
+      if (route.request().method() !== 'POST') return route.continue();
+      given.push(route.request().url().match(/\/api\/(\w+)/)[1]);
+      return route.fulfill({ json: { accepted: true, reason: '' } });
+    });
+    page.tell(kTurnBack);
+    const read = page.getByRole('button', { name: 'Read' });
+    await read.waitFor();
+    await page.waitForTimeout(kSettle_ms);
+    const { x, y, width, height } = await read.boundingBox();
+    const middle = [x + width / 2, y + height / 2];
+    const hit = await page.evaluate(async (at) => {
+      const frame = () => new Promise((done) => { requestAnimationFrame(done); });
+      const where = { clientX: at[0], clientY: at[1], bubbles: true };
+      document.elementFromPoint(...at).dispatchEvent(new MouseEvent('click', where));
+      await frame();
+      await frame();
+      const below = document.elementFromPoint(...at);
+      let hit = below.id;
+      below.addEventListener('pointerdown', () => { hit += ' was tapped'; }, { once: true });
+      below.dispatchEvent(new PointerEvent('pointerdown', where));
+      return hit;
+    }, middle);
+    assert.equal(hit, 'map');
+    assert.deepEqual(given, []);
+    await page.waitForTimeout(kSettle_ms);
+    await page.touchscreen.tap(...middle);
+    await eventually('a goal', () => given.includes('goal'));
     return page;
   },
 

@@ -208,6 +208,26 @@ TEST_F(WorldFiles, NamesThatDifferByCaseAreProposed) {
   EXPECT_THAT(problemOf(sdf(world(model("m", "<mesh><uri>meshes/wall.OBJ</uri></mesh>")))),
               AllOf(HasSubstr("meshes/wall.OBJ"), HasSubstr("did you mean `meshes/Wall.obj`?")));
   EXPECT_EQ(problemOf(sdf(world(model("m", "<mesh><uri>meshes/Wall.obj</uri></mesh>")))), "no error");
+  folder_.write("home/models/Oak Tree/Leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THAT(problemOf(sdf(world(model("m", "<mesh><uri>model://oak%20tree/leaf.obj</uri></mesh>")))),
+              HasSubstr("did you mean `model://Oak Tree/Leaf.obj`?"));
+}
+
+TEST_F(WorldFiles, PointersOfGitLfsAreNamed) {
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n";
+  folder_.write("home/brick.png", pointer);
+  const std::string wall =
+      "<model name='wall'><static>1</static><link name='l'><collision name='c'><geometry>" + kBox +
+      "</geometry></collision><visual name='v'><geometry>" + kBox +
+      "</geometry><material><pbr><metal><albedo_map>brick.png</albedo_map></metal></pbr></material></visual></link>"
+      "</model>";
+  const WorldModel w = load(sdf(world(wall + wall.substr(0, 13) + "2" + wall.substr(13))));
+  EXPECT_THAT(w.warnings, ElementsAre(AllOf(HasSubstr("brick.png: "), HasSubstr("git lfs pull"))));
+  EXPECT_EQ(w.shapes.at(0).image, "");
+  folder_.write("home/hill.png", pointer);
+  const std::string hill = model("h", "<heightmap><uri>hill.png</uri><size>4 4 2</size></heightmap>");
+  EXPECT_THAT(problemOf(sdf(world(hill))), AllOf(HasSubstr("world.sdf:3"), HasSubstr("git lfs pull")));
+  EXPECT_THAT(load(sdf(world(wall + hill)), IncompleteWorld::kAllowed).modelNames(), ElementsAre("wall"));
 }
 
 TEST_F(WorldFiles, PolylinesAreExtruded) {

@@ -43,6 +43,7 @@ TEST(PublicUrlTest, BadOnesAreRefusedWithAHintThatWorks) {
   const std::pair<const char*, const char*> hints[] = {
       {"field.example/swiftlet/", "write http://field.example/swiftlet/ or https://field.example/swiftlet/"},
       {"drone.local:8080", "write http://drone.local:8080 or https://drone.local:8080"},
+      {"httpbin.local:8080", "write http://httpbin.local:8080 or https://httpbin.local:8080"},
       {"//field.example/", "write http://field.example/ or https://field.example/"},
       {"https:/field.example/", "write http://field.example/ or https://field.example/"},
       {"wss://field.example/swiftlet/", "write https://field.example/swiftlet/"},

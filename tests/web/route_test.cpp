@@ -139,8 +139,13 @@ TEST(RouteTest, CommandsNeedTheToken) {
   request.authorization = "Basic cGlsb3Q6c2VjcmV0";
   request.token = "secret-token";
   EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
+  request.authorization = "Bearer of-the-proxy";
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
+  EXPECT_TRUE(hasToken(request, kPolicy));
   request.token = "secret-tokem";
   EXPECT_EQ(statusOf(route(request, kPolicy)), 401);
+  request.target = "/api/hold?token=secret-token";
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
   // A server without a token accepts no commands.
   Policy open = kPolicy;
   open.token.clear();

@@ -1,4 +1,4 @@
-// Alarms: events that the vehicle calls so (common/alarm.hpp). Each stays over the page until it is read; a new one
+// Alarms: events that the vehicle calls so (alarmOf in common/event.hpp). Each stays over the page until it is read; a new one
 // vibrates and sounds, and the sound comes again until all are read or it is muted.
 
 const kMutedKey = 'swiftlet-muted', kReadKey = 'swiftlet-alarms-read';

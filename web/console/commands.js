@@ -67,9 +67,9 @@ export class Commands {
     });
   }
 
-  /** Forgets a token that is refused. */
+  /** Forgets a token that the server refuses. The password that a proxy asks for is another matter. */
   note(response) {
-    if (response.status !== 401) return;
+    if (response.status !== 401 || response.headers.get('WWW-Authenticate') !== 'Bearer') return;
     this.token = null;
     this.refused = true;
     sessionStorage.removeItem(kKey);

@@ -9,7 +9,7 @@ export class KeepOutPen {
    * taken; `say(title, text)` tells the operator.
    */
   constructor(button, { onChange, send, say }) {
-    Object.assign(this, { button, onChange, send, say, corners_m: [], drawing: false, warned: false });
+    Object.assign(this, { button, onChange, send, say, corners_m: [], drawing: false, warned: false, frames: 0 });
     button.addEventListener('click', () => this.toggle());
   }
 
@@ -51,18 +51,22 @@ export class KeepOutPen {
 
   /** A zone that was not taken can be changed and sent again. */
   async finish() {
-    const { corners_m } = this;
+    const { corners_m, frames } = this;
     this.stop();
     if ((await this.send(corners_m)) || this.drawing) return;
+    if (this.frames !== frames) return this.sayForgotten();
     this.draw(corners_m);
     this.warn('The corners stay', 'Tap more and press again to send them, or press now to give them up.');
   }
 
-  /** Drops the corners that were tapped; true if there were any. */
+  /** The map is shown in another frame, in which the corners would lie elsewhere. */
   forget() {
-    const some = this.corners_m.length > 0;
-    this.corners_m = [];
-    return some;
+    if (this.corners_m.length > 0) this.sayForgotten();
+    Object.assign(this, { corners_m: [], warned: false, frames: this.frames + 1 });
+  }
+
+  sayForgotten() {
+    this.say('Corners forgotten', 'The map is shown in another frame now: draw the zone again.');
   }
 
   /** True if the tap was a corner. */

@@ -12,6 +12,7 @@ import { MissionTree } from './tree.js';
 import { MissionsCard } from './missions.js';
 import { PictureStream } from './picture_stream.js';
 import { forgetEvents, showAge, showEvents, showFrontiers, showState, toast } from './panels.js';
+import { guardTaps } from './tap_guard.js';
 import { forVehicle, offerVehicles } from './vehicle.js';
 
 const element = (id) => document.getElementById(id);
@@ -27,7 +28,7 @@ const view = new MapView(element('map'), store, {
   onFrame: (frame) => {
     element('given-legend').hidden = frame !== 'given';
     element('event-frame').hidden = frame !== 'given';
-    if (pen.forget()) toast('Corners forgotten', kOtherFrame, false);
+    pen.forget();
   },
 });
 
@@ -100,7 +101,6 @@ function showAccess() {
   disable(element('keep-out'), nothing, nothing ? '' : kDraw);
 }
 
-const kOtherFrame = 'The map is shown in another frame now: draw the zone again.';
 const kDraw = 'Tap the corners of a keep-out zone, then press again.';
 const kOwnGoals = 'This mission flies its own goals.';
 const kNoToken = 'Open the operator’s link, printed when the flight starts, to send goals.';
@@ -250,5 +250,6 @@ function showLink() {
   document.body.classList.toggle('stale', level === 'bad' || level === 'warn');
 }
 
+guardTaps([...document.querySelectorAll('.notices > *, #clear-keep-out')]);
 showAccess();
 setInterval(showLink, 250);

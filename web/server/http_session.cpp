@@ -96,7 +96,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     request.method = text(request_.method_string());
     request.target = text(request_.target());
     request.host = text(request_[http::field::host]);
-    // HTTP/1.0 knows no Host. Browsers always send it, so that their name servers trick nobody.
+    // Proxies that speak HTTP/1.0 may send none. Browsers do, so that DNS rebinding is refused all the same.
     if (request_.version() < 11 && request_.count(http::field::host) == 0) request.host = "localhost";
     completeHandshake(request_);
     request.origin = text(request_[http::field::origin]);

@@ -1,24 +1,17 @@
 #include "web/server/public_url.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "web/server/target.hpp"
 
 namespace swiftlet::web {
 namespace {
 
 constexpr const char* kPublicExample = "https://field.example/swiftlet/";
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 /// "https://field.example/swiftlet/" in its three parts.
 struct Parts {
@@ -33,7 +26,7 @@ Parts partsOf(std::string_view text) {
   if (mark == std::string_view::npos) return {"", text, ""};
   const std::string_view behind = text.substr(mark + kMark.size());
   const std::size_t end = std::min(behind.find_first_of("/?#"), behind.size());
-  return {lower(text.substr(0, mark)), behind.substr(0, end), behind.substr(end)};
+  return {common::lowerCase(text.substr(0, mark)), behind.substr(0, end), behind.substr(end)};
 }
 
 std::optional<Origin> originOf(const Parts& parts) {
@@ -49,8 +42,9 @@ std::optional<Origin> originOf(const Parts& parts) {
 void checkScheme(const std::string& text, const Parts& parts) {
   if (portOf(parts.scheme) != 0) return;
   if (parts.scheme.empty()) {
-    const std::size_t host = lower(text).starts_with("http") ? text.find_first_not_of(":/", text.find_first_of(":/"))
-                                                             : text.find_first_not_of('/');
+    const std::string word = common::lowerCase(text.substr(0, text.find_first_of(":/")));
+    const bool is_scheme = word == "http" || word == "https";
+    const std::size_t host = is_scheme ? text.find_first_not_of(":/", word.size()) : text.find_first_not_of('/');
     fail(text, "does not say whether it is http or https",
          host == std::string::npos ? fmt::format("write an address such as {}", kPublicExample)
                                    : fmt::format("write http://{0} or https://{0}", text.substr(host)));

@@ -13,7 +13,7 @@ struct Request {
   std::string authorization;
   std::string body;
   bool wants_websocket = false;
-  std::string token = {};  ///< The header X-Swiftlet-Token: a proxy may use the other one for its own password.
+  std::string token = {};  ///< The header X-Swiftlet-Token: a proxy may want Authorization for itself.
 };
 
 }  // namespace swiftlet::web

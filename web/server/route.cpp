@@ -81,27 +81,30 @@ void checkOrigin(const Request& request, const Policy& policy) {
   refuse(403, fmt::format("a page of {} may not do this{}", shown(request.origin), howToAllow(origin)));
 }
 
-/// Empty if the request shows none.
-std::string_view shownToken(const Request& request, const Target& target) {
+/// The texts that may be the operator's token. A proxy may put a token of its own into Authorization, and a page that
+/// was opened by an old link shows that in its address.
+std::array<std::string_view, 3> shownTokens(const Request& request, const Target& target) {
   constexpr std::string_view kBearer = "Bearer ";
-  if (request.authorization.compare(0, kBearer.size(), kBearer) == 0)
-    return std::string_view(request.authorization).substr(kBearer.size());
-  if (!request.token.empty()) return request.token;
-  const auto it = target.query.find("token");
-  return it == target.query.end() ? std::string_view() : std::string_view(it->second);
+  std::array<std::string_view, 3> shown{request.token};
+  const std::string_view authorization = request.authorization;
+  if (authorization.starts_with(kBearer)) shown[1] = authorization.substr(kBearer.size());
+  if (const auto it = target.query.find("token"); it != target.query.end()) shown[2] = it->second;
+  return shown;
 }
 
-bool isToken(std::string_view given, const Policy& policy) {
-  return !policy.token.empty() && sameSecret(given, policy.token);
+bool showsToken(const Request& request, const Target& target, const Policy& policy) {
+  const auto shown = shownTokens(request, target);
+  return !policy.token.empty() && std::any_of(shown.begin(), shown.end(),
+                                              [&](std::string_view given) { return sameSecret(given, policy.token); });
 }
 
 void checkToken(const Request& request, const Target& target, const Policy& policy) {
-  const std::string_view given = shownToken(request, target);
-  if (given.empty())
+  if (showsToken(request, target, policy)) return;
+  const auto shown = shownTokens(request, target);
+  if (std::all_of(shown.begin(), shown.end(), [](std::string_view given) { return given.empty(); }))
     refuse(401,
            "this needs the operator's token: open the link printed at start, or send `Authorization: Bearer TOKEN`");
-  if (!isToken(given, policy))
-    refuse(401, "the operator's token is wrong: open the link printed at this program's start");
+  refuse(401, "the operator's token is wrong: open the link printed at this program's start");
 }
 
 /// The number of the vehicle that is meant; the first where none is named.
@@ -303,7 +306,7 @@ Request inOriginForm(Request request) {
 bool hasToken(const Request& request, const Policy& policy) {
   const Request asked = inOriginForm(request);
   const auto target = parseTarget(asked.target);
-  return target && isToken(shownToken(asked, *target), policy);
+  return target && showsToken(asked, *target, policy);
 }
 
 Action route(const Request& request, const Policy& policy) {

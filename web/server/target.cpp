@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lower_case.hpp"
 #include "web/server/refusal.hpp"
 
 namespace swiftlet::web {
@@ -49,8 +50,6 @@ bool climbs(std::string_view path) {
   return false;
 }
 
-char lowerCase(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
 std::string malformed(std::string_view target) { return fmt::format("the address {} is malformed", shown(target)); }
 
 /// Of ":8080"; 0 where none is named, nothing where it is malformed.
@@ -67,9 +66,7 @@ std::optional<std::string> nameIn(std::string_view text) {
   if (text.ends_with('.')) text.remove_suffix(1);
   const auto sound = [](unsigned char c) { return std::isalnum(c) || c == '.' || c == '-' || c == '_'; };
   if (text.empty() || !std::all_of(text.begin(), text.end(), sound)) return std::nullopt;
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), lowerCase);
-  return lower;
+  return common::lowerCase(text);
 }
 
 /// Of an IPv6 address, so that equal ones compare as equal.
@@ -113,10 +110,7 @@ tl::expected<Target, std::string> parseTarget(std::string_view target) {
 
 std::optional<AbsoluteTarget> absoluteTarget(std::string_view target) {
   constexpr std::string_view kScheme = "http://";
-  const std::string_view begin = target.substr(0, kScheme.size());
-  if (!std::equal(begin.begin(), begin.end(), kScheme.begin(), kScheme.end(),
-                  [](char given, char wanted) { return lowerCase(given) == wanted; }))
-    return std::nullopt;
+  if (common::lowerCase(target.substr(0, kScheme.size())) != kScheme) return std::nullopt;
   target.remove_prefix(kScheme.size());
   const std::string_view authority = target.substr(0, target.find_first_of("/?"));
   target.remove_prefix(authority.size());

@@ -15,6 +15,7 @@
 
 #include "common/check.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "web/server/assets.hpp"
 #include "web/server/core.hpp"
 #include "web/server/http_session.hpp"
@@ -52,20 +53,14 @@ boost::asio::ip::address addressOf(const std::string& text) {
   return address;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 Policy policyOf(const WebServer::Options& options, const std::vector<WebServer::Sources>& sources) {
   Policy policy;
   policy.token = options.token;
   for (const std::string& url : options.public_urls) policy.public_urls.push_back(parsePublicUrl(url));
   std::array<char, 256> name{};
   if (gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0') {
-    policy.hosts.push_back(lower(name.data()));
-    policy.hosts.push_back(lower(name.data()) + ".local");
+    policy.hosts.push_back(common::lowerCase(name.data()));
+    policy.hosts.push_back(common::lowerCase(name.data()) + ".local");
   }
   for (const Asset& asset : assets()) policy.files.emplace_back(asset.name);
   for (const WebServer::Sources& vehicle : sources)

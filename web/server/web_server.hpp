@@ -20,10 +20,10 @@
 //   POST /api/mission             starts one, or another in its place: {"file": "...", "parameters": {"KEY": "VALUE"}}
 //   POST /api/stop                the mission lets go; the vehicle holds until one is started, or it lands
 //   GET  /api/token               200 if the token shown is the operator's, else 401
-//   POST /api/goal|hold|resume|home|land|keep_out|clear_keep_out|go_on    with the token: `Authorization: Bearer
-//   TOKEN`,
-//                                 X-Swiftlet-Token: TOKEN or ?token=TOKEN;
-//                                 goal: {"x_m": 1.0, "y_m": 2.0}; keep_out: see docs/tutorials/operator.md
+//   POST /api/goal|hold|resume|home|land|keep_out|clear_keep_out|go_on
+//                                 with the token: `Authorization: Bearer TOKEN`, `X-Swiftlet-Token: TOKEN` or
+//                                 ?token=TOKEN; goal: {"x_m": 1.0, "y_m": 2.0}; keep_out: see
+//                                 docs/tutorials/operator.md
 //
 // Where several vehicles fly, ?vehicle=NAME says which one is meant, everywhere; without it the first.
 //
