@@ -8,8 +8,12 @@
 namespace swiftlet::common {
 
 /// Throws InputError for a folder, a pipe or a device, and for a pointer of Git LFS or git-annex that stands for the
-/// file in a clone. A pipe or a device could block a reader forever. What cannot be opened passes.
+/// file in a clone: a small text, or a link that leads to nothing. A pipe or a device could block a reader forever.
+/// What cannot be opened otherwise passes.
 void requireFile(const std::filesystem::path& file);
+
+/// Throws InputError for a link that leads to nothing; everything else passes.
+void refuseDanglingLink(const std::filesystem::path& file);
 
 /// The default limit for the size of a file that is read into memory.
 inline constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
