@@ -33,7 +33,8 @@ namespace fs = std::filesystem;
 constexpr double kUsualResolution_m = 0.05;
 /// By how much a point may be moved where its coordinates are rounded to single precision.
 constexpr double kMostRounding_m = 0.001;
-constexpr double kTallest_m = 100.0;
+/// Buildings are lower and shorter than these, but a room in centimetres is not lower, nor one in millimetres shorter.
+constexpr double kTallest_m = 100.0, kLongest_m = 1000.0;
 /// Points that an octree may become. A few bytes of a file can be a cube of billions of voxels.
 constexpr std::size_t kMostPoints = 50'000'000;
 
@@ -78,14 +79,14 @@ void showNotes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) show(fmt::format("note: {}\n", note));
 }
 
-/// Says how many points are left out, with the hint if most are. Throws InputError if none is left.
+/// Says how many points are left out, with the hint if a good share is. Throws InputError if none is left.
 void sayLeftOut(const ConvertOptions& options, std::size_t left_out, std::size_t all, const std::string& where,
                 const std::string& hint) {
   if (left_out == 0) return;
   const std::string points = plural(all, "point", "points");
   if (left_out == all) refuseFile(options, fmt::format("all of its {} are {}", points, where), hint);
-  const bool most = left_out > all / 2 && !hint.empty();
-  showNotes({fmt::format("{} of {} left out: {}{}", left_out, points, where, most ? ": " + hint : "")});
+  const bool many = left_out > all / 10 && !hint.empty();
+  showNotes({fmt::format("{} of {} left out: {}{}", left_out, points, where, many ? ": " + hint : "")});
 }
 
 interfaces::CloudPlacement placementOf(const ConvertOptions& options) {
@@ -118,6 +119,7 @@ std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
   const interfaces::CloudPlacement placement = placementOf(options);
   interfaces::StoredCloud cloud = interfaces::readCloud(options.from, placement);
   showNotes(cloud.notes);
+  if (cloud.points.empty() && cloud.not_finite == 0) showNotes({fmt::format("{} holds no points", options.from)});
   sayLeftOut(options, cloud.not_finite, cloud.points.size() + cloud.not_finite, "without a finite position", "");
   if (cloud.rounding_m > kMostRounding_m)
     refuseFile(
@@ -129,14 +131,18 @@ std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
 
 constexpr const char* kUnitHint = "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres";
 
-/// Buildings are lower than kTallest_m, but a room in centimetres is not.
-void sayIfTall(const ConvertOptions& options, const std::vector<common::SurfacePoint>& points) {
-  const auto [lowest, highest] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.position_m.z() < b.position_m.z(); });
+void sayIfHuge(const ConvertOptions& options, const std::vector<common::SurfacePoint>& points) {
   if (options.scale || points.empty()) return;
-  const float height_m = highest->position_m.z() - lowest->position_m.z();
-  if (height_m > kTallest_m)
-    showNotes({fmt::format("the points reach over {:.0f} m of height: {}", height_m, kUnitHint)});
+  Eigen::Vector3f lowest = points.front().position_m, highest = lowest;
+  for (const common::SurfacePoint& point : points) {
+    lowest = lowest.cwiseMin(point.position_m);
+    highest = highest.cwiseMax(point.position_m);
+  }
+  const Eigen::Vector3f extent_m = highest - lowest;
+  if (extent_m.z() > kTallest_m)
+    showNotes({fmt::format("the points reach over {:.0f} m of height: {}", extent_m.z(), kUnitHint)});
+  else if (const float length_m = extent_m.head<2>().maxCoeff(); length_m > kLongest_m)
+    showNotes({fmt::format("the points reach over {:.0f} m: {}", length_m, kUnitHint)});
 }
 
 /// Octrees are written as OctoMap's OcTree, which has neither.
@@ -151,6 +157,7 @@ void sayWithoutColors(const std::vector<common::SurfacePoint>& points) {
 interfaces::StoredOctree readTree(const ConvertOptions& options) {
   interfaces::StoredOctree octree = interfaces::readOctree(options.from);
   showNotes(octree.notes);
+  if (mapping3d::occupiedCount(octree.map) == 0) showNotes({fmt::format("{} holds no occupied voxels", options.from)});
   return octree;
 }
 
@@ -169,9 +176,8 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
                fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
                            interfaces::kMostOctreeBlocks, resolution_m),
                fmt::format("give a greater --resolution; {}", kUnitHint));
-  if (voxels.left_out == 0)
-    sayIfTall(options, points);
-  else
+  if (voxels.left_out <= points.size() / 10) sayIfHuge(options, points);
+  if (voxels.left_out > 0)
     sayLeftOut(options, voxels.left_out, points.size(),
                fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
                            mapping3d::octreeReach_m(resolution_m)),
@@ -181,7 +187,11 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
 }
 
 std::vector<common::SurfacePoint> pointsOf(const ConvertOptions& options, Kind from) {
-  if (from == Kind::kCloud) return readPoints(options);
+  if (from == Kind::kCloud) {
+    std::vector<common::SurfacePoint> points = readPoints(options);
+    sayIfHuge(options, points);
+    return points;
+  }
   const interfaces::StoredOctree octree = readTree(options);
   const std::size_t occupied = mapping3d::occupiedCount(octree.map);
   if (occupied > kMostPoints)

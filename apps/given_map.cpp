@@ -1,5 +1,6 @@
 #include "apps/given_map.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,14 @@ std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
   return common::planar(*T_world_given);
 }
 
+/// What makes a map that cannot be used of a picture that probably can.
+std::string whyEmpty(const std::vector<common::Problem>& notes) {
+  const auto of_mode =
+      std::find_if(notes.begin(), notes.end(), [](const auto& note) { return note.element == "mode"; });
+  if (of_mode == notes.end()) return "are `negate` and the thresholds those of the picture?";
+  return of_mode->message + (of_mode->hint.empty() ? "" : ": " + of_mode->hint);
+}
+
 }  // namespace
 
 interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
@@ -48,8 +57,7 @@ interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
                         fmt::format("{} m a cell is too coarse: doors close in it", resolution_m),
                         fmt::format("give a map of at most {} m a cell; 0.05 m is usual", kCoarsest_m)});
   if (const std::string why = perception::Localizer::whyUnusable(stored.grid); !why.empty())
-    throw common::InputError(
-        common::Problem{stored.image_location, "image", why, "are `negate` and the thresholds those of the picture?"});
+    throw common::InputError(common::Problem{stored.image_location, "image", why, whyEmpty(stored.notes)});
   return stored;
 }
 

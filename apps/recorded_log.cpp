@@ -125,7 +125,8 @@ void RecordedLog::countStamp(common::Time stamp) {
 }
 
 std::string RecordedLog::stampNote() const {
-  return interfaces::stampStepNote(common::medianStep_s(first_stamps_, [](common::Time stamp) { return stamp; }));
+  const double step_s = common::medianStep_s(first_stamps_, [](common::Time stamp) { return stamp; });
+  return reader_->hasMicroseconds() ? interfaces::microsecondStepNote(step_s) : interfaces::stampStepNote(step_s);
 }
 
 void RecordedLog::countRanges(const common::LaserScan& scan) {

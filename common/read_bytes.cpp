@@ -26,26 +26,45 @@ struct Pointer {
   const char* keeper;
   const char* remedy;
 };
+constexpr const char* kAnnexRemedy = "run `git annex get` for it in its repository";
 constexpr std::array kPointers{
     Pointer{"version https://git-lfs.github.com/spec/", "Git LFS", "run `git lfs pull` in its repository"},
     Pointer{"version https://hawser.github.com/spec/", "Git LFS", "run `git lfs pull` in its repository"},
-    Pointer{"/annex/objects/", "git-annex", "run `git annex get` for it in its repository"},
+    Pointer{"/annex/objects/", "git-annex", kAnnexRemedy},
 };
 
+/// Where a link of git-annex leads. Systems without links have the same as a text.
+bool leadsIntoAnnex(std::string_view target) {
+  while (target.starts_with("../")) target.remove_prefix(3);
+  const std::string_view folder = target.substr(0, target.find("/annex/objects/"));
+  return folder.size() < target.size() && (folder == ".git" || folder.starts_with(".git/modules/")) &&
+         folder.find('\n') == std::string_view::npos;
+}
+
 std::optional<Problem> pointerInsteadOf(const std::filesystem::path& file) {
-  std::array<char, 64> first{};
+  std::array<char, 256> first{};
   std::ifstream stream(file, std::ios::binary);
   stream.read(first.data(), first.size());
   const std::string_view text(first.data(), static_cast<std::size_t>(stream.gcount()));
   for (const Pointer& pointer : kPointers)
     if (text.starts_with(pointer.begins_with))
       return problemWith(file, fmt::format("this is a pointer of {}, not the file", pointer.keeper), pointer.remedy);
+  if (leadsIntoAnnex(text)) return problemWith(file, "this is a pointer of git-annex, not the file", kAnnexRemedy);
   return std::nullopt;
 }
 
 }  // namespace
 
+std::optional<Problem> problemOfLink(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::filesystem::path target = std::filesystem::read_symlink(file, failure);
+  if (failure || std::filesystem::exists(file, failure) || failure) return std::nullopt;
+  return problemWith(file, fmt::format("is a link that leads to nothing: `{}`", target.string()),
+                     target.generic_string().find("/annex/objects/") == std::string::npos ? "" : kAnnexRemedy);
+}
+
 std::optional<Problem> problemOfFile(const std::filesystem::path& file) {
+  if (auto problem = problemOfLink(file)) return problem;
   std::error_code failure;
   const auto status = std::filesystem::status(file, failure);
   if (std::filesystem::is_directory(status)) return problemWith(file, "is a folder, a file was expected");

@@ -10,8 +10,11 @@
 
 namespace swiftlet::common {
 
+/// What is wrong with a link that leads to nothing; everything else passes.
+std::optional<Problem> problemOfLink(const std::filesystem::path& file);
 /// What is wrong with a folder, a pipe or a device, or with a pointer of Git LFS or git-annex that stands for the file
-/// in a clone. A pipe or a device could block a reader forever. What cannot be opened passes.
+/// in a clone: a small text, or a link that leads to nothing. A pipe or a device could block a reader forever. What
+/// cannot be opened otherwise passes.
 std::optional<Problem> problemOfFile(const std::filesystem::path& file);
 
 /// Throws InputError where problemOfFile() has one.

@@ -75,7 +75,9 @@ std::optional<fs::path> UriResolver::find(const std::string& uri, const fs::path
   if (isOnTheWeb(uri)) return std::nullopt;
   for (const auto& [folder, path] : placesOf(uri, used_in)) {
     std::error_code error;
-    if (fs::exists(folder / path, error)) return (folder / path).lexically_normal();
+    // A link that leads to nothing is the file that was meant, and its reader says so.
+    if (fs::exists(folder / path, error) || fs::is_symlink(folder / path, error))
+      return (folder / path).lexically_normal();
   }
   return std::nullopt;
 }

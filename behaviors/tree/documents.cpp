@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/version3.hpp"
@@ -27,8 +28,19 @@ std::optional<std::string> readFromDisk(const std::string& path, std::size_t lim
   return text;
 }
 
-/// What a clone has in place of a file that Git LFS keeps, until it is pulled.
-constexpr std::string_view kLfsPointer = "version https://git-lfs.github.com/spec/";
+/// What a clone has in place of a file that Git LFS or git-annex keeps, until it is brought: its message and remedy, or
+/// two empty texts.
+std::pair<std::string, std::string> pointerIn(std::string_view text) {
+  if (text.starts_with("version https://git-lfs.github.com/spec/") ||
+      text.starts_with("version https://hawser.github.com/spec/"))
+    return {"this is a pointer of Git LFS, not the file", "run `git lfs pull` in its repository"};
+  std::string_view target = text.substr(0, text.find('\n'));
+  while (target.starts_with("../")) target.remove_prefix(3);
+  if (target.starts_with("/annex/objects/") ||
+      (target.starts_with(".git/") && target.find("/annex/objects/") != std::string_view::npos))
+    return {"this is a pointer of git-annex, not the file", "run `git annex get` for it in its repository"};
+  return {};
+}
 
 std::string normalized(const fs::path& path) { return path.lexically_normal().generic_string(); }
 
@@ -100,9 +112,8 @@ void Documents::load(std::string text, const std::string& name) {
 bool Documents::add(std::string text, const std::string& path, const Document* from, const XmlElement* element) {
   const Location place = from == nullptr ? Location{path, 0, 0} : from->at(*element);
   const std::string tag = from == nullptr ? std::string() : "include";
-  if (text.starts_with(kLfsPointer)) {
-    problems_.add(
-        {{path, 0, 0}, {}, "this is a pointer of Git LFS, not the file", "run `git lfs pull` in its repository"});
+  if (auto [message, remedy] = pointerIn(text); !message.empty()) {
+    problems_.add({{path, 0, 0}, {}, std::move(message), std::move(remedy)});
     return false;
   }
   if (text.size() > options_.limits.file_bytes) {

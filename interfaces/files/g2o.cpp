@@ -26,6 +26,10 @@ const std::set<std::string, std::less<>> kUnusedTags = {"VERTEX_XY",
                                                         "EDGE_SE3_TRACKXYZ",
                                                         "EDGE_SE3_PRIOR",
                                                         "EDGE_SE3_OFFSET",
+                                                        "VERTEX_SE3:EXPMAP",
+                                                        "EDGE_SE3:EXPMAP",
+                                                        "VERTEX_SIM3:EXPMAP",
+                                                        "EDGE_SIM3:EXPMAP",
                                                         "PARAMS_SE2OFFSET",
                                                         "PARAMS_SE3OFFSET",
                                                         "PARAMS_CAMERACALIB",
@@ -134,7 +138,10 @@ class Reading {
       warning.message = fmt::format("unknown tag, {} left out", count);
       std::vector<std::string> used = {"FIX"};
       for (const auto& element : kElements) used.push_back(element.first);
-      warning.hint = common::didYouMean(tag, used);
+      // What follows the colon says how a motion is written: another way may be its inverse, and is no slip.
+      const std::size_t colon = tag.find(':');
+      if (colon == std::string::npos || common::nearestWord(tag.substr(colon), std::vector<std::string>{":QUAT"}))
+        warning.hint = common::didYouMean(tag, used);
     }
     return toString(warning);
   }

@@ -12,6 +12,16 @@ namespace swiftlet::interfaces {
 
 std::string toString(const LineFormat& format) { return fmt::format("`{}`", fmt::join(format.fields, " ")); }
 
+std::string commaHint(const std::vector<Word>& words) {
+  const std::string_view first = words.empty() ? "" : words.front().text;
+  if (const std::size_t comma = first.find(','); comma == std::string_view::npos || comma == 0) return "";
+  // EuRoC has nanoseconds, and w before x, y and z.
+  const bool nanoseconds = first.substr(0, first.find(',')).find('.') == std::string_view::npos;
+  return nanoseconds ? "the numbers are separated by commas; if this is of EuRoC, `evo_traj euroc FILE --save_as_tum` "
+                       "writes what was expected"
+                     : "the numbers are separated by commas: put spaces there, for instance by `tr ',' ' ' < FILE`";
+}
+
 bool nextWords(LineReader& reader, std::vector<Word>& words) {
   std::string_view line;
   while (reader.next(line)) {
@@ -23,10 +33,11 @@ bool nextWords(LineReader& reader, std::vector<Word>& words) {
 
 LineFields::LineFields(const LineReader& reader, const std::vector<Word>& words, const LineFormat& format)
     : reader_(reader), words_(words), format_(format) {
-  if (words.size() != format.fields.size())
-    throw problemAt(words.size() - 1, std::string(format.element),
-                    fmt::format("{} numbers instead of {}", words.size(), format.fields.size()),
-                    "expected " + toString(format));
+  if (words.size() == format.fields.size()) return;
+  const std::string commas = commaHint(words);
+  throw problemAt(words.size() - 1, std::string(format.element),
+                  fmt::format("{} numbers instead of {}", words.size(), format.fields.size()),
+                  "expected " + toString(format) + (commas.empty() ? "" : "; " + commas));
 }
 
 common::Time LineFields::stamp(std::size_t field) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct LineFormat {
 
 /// "`t x y z`", for messages.
 std::string toString(const LineFormat& format);
+
+/// "the numbers are separated by commas" with a remedy where the first word has one; empty otherwise.
+std::string commaHint(const std::vector<Word>& words);
 
 /// The words of the next line that is neither blank nor a comment (`#`); they are valid until the next call. False
 /// after the last line.

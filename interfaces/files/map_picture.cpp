@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "interfaces/files/bmp.hpp"
 
 namespace swiftlet::interfaces {
@@ -20,6 +21,25 @@ using common::InputError;
 using common::Problem;
 
 constexpr const char* kConvert = "convert it, for instance by ImageMagick's `convert FILE map.png`";
+
+constexpr const char* kGetAgain = "copy or download it again: it is not whole";
+constexpr const char* kGetFile = "download the file itself, where a site shows it there is a link `raw` or `download`";
+
+/// What a browser or a script saves when it is given the page that shows a picture, or that asks to log in.
+bool isWebPage(std::string_view bytes) {
+  const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+  const std::string start = common::lowerCase(bytes.substr(std::min(begin, bytes.size()), 16));
+  return start.starts_with("<!doctype") || start.starts_with("<html") || start.starts_with("<head");
+}
+
+/// Whether a decoder says that something is missing or changed, which no other program can mend. The texts of what is
+/// whole, and cannot be read here, are those of this repository.
+bool isDamage(std::string_view message) {
+  constexpr std::array<std::string_view, 8> kWholes = {"is compressed", "is larger",  "bits a pixel", "pixels large",
+                                                       "is not",        "no BMP has", "limit",        "memory"};
+  return std::none_of(kWholes.begin(), kWholes.end(),
+                      [&](std::string_view text) { return message.find(text) != std::string_view::npos; });
+}
 
 bool isNetpbm(std::string_view bytes) {
   constexpr std::array<std::string_view, 4> kMagics = {"P2", "P3", "P5", "P6"};
@@ -159,12 +179,18 @@ MapPicture parseNetpbm(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 MapPicture parsePicture(std::string_view bytes, const std::string& name) {
+  if (bytes.empty()) throw InputError(Problem{{name}, "", "is empty, a picture was expected", kGetAgain});
+  if (isWebPage(bytes)) throw InputError(Problem{{name}, "", "is a page of the web, a picture was expected", kGetFile});
   if (isNetpbm(bytes)) return parseNetpbm(bytes, name);
   if (!isBmp(bytes) && !isPngOrJpeg(bytes))
     throw InputError(
         Problem{{name}, "", "is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG", kConvert});
   auto image = isBmp(bytes) ? decodeBmp(bytes) : common::decodeGrey(bytes);
-  if (!image) throw InputError(Problem{{name}, "", std::move(image.error()), kConvert});
+  if (!image) {
+    const bool damaged = isDamage(image.error());
+    throw InputError(
+        Problem{{name}, "", (damaged ? "is damaged: " : "") + image.error(), damaged ? kGetAgain : kConvert});
+  }
   return {std::move(*image)};
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/lower_case.hpp"
+#include "common/read_bytes.hpp"
 #include "interfaces/files/map_picture.hpp"
 #include "interfaces/files/text_file.hpp"
 
@@ -69,6 +70,8 @@ FoundPicture findPicture(const fs::path& yaml_file, const std::string& named, co
   std::error_code failure, ignored;
   if (fs::exists(there, failure)) return {there, {}};
   if (fs::exists(meant, ignored)) return {meant, {}};
+  for (const fs::path& link : {there, meant, folder / name})
+    if (auto problem = common::problemOfLink(link)) throw common::InputError(*std::move(problem));
   if (!name.empty() && fs::is_regular_file(folder / name, ignored))
     return {folder / name,
             Problem{location, "image",

@@ -113,10 +113,18 @@ occupancy::Cell cellOfProbability(double probability) {
 
 /// What a pixel of the modes trinary and scale is: thresholds are inclusive, as in nav2. In mode trinary the brightness
 /// of unknown cells is that whatever the thresholds say: map_saver of ROS 2 writes a free_thresh of 0.25 beside it, by
-/// which all that was never seen would be free.
+/// which all that was never seen would be free. So it is in mode scale if no pixel is transparent: then nothing else
+/// could say unknown.
 class PixelRule {
  public:
-  explicit PixelRule(const MapYaml& yaml) : yaml_(yaml), mode_(yaml.mode()), is_negated_(yaml.isNegated()) {}
+  PixelRule(const MapYaml& yaml, const common::GreyImage& image)
+      : yaml_(yaml),
+        mode_(yaml.mode()),
+        is_negated_(yaml.isNegated()),
+        grey_is_unknown_(
+            mode_ == Mode::kTrinary ||
+            (mode_ == Mode::kScale && std::all_of(image.opacity.begin(), image.opacity.end(),
+                                                  [](std::uint8_t opacity) { return opacity == kOpaque; }))) {}
 
   occupancy::Cell cellOf(std::uint8_t pixel, std::uint8_t opacity) const {
     if (mode_ == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
@@ -130,12 +138,14 @@ class PixelRule {
     return cellOfProbability((occupied - yaml_.free_thresh) / (yaml_.occupied_thresh - yaml_.free_thresh));
   }
 
-  /// Whether the thresholds say of the brightness of unknown cells that it is free.
-  bool unknownWouldBeFree() const { return (255 - kUnknown) / 255.0 <= yaml_.free_thresh; }
-  /// Whether it has, in mode trinary, the brightness of unknown cells, as closely as other greatest values than 255
-  /// give it.
+  /// Whether the thresholds say of the brightness of unknown cells that it is free, or in mode scale nearly so.
+  bool unknownWouldBeFree() const {
+    return (255 - kUnknown) / 255.0 <= (mode_ == Mode::kScale ? yaml_.occupied_thresh : yaml_.free_thresh);
+  }
+  /// Whether it has the brightness of unknown cells, where that means unknown, as closely as other greatest values than
+  /// 255 give it.
   bool saysUnknown(std::uint8_t pixel) const {
-    return mode_ == Mode::kTrinary && std::abs(brightnessOf(pixel) - kUnknown) <= 1;
+    return grey_is_unknown_ && std::abs(brightnessOf(pixel) - kUnknown) <= 1;
   }
 
  private:
@@ -147,7 +157,22 @@ class PixelRule {
   const MapYaml& yaml_;
   Mode mode_;
   bool is_negated_;
+  bool grey_is_unknown_;
 };
+
+/// Of mode raw, where more than 100 percent is unknown, for which map_saver writes 255: the picture of another mode?
+void noteRaw(const MapYaml& yaml, const common::GreyImage& image, std::vector<Problem>& notes) {
+  if (yaml.mode() != Mode::kRaw) return;
+  const auto beyond = std::count_if(image.brightness.begin(), image.brightness.end(),
+                                    [](std::uint8_t pixel) { return pixel > 100 && pixel < 255; });
+  if (beyond > 0)
+    notes.push_back({{},
+                     "mode",
+                     fmt::format("in mode raw a pixel is the percentage of being occupied, and {} {} from 101 to 254, "
+                                 "taken as unknown",
+                                 beyond, beyond == 1 ? "is" : "are"),
+                     "write `mode: trinary` if black is occupied and white is free"});
+}
 
 /// What is odd about the values of the YAML and the picture. The element is the key, without a location.
 std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
@@ -163,7 +188,8 @@ std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
                      "origin",
                      fmt::format("a yaw of {:g} rad is more than a whole turn", yaw),
                      fmt::format("if these are degrees, write {:.6f}", yaw * common::kRadPerDeg)});
-  const PixelRule rule(yaml);
+  noteRaw(yaml, picture.image, notes);
+  const PixelRule rule(yaml, picture.image);
   const auto& pixels = picture.image.brightness;
   const auto unknown =
       !rule.unknownWouldBeFree()
@@ -171,16 +197,17 @@ std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
           : std::count_if(pixels.begin(), pixels.end(), [&](std::uint8_t pixel) { return rule.saysUnknown(pixel); });
   if (unknown > 0)
     notes.push_back({{},
-                     "free_thresh",
-                     fmt::format("{:g} would make {} free that map_saver writes for unknown; taken as unknown",
-                                 yaml.free_thresh, counted(unknown, "pixel")),
+                     yaml.mode() == Mode::kScale ? "mode" : "free_thresh",
+                     fmt::format("{} would make {} free that map_saver writes for unknown; taken as unknown",
+                                 yaml.mode() == Mode::kScale ? "scale" : fmt::format("{:g}", yaml.free_thresh),
+                                 counted(unknown, "pixel")),
                      ""});
   return notes;
 }
 
 /// The grid of the picture. Its cells are shifted by whole cells as far as the origin asks.
 StoredMap place(const common::GreyImage& image, const MapYaml& yaml) {
-  const PixelRule rule(yaml);
+  const PixelRule rule(yaml, image);
   StoredMap map{.grid = common::makeOccupancyGrid(yaml.resolution_m),
                 .T_map_grid = {yaml.origin[0], yaml.origin[1], yaml.origin[2]}};
   common::CellIndex corner;

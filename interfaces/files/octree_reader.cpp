@@ -83,15 +83,34 @@ class OctreeReader {
     return bytes_.substr(begin, end - begin);
   }
 
+  /// Files before OctoMap 1.0 have three numbers before the tree: its kind, which is 3, the resolution and its nodes.
+  bool readNumbersOnly() {
+    constexpr std::string_view kKind("\3\0\0\0", 4);
+    if (!bytes_.starts_with(kKind)) return false;
+    place_ = kKind.size();
+    const std::string_view resolution = take(sizeof resolution_m_), nodes = take(4);
+    std::memcpy(&resolution_m_, resolution.data(), resolution.size());
+    std::uint32_t stated = 0;
+    std::memcpy(&stated, nodes.data(), nodes.size());
+    stated_nodes_ = stated;
+    format_ = OctreeFormat::kBinary;
+    return true;
+  }
+
   void readHeader() {
+    if (!readNumbersOnly()) readLines();
+    if (!(resolution_m_ >= 1e-3 && resolution_m_ <= 1e3)) fail("the header has no resolution between 0.001 and 1000 m");
+  }
+
+  void readLines() {
+    if (!bytes_.starts_with('#')) refuseStart(bytes_.substr(0, bytes_.find_first_of("\r\n")));
     const std::string_view magic = line();
     if (magic.starts_with(octree::kBinaryMagic))
       format_ = OctreeFormat::kBinary;
     else if (magic.starts_with(octree::kLogOddsMagic))
       format_ = OctreeFormat::kLogOdds;
     else
-      fail(fmt::format("begins with `{}`", shown(magic)),
-           fmt::format("an octree of OctoMap begins with `{}` or `{}`", octree::kBinaryMagic, octree::kLogOddsMagic));
+      refuseStart(magic);
     std::string_view id = kTrees[0].first;
     for (std::string_view key = word(); key != "data"; key = word()) {
       if (key == "id")
@@ -105,7 +124,12 @@ class OctreeReader {
     }
     line();
     setKind(id);
-    if (!(resolution_m_ >= 1e-3 && resolution_m_ <= 1e3)) fail("the header has no resolution between 0.001 and 1000 m");
+  }
+
+  [[noreturn]] void refuseStart(std::string_view start) const {
+    if (bytes_.empty()) fail("the file is empty");
+    fail(fmt::format("begins with `{}`", shown(start)),
+         fmt::format("an octree of OctoMap begins with `{}` or `{}`", octree::kBinaryMagic, octree::kLogOddsMagic));
   }
 
   /// In a .bt file all kinds of trees are alike.

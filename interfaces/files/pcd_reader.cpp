@@ -18,11 +18,20 @@ namespace {
 
 using namespace point_table;
 
-/// A field holds `count` numbers of one type, the first of which counts.
+/// A field holds `count` numbers of one type, the first of which counts, except that `rgb` may be three channels.
 struct Field {
   Column column;
   std::size_t count = 1;
   std::size_t bytes() const { return count * bytesOf(column.type); }
+  bool isChannels() const { return column.role == Role::kPackedRgb && count >= 3; }
+
+  /// What the number of this index is for.
+  Column at(std::size_t index) const {
+    if (!isChannels()) return {index == 0 ? column.role : Role::kOther, column.type};
+    return {index < 3 ? static_cast<Role>(static_cast<std::size_t>(Role::kRed) + index) : Role::kOther, column.type};
+  }
+  /// Takes the numbers of this field from a binary file.
+  void setFrom(const char* bytes, Builder& builder) const;
 };
 
 struct PcdHeader {
@@ -125,7 +134,7 @@ class HeaderReader {
       Field field{{roles[i], pcdScalar(cursor_, types_.empty() ? "F" : types_[i], bytes)}, 1};
       if (!counts_.empty()) field.count = count(cursor_, counts_[i]);
       if (field.count == 0 || field.count > 65536) cursor_.fail(fmt::format("a field has {} values", field.count));
-      if (binary) field.column = field.column.inBinary();
+      if (binary && !field.isChannels()) field.column = field.column.inBinary();
       fields.push_back(field);
     }
     builder_.note(leftOutColumns(names_, roles));
@@ -150,8 +159,7 @@ std::size_t pointCount(const Cursor& cursor, const PcdHeader& header, std::size_
     builder.note(fmt::format("{}: the file has {}", contradiction, rows));
     points = rows;
   }
-  if (rows > points)
-    builder.note(fmt::format("points left out: {} that follow the {} of the header", rows - points, points));
+  builder.noteSurplus(rows - std::min(rows, points), points);
   return points;
 }
 
@@ -184,15 +192,17 @@ tl::expected<std::string, std::string> unpacked(std::string_view packed, std::si
 
 constexpr bool kSwapped = std::endian::native != std::endian::little;
 
+void Field::setFrom(const char* bytes, Builder& builder) const {
+  for (std::size_t i = 0; i < (isChannels() ? count : 1); ++i)
+    builder.set(at(i), valueOf(bytes + i * bytesOf(column.type), column.type, kSwapped));
+}
+
 void readText(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const std::size_t points = pointCount(cursor, header, cursor.rowsLeft(), builder);
   for (std::size_t row = 0; row < points; ++row) {
     cursor.beginRow();
     for (const Field& field : header.fields)
-      for (std::size_t i = 0; i < field.count; ++i) {
-        const double value = cursor.number();
-        if (i == 0) builder.set(field.column, value);
-      }
+      for (std::size_t i = 0; i < field.count; ++i) builder.set(field.at(i), cursor.number());
     cursor.endRow();
     builder.finish();
   }
@@ -204,7 +214,7 @@ void readBinary(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   for (std::size_t row = 0; row < points; ++row) {
     const char* at = cursor.take(row_bytes).data();
     for (const Field& field : header.fields) {
-      builder.set(field.column, valueOf(at, field.column.type, kSwapped));
+      field.setFrom(at, builder);
       at += field.bytes();
     }
     builder.finish();
@@ -228,7 +238,7 @@ void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   for (std::size_t row = 0; row < points; ++row) {
     std::size_t column = 0;
     for (const Field& field : header.fields) {
-      builder.set(field.column, valueOf(&(*bytes)[column + row * field.bytes()], field.column.type, kSwapped));
+      field.setFrom(&(*bytes)[column + row * field.bytes()], builder);
       column += points * field.bytes();
     }
     builder.finish();

@@ -167,6 +167,19 @@ void noteOtherElements(const PlyHeader& header, Builder& builder) {
       builder.note(fmt::format("elements left out: {} of `{}`", element.count, common::printable(element.name)));
 }
 
+/// Whether no element with a row follows.
+bool isLast(const PlyHeader& header, const Element& element) {
+  return std::all_of(header.elements.begin(), header.elements.end(),
+                     [&](const Element& other) { return &other <= &element || other.count == 0; });
+}
+
+/// The points have been read, and `bytes_before` were left before.
+void noteSurplus(const Cursor& cursor, bool text, const Element& points, std::size_t bytes_before, Builder& builder) {
+  if (points.count == 0) return;
+  const std::size_t row_bytes = std::max<std::size_t>(1, (bytes_before - cursor.left()) / points.count);
+  builder.noteSurplus(text ? cursor.rowsLeft() : cursor.left() / row_bytes, points.count);
+}
+
 }  // namespace
 
 StoredCloud parsePly(std::string_view bytes, const std::string& name, const CloudPlacement& placement) {
@@ -177,7 +190,10 @@ StoredCloud parsePly(std::string_view bytes, const std::string& name, const Clou
   for (Element& element : header.elements) {
     const bool points = isNamed(element, "vertex");
     if (points) assignRoles(cursor, element, header.encoding != Encoding::kText, builder);
+    const std::size_t before = cursor.left();
     reader.read(element, points ? &builder : nullptr);
+    if (points && isLast(header, element))
+      noteSurplus(cursor, header.encoding == Encoding::kText, element, before, builder);
     // What follows the points is of no use here.
     if (points) {
       noteOtherElements(header, builder);

@@ -100,6 +100,12 @@ Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& 
 
 StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format,
                        const CloudPlacement& placement) {
+  // Text of a system whose lines end so alone.
+  if (bytes.find('\n') == std::string_view::npos && bytes.find("ascii") < bytes.find('\r', bytes.find("ascii"))) {
+    std::string lines(bytes);
+    std::replace(lines.begin(), lines.end(), '\r', '\n');
+    return format == CloudFormat::kPly ? parsePly(lines, name, placement) : parsePcd(lines, name, placement);
+  }
   return format == CloudFormat::kPly ? parsePly(bytes, name, placement) : parsePcd(bytes, name, placement);
 }
 

@@ -245,16 +245,21 @@ void Builder::note(const std::string& text) {
   if (!text.empty()) cloud_.notes.push_back(text);
 }
 
-void Builder::setPackedColor(double value, Scalar type) {
+void Builder::noteSurplus(std::size_t surplus, std::size_t promised) {
+  if (surplus > 0) note(fmt::format("points left out: {} that follow the {} of the header", surplus, promised));
+}
+
+bool Builder::setPackedColor(double value, Scalar type) {
   // PCL keeps 0xAARRGGBB in the bits of a float, or as a whole number with or without a sign. Text may have the whole
   // number although the column's type is a float: as the bits of one it would be far from 0 only with an odd alpha.
   const bool floating = type == Scalar::kFloat || type == Scalar::kDouble;
   const bool whole = value > -2147483649.0 && value < 4294967296.0 && (!floating || std::abs(value) >= 1.0);
-  if (std::isnan(value) || bytesOf(type) < 4 || (!whole && !floating)) return;
+  if (std::isnan(value) || bytesOf(type) < 4 || (!whole && !floating)) return false;
   const std::uint32_t bits = whole ? static_cast<std::uint32_t>(static_cast<std::int64_t>(value))
                                    : std::bit_cast<std::uint32_t>(static_cast<float>(value));
   next_.rgb = {static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
                static_cast<std::uint8_t>(bits)};
+  return true;
 }
 
 void Builder::set(const Column& column, double value) {
@@ -279,7 +284,7 @@ void Builder::set(const Column& column, double value) {
           static_cast<float>(column.type == Scalar::kInt8 && value < 0.0 ? value + 256.0 : value);
       return;
     case Role::kPackedRgb:
-      setPackedColor(value, column.type);
+      is_color_missing_ = !setPackedColor(value, column.type);
       return;
     case Role::kOther:
       return;
@@ -308,15 +313,20 @@ void Builder::finish() {
   if (next_.position_m.allFinite()) {
     cloud_.points.push_back(next_);
     if (color_type_) colors_.push_back(color_);
+    if (is_color_missing_) ++no_colors_;
   } else {
     ++cloud_.not_finite;
   }
   next_ = {};
   next_.rgb = common::kUnknownColor;
   color_ = {};
+  is_color_missing_ = false;
 }
 
 StoredCloud Builder::take() {
+  if (no_colors_ > 0)
+    note(fmt::format("colours left out: those of {} points are no packed red, green and blue; a binary file keeps them",
+                     no_colors_));
   if (color_type_) note(setColors(colors_, *color_type_, cloud_.points));
   return std::move(cloud_);
 }

@@ -90,16 +90,21 @@ class Builder {
   void finish();
   /// Notes that are empty are none.
   void note(const std::string& text);
+  /// Notes how many points the file has behind those that its header promises.
+  void noteSurplus(std::size_t surplus, std::size_t promised);
   StoredCloud take();
 
  private:
   void place();
-  void setPackedColor(double value, Scalar type);
+  /// False if the value is no colour.
+  bool setPackedColor(double value, Scalar type);
 
   CloudPlacement placement_;
   StoredCloud cloud_;
   std::vector<RawColor> colors_;  ///< Of each point, if the file has columns of red, green and blue.
   std::optional<ColorType> color_type_;
+  std::size_t no_colors_ = 0;  ///< Points with a position, and with something else than a colour in its column.
+  bool is_color_missing_ = false;
 
   Eigen::Vector3d position_file_ = Eigen::Vector3d::Zero();
   RawColor color_{};

@@ -41,4 +41,15 @@ std::string stampStepNote(double median_step_s) {
   return "";
 }
 
+std::string microsecondStepNote(double median_step_s) {
+  constexpr double kLeast_s = 5e-4, kMost_s = 10.0;  // No laser turns as fast, or as slowly.
+  if (median_step_s <= 0.0 || (median_step_s >= kLeast_s && median_step_s < kMost_s)) return "";
+  const double step = 1e6 * median_step_s;
+  const char* unit = step >= 1e6 ? "nanoseconds? Then divide them by 1e3"
+                     : step > 5  ? "milliseconds? Then multiply them by 1e3"
+                                 : "seconds? Then multiply them by 1e6";
+  return fmt::format("the stamps are {:g} apart in the median, where this format has microseconds: are they {}", step,
+                     unit);
+}
+
 }  // namespace swiftlet::interfaces

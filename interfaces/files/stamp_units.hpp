@@ -15,4 +15,7 @@ std::string stampUnitHint(std::string_view word);
 /// milliseconds? Divide them by 1e3". Empty for the steps of sensors in seconds.
 std::string stampStepNote(double median_step_s);
 
+/// The same of a format whose stamps are microseconds, where steps may be too small, too: seconds or milliseconds.
+std::string microsecondStepNote(double median_step_s);
+
 }  // namespace swiftlet::interfaces

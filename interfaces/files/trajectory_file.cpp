@@ -33,8 +33,11 @@ std::vector<common::StampedPose> readPoses(const std::filesystem::path& file) {
   if (!nextWords(reader, words)) throw reader.problemAt(0, "", "holds no poses");
   if (words.size() == tumFormat().fields.size()) return readTum(file, StampOrder::kAny);
   if (words.size() == referenceFormat().fields.size()) return readReferencePoses(LineReader(file));
-  throw reader.problemAt(words.back().column, "pose", fmt::format("{} numbers", words.size()),
-                         fmt::format("expected {} or {}", toString(tumFormat()), toString(referenceFormat())));
+  const std::string commas = commaHint(words);
+  throw reader.problemAt(words.back().column, "pose",
+                         commas.empty() ? fmt::format("{} numbers", words.size()) : "no numbers between blanks",
+                         fmt::format("expected {} or {}{}{}", toString(tumFormat()), toString(referenceFormat()),
+                                     commas.empty() ? "" : "; ", commas));
 }
 
 std::vector<common::StampedPose> parseReferencePoses(std::string_view text, const std::string& name) {

@@ -84,6 +84,7 @@ class BreezyFormat final : public LogFormat {
   }
 
   std::string name() const override { return "BreezySLAM .dat"; }
+  bool hasMicroseconds() const override { return true; }
 
  private:
   static double within(LogFields& fields, const char* name, double limit) {

@@ -49,6 +49,8 @@ class LaserLog {
   virtual double progress() const = 0;
   /// The format that was recognized, for people: "rosbag, /scan".
   virtual std::string format() const = 0;
+  /// Whether its stamps are microseconds, and not seconds.
+  virtual bool hasMicroseconds() const { return false; }
   /// Oddities of the log so far, and how they were handled, for people.
   virtual std::vector<std::string> notes() const = 0;
 };

@@ -37,6 +37,7 @@ class TextLog final : public CountedLog {
     return file_bytes_ > 0.0 ? std::min(1.0, static_cast<double>(reader_.packedBytesRead()) / file_bytes_) : 1.0;
   }
   std::string format() const override { return format_->name(); }
+  bool hasMicroseconds() const override { return format_->hasMicroseconds(); }
   std::vector<std::string> notes() const override { return format_->notes(); }
 
  private:

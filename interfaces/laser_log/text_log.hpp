@@ -23,6 +23,7 @@ class LogFormat {
   /// The scan of the line; nothing if it has none.
   virtual tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) = 0;
   virtual std::string name() const = 0;
+  virtual bool hasMicroseconds() const { return false; }
   /// Oddities of the lines so far.
   virtual std::vector<std::string> notes() const { return {}; }
 };

@@ -112,6 +112,57 @@ TEST(ForeignColours, OfPcdArePackedOrSeparate) {
   EXPECT_EQ(colorOf("intensity", "4", "F", "0.7"), common::kUnknownColor);
 }
 
+TEST(ForeignColours, OfAFieldWithThreeNumbersAreChannels) {
+  const auto head = [](const std::string& size, const std::string& type, int count, const std::string& data) {
+    return fmt::format("FIELDS x y z rgb\nSIZE 4 4 4 {}\nTYPE F F F {}\nCOUNT 1 1 1 {}\nPOINTS 1\nDATA {}\n", size,
+                       type, count, data);
+  };
+  EXPECT_EQ(pcd(head("4", "F", 3, "ascii") + "1 2 3 1 0.5 0\n").points.at(0).rgb, (Rgb{255, 128, 0}));
+  EXPECT_EQ(pcd(head("1", "U", 3, "ascii") + "1 2 3 255 128 0\n").points.at(0).rgb, (Rgb{255, 128, 0}));
+  EXPECT_EQ(pcd(head("1", "U", 4, "ascii") + "1 2 3 255 128 0 9\n").points.at(0).rgb, (Rgb{255, 128, 0}));
+  const std::string row = std::string(12, '\0') + "\xff\x80" + std::string(1, '\0'), sizes("\x0f\0\0\0\x0f\0\0\0", 8);
+  EXPECT_EQ(pcd(head("1", "U", 3, "binary") + row).points.at(0).rgb, (Rgb{255, 128, 0}));
+  EXPECT_EQ(pcd(head("1", "U", 3, "binary_compressed") + sizes + row).points.at(0).rgb, (Rgb{255, 128, 0}));
+}
+
+TEST(ForeignColours, ThatAreNoneAreNamed) {
+  const auto notes = [](const std::string& field, const std::string& rows) {
+    return pcd(fmt::format("FIELDS x y z rgb\n{}\nPOINTS 3\nDATA ascii\n", field) + rows).notes;
+  };
+  EXPECT_THAT(notes("SIZE 4 4 4 4\nTYPE F F F F", "1 2 3 nan\n1 2 3 1e-38\nnan nan nan nan\n"),
+              ElementsAre(HasSubstr("colours left out: those of 1 points")));
+  EXPECT_THAT(notes("SIZE 4 4 4 1\nTYPE F F F U", "1 2 3 7\n1 2 3 8\n1 2 3 9\n"),
+              ElementsAre(HasSubstr("colours left out: those of 3 points")));
+}
+
+TEST(ForeignPly, MorePointsThanTheHeaderSaysAreNoted) {
+  const auto head = [](const char* format, const char* more) {
+    return fmt::format(
+        "ply\nformat {} 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "{}end_header\n",
+        format, more);
+  };
+  const std::string note = "points left out: 2 that follow the 1 of the header",
+                    faces =
+                        "element face 0\n"
+                        "property list uchar int vertex_indices\n";
+  EXPECT_THAT(ply(head("ascii", "") + "1 2 3\n4 5 6\n7 8 9\n").notes, ElementsAre(note));
+  EXPECT_THAT(ply(head("ascii", faces.c_str()) + "1 2 3\n4 5 6\n7 8 9\n").notes, ElementsAre(note));
+  EXPECT_THAT(ply(head("binary_big_endian", "") + std::string(36, '\0')).notes, ElementsAre(note));
+  EXPECT_THAT(ply(head("binary_little_endian", "") + std::string(13, '\0')).notes, IsEmpty()) << "a line end";
+  EXPECT_THAT(ply(head("ascii", "") + "1 2 3\n\n").notes, IsEmpty());
+}
+
+TEST(ForeignText, MayHaveLinesThatEndInCarriageReturns) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n4 5 6\n";
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  const StoredCloud cloud = ply(text);
+  ASSERT_EQ(cloud.points.size(), 2U);
+  EXPECT_EQ(cloud.points[1].position_m, Eigen::Vector3f(4, 5, 6));
+}
+
 TEST(ForeignPly, HeadersMayBeInCapitalsAndHaveAnyOrder) {
   const StoredCloud cloud =
       ply("\xef\xbb\xbfPLY\r\nOBJ_INFO by hand\r\nFormat ASCII 1.0\r\nComment " + std::string(9000, 'c') +

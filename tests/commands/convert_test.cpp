@@ -165,6 +165,23 @@ TEST_F(Convert, AsksForTheUnitWhereMostPointsAreFarAndTakesOneThatIsGiven) {
   EXPECT_TRUE(map.isOccupied(map.voxelAt({4.01, 4.01, 2.41})));
 }
 
+TEST_F(Convert, AsksForTheUnitWhereAGoodShareIsFarAndOfClouds) {
+  std::string rows = "4000 0 100\n";
+  for (int i = 0; i < 4; ++i) rows += "0 0 100\n";
+  const std::string room = write("mm.pcd", cloudOf(5, rows));
+  EXPECT_THAT(runSwiftlet({"convert", room, path("mm.bt")}).out, HasSubstr("1 of 5 points left out"));
+  EXPECT_THAT(runSwiftlet({"convert", room, path("mm.bt")}).out, HasSubstr("are they in metres?"));
+  EXPECT_THAT(runSwiftlet({"convert", room, path("mm.ply")}).out, HasSubstr("reach over 4000 m: are they in metres?"));
+  EXPECT_THAT(runSwiftlet({"convert", room, path("m.ply"), "--scale", "0.001"}).out, Not(HasSubstr("metres")));
+}
+
+TEST_F(Convert, SaysThatAMapIsEmpty) {
+  const std::string empty = write("empty.pcd", cloudOf(0, ""));
+  EXPECT_THAT(runSwiftlet({"convert", empty, path("empty.ply")}).out, HasSubstr("empty.pcd holds no points"));
+  EXPECT_THAT(runSwiftlet({"convert", empty, path("empty.bt")}).out, HasSubstr("empty.pcd holds no points"));
+  EXPECT_THAT(runSwiftlet({"convert", path("empty.bt"), path("e.ply")}).out, HasSubstr("holds no occupied voxels"));
+}
+
 /// No point of them is far enough to be left out.
 TEST_F(Convert, AsksForTheUnitOfWhatIsTooTallForABuilding) {
   const std::string room = write("cm.pcd", cloudOf(2, "0 0 10\n400 400 240\n"));

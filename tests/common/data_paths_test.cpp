@@ -76,6 +76,16 @@ TEST_F(DataPaths, AMissingFileGetsASuggestion) {
   }
 }
 
+TEST_F(DataPaths, ALinkThatLeadsToNothingIsNotMissing) {
+  fs::create_symlink("../.git/annex/objects/K/K.xml", folder_ / "missions/linked.xml");
+  try {
+    findData("missions/linked.xml");
+    FAIL() << "a link that leads to nothing was found";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is a link that leads to nothing"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(DataPaths, ANameWithoutItsFolderOrItsEndingGetsASuggestion) {
   fs::create_directories(folder_ / "missions/deep/below");
   std::ofstream(folder_ / "missions/deep/below/one.two.xml") << "<root/>";

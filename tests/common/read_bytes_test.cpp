@@ -43,8 +43,24 @@ TEST_F(ReadBytes, KnowsThePointersThatStandForFilesInAClone) {
   EXPECT_THAT(problem("version https://git-lfs.github.com/spec/v2\n"), HasSubstr("a pointer of Git LFS"));
   EXPECT_THAT(problem("/annex/objects/SHA256E-s234686--83d7.pcd\n"),
               HasSubstr("f: this is a pointer of git-annex, not the file, run `git annex get`"));
+  for (const std::string link : {".git/annex/objects/Zx/9q/K/K", "../../.git/annex/objects/Zx/9q/K/K",
+                                 "../.git/modules/maps/annex/objects/Zx/9q/K/K\n"})
+    EXPECT_THAT(problem(link), HasSubstr("f: this is a pointer of git-annex, not the file, run `git annex get`"));
+  EXPECT_EQ(problem("see .git/annex/objects/Zx"), "");
   EXPECT_EQ(problem("version 1\n"), "");
   EXPECT_EQ(problem("see " + lfs), "");
+}
+
+TEST_F(ReadBytes, SaysWhereALinkLeadsThatLeadsToNothing) {
+  fs::create_symlink("../.git/annex/objects/Zx/9q/K/K.bag", folder_ / "annexed");
+  fs::create_symlink("elsewhere", folder_ / "dangling");
+  EXPECT_THAT(
+      problemOf(folder_ / "annexed"),
+      HasSubstr("annexed: is a link that leads to nothing: `../.git/annex/objects/Zx/9q/K/K.bag`, run `git annex "
+                "get` for it in its repository"));
+  EXPECT_THAT(problemOf(folder_ / "dangling"), testing::EndsWith("is a link that leads to nothing: `elsewhere`"));
+  std::ofstream(folder_ / "elsewhere") << "x";
+  EXPECT_EQ(problemOf(folder_ / "dangling"), "");
 }
 
 TEST_F(ReadBytes, ReturnsEveryByte) {

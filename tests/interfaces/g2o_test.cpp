@@ -65,6 +65,14 @@ TEST(G2o, ReportsEachUnusedElementTypeOnce) {
                           "x.g2o:3: VERTEX_XY: not used, 2 lines are left out"));
 }
 
+TEST(G2o, AnotherWayToWriteAMotionIsNoSlip) {
+  const G2oFile file = parse(kPlane + kPlaneEdge + "EDGE_SE3:EXPMAP 1 2\nEDGE_SE3:EULER 1 2\nEDGE_SE3:QAUT 1 2\n");
+  EXPECT_THAT(file.warnings,
+              testing::UnorderedElementsAre(testing::EndsWith("EDGE_SE3:EXPMAP: not used, 1 line is left out"),
+                                            testing::EndsWith("EDGE_SE3:EULER: unknown tag, 1 line is left out"),
+                                            testing::EndsWith("did you mean `EDGE_SE3:QUAT`?")));
+}
+
 TEST(G2o, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(problem("VERTEX_SE2 1 0 0\n"), HasSubstr("x.g2o:1:16: VERTEX_SE2: 3 numbers instead of 4"));
   EXPECT_THAT(problem(kPlane + "VERTEX_SE2 x 0 0 0\n"), HasSubstr("x.g2o:3:12: VERTEX_SE2: `x` is not an id"));

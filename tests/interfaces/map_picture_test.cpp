@@ -121,8 +121,23 @@ TEST(MapPicture, ReadsBmpWithMasks) {
   EXPECT_THAT(brightness(core + bytes({7, 8, 9, 0})), ElementsAre(8)) << "of OS/2";
 }
 
+TEST(MapPicture, SaysOfWhatIsDamagedThatItIs) {
+  EXPECT_EQ(refusalOf(""), "m.pgm: is empty, a picture was expected, copy or download it again: it is not whole");
+  for (const std::string page : {"\n<!DOCTYPE html>\n<html>", "<html lang=\"en\">"})
+    EXPECT_THAT(refusalOf(page), HasSubstr("m.pgm: is a page of the web, a picture was expected, download the file"));
+  const std::string png = pngOf(3, 1, "abc", {});
+  std::string changed = png;
+  changed[png.size() - 13] = static_cast<char>(changed[png.size() - 13] ^ 1);  // The sum of the pixels' chunk.
+  for (const std::string& damaged : {png.substr(0, 20), png.substr(0, png.size() - 14), changed,
+                                     bytes({255, 216, 255, 224}), bmp(9, 9, 24, 0, "", "abc")}) {
+    EXPECT_THAT(refusalOf(damaged), HasSubstr("m.pgm: is damaged: "));
+    EXPECT_THAT(refusalOf(damaged), HasSubstr("copy or download it again"));
+  }
+}
+
 TEST(MapPicture, ReportsWhatCannotBeRead) {
-  EXPECT_THAT(refusalOf(""), HasSubstr("m.pgm: is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG"));
+  EXPECT_THAT(refusalOf("%PDF"),
+              HasSubstr("m.pgm: is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG"));
   EXPECT_THAT(refusalOf("GIF89a"), HasSubstr("convert it, for instance by ImageMagick's `convert FILE map.png`"));
   EXPECT_THAT(refusalOf(bmp(1, 1, 8, 1, "", "")), HasSubstr("m.pgm: is compressed by run lengths (RLE8), convert it"));
   EXPECT_THAT(refusalOf(bmp(1, 1, 4, 2, "", "")), HasSubstr("(RLE4)"));

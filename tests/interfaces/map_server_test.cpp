@@ -179,9 +179,38 @@ TEST(MapServer, UnknownStaysUnknownWhateverFreeThreshSays) {
                                     "unknown")));
   const std::string inverted = {static_cast<char>(50), static_cast<char>(1)};
   EXPECT_EQ(kind(readTwo(folder, inverted, origin + "negate: 1\nfree_thresh: 0.25\n").grid.at({0, 0})), '?');
-  // Other greys, and other modes, follow the thresholds.
+  // Other greys follow the thresholds.
   EXPECT_EQ(kind(readTwo(folder, {static_cast<char>(200), '\0'}, origin + "free_thresh: 0.25\n").grid.at({0, 0})), '.');
-  EXPECT_EQ(kind(readTwo(folder, pixels, origin + "mode: scale\nfree_thresh: 0.25\n").grid.at({0, 0})), '.');
+}
+
+TEST(MapServer, OfModeScaleTheGreyOfUnknownIsThatWhereNothingIsTransparent) {
+  const ScratchFolder folder;
+  const std::string origin = "origin: [0, 0, 0]\nmode: scale\n",
+                    pixels = {static_cast<char>(205), static_cast<char>(254)};
+  for (const std::string free_thresh : {"0.196", "0.25"}) {
+    const StoredMap map = readTwo(folder, pixels, origin + "free_thresh: " + free_thresh + "\n");
+    EXPECT_EQ(kind(map.grid.at({0, 0})), '?');
+    EXPECT_EQ(kind(map.grid.at({1, 0})), '.');
+    EXPECT_THAT(notesOf(map), ElementsAre(HasSubstr("m.yaml:4:7: mode: scale would make 1 pixel free that map_saver "
+                                                    "writes for unknown; taken as unknown")));
+  }
+  // With transparent pixels, which say unknown, it is a probability.
+  put(folder / "m.png", pngOf(2, 1, {static_cast<char>(205), static_cast<char>(255), '\0', '\0'}, {.color_type = 4}));
+  put(folder / "m.yaml", "image: m.png\nresolution: 0.5\nfree_thresh: 0.25\n" + origin);
+  const StoredMap map = readMap(folder / "m.yaml");
+  EXPECT_EQ(kind(map.grid.at({0, 0})), '.');
+  EXPECT_THAT(notesOf(map), testing::IsEmpty());
+}
+
+TEST(MapServer, OfModeRawNumbersThatAreNoPercentagesAreNoted) {
+  const ScratchFolder folder;
+  const std::string raw = "origin: [0, 0, 0]\nmode: raw\n";
+  EXPECT_THAT(
+      notesOf(readTwo(folder, {'\0', static_cast<char>(254)}, raw)),
+      ElementsAre(AllOf(HasSubstr("m.yaml:4:7: mode: in mode raw a pixel is the percentage of being occupied, and "
+                                  "1 is from 101 to 254"),
+                        HasSubstr("write `mode: trinary`"))));
+  EXPECT_THAT(notesOf(readTwo(folder, {'d', static_cast<char>(255)}, raw)), testing::IsEmpty());
 }
 
 TEST(MapServer, TransparentPixelsAreUnknown) {

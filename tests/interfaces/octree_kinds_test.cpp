@@ -146,6 +146,20 @@ TEST(OctreeHeaders, AreReadAsOthersWriteThem) {
   }
 }
 
+TEST(OctreeHeaders, MayBeTheThreeNumbersOfTheFirstFiles) {
+  auto tree = room<octomap::OcTree>(kPlain);
+  std::ostringstream stream;
+  tree.writeBinary(stream);
+  const std::string bytes = stream.str(), nodes = bytes.substr(bytes.find("data\n") + 5);
+  const auto count = static_cast<std::uint32_t>(tree.size());
+  std::string head("\3\0\0\0\x9a\x99\x99\x99\x99\x99\xb9\x3f", 12);
+  for (int shift = 0; shift < 32; shift += 8) head += static_cast<char>(count >> shift & 0xff);
+  const StoredOctree octree = parseOctree(head + nodes, "old");
+  expectRoom(octree.map);
+  EXPECT_THAT(octree.notes, IsEmpty());
+  EXPECT_THROW(parseOctree(head.substr(0, 9), "cut"), common::InputError);
+}
+
 TEST(OctreeHeaders, WhatContradictsThemIsSaid) {
   const std::string bytes = asOt(room<octomap::OcTree>(kPlain));
   const std::string size = bytes.substr(bytes.find("size "), bytes.find("\nres") - bytes.find("size "));

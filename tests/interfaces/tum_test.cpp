@@ -116,6 +116,21 @@ TEST(StampUnits, AreSuspectedFromTheStepsOfASensor) {
   EXPECT_THAT(stampStepNote(1e8), HasSubstr("are they nanoseconds? Then divide them by 1e9"));
 }
 
+TEST(StampUnits, OfAFormatOfMicrosecondsAreSuspectedOnBothSides) {
+  for (const double step_s : {0.0, 0.001, 0.1, 5.0, -1.0}) EXPECT_EQ(microsecondStepNote(step_s), "") << step_s;
+  EXPECT_EQ(microsecondStepNote(98e-6),
+            "the stamps are 98 apart in the median, where this format has microseconds: are "
+            "they milliseconds? Then multiply them by 1e3");
+  EXPECT_THAT(microsecondStepNote(98.0), HasSubstr("are they nanoseconds? Then divide them by 1e3"));
+  EXPECT_THAT(microsecondStepNote(1e-6), HasSubstr("are they seconds? Then multiply them by 1e6"));
+}
+
+TEST(Tum, SaysThatCommasSeparateTheNumbers) {
+  const auto problem = [](const std::string& text) { return problemOf([&] { parseTum(text, "x.tum"); }); };
+  EXPECT_THAT(problem("1.5,0,0,0,0,0,0,1\n"), HasSubstr("separated by commas: put spaces there"));
+  EXPECT_THAT(problem("1305031102160407000,1,2,3,1,0,0,0\n"), HasSubstr("`evo_traj euroc FILE --save_as_tum`"));
+}
+
 TEST(Tum, LeavesOutPosesThatAreNotFinite) {
   const ScratchFolder folder;
   auto writer = TumWriter::create(folder / "t.tum");

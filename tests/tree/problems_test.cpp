@@ -44,6 +44,13 @@ std::vector<std::string> problemsIn(const std::string& inside, const std::string
   return problemsOf(file(inside, more));
 }
 
+TEST(Problems, OfAPointerOfGitAnnexNameIt) {
+  for (const std::string text : {"/annex/objects/SHA256E-s9--83d7.xml\n", "../.git/annex/objects/Zx/9q/K/K.xml"})
+    EXPECT_THAT(problemsOf(text),
+                ElementsAre("f.xml: this is a pointer of git-annex, not the file, run `git annex get` "
+                            "for it in its repository"));
+}
+
 TEST(Problems, OfAPointerOfGitLfsNameIt) {
   EXPECT_THAT(problemsOf("version https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n"),
               ElementsAre("f.xml: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
