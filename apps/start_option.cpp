@@ -10,17 +10,24 @@
 namespace swiftlet::apps {
 namespace {
 
-/// The numbers between semicolons, commas or spaces; empty if there is anything else.
+/// The numbers between semicolons, or else commas, or else blanks; empty if there is anything else. Beside semicolons
+/// and blanks a comma would be that of a decimal.
 std::vector<double> numbersIn(const std::string& text) {
+  const bool semicolons = text.find(';') != std::string::npos, commas = text.find(',') != std::string::npos;
+  const char separator = semicolons ? ';' : commas ? ',' : ' ';
   std::vector<double> numbers;
   const char *at = text.data(), *const end = text.data() + text.size();
-  while (true) {
-    while (at != end && (*at == ';' || *at == ',' || *at == ' ')) ++at;
-    if (at == end) return numbers;
+  const auto skipBlanks = [&] {
+    while (at != end && *at == ' ') ++at;
+  };
+  for (skipBlanks(); at != end; skipBlanks()) {
     const auto [behind, error] = std::from_chars(at, end, numbers.emplace_back());
     if (error != std::errc{}) return {};
     at = behind;
+    if (separator != ' ') skipBlanks();
+    if (at != end && *at++ != separator) return {};
   }
+  return numbers;
 }
 
 }  // namespace
@@ -38,7 +45,7 @@ simulation::StartConfig parseStart(const std::string& text) {
     throw common::InputError(common::Problem{{},
                                              "--start",
                                              fmt::format("`{}` is not a place x;y;yaw in metres and degrees", text),
-                                             "expected is for example --start \"1.5;-2;90\""});
+                                             "expected is for example --start \"1.5;-2;90\", decimals with a point"});
   return start;
 }
 
