@@ -35,15 +35,20 @@ void findMap(TrialConfig& trial, const fs::path& trials) {
   }
 }
 
-/// A mission that is not where data is may be beside the trial.
-void findMission(const TrialConfig& trial, std::string& mission) {
-  const auto isIn = [&mission](const fs::path& folder) {
-    std::error_code ignored;
-    return fs::exists(folder / mission, ignored);
-  };
+/// A mission or a system that is not where data is may be beside the trial, also named without its ending.
+void findBesideTrial(const TrialConfig& trial, std::string& name, const char* ending) {
   const std::vector<fs::path> folders = common::dataFolders();
-  if (std::none_of(folders.begin(), folders.end(), isIn) && isIn(trial.folder))
-    mission = (trial.folder / mission).string();
+  for (const std::string& file : {name, name + ending}) {
+    const auto isIn = [&file](const fs::path& folder) {
+      std::error_code ignored;
+      return fs::is_regular_file(folder / file, ignored);
+    };
+    if (name.empty() || std::any_of(folders.begin(), folders.end(), isIn)) return;
+    if (isIn(trial.folder)) {
+      name = (trial.folder / file).string();
+      return;
+    }
+  }
 }
 
 FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
@@ -126,8 +131,10 @@ void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
   std::set<std::string> systems;  // That were judged.
   for (TrialConfig& trial : trials) {
-    findMission(trial, trial.mission);
-    for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles) findMission(trial, vehicle.mission);
+    findBesideTrial(trial, trial.mission, ".xml");
+    for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles)
+      findBesideTrial(trial, vehicle.mission, ".xml");
+    if (trial.system.find_first_of("/.") != std::string::npos) findBesideTrial(trial, trial.system, ".yaml");
     const System system = loadSystem(trial.system);
     if (systems.insert(trial.system).second)
       for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));

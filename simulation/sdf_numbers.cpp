@@ -30,17 +30,26 @@ struct NumberElement {
   Count count;
 };
 
-constexpr std::array kNumberElements{
-    NumberElement{"box", "size", {3, 3}},          NumberElement{"plane", "size", {2, 2}},
-    NumberElement{"plane", "normal", {3, 3}},      NumberElement{"cylinder", "radius", {1, 1}},
-    NumberElement{"cylinder", "length", {1, 1}},   NumberElement{"sphere", "radius", {1, 1}},
-    NumberElement{"capsule", "radius", {1, 1}},    NumberElement{"capsule", "length", {1, 1}},
-    NumberElement{"cone", "radius", {1, 1}},       NumberElement{"cone", "length", {1, 1}},
-    NumberElement{"ellipsoid", "radii", {3, 3}},   NumberElement{"polyline", "height", {1, 1}},
-    NumberElement{"polyline", "point", {2, 2}},    NumberElement{"heightmap", "size", {3, 3}},
-    NumberElement{"heightmap", "pos", {3, 3}},     NumberElement{"mesh", "scale", {3, 3}},
-    NumberElement{"model", "scale", {3, 3}},       NumberElement{"link", "scale", {3, 3}},
-    NumberElement{"visual", "transparency", {1, 1}}, NumberElement{"material", "diffuse", {3, 4}}};
+constexpr std::array kNumberElements{NumberElement{"box", "size", {3, 3}},
+                                     NumberElement{"plane", "size", {2, 2}},
+                                     NumberElement{"plane", "normal", {3, 3}},
+                                     NumberElement{"cylinder", "radius", {1, 1}},
+                                     NumberElement{"cylinder", "length", {1, 1}},
+                                     NumberElement{"sphere", "radius", {1, 1}},
+                                     NumberElement{"capsule", "radius", {1, 1}},
+                                     NumberElement{"capsule", "length", {1, 1}},
+                                     NumberElement{"cone", "radius", {1, 1}},
+                                     NumberElement{"cone", "length", {1, 1}},
+                                     NumberElement{"ellipsoid", "radii", {3, 3}},
+                                     NumberElement{"polyline", "height", {1, 1}},
+                                     NumberElement{"polyline", "point", {2, 2}},
+                                     NumberElement{"heightmap", "size", {3, 3}},
+                                     NumberElement{"heightmap", "pos", {3, 3}},
+                                     NumberElement{"mesh", "scale", {3, 3}},
+                                     NumberElement{"model", "scale", {3, 3}},
+                                     NumberElement{"link", "scale", {3, 3}},
+                                     NumberElement{"visual", "transparency", {1, 1}},
+                                     NumberElement{"material", "diffuse", {3, 4}}};
 constexpr std::array<std::string_view, 6> kPlaced{"model", "link", "collision", "visual", "frame", "include"};
 
 std::optional<Count> countOf(const SdfTag& tag, std::string_view parent) {
@@ -92,14 +101,21 @@ std::string withoutMetres(std::string text) {
 
 /// What the text most likely means, written as SDF wants it; none if that cannot be told.
 std::optional<std::string> meant(const std::string& text, Count count) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOdd{
-      {{"\u2212", "-"}, {"\u2013", "-"}, {"\u2010", "-"}, {"\u200B", ""}, {"\u200E", ""}, {"\uFEFF", ""},
-       {"\u00A0", " "}, {"\u202F", " "}, {"\u2009", " "}, {";", " "}, {"&#160;", " "}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOdd{{{"\u2212", "-"},
+                                                                                {"\u2013", "-"},
+                                                                                {"\u2010", "-"},
+                                                                                {"\u200B", ""},
+                                                                                {"\u200E", ""},
+                                                                                {"\uFEFF", ""},
+                                                                                {"\u00A0", " "},
+                                                                                {"\u202F", " "},
+                                                                                {"\u2009", " "},
+                                                                                {";", " "},
+                                                                                {"&#160;", " "}}};
   std::string plain = text;
   for (const auto& [odd, usual] : kOdd) plain = replaced(plain, odd, usual);
   plain = withoutMetres(plain);
-  for (const std::string& guess :
-       {plain, replaced(replaced(plain, ", ", " "), ",", "."), replaced(plain, ",", " ")})
+  for (const std::string& guess : {plain, replaced(replaced(plain, ", ", " "), ",", "."), replaced(plain, ",", " ")})
     if (const auto found = numbersIn(guess); found && *found >= count.least && *found <= count.most) {
       std::string words;
       for (const char c : guess) {
@@ -137,13 +153,13 @@ std::vector<common::Problem> numberProblems(const std::string& file, std::string
     const auto found = numbersIn(written);
     if (written.empty() || (found && *found >= count->least && *found <= count->most)) continue;
     const auto guess = meant(written, *count);
-    problems.push_back({locationIn(file, text, tag.begin), std::string(tag.name),
-                        found ? fmt::format("`{}` has {} numbers, expected is {}", common::printable(written), *found,
-                                            wanted(*count))
-                              : fmt::format("`{}` is not {}", common::printable(written), wanted(*count)),
-                        guess ? fmt::format("write `{}`", *guess)
-                              : "SDF writes metres and radians without units, decimals with a point, and blanks "
-                                "between numbers, as in `1.5 -2 0.1`"});
+    problems.push_back(
+        {locationIn(file, text, tag.begin), std::string(tag.name),
+         found ? fmt::format("`{}` has {} numbers, expected is {}", common::printable(written), *found, wanted(*count))
+               : fmt::format("`{}` is not {}", common::printable(written), wanted(*count)),
+         guess ? fmt::format("write `{}`", *guess)
+               : "SDF writes metres and radians without units, decimals with a point, and blanks "
+                 "between numbers, as in `1.5 -2 0.1`"});
   }
   return problems;
 }
