@@ -22,7 +22,7 @@ simulation::StartConfig parseStart(const std::string& text) {
     throw common::InputError(common::Problem{{},
                                              "--start",
                                              fmt::format("`{}` is not a place x;y;yaw in metres and degrees", text),
-                                             "for instance --start \"1.5;-2;90\""});
+                                             "for instance --start \"1.5;-2;90\", decimals with a point"});
   return {false, numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 

@@ -35,15 +35,18 @@ void findMap(TrialConfig& trial, const fs::path& trials) {
   }
 }
 
-/// A mission that is not where data is may be beside the trial.
-std::string missionOf(const TrialConfig& trial, const std::string& mission) {
-  const auto isIn = [&mission](const fs::path& folder) {
-    std::error_code ignored;
-    return fs::exists(folder / mission, ignored);
-  };
+/// A mission or a system that is not where data is may be beside the trial, also named without its ending.
+std::string besideTrial(const TrialConfig& trial, const std::string& name, const char* ending) {
   const std::vector<fs::path> folders = common::dataFolders();
-  const bool is_beside = std::none_of(folders.begin(), folders.end(), isIn) && isIn(trial.folder);
-  return is_beside ? (trial.folder / mission).string() : mission;
+  for (const std::string& file : {name, name + ending}) {
+    const auto isIn = [&file](const fs::path& folder) {
+      std::error_code ignored;
+      return fs::is_regular_file(folder / file, ignored);
+    };
+    if (name.empty() || std::any_of(folders.begin(), folders.end(), isIn)) return name;
+    if (isIn(trial.folder)) return (trial.folder / file).string();
+  }
+  return name;
 }
 
 FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
@@ -126,9 +129,10 @@ void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
   std::set<std::string> systems;  // That were judged.
   for (TrialConfig& trial : trials) {
-    trial.mission = missionOf(trial, trial.mission);
+    trial.mission = besideTrial(trial, trial.mission, ".xml");
     for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles)
-      vehicle.mission = missionOf(trial, vehicle.mission);
+      vehicle.mission = besideTrial(trial, vehicle.mission, ".xml");
+    if (trial.system.find_first_of("/.") != std::string::npos) trial.system = besideTrial(trial, trial.system, ".yaml");
     const System system = loadSystem(trial.system);
     if (systems.insert(trial.system).second)
       for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));

@@ -1,9 +1,12 @@
 #include "apps/trial_world.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/data_paths.hpp"
+#include "common/error.hpp"
 #include "interfaces/files/archive.hpp"
 
 namespace swiftlet::apps {
@@ -22,6 +25,27 @@ bool isThere(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
+/// The world of the shipped folders whose name is most like this one, in whatever case; empty if none is.
+std::string similarWorld(const std::string& name) {
+  const auto small = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  std::vector<std::string> files, stems;
+  std::error_code ignored;
+  for (const char* folder : {"worlds", "trials/worlds"})
+    for (const fs::path& data : common::dataFolders())
+      for (const fs::directory_entry& entry : fs::directory_iterator(data / folder, ignored)) {
+        const fs::path file = entry.path().filename();
+        if (file.extension() != ".sdf" && file.extension() != ".world") continue;
+        files.push_back((fs::path(folder) / file).string());
+        stems.push_back(small(file.stem().string()));
+      }
+  const auto near = common::nearestWord(small(fs::path(name).stem().string()), stems);
+  if (!near) return {};
+  return files[static_cast<std::size_t>(std::find(stems.begin(), stems.end(), *near) - stems.begin())];
+}
+
 }  // namespace
 
 fs::path findWorldFile(const std::string& name) {
@@ -31,7 +55,15 @@ fs::path findWorldFile(const std::string& name) {
         const fs::path path = (data == "." ? fs::path(folder) : data / folder) / (name + ending);
         if (std::error_code ignored; !name.empty() && fs::is_regular_file(path, ignored)) return path;
       }
-  return common::findData(name);  // For its hint.
+  try {
+    return common::findData(name);  // For its message.
+  } catch (const common::InputError& error) {
+    common::Problem problem = error.problems().front();
+    // Of a bare name the hint would be any file of the working folder.
+    if (const std::string similar = similarWorld(name); !name.empty() && !fs::path(name).has_parent_path())
+      problem.hint = similar.empty() ? "" : "did you mean `" + similar + "`?";
+    throw common::InputError(problem);
+  }
 }
 
 void findWorld(evaluation::TrialConfig& trial) {
@@ -44,8 +76,14 @@ void findWorld(evaluation::TrialConfig& trial) {
     if (trial.archive.empty() && !path.empty() && isThere(trial.folder / path))
       path = fs::absolute(trial.folder / path);
   };
-  takeBeside(trial.scenario.world);
-  takeBeside(trial.map.survey.world);
+  for (std::string* named : {&trial.scenario.world, &trial.map.survey.world})
+    for (const char* ending : {"", ".sdf", ".world"}) {
+      std::string file = named->empty() ? "" : *named + ending;
+      if (std::error_code ignored; file.empty() || !fs::is_regular_file(trial.folder / file, ignored)) continue;
+      takeBeside(file);
+      *named = file;
+      break;
+    }
   for (std::string& path : trial.scenario.model_paths) takeBeside(path);
   trial.resolvePaths(unpacked, root);
   if (!isThere(trial.scenario.world)) trial.scenario.world = world;

@@ -125,8 +125,7 @@ fs::path findData(const fs::path& name) {
     std::error_code error;
     fs::path path = folder == "." ? name : folder / name;
     if (!name.empty() && fs::exists(path, error)) return path;
-    if (name.empty()) continue;
-    if (auto problem = problemOfLink(path)) throw InputError(*std::move(problem));
+    if (auto problem = name.empty() ? std::nullopt : problemOfLink(path)) throw InputError(*std::move(problem));
     if (error && !unusable) unusable = error;
     places += (places.empty() ? "" : " or ") + (folder == "." ? "this folder" : folder.string());
   }

@@ -63,13 +63,14 @@ std::string percentDecoded(std::string_view text) {
 
 std::optional<FuelAddress> fuelAddress(std::string_view uri) {
   const std::size_t scheme_end = uri.find("://");
-  if (scheme_end == std::string_view::npos || !uri.starts_with("http")) return std::nullopt;
+  if (scheme_end == std::string_view::npos || !lowerCase(std::string(uri.substr(0, 4))).starts_with("http"))
+    return std::nullopt;
   const std::vector<std::string> parts = partsOf(uri.substr(scheme_end + 3));
   const auto models = std::find(parts.begin(), parts.end(), "models");
   if (parts.end() - models < 2 || models - parts.begin() < 2) return std::nullopt;
   // The server's page has OWNER/fuel/models or OWNER/models, its interface 1.0/OWNER/models.
   const bool versioned = parts[1].find('.') != std::string::npos && models - parts.begin() > 2;
-  FuelAddress address{parts[0], parts[versioned ? 2 : 1], models[1], {}, {}};
+  FuelAddress address{lowerCase(parts[0]), parts[versioned ? 2 : 1], models[1], {}, {}};
   auto rest = models + 2;
   if (rest != parts.end() && (numberOf(*rest) || *rest == "tip")) {
     if (*rest != "tip") address.version = *rest;
@@ -99,14 +100,35 @@ std::optional<fs::path> findIgnoringCase(const fs::path& folder, const fs::path&
   return found;
 }
 
-std::optional<fs::path> findModelOfFuel(const fs::path& folder, const FuelAddress& address) {
+namespace {
+
+/// Where the folder of a model is, below a folder that may be a cache. The servers have had two names, under which the
+/// same models lie.
+std::vector<fs::path> foldersOf(const fs::path& folder, const FuelAddress& address) {
   const fs::path owned = fs::path(address.owner) / "models" / address.name;
-  // The servers have had two names, under which the same models lie.
+  std::vector<fs::path> folders;
   for (const fs::path& place : {address.server / owned, "fuel.gazebosim.org" / owned,
                                 "fuel.ignitionrobotics.org" / owned, owned, fs::path(address.name)})
-    if (const auto model = findIgnoringCase(folder, place))
-      if (auto found = versionIn(*model, address.version)) return found;
+    if (const auto model = findIgnoringCase(folder, place)) folders.push_back(*model);
+  return folders;
+}
+
+}  // namespace
+
+std::optional<fs::path> findModelOfFuel(const fs::path& folder, const FuelAddress& address) {
+  for (const fs::path& model : foldersOf(folder, address))
+    if (auto found = versionIn(model, address.version)) return found;
   return std::nullopt;
+}
+
+std::set<int> versionsOfFuel(const fs::path& folder, const FuelAddress& address) {
+  std::set<int> versions;
+  std::error_code ignored;
+  for (const fs::path& model : foldersOf(folder, address))
+    for (const fs::directory_entry& entry : fs::directory_iterator(model, ignored))
+      if (const auto number = numberOf(entry.path().filename().string()); number && isModelFolder(entry.path()))
+        versions.insert(*number);
+  return versions;
 }
 
 }  // namespace swiftlet::simulation

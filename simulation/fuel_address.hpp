@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,5 +31,8 @@ std::optional<std::filesystem::path> findIgnoringCase(const std::filesystem::pat
 
 /// The model's folder if `folder` is a cache of Fuel, a part of one, or holds a copy of the model under its name.
 std::optional<std::filesystem::path> findModelOfFuel(const std::filesystem::path& folder, const FuelAddress& address);
+
+/// The versions of the model that such a folder holds.
+std::set<int> versionsOfFuel(const std::filesystem::path& folder, const FuelAddress& address);
 
 }  // namespace swiftlet::simulation

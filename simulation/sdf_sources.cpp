@@ -13,6 +13,7 @@
 #include "common/lower_case.hpp"
 #include "common/markup.hpp"
 #include "common/read_bytes.hpp"
+#include "simulation/sdf_numbers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -146,7 +147,9 @@ std::string SdfSources::prepare(Document& document, const std::string& bytes) {
   if (root != "sdf" && open_.size() > 1) return asItIs(document);  // libsdformat reads URDF models.
   if (root != "sdf") throw InputError(Problem{{document.file, 1}, root, "the root element of a world is <sdf>", ""});
   checkVersion(document);
-  findTemplates(document);
+  if (!isTemplate(document))  // The numbers of one may be expressions.
+    if (const auto problems = numberProblems(document.file, document.text, document.tags); !problems.empty())
+      throw InputError(problems);
   for (std::size_t i = 0; i < document.tags.size(); ++i)
     if (document.tags[i].name == "include" && mayInclude(document.tags, document.tags[i].parent))
       followInclude(document, i);
@@ -169,8 +172,8 @@ void SdfSources::checkVersion(Document& document) {
   document.replace(begin, begin + version->size(), "1.9");
 }
 
-/// A template's elements hold things that only its tool can place.
-void SdfSources::findTemplates(const Document& document) {
+/// A template's elements hold things that only its tool can place; they are missing then.
+bool SdfSources::isTemplate(const Document& document) {
   constexpr std::array<std::string_view, 4> kValues{"xacro:arg", "xacro:property", "xacro:if", "xacro:unless"};
   constexpr std::array<std::string_view, 5> kThings{"model", "include", "link", "collision", "visual"};
   const auto among = [](const auto& names, std::string_view name) {
@@ -185,8 +188,9 @@ void SdfSources::findTemplates(const Document& document) {
     missing_.push_back({document.locationOf(tag), std::string(tag.name),
                         "the file is a template of xacro, which is not evaluated",
                         fmt::format("make the world of it: xacro \"{}\" > world.sdf", document.file)});
-    return;
+    return true;
   }
+  return false;
 }
 
 void SdfSources::followInclude(Document& document, std::size_t number) {

@@ -65,7 +65,7 @@ class SdfSources {
   std::string visit(const std::string& file, const common::SourceLocation& from);
   std::string prepare(Document& document, const std::string& bytes);
   void checkVersion(Document& document);
-  void findTemplates(const Document& document);
+  bool isTemplate(const Document& document);
   void followInclude(Document& document, std::size_t number);
   void standIn(Document& document, std::size_t number, const std::string& uri);
   void reportMissing(const Document& document, const SdfTag& uri_tag, const std::string& uri, const std::string& hint);

@@ -12,6 +12,7 @@ namespace swiftlet::simulation {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::array<std::string_view, 4> kOddSpaces{"\u00A0", "\u202F", "\u2009", "\u3000"};
 
 bool isUtf8(std::string_view bytes) {
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -117,6 +118,10 @@ class TagReader {
     tag.name = nameAt(at_ + 1);
     const auto end = endOfTag();
     if (!end) return fail(at_, "the tag <{}> has no `>`", tag.name);
+    for (const std::string_view odd : kOddSpaces)
+      if (const std::size_t at = tag.name.find(odd); at != std::string_view::npos)
+        return fail(at_, "behind `<{}` is a no-break or other typographic space; XML wants a plain one",
+                    tag.name.substr(0, at));
     if (tag.name.empty() || tag.name.find_first_of("<\"'&=") != std::string_view::npos)
       return fail(at_, "`<` begins no tag; in a text it is written &lt;");
     const bool empty = text_[*end - 2] == '/';
@@ -174,10 +179,15 @@ std::string utf8Text(std::string_view bytes) {
 }
 
 common::SourceLocation locationIn(const std::string& file, std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, offset);
-  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0.
-  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<int>(before.size() - line_begin)};
+  // A line ends with "\n", "\r\n" or, of old systems, "\r".
+  int line = 1;
+  std::size_t line_begin = 0;
+  for (std::size_t i = 0; i < std::min(offset, text.size()); ++i) {
+    if (text[i] != '\n' && (text[i] != '\r' || text.substr(i + 1).starts_with('\n'))) continue;
+    ++line;
+    line_begin = i + 1;
+  }
+  return {file, line, 1 + static_cast<int>(std::min(offset, text.size()) - line_begin)};
 }
 
 tl::expected<std::vector<SdfTag>, common::Problem> readTags(const std::string& file, std::string_view text) {

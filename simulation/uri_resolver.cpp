@@ -1,7 +1,9 @@
 #include "simulation/uri_resolver.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -19,7 +21,19 @@ void addFolders(const char* variable, std::vector<fs::path>& folders) {
     if (!folder.empty()) folders.emplace_back(folder);
 }
 
-bool isOnTheWeb(const std::string& uri) { return uri.starts_with("http://") || uri.starts_with("https://"); }
+bool isOnTheWeb(const std::string& uri) {
+  std::string scheme = uri.substr(0, uri.find("://"));
+  std::transform(scheme.begin(), scheme.end(), scheme.begin(), [](unsigned char c) { return std::tolower(c); });
+  return scheme == "http" || scheme == "https";
+}
+
+/// How a model is got from its server.
+std::string howToDownload(const FuelAddress& address, const std::string& uri) {
+  const bool official = address.server.ends_with("gazebosim.org") || address.server.ends_with("ignitionrobotics.org");
+  if (!official) return fmt::format("download it from {}", uri);
+  return fmt::format("download it with `gz fuel download -u \"https://fuel.gazebosim.org/1.0/{}/models/{}{}\"`",
+                     address.owner, address.name, address.version.empty() ? "" : "/" + address.version);
+}
 
 /// The part after the scheme. The leading slashes of `model://` URIs, whose path is always relative, are removed.
 std::string pathOf(const std::string& uri) {
@@ -99,11 +113,13 @@ std::string UriResolver::hintFor(const std::string& uri, const fs::path& used_in
       "give the folder that holds it as a model path (fly --model-path, a trial's "
       "model_paths) or in SDF_PATH; searched: {}",
       fmt::join(searched, ", "));
-  if (const auto address = fuelAddress(uri))
-    return fmt::format(
-        "download it with `gz fuel download -u \"https://fuel.gazebosim.org/1.0/{}/models/{}\"`, or, as "
-        "`{}`, {}",
-        address->owner, address->name, address->name, there);
+  if (const auto address = fuelAddress(uri)) {
+    std::set<int> versions;
+    for (const fs::path& folder : folders_) versions.merge(versionsOfFuel(folder, *address));
+    const std::string there_are =
+        versions.empty() ? "" : fmt::format("there is version {} of it: name that, or ", fmt::join(versions, ", "));
+    return fmt::format("{}{}, or, as `{}`, {}", there_are, howToDownload(*address, uri), address->name, there);
+  }
   if (isOnTheWeb(uri)) return "download it, and name the file instead";
   for (const auto& [folder, path] : placesOf(uri, used_in))
     if (const auto alike = findIgnoringCase(folder, path)) {

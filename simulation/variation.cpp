@@ -12,6 +12,7 @@
 #include "common/random.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/ray_caster.hpp"
+#include "simulation/start_surroundings.hpp"
 #include "simulation/truth_map.hpp"
 
 namespace swiftlet::simulation {
@@ -26,7 +27,8 @@ constexpr double kSearchFloorDown_m = 20.0;  // A start farther above a floor is
 constexpr double kUnevenFloor_m =
     0.03;  // Greatest height difference of the feet; the vehicle tips at 0.05 (referee.cpp).
 constexpr double kTakeOffRoom_m = 0.10;  // Around the hull on its way up; gusts move it by up to 9 cm before it flies.
-constexpr double kSameFloor_m = 0.05;    // A drawn start must be on the same floor as the nominal one, not on a crate.
+constexpr double kTouching_m = 0.01;
+constexpr double kSameFloor_m = 0.05;  // A drawn start must be on the same floor as the nominal one, not on a crate.
 
 StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {
   StartConfig start = scenario.start;
@@ -94,6 +96,11 @@ Problem startProblem(const PlacedVehicle& drawn, const WorldModel& world, const 
           fmt::format("at ({:.2f}, {:.2f}, {:.2f}) {}", start.x_m, start.y_m, start.z_m, message), hint};
 }
 
+/// "`model/part` (file:line)".
+std::string described(const Shape& shape) {
+  return fmt::format("`{}`{}", nameOf(shape), shape.source.file.empty() ? "" : " (" + toString(shape.source) + ")");
+}
+
 /// How often a vertical ray from `from` meets a shape, upwards and downwards.
 std::pair<int, int> crossings(const Shape& shape, const Eigen::Vector3d& from) {
   std::pair<int, int> count{0, 0};
@@ -126,6 +133,17 @@ const Shape* solidAround(const WorldModel& world, const RayCaster& rays, const E
   return nullptr;
 }
 
+Hull hullOf(const Scenario& scenario) {
+  return {scenario.vehicle.hullRadius_m(), 0.5 * scenario.vehicle.hull_height_m};
+}
+
+/// Of the body above the floor, before the take-off and after it.
+double standingHeight_m(const Scenario& scenario) { return scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m; }
+
+double flightHeight_m(const Scenario& scenario) {
+  return std::min(scenario.variation.flight_height_m, scenario.vehicle.max_height_m);
+}
+
 /// Puts the start on its floor; returns what blocks it, if anything does.
 std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world, const RayCaster& rays) {
   const Scenario& scenario = drawn.scenario;
@@ -137,7 +155,10 @@ std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world,
     const Eigen::Vector3d from(start.x_m + reach_m * std::cos(angle_rad), start.y_m + reach_m * std::sin(angle_rad),
                                start.z_m + kSearchFloorFrom_m);
     const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
-    if (!hit) return startProblem(drawn, world, "has no floor under it", "give the scenario a start over a floor");
+    if (!hit)
+      return startProblem(
+          drawn, world, "has no floor under it",
+          "give a start over a floor, or the world one: <include><uri>model://ground_plane</uri></include>");
     lowest_m = std::min(lowest_m, from.z() - hit.distance_m);
     highest_m = std::max(highest_m, from.z() - hit.distance_m);
   }
@@ -147,18 +168,15 @@ std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world,
                         "move the start");
   drawn.T_world_map = common::lifted({start.x_m, start.y_m, start.yaw_deg * kRadPerDeg}, highest_m);
 
-  const common::VehicleConfig& vehicle = scenario.vehicle;
-  const Eigen::Vector3d body(start.x_m, start.y_m,
-                             highest_m + scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m);
-  const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
-  const Clearance clearance = rays.sweep(hull, body, body, 0.01);
+  const Eigen::Vector3d body(start.x_m, start.y_m, highest_m + standingHeight_m(scenario));
+  const Hull hull = hullOf(scenario);
+  const Clearance clearance = rays.sweep(hull, body, body, kTouching_m);
+  if (const Shape* terrain = terrainAbove(world, rays, body))
+    return startProblem(drawn, world, "is beneath the terrain " + described(*terrain), "move the start");
   const Shape* shape = clearance.shape == Hit::kNothing ? solidAround(world, rays, body)
                                                         : &world.shapes[static_cast<std::size_t>(clearance.shape)];
   if (shape == nullptr) return std::nullopt;
-  return startProblem(drawn, world,
-                      fmt::format("is inside or touches `{}`{}", nameOf(*shape),
-                                  shape->source.file.empty() ? "" : " (" + toString(shape->source) + ")"),
-                      "move the start");
+  return startProblem(drawn, world, "is inside or touches " + described(*shape), "move the start");
 }
 
 /// A problem if the hull would touch that of another vehicle.
@@ -175,33 +193,45 @@ std::optional<Problem> touchesAnother(const PlacedVehicle& drawn, const WorldMod
   return std::nullopt;
 }
 
-/// A problem if the vehicle would touch something on its way up to its flight height: under a chair the hull may fit.
-std::optional<Problem> noRoomAbove(const PlacedVehicle& drawn, const WorldModel& world, const RayCaster& rays) {
-  const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
+/// A problem if something is nearer than the margin on the way up to the flight height: under a chair the hull may fit.
+std::optional<Problem> noRoomAbove(const PlacedVehicle& drawn, const WorldModel& world, const RayCaster& rays,
+                                   double margin_m) {
   const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
-  const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
-  const double standing_m = drawn.scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m;
-  for (double height_m = standing_m; height_m < drawn.scenario.variation.flight_height_m;
+  const Hull hull = hullOf(drawn.scenario);
+  for (double height_m = standingHeight_m(drawn.scenario); height_m < flightHeight_m(drawn.scenario);
        height_m += hull.half_height_m) {
     const Eigen::Vector3d at = floor_m + height_m * Eigen::Vector3d::UnitZ();
-    if (rays.sweep(hull, at, at, kTakeOffRoom_m).shape != Hit::kNothing)
-      return startProblem(drawn, world, "has no room above it", "move the start, or lower variation.flight_height_m");
+    const Clearance near = rays.sweep(hull, at, at, margin_m);
+    if (near.shape == Hit::kNothing) continue;
+    return startProblem(
+        drawn, world,
+        fmt::format("has no room for the take-off to {:g} m: {} is above it, {:.2f} m over the floor",
+                    flightHeight_m(drawn.scenario), described(world.shapes[static_cast<std::size_t>(near.shape)]),
+                    near.point_world_m.z() - floor_m.z()),
+        "move the start, or lower variation.flight_height_m");
   }
   return std::nullopt;
 }
 
-/// The free place nearest to a blocked start, on a floor like that of the start, or on top of everything.
+/// A free place near a blocked start, on a floor like that of the start, or on top of everything: the nearest one, or
+/// one little farther that is better to fly from.
 std::optional<StartConfig> nearestFree(const PlacedVehicle& blocked, const WorldModel& world, const RayCaster& rays,
                                        const std::vector<PlacedVehicle>& others) {
-  constexpr double kStep_m = 0.25, kFarthest_m = 20.0;
-  const StartConfig& start = blocked.scenario.start;
+  constexpr double kStep_m = 0.25, kFarthest_m = 20.0, kLittleFarther_m = 2.0;
+  const Scenario& scenario = blocked.scenario;
+  const StartConfig& start = scenario.start;
   const double above_m = static_cast<double>(world.bounds_world_m().max().z()) + kSearchFloorFrom_m;
+  const Eigen::Vector3d standing = standingHeight_m(scenario) * Eigen::Vector3d::UnitZ();
+  const StartSurroundings around(rays, hullOf(scenario), Eigen::Vector3d(start.x_m, start.y_m, start.z_m) + standing,
+                                 flightHeight_m(scenario) - standing.z());
   const auto rounded = [](double value, double digits = 100.0) { return std::round(value * digits) / digits; };
   PlacedVehicle place = blocked;
   StartConfig& at = place.scenario.start;
   at.yaw_deg = rounded(start.yaw_deg, 1.0);
-  for (const bool on_top : {false, true})
-    for (double ring_m = 0.0; ring_m <= kFarthest_m; ring_m += kStep_m) {
+  std::optional<std::pair<int, StartConfig>> best;
+  for (const bool on_top : {false, true}) {
+    double farthest_m = kFarthest_m;
+    for (double ring_m = 0.0; ring_m <= farthest_m; ring_m += kStep_m) {
       const int places = std::max(1, static_cast<int>(2.0 * std::numbers::pi * ring_m / kStep_m));
       for (int i = 0; i < places; ++i) {
         const double angle_rad = 2.0 * std::numbers::pi * i / places;
@@ -209,11 +239,17 @@ std::optional<StartConfig> nearestFree(const PlacedVehicle& blocked, const World
         at.y_m = rounded(start.y_m + ring_m * std::sin(angle_rad));
         const Hit top = on_top ? rays.cast({at.x_m, at.y_m, above_m}, -Eigen::Vector3d::UnitZ(), above_m + 1e3) : Hit();
         at.z_m = rounded(top ? above_m - top.distance_m : start.z_m);
-        if (!placeStart(place, world, rays) && !touchesAnother(place, world, others) &&
-            !noRoomAbove(place, world, rays))
-          return at;
+        if (placeStart(place, world, rays) || touchesAnother(place, world, others) ||
+            noRoomAbove(place, world, rays, kTakeOffRoom_m))
+          continue;
+        const int drawbacks = around.drawbacksOf(place.T_world_map.position_m + standing);
+        if (!best) farthest_m = std::min(kFarthest_m, ring_m + kLittleFarther_m);
+        if (!best || drawbacks < best->first) best = {drawbacks, at};
+        if (drawbacks == 0) return at;
       }
     }
+    if (best) return best->second;
+  }
   return std::nullopt;
 }
 
@@ -262,7 +298,7 @@ std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, 
   if (in_area && std::abs(drawn.T_world_map.position_m.z() - nominal.z_m) > kSameFloor_m)
     return startProblem(drawn, drawn.world, "is not on the floor of the start that is given",
                         "choose the area elsewhere");
-  if (auto problem = noRoomAbove(drawn, drawn.world, rays); problem || !in_area) return problem;
+  if (auto problem = noRoomAbove(drawn, drawn.world, rays, kTakeOffRoom_m); problem || !in_area) return problem;
   if (reach.has({nominal.x_m, nominal.y_m})) return std::nullopt;
   return startProblem(drawn, drawn.world, "does not lead to the start that is given", "choose the area elsewhere");
 }
@@ -303,6 +339,7 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
     Reach reach(drawn, rays);
     auto problem = placeStart(drawn, drawn.world, rays);
     if (!problem) problem = touchesAnother(drawn, drawn.world, others);
+    if (!problem) problem = noRoomAbove(drawn, drawn.world, rays, kTouching_m);
     if (!problem) problem = badPlace(drawn, nominalStart(world, nominal.scenario), rays, reach);
     if (problem) {
       if (const auto free = draws == 1 ? nearestFree(drawn, drawn.world, rays, others) : std::nullopt)

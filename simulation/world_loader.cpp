@@ -82,6 +82,10 @@ class Loader {
   void addWorld(const sdf::World& world) {
     state_ = readState(world, world_.file);
     for (const Problem& insertion : state_.insertions) addMissing(insertion);
+    for (const common::SourceLocation& place : state_.unused)
+      world_.warnings.push_back(toString(
+          Problem{place, "state",
+                  fmt::format("the first <state>, of line {}, counts; this one is left out", state_.source.line), ""}));
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (!state_.deleted.contains(model.Name())) addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});
@@ -226,6 +230,7 @@ class Loader {
     }
     addShape(scope, link, locationOf(item.Element(), world_.file), T_world_item, *triangles,
              look.color.value_or(colorByName(scope.top)), look);
+    world_.shapes.back().terrain = item.Geom()->HeightmapShape() != nullptr;
   }
 
   void addMesh(const sdf::Mesh& sdf_mesh, const common::Pose3& T_world_item, const Scope& scope,

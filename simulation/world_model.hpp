@@ -43,6 +43,7 @@ struct Shape {
   std::vector<std::uint16_t> material_of_triangle = {};  ///< Indices into `materials`.
   std::vector<Eigen::Vector2f> image_places = {};  ///< Of the vertices in the images of their materials, see Mesh.
   common::Pose3 T_world_shape = {};                ///< Of the frame in which patterns keep their place on it.
+  bool terrain = false;                            ///< Of a heightmap: what is beneath it is ground.
 };
 
 /// "model/part".

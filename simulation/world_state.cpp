@@ -42,6 +42,8 @@ WorldState readState(const sdf::World& world, const std::string& file) {
   if (!world.Element() || !world.Element()->HasElement("state")) return state;
   const sdf::ElementPtr element = world.Element()->GetElement("state");
   state.source = locationOf(element, file);
+  for (auto next = element->GetNextElement("state"); next; next = next->GetNextElement("state"))
+    state.unused.push_back(locationOf(next, file));
   for (const auto& model : childrenOf(element, "model")) addModel(model, "", state);
   for (const auto& deletions : childrenOf(element, "deletions"))
     for (const auto& name : childrenOf(deletions, "name")) state.deleted.insert(name->Get<std::string>());

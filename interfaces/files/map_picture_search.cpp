@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/map_picture.hpp"

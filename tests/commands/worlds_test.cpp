@@ -30,7 +30,9 @@ TEST_F(Worlds, AreFoundByTheirNames) {
   for (const std::string name : {"unb_case1", "unb_case1.sdf", "worlds/unb_case1"})
     expectRefused(fly({"--world", name, "--start", "900;0;0"}),
                   "unb_case1\\.sdf:[0-9]+: start: at \\(900\\.00, 0\\.00");
-  expectRefused(fly({"--world", "unb_case"}), "unb_case: no such file");
+  expectRefused(fly({"--world", "unb_case"}), "unb_case: no such file.*did you mean `worlds/unb_case1.sdf`");
+  expectRefused(fly({"--world", "Unb_Case1"}), "did you mean `worlds/unb_case1.sdf`");
+  expectRefused(fly({"--world", "hall"}), "did you mean `trials/worlds/hall.sdf`");
 }
 
 TEST_F(Worlds, AStartInsideAThingNamesTheNearestFreePlaceWhichWillDo) {
@@ -40,7 +42,8 @@ TEST_F(Worlds, AStartInsideAThingNamesTheNearestFreePlaceWhichWillDo) {
   const ProgramEnd flown =
       fly({"--start", end.err.substr(begin, end.err.find('"', begin) - begin), "--time-limit", "0.5"});
   EXPECT_NE(flown.exit_code, 2) << describe(flown);
-  for (const std::string text : {"here", "1;2;3;4;5", "nan;0;0", "1,5;2;90", "1;2;", "1;2;3;20000"})
+  for (const std::string text :
+       {"here", "1;2;3;4;5", "nan;0;0", "1,5;2;90", "3,5;2", "3,5 2", "1;2;", "1;2;3;20000"})
     expectBadStart(fly({"--start", text}));
 }
 
@@ -51,6 +54,9 @@ TEST_F(Worlds, ATrialsWorldAndMissionAreFoundBesideItsFile) {
   write("hop.xml", test_support::readText(std::filesystem::path(SWIFTLET_SOURCE_DIR) / kMission));
   const std::string trial = write("t.yaml", "mission: hop.xml\nscenario: {world: room.sdf}\n");
   expectRefused(runSwiftlet({"trial", trial, "--out", path("other")}), "room\\.sdf:1.*`pillar/l`");
+  write("s.yaml", "based_on: swiftlet\n");
+  const std::string bare = write("u.yaml", "mission: ./hop\nsystem: s.yaml\nscenario: {world: room}\n");
+  expectRefused(runSwiftlet({"trial", bare, "--out", path("other")}), "room\\.sdf:1.*`pillar/l`");
 }
 
 }  // namespace

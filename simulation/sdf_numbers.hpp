@@ -1,0 +1,18 @@
+// The numbers in the texts of SDF elements. libsdformat reads as much of such a text as it can and takes `1,5` for 1.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/error.hpp"
+#include "simulation/sdf_text.hpp"
+
+namespace swiftlet::simulation {
+
+/// A problem for each element with a number that the simulator uses, such as <pose> and <size>, whose text is not as
+/// many numbers as it takes, with blanks between them. What an element without a text means is libsdformat's to say.
+std::vector<common::Problem> numberProblems(const std::string& file, std::string_view text,
+                                            const std::vector<SdfTag>& tags);
+
+}  // namespace swiftlet::simulation

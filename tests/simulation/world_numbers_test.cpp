@@ -1,0 +1,137 @@
+// Numbers of a world that are written in another way than SDF's, and starts that leave no room.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
+#include "common/error.hpp"
+#include "common/image.hpp"
+#include "common/png_encoder.hpp"
+#include "fixtures.hpp"
+#include "sdf_texts.hpp"
+#include "simulation/sdf_text.hpp"
+#include "simulation/uri_resolver.hpp"
+#include "simulation/variation.hpp"
+#include "simulation/world_model.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class WorldNumbers : public ::testing::Test {
+ protected:
+  WorldModel loadModels(const std::string& models) {
+    return loadWorld(
+        folder_.write("world.sdf", "<sdf version='1.9'>\n<world name='w'>\n" + models + "</world></sdf>\n"));
+  }
+  /// What refuses the world, or the start in it.
+  std::string refusalOf(const std::string& models, const StartConfig& start = {}) {
+    try {
+      Scenario scenario;
+      scenario.start = start;
+      realize(loadModels(models), scenario);
+    } catch (const common::InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  TemporaryFolder folder_{"swiftlet_world_numbers"};
+};
+
+const std::string kWideFloor = model("floor", "<box><size>20 20 0.1</size></box>", "0 0 -0.05 0 0 0");
+
+StartConfig startAt(double x_m, double y_m) { return {false, x_m, y_m, 0.0, 0.0}; }
+
+/// The start that a message proposes.
+StartConfig proposedIn(const std::string& text) {
+  StartConfig start = startAt(0.0, 0.0);
+  const std::size_t at = text.find("--start \"");
+  if (at != std::string::npos) std::sscanf(text.c_str() + at, "--start \"%lf;%lf;", &start.x_m, &start.y_m);
+  return start;
+}
+
+TEST_F(WorldNumbers, ThatSdfDoesNotHaveAreRefusedWithWhatToWrite) {
+  const auto box = [](const std::string& size) { return "<box><size>" + size + "</size></box>"; };
+  for (const auto& [geometry, wanted] :
+       {std::pair{box("1,5 2 3"), "write `1.5 2 3`"}, {box("1, 2, 3"), "write `1 2 3`"},
+        {box("1;2;3"), "write `1 2 3`"}, {box("1 2\u200B 3"), "write `1 2 3`"},
+        {box("1\u00A02 3"), "write `1 2 3`"}, {box("1m 2 m 3m"), "write `1 2 3`"},
+        {box("1 2 3 4"), "has 4 numbers"}, {box("wide"), "is not 3 numbers"},
+        {std::string("<sphere><radius>0,5</radius></sphere>"), "write `0.5`"},
+        {std::string("<cylinder><radius>1</radius><length>2,5 m</length></cylinder>"), "write `2.5`"},
+        {std::string("<polyline><point>0 0</point><point>1,5 0</point><point>1 1</point><height>2,5</height></polyline>"),
+         "write `2.5`"}})
+    EXPECT_THAT(refusalOf(kWideFloor + model("thing", geometry)), AllOf(HasSubstr("world.sdf:4:"), HasSubstr(wanted)))
+        << geometry;
+  EXPECT_THAT(refusalOf(kWideFloor + model("thing", kBox, "4 \u22122.5 0 0 0 0")), HasSubstr("write `4 -2.5 0 0 0 0`"));
+  EXPECT_THAT(refusalOf("<frame name='start'><pose>1,5 1,5 0 0 0 0</pose></frame>" + kWideFloor),
+              AllOf(HasSubstr("world.sdf:3:"), HasSubstr("write `1.5 1.5 0 0 0 0`")));
+}
+
+TEST_F(WorldNumbers, OfSdfAndOfPluginsAreTaken) {
+  const std::string plugin = "<plugin name='p' filename='f'><model><pose>1,5</pose></model></plugin>";
+  EXPECT_EQ(refusalOf(kWideFloor + plugin + model("thing", "<box><size>+1 .5\n 1e0</size></box>", "4 2. 0 0 0 -1e-2")),
+            "no error");
+}
+
+TEST_F(WorldNumbers, AStartUnderATableIsRefusedForOneThatWillDo) {
+  const std::string models = kWideFloor + model("table", "<box><size>1.6 0.8 0.04</size></box>", "0 0 0.75 0 0 0");
+  const std::string text = refusalOf(models, startAt(0.0, 0.0));
+  EXPECT_THAT(text, AllOf(HasSubstr("no room for the take-off"), HasSubstr("`table/l`")));
+  EXPECT_EQ(refusalOf(models, proposedIn(text)), "no error");
+}
+
+TEST_F(WorldNumbers, AStartInTheWallOfARoomIsMovedIntoTheRoom) {
+  const std::string models = kWideFloor + model("south", "<box><size>8.1 0.1 2.5</size></box>", "4 0 1.25 0 0 0") +
+                             model("north", "<box><size>8.1 0.1 2.5</size></box>", "4 5 1.25 0 0 0") +
+                             model("west", "<box><size>0.1 5.1 2.5</size></box>", "0 2.5 1.25 0 0 0") +
+                             model("east", "<box><size>0.1 5.1 2.5</size></box>", "8 2.5 1.25 0 0 0");
+  for (const auto& [x_m, y_m] : {std::pair{0.0, 0.0}, {4.0, 0.0}, {8.0, 2.5}}) {
+    const StartConfig start = proposedIn(refusalOf(models, startAt(x_m, y_m)));
+    EXPECT_TRUE(start.x_m > 0.3 && start.x_m < 7.7 && start.y_m > 0.3 && start.y_m < 4.7)
+        << start.x_m << " " << start.y_m;
+  }
+}
+
+TEST_F(WorldNumbers, AStartBeneathATerrainIsRefused) {
+  const common::Image white{3, 3, std::vector<std::uint8_t>(27, 255)};
+  const auto bytes = common::encodePng(white);
+  folder_.write("hill.png", std::string(bytes.begin(), bytes.end()));
+  EXPECT_THAT(refusalOf(kWideFloor + model("hill", "<heightmap><uri>hill.png</uri><size>4 4 2</size></heightmap>"),
+                        startAt(0.5, 0.5)),
+              HasSubstr("is beneath the terrain `hill/l`"));
+}
+
+TEST_F(WorldNumbers, ASecondStateIsNamed) {
+  const std::string state = "<state world_name='w'><model name='floor'><pose>0 0 0 0 0 0</pose></model></state>\n";
+  EXPECT_THAT(loadModels(kWideFloor + state + state).warnings, ::testing::Contains(HasSubstr("this one is left out")));
+}
+
+TEST(SdfLines, EndInEveryWayThatSystemsHave) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const std::string text = "a" + end + "b" + end + "cde";
+    const common::SourceLocation at = locationIn("f", text, text.size() - 1);
+    EXPECT_EQ(at.line, 3);
+    EXPECT_EQ(at.column, 3);
+  }
+}
+
+TEST(SdfLines, AFuelModelOfAnotherVersionIsNamedWithTheOnesThatAreThere) {
+  TemporaryFolder folder("swiftlet_fuel_versions");
+  folder.write("cache/fuel.gazebosim.org/o/models/p/3/model.sdf", "<sdf version='1.9'/>");
+  const auto hintOf = [&](const std::string& uri) {
+    return UriResolver(folder.path() / "w.sdf", {(folder.path() / "cache").string()}).hintFor(uri, {});
+  };
+  EXPECT_THAT(hintOf("HTTPS://Fuel.GazeboSim.org/1.0/o/models/p/2"),
+              AllOf(HasSubstr("version 3"), HasSubstr("models/p/2\"")));
+  EXPECT_THAT(hintOf("https://models.example.org/1.0/o/models/q"),
+              AllOf(HasSubstr("from https://models.example.org"), ::testing::Not(HasSubstr("gz fuel"))));
+}
+
+}  // namespace
+}  // namespace swiftlet::simulation
