@@ -125,6 +125,7 @@ CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission
   const System system = loadSystem(options.system);
   CheckReport report;
   append(problemsOfSensors(system), report.problems);
+  if (options.mock_leaves) add(report.warnings, together.warnings);
   for (const NamedMission& mission : missions) {
     behaviors::MissionVerdict verdict = judge(mission, options, system, together);
     add(report.problems, verdict.problems);

@@ -76,12 +76,13 @@ MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimit
                                      const tree::TreeFiles& together) {
   tree::ParseOptions options;
   options.trees_elsewhere = together;
+  options.user_sets_entries = together.helpers.contains(path);
   const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry(), options);
   tree::ParseResult parsed = tree::parseFile(path, mocked.registry, mocked.options);
   std::vector<std::string> whose;
   if (parsed.tree) whose = ownersOf(*parsed.tree, mocked.mocks);
   const bool foreign = !mocked.mocks.empty() || (parsed.tree && !hasBehaviour(*parsed.tree));
-  if (parsed.tree && foreign) return {{}, std::move(parsed.warnings), std::move(whose)};
+  if (parsed.tree && (foreign || options.user_sets_entries)) return {{}, std::move(parsed.warnings), std::move(whose)};
   MissionVerdict verdict = verdictOf(std::move(parsed), limits);
   if (verdict.problems.empty()) verdict.whose = std::move(whose);
   return verdict;

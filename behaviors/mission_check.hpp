@@ -39,8 +39,8 @@ struct MissionVerdict {
 MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {},
                             const tree::TreeFiles& together = {});
 /// Types that Swiftlet does not have are mocks (behaviors/tree/mocks.hpp). With one in the tree only the XML is judged,
-/// because nobody knows how a mock moves the vehicle, and so is a tree without any behaviour of Swiftlet. Such a
-/// mission cannot be flown. The file is read leniently (ParseOptions).
+/// because nobody knows how a mock moves the vehicle, and so is a tree without any behaviour of Swiftlet, and one that
+/// another of the files uses. Such a mission cannot be flown. The file is read leniently (ParseOptions).
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {},
                                      const tree::TreeFiles& together = {});
 

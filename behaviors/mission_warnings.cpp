@@ -33,10 +33,7 @@ class Warnings {
       if (traits.obeys_operator && !limits_.operator_gives_goals)
         warn(record.node->id(), "nobody gives it a goal, and the vehicle holds here", kOperatorHint);
       if (traits.asks_operator && !limits_.operator_goes_on)
-        warn(record.node->id(),
-             std::string("nobody says `go on`, and it ") +
-                 (mayWaitForever(record) ? "waits without an end" : "fails after its timeout_s"),
-             kOperatorHint);
+        warn(record.node->id(), "nobody says `go on`, and it " + endOfWaiting(record), kOperatorHint);
     }
     return std::move(warnings_);
   }
@@ -48,9 +45,20 @@ class Warnings {
                          tree_.pathOf(node)});
   }
 
-  bool mayWaitForever(const tree::NodeRecord& waiter) const {
-    const std::vector<tree::Value> timeouts = tree_.knownValues(waiter.node->id(), "timeout_s");
-    return std::find(timeouts.begin(), timeouts.end(), tree::Value(tree::Duration{})) != timeouts.end();
+  bool mayBeUnlimited(int node, std::string_view port) const {
+    const std::vector<tree::Value> limits = tree_.knownValues(node, port);
+    return std::find(limits.begin(), limits.end(), tree::Value(tree::Duration{})) != limits.end();
+  }
+
+  std::string endOfWaiting(const tree::NodeRecord& waiter) const {
+    if (!mayBeUnlimited(waiter.node->id(), "timeout_s")) return "fails after its timeout_s";
+    bool may_be_halted = false;
+    for (int id = waiter.parent; id >= 0; id = tree_.nodes()[static_cast<std::size_t>(id)].parent) {
+      const std::string_view type = typeNameOf(tree_.nodes()[static_cast<std::size_t>(id)]);
+      if (type == "Timeout" && !mayBeUnlimited(id, "msec")) return "waits until the Timeout above it ends it";
+      may_be_halted |= type.starts_with("Reactive") || type.starts_with("Parallel") || type == "WhileDoElse";
+    }
+    return may_be_halted ? "waits until something else ends it" : "waits without an end";
   }
 
   /// The first leaf below that has the vehicle whenever it is ticked; null without one.

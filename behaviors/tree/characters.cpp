@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include "behaviors/tree/utf8.hpp"
 
@@ -131,8 +132,13 @@ const char* scriptOf(std::uint32_t code) {
   return code >= 0x0400 && code <= 0x052F ? "a Cyrillic letter" : nullptr;
 }
 
-/// "zero width space, take it out" or "minus sign, write `-`"; empty for a character that misleads nobody.
-std::string meaningOf(std::uint32_t code) {
+/// A character's name and what is meant by it, as in Range.
+struct Meaning {
+  std::string name, meant;
+};
+
+/// Without a name for a character that misleads nobody.
+Meaning lookUp(std::uint32_t code) {
   std::string name, meant;
   const auto* found = std::find_if(kMisleading.begin(), kMisleading.end(),
                                    [&](const Range& range) { return code >= range.first && code <= range.last; });
@@ -145,6 +151,12 @@ std::string meaningOf(std::uint32_t code) {
   } else if (code < 0x20 || code == 0x7F) {
     name = "control character";
   }
+  return {std::move(name), std::move(meant)};
+}
+
+/// "zero width space, take it out" or "minus sign, write `-`"; empty for a character that misleads nobody.
+std::string meaningOf(std::uint32_t code) {
+  const auto [name, meant] = lookUp(code);
   if (name.empty()) return {};
   return name + (meant == " " ? ", write a blank" : meant.empty() ? ", take it out" : ", write `" + meant + "`");
 }
@@ -181,6 +193,17 @@ std::string nameOfCharacter(std::string_view text, std::size_t offset) {
   const std::uint32_t code = codePointAt(text, offset);
   const char* script = scriptOf(code);
   return named(code, script == nullptr ? meaningOf(code) : script);
+}
+
+std::string asSeen(std::string_view text) {
+  std::string seen;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = std::max<std::size_t>(characterLength(text, at), 1);
+    const Meaning meaning = length > 1 ? lookUp(codePointAt(text, at)) : Meaning();
+    seen += meaning.name.empty() ? text.substr(at, length) : std::string_view(meaning.meant);
+    at += length;
+  }
+  return seen;
 }
 
 std::string misleadingCharacterIn(std::string_view text) {

@@ -20,4 +20,7 @@ std::string nameOfCharacter(std::string_view text, std::size_t offset);
 /// of another script beside one of ASCII. Empty if there is none.
 std::string misleadingCharacterIn(std::string_view text);
 
+/// The text as it is seen: without what cannot be seen, and with the signs of ASCII that others look like.
+std::string asSeen(std::string_view text);
+
 }  // namespace swiftlet::tree

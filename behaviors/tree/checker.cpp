@@ -68,6 +68,17 @@ std::set<std::string> usedTrees(const Documents& documents) {
   return used;
 }
 
+/// The trees that have the name of a type which is not of the engine.
+std::set<std::string> treesNamedAsTypes(const Documents& documents, const Registry& registry) {
+  std::set<std::string> ids;
+  for (const auto& [id, tree] : documents.trees)
+    if (registry.find(id) != nullptr) ids.insert(id);
+  if (ids.empty()) return ids;
+  const Registry engine = Registry::standard();
+  std::erase_if(ids, [&](const std::string& id) { return engine.find(id) != nullptr; });
+  return ids;
+}
+
 }  // namespace
 
 Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts,
@@ -78,6 +89,7 @@ Checker::Checker(const Documents& documents, const Registry& registry, Problems&
       scripts_(scripts),
       lenient_(lenient),
       used_(usedTrees(documents)),
+      trees_not_types_(lenient ? treesNamedAsTypes(documents, registry) : std::set<std::string>()),
       node_names_(registry.ids()) {
   node_names_.push_back("SubTree");
   for (const auto& [id, tree] : documents.trees) tree_names_.push_back(id);
@@ -102,8 +114,7 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
   if (foundEnough()) return;
   const XmlElement& element = *tree.element;
   const Document& document = *tree.document;
-  if (registry_.find(id) != nullptr)
-    report({document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type", {}});
+  if (registry_.find(id) != nullptr) reportNamedAsType(document, element, id);
   if (element.children.size() != 1)
     report({document.at(element), element.name,
             "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
@@ -112,12 +123,20 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
   for (const XmlElement& child : element.children) checkElement(document, child);
 }
 
+void Checker::reportNamedAsType(const Document& document, const XmlElement& element, const std::string& id) {
+  Problem problem{document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type",
+                  "give the tree another ID, as `" + id + "Tree`, here and where it is used"};
+  if (!isTreeNotType(id)) return report(std::move(problem));
+  problem.message += " too, and here only that of the tree";
+  warn(std::move(problem));
+}
+
 void Checker::checkElement(const Document& document, const XmlElement& element) {
   if (foundEnough()) return;
   open_.push_back(&element);
   if (isSubTree(element))
     checkSubTree(document, element);
-  else if (const NodeType* type = typeOf(element, registry_))
+  else if (const NodeType* type = typeOf(element, registry_); type != nullptr && !isTreeNotType(type->manifest.id))
     checkNode(document, element, type->manifest);
   else
     checkUnknown(document, element);

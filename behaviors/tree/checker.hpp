@@ -17,12 +17,14 @@ namespace swiftlet::tree {
 class Checker {
  public:
   /// Adds every script to `scripts`, and notes it at its attribute. Leniently, what is wrong in a tree that the main
-  /// tree does not use is a warning, and so is an unknown attribute that begins with `_`.
+  /// tree does not use is a warning, and so is an unknown attribute that begins with `_`, and a tree that has the name
+  /// of a type which is not of the engine.
   Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts, bool lenient);
   void check();
 
  private:
   void checkTree(const std::string& id, const TreeDefinition& tree);
+  void reportNamedAsType(const Document& document, const XmlElement& element, const std::string& id);
   void checkElement(const Document& document, const XmlElement& element);
   void reportNoTree(const Document& document, const XmlElement& element, const std::string& id);
   void checkSubTree(const Document& document, const XmlElement& element);
@@ -35,6 +37,8 @@ class Checker {
   void checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                    const PortManifest& port);
   void checkCount(const Document& document, const XmlElement& element, const PortManifest& port, std::int64_t count);
+  /// Leniently a tree is meant by its ID, also where a type that the program adds has that name.
+  bool isTreeNotType(const std::string& id) const { return trees_not_types_.contains(id); }
   /// The tree that is being checked, and problems in it are warnings.
   bool isUnused() const;
   /// There is no need to look for more.
@@ -58,7 +62,8 @@ class Checker {
   Problems& problems_;
   Scripts& scripts_;
   bool lenient_;
-  std::set<std::string> used_;           ///< The main tree and those that it uses, if there is one.
+  std::set<std::string> used_;  ///< The main tree and those that it uses, if there is one.
+  std::set<std::string> trees_not_types_;
   std::string tree_id_;                  ///< Of the tree that is being checked.
   std::vector<const XmlElement*> open_;  ///< From its root to the element that is being checked.
   /// By the ID of a tree: the trees that it uses, each with the first SubTree that does.

@@ -65,6 +65,7 @@ bool isPortTag(std::string_view name) { return name == "input_port" || name == "
 Problem strayText(const Document& document, const XmlElement& element) {
   const std::string& text = document.source.text();
   const std::size_t at = *element.text_offset;
+  if (auto problem = strayCommentEnd(document.source, at)) return *problem;
   const std::string misleads = misleadingCharacterIn(std::string_view(text).substr(at, characterLength(text, at)));
   return {document.source.locate(at), element.name,
           "text is not expected here" + (misleads.empty() ? "" : "; it begins with " + misleads),
@@ -149,8 +150,12 @@ void Documents::warnUnescaped(const SourceText& source, std::size_t offset) {
   if (problems_.fullOfWarnings()) return;
   const char c = source.text()[offset];
   if (c == '-') {
-    problems_.warn(
-        {source.locate(offset), {}, "`--` stands in a comment, which XML does not allow", "write <!-- == text == -->"});
+    const bool nested = offset >= 2 && source.text().compare(offset - 2, 2, "<!") == 0;
+    problems_.warn({source.locate(offset),
+                    {},
+                    nested ? "`<!--` stands in a comment, which ends at its first -->"
+                           : "`--` stands in a comment, which XML does not allow",
+                    nested ? "take the inner <!-- and --> out" : "write <!-- == text == -->"});
     return;
   }
   problems_.warn({source.locate(offset),

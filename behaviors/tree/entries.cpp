@@ -86,6 +86,7 @@ class EntryChecker {
   }
 
   void reportNotSet(std::size_t slot, const EntryRead& read) {
+    if (options_.user_sets_entries) return;
     const std::string& name = tree_.slots[slot].name;
     Problem problem{tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
                     hintFor(tree_, name), tree_.pathOf(read.origin.node)};

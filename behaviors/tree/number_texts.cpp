@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,7 +19,17 @@ struct NumberText {
   double number = 0.0;
 };
 
+/// 0x10 is a number for scripts, and for no port.
+std::optional<double> hexNumber(const std::string& text) {
+  if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data() + 2, end, number, 16);
+  return error == std::errc() && read == end ? std::optional(static_cast<double>(number)) : std::nullopt;
+}
+
 std::optional<NumberText> numberText(const std::string& text) {
+  if (const auto hex = hexNumber(text)) return NumberText{text, *hex};
   const auto number = parseValue(text, PortType::kDouble, {});
   return number ? std::optional(NumberText{text, std::get<double>(*number)}) : std::nullopt;
 }

@@ -5,8 +5,11 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "behaviors/tree/problem.hpp"
 
 namespace swiftlet::tree {
 
@@ -19,8 +22,13 @@ struct ParseLimits {
   int problems = 100;   ///< Further problems are counted, not listed.
 };
 
-/// The trees of files that belong together though none includes another: by ID, the files that define it.
-using TreeFiles = std::map<std::string, std::vector<std::string>, std::less<>>;
+/// Files that belong together though none includes another.
+struct TreeFiles {
+  std::map<std::string, std::vector<std::string>, std::less<>> trees;  ///< By ID: the files that define it.
+  /// Those whose main tree a SubTree of another one uses; of a file that names none: any of its trees.
+  std::set<std::string, std::less<>> helpers;
+  std::vector<Problem> warnings;  ///< Of a tree that is used and that several of them define.
+};
 
 /// The text of a file, or nothing if it cannot be read.
 using FileReader = std::function<std::optional<std::string>(const std::string& path)>;
@@ -34,6 +42,8 @@ struct ParseOptions {
   bool lenient = false;
   /// The program that ticks the tree may set entries that nothing in the file sets: a warning.
   bool host_sets_entries = false;
+  /// The tree is a helper of others, whose SubTrees give it its entries: nothing is said of those that are not set.
+  bool user_sets_entries = false;
   /// Of the files that are given together with this one. Leniently its SubTrees find their trees there, as in a program
   /// that registers all of them; else the hint says which <include> is missing.
   TreeFiles trees_elsewhere;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/value.hpp"
 
 namespace swiftlet::tree {
@@ -50,6 +51,8 @@ const std::string* nearest(std::string_view word, std::span<const std::string> c
   // A longer name is not a typing error, and the distance takes quadratic time.
   constexpr std::size_t kLongestName = 100;
   if (word.size() > kLongestName) return nullptr;
+  for (const std::string& candidate : candidates)
+    if (candidate.size() <= 4 * kLongestName && asSeen(candidate) == asSeen(word)) return &candidate;
   const std::string low = lowered(word);
   const std::string* best = nullptr;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
@@ -86,7 +89,9 @@ std::string toString(const std::vector<Problem>& problems) {
 
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {
   const std::string* best = nearest(word, candidates);
-  return best == nullptr ? std::string() : "did you mean `" + *best + "`?";
+  if (best == nullptr) return {};
+  const std::string misleads = misleadingCharacterIn(*best);
+  return "did you mean `" + *best + "`" + (misleads.empty() ? "?" : ", which holds " + misleads + "?");
 }
 
 std::string quotedList(std::span<const std::string> words) {

@@ -1,5 +1,6 @@
 #include "behaviors/tree/xml.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -13,6 +14,8 @@ namespace swiftlet::tree {
 namespace {
 
 constexpr std::string_view kXmlBlanks = " \t\r\n";
+constexpr std::string_view kHtml = "html";
+constexpr std::string_view kCommentBegin = "<!--", kCommentEnd = "-->";
 
 /// Elements around those whose depth is limited: <root> and <BehaviorTree>.
 constexpr int kOuterLevels = 2;
@@ -63,13 +66,24 @@ class Reader {
   static void onText(void* self, const XML_Char* text, int length) {
     static_cast<Reader*>(self)->text({text, static_cast<std::size_t>(length)});
   }
-  static void onDoctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
+  static void onDoctype(void* self, const XML_Char* name, const XML_Char*, const XML_Char*, int) {
+    if (isHtml(name)) return static_cast<Reader*>(self)->stopAtHtml();
     static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported",
                                      "take it out, and write its entities as the text they stand for");
   }
 
+  static bool isHtml(std::string_view name) {
+    return std::equal(name.begin(), name.end(), kHtml.begin(), kHtml.end(),
+                      [](char c, char low) { return (c | 0x20) == low; });
+  }
+
+  void stopAtHtml() {
+    stop({}, "this is an HTML page, not a file of trees", "download the file itself, which GitHub shows by `Raw`");
+  }
+
   void open(const XML_Char* name, const XML_Char** attributes) {
     if (problem_) return;
+    if (open_.empty() && isHtml(name)) return stopAtHtml();
     if (static_cast<int>(open_.size()) >= max_depth_ + kOuterLevels) {
       stop(name, "elements are nested deeper than " + std::to_string(max_depth_), "take levels out");
       return;
@@ -89,7 +103,9 @@ class Reader {
   }
 
   void text(std::string_view text) {
-    if (problem_ || open_.empty() || open_.back().element->text_offset) return;
+    if (problem_ || open_.empty()) return;
+    if (text.find(kCommentEnd) != std::string_view::npos && !stray_end_) stray_end_ = offset();
+    if (open_.back().element->text_offset) return;
     const std::size_t first = text.find_first_not_of(kXmlBlanks);
     if (first != std::string_view::npos) open_.back().element->text_offset = offset() + first;
   }
@@ -105,6 +121,8 @@ class Reader {
     const std::string& text = source_.text();
     if (code == XML_ERROR_INVALID_TOKEN && offset() < text.size() && characterLength(text, offset()) == 0)
       return wrongEncoding();
+    if (code == XML_ERROR_TAG_MISMATCH && stray_end_)
+      if (auto problem = strayCommentEnd(source_, *stray_end_)) return *problem;
     return {source_.locate(offset()), open_.empty() ? std::string() : "<" + open_.back().element->name + ">",
             std::string("malformed XML: ") + XML_ErrorString(code) + strangerAt(code), remedyFor(code)};
   }
@@ -159,13 +177,29 @@ class Reader {
     const std::size_t at = offset();
     const auto isAt = [&](std::size_t place, char c) { return place < text.size() && text[place] == c; };
     if (isAt(at, '&') || (at > 0 && isAt(at - 1, '&'))) return "write & as &amp;";
-    if (isAt(at, '<')) return "in a value, write < as &lt;";
+    if (isAt(at, '<')) return remedyForTagWithin();
     if (text.substr(at < 3 ? 0 : at - 3, 4).find("<!") != std::string::npos)
       return "a comment is written as <!-- text -->";
     if (at > 0 && isAt(at - 1, '=')) return "put the value in quotes";
     if (at < text.size() && static_cast<unsigned char>(text[at]) < 0x20U)
       return "XML does not allow this control character, take it out";
     return {};
+  }
+
+  /// At a `<` before the end of a tag.
+  std::string remedyForTagWithin() const {
+    const std::size_t at = readOffset();
+    char quote = '\0';
+    for (std::size_t i = at == 0 ? 0 : text_.rfind('<', at - 1); i < at; ++i) {
+      if (quote == '\0' && (text_[i] == '"' || text_[i] == '\''))
+        quote = text_[i];
+      else if (text_[i] == quote)
+        quote = '\0';
+    }
+    if (quote != '\0') return "in a value, write < as &lt;";
+    if (text_.compare(at, kCommentBegin.size(), kCommentBegin) == 0)
+      return "a comment stands between two tags, move it out of this one";
+    return "the tag before has no > at its end";
   }
 
   /// At a byte that is no UTF-8.
@@ -199,6 +233,7 @@ class Reader {
     bool closes_itself = false;  ///< <Element/>
   };
   std::vector<Open> open_;
+  std::optional<std::size_t> stray_end_;  ///< Of the first text that holds the end of a comment.
   std::optional<Problem> problem_;
 };
 
@@ -213,6 +248,23 @@ const XmlAttribute* XmlElement::find(std::string_view attribute_name) const {
 const std::string* XmlElement::attribute(std::string_view attribute_name) const {
   const XmlAttribute* found = find(attribute_name);
   return found == nullptr ? nullptr : &found->value;
+}
+
+std::optional<Problem> strayCommentEnd(const SourceText& source, std::size_t from) {
+  const std::string_view text = source.text();
+  const std::size_t at = text.find(kCommentEnd, from);
+  if (at == std::string_view::npos || text.substr(from, at - from).find('<') != std::string_view::npos)
+    return std::nullopt;
+  const std::size_t before = text.substr(0, at).rfind(kCommentEnd);
+  const bool ended = before != std::string_view::npos &&
+                     text.substr(before, at - before).find(kCommentBegin) == std::string_view::npos;
+  return Problem{source.locate(at),
+                 "-->",
+                 ended ? "the comment before has ended at the --> in line " +
+                             std::to_string(source.locate(before).line) + " already"
+                       : "no comment begins before it",
+                 "a comment ends at its first -->, take the others and <!-- within it out",
+                 {}};
 }
 
 XmlResult parseXml(const SourceText& source, int max_depth, bool lenient) {

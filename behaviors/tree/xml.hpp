@@ -45,6 +45,9 @@ struct XmlResult {
   std::vector<std::size_t> unescaped;
 };
 
+/// Of a `-->` in the text that begins at `from` and ends at the next tag: a comment before it has ended already.
+std::optional<Problem> strayCommentEnd(const SourceText& source, std::size_t from);
+
 /// `max_depth` limits elements within elements, below <root> and <BehaviorTree>. Comments are taken as tinyxml2 takes
 /// them, leniently also `<` and `&` in the values of attributes (escaped_text.hpp); else those are a problem.
 XmlResult parseXml(const SourceText& source, int max_depth, bool lenient = false);

@@ -56,6 +56,15 @@ TEST(Warnings, NameWhatWaitsForAnOperatorWhoIsNotThere) {
                             "page, or give the trial an `operator` script [M/Sequence/WaitForOperator[1]]"),
                   HasSubstr("nobody says `go on`, and it fails after its timeout_s"),
                   HasSubstr("OperatorCommand: nobody gives it a goal, and the vehicle holds here")));
+  const auto onWaiterIn = [&](const std::string& begin, const std::string& end) {
+    return linesOf(
+        verdictOn("<Sequence><TakeOff/>" + begin + "<WaitForOperator/>" + end + "<Land/></Sequence>", limits).warnings);
+  };
+  EXPECT_THAT(onWaiterIn("<Timeout msec=\"9000\">", "</Timeout>"),
+              ElementsAre(HasSubstr("it waits until the Timeout above it ends it")));
+  EXPECT_THAT(onWaiterIn("<Timeout msec=\"0\">", "</Timeout>"), ElementsAre(HasSubstr("it waits without an end")));
+  EXPECT_THAT(onWaiterIn("<ReactiveSequence><AlwaysSuccess/>", "</ReactiveSequence>"),
+              ElementsAre(HasSubstr("it waits until something else ends it")));
   limits.operator_gives_goals = true;
   EXPECT_THAT(linesOf(verdictOn(inside, limits).warnings).size(), 2U);
   EXPECT_THAT(linesOf(verdictOn("<Sequence><TakeOff/><Land/><Fallback><AlwaysSuccess/><WaitForOperator/></Fallback>"

@@ -70,6 +70,56 @@ TEST_F(MockLeaves, OfSeveralFilesEachMayUseTheTreesOfAll) {
   EXPECT_THAT(missions.err, HasSubstr("write <include path=\"b.xml\"/> below <root>"));
 }
 
+TEST_F(MockLeaves, AFileThatAnotherOneUsesIsNoMissionOfItsOwn) {
+  const std::string a =
+      write("a.xml",
+            "<root BTCPP_format=\"4\" main_tree_to_execute=\"A\"><BehaviorTree ID=\"A\"><Sequence><TakeOff/>"
+            "<SetBlackboard value=\"3\" output_key=\"lim\"/><SubTree ID=\"B\" _autoremap=\"true\"/><Land/></Sequence>"
+            "</BehaviorTree></root>");
+  const std::string b = write("b.xml",
+                              "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><Sequence><MoveToGoal goal=\"1;0\"/>"
+                              "<ScriptCondition code=\"lim &gt; 1\"/></Sequence></BehaviorTree></root>");
+  EXPECT_EQ(runSwiftlet({"check", "--mock-leaves", b}).exit_code, 2) << "alone it flies before a take-off";
+  const ProgramEnd together = runSwiftlet({"check", "--mock-leaves", a, b});
+  EXPECT_EQ(together.exit_code, 0) << describe(together);
+  EXPECT_EQ(together.err, "");
+  const std::string wrong = write("b.xml",
+                                  "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><MoveToGoal goal=\"here\"/>"
+                                  "</BehaviorTree></root>");
+  EXPECT_EQ(runSwiftlet({"check", "--mock-leaves", a, wrong}).exit_code, 2) << "its XML is judged";
+}
+
+TEST_F(MockLeaves, WarnsOfTwoFilesWithATreeOfOneName) {
+  const auto helper = [&](const char* file) {
+    return write(file, "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree></root>");
+  };
+  const std::string b = helper("b.xml"), c = helper("c.xml");
+  const std::string a = write("a.xml",
+                              "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><Sequence><Wiggle/><SubTree ID=\"B\"/>"
+                              "</Sequence></BehaviorTree></root>");
+  EXPECT_THAT(runSwiftlet({"check", "--mock-leaves", a, b, c}).err,
+              HasSubstr(c + ":1:25: warning: BehaviorTree: `B` is defined at " + b + ":1:25 too"));
+  EXPECT_EQ(runSwiftlet({"check", "--mock-leaves", b, c}).err, "") << "nobody uses one of them";
+}
+
+TEST_F(MockLeaves, AForeignTreeMayHaveTheNameOfABehaviour) {
+  const std::string path = write(
+      "patrol.xml",
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"Patrol\"><BehaviorTree ID=\"Patrol\"><Sequence><Drive/>"
+      "<SubTree ID=\"Inspect\"/></Sequence></BehaviorTree><BehaviorTree ID=\"Inspect\"><Look/></BehaviorTree></root>");
+  const ProgramEnd mocked = runSwiftlet({"check", "--mock-leaves", path});
+  EXPECT_EQ(mocked.exit_code, 0) << describe(mocked);
+  EXPECT_THAT(mocked.err, HasSubstr("warning: BehaviorTree: `Patrol` is the name of a node type too"));
+  const ProgramEnd strict = runSwiftlet({"check", path});
+  EXPECT_EQ(strict.exit_code, 2) << describe(strict);
+  EXPECT_THAT(strict.err, HasSubstr("`Patrol` is the name of a node type, give the tree another ID, as `PatrolTree`"));
+  const std::string leaf = write("leaf.xml",
+                                 "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Inspect/>"
+                                 "</BehaviorTree><BehaviorTree ID=\"Inspect\"><Look/></BehaviorTree></root>");
+  EXPECT_THAT(runSwiftlet({"check", "--mock-leaves", leaf}).err,
+              HasSubstr("a tree is used as <SubTree ID=\"Inspect\"/>"));
+}
+
 TEST_F(MockLeaves, AreNotFlown) {
   const ProgramEnd end = runSwiftlet({"fly", mockedMission(kHop), "--mock-leaves"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

@@ -76,13 +76,13 @@ const tests = {
           await setPanels(page, panels);
           const where = `${width} x ${height}${in3d ? ', 3D' : ''}${panels ? ', panels open' : ''}`;
           const points = await pointsOf(page, where);
-          // The taps take turns among the four, so that the test ends.
+          // What is hit is known at all nine points; the taps, at two corners, take turns among the four.
           if (i % 4 !== 2 * in3d + panels) continue;
           for (const name of kCommands) {
             given.length = 0;
-            for (const [x, y] of points[name]) await page.touchscreen.tap(x, y);
-            await eventually(`${where}: nine times ${name}`, () => given.length >= 9);
-            assert.deepEqual(given, Array(9).fill(name), where);
+            for (const [x, y] of [points[name].at(0), points[name].at(-1)]) await page.touchscreen.tap(x, y);
+            await eventually(`${where}: twice ${name}`, () => given.length >= 2);
+            assert.deepEqual(given, Array(2).fill(name), where);
           }
         }
       }
@@ -108,7 +108,8 @@ const tests = {
 
   async 'a map as it was, too high for its row, would be found'() {
     const page = await open({ width: 844, height: 340 });
-    await page.addStyleTag({ content: '.map { min-height: 260px; z-index: 9 }' });
+    // The page's content policy refuses a style sheet that is added, not what a script sets.
+    await page.evaluate(() => Object.assign(document.querySelector('.map').style, { minHeight: '260px', zIndex: 9 }));
     await assert.rejects(pointsOf(page, 'planted'), /hold at .* is CANVAS map/);
     return page;
   },

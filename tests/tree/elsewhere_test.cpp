@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "tests/support/scratch.hpp"
 #include "tests/tree/story.hpp"
 
 namespace swiftlet::tree::testing {
@@ -33,7 +35,7 @@ class Elsewhere : public ::testing::Test {
   }
   void add(const std::string& file, const std::string& id, const std::string& text) {
     files_[file] = text;
-    trees_[id].push_back(file);
+    trees_.trees[id].push_back(file);
   }
 
   std::map<std::string, std::string> files_;
@@ -74,7 +76,7 @@ TEST_F(Elsewhere, OnlyWhatIsUsedIsJudged) {
   files_["b.xml"] =
       "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree>"
       "<BehaviorTree ID=\"A\"><Nobody/></BehaviorTree><BehaviorTree ID=\"Other\"><Nobody/></BehaviorTree></root>";
-  trees_["B"] = {"b.xml"};
+  trees_.trees["B"] = {"b.xml"};
   add("a.xml", "A", oneTree("A", uses("B")));
   const ParseResult result = read("a.xml");
   EXPECT_THAT(linesOf(result.problems), IsEmpty());
@@ -92,7 +94,7 @@ TEST_F(Elsewhere, AMissionIsToldWhatToInclude) {
   add("d/sub/b.xml", "B", oneTree("B", "<AlwaysSuccess/>"));
   EXPECT_THAT(linesOf(read("d/a.xml", false).problems),
               ElementsAre(HasSubstr("there is no <BehaviorTree ID=\"B\">, write <include path=\"sub/b.xml\"/>")));
-  trees_.clear();
+  trees_.trees.clear();
   EXPECT_THAT(linesOf(read("d/a.xml", false).problems), ElementsAre(HasSubstr("needs <include path=\"OTHER.xml\"/>")));
   EXPECT_THAT(linesOf(read("d/a.xml").problems), ElementsAre(HasSubstr("check --mock-leaves d/a.xml OTHER.xml")));
 }
@@ -114,6 +116,18 @@ TEST(MainTree, IsTheOneThatNoOtherUses) {
   EXPECT_THAT(hintFor("", treeWith("Z", "Y") + treeWith("X", "Y") + treeWith("Y", "")),
               ElementsAre(HasSubstr("write main_tree_to_execute=\"Z\", or another that no tree uses: `X`")))
       << "in the order of the file";
+}
+
+class TreeFilesOfDisk : public test_support::Scratch {};
+
+TEST_F(TreeFilesOfDisk, TellWhichFileHelpsAnother) {
+  const std::string a = write("a.xml", oneTree("A", uses("B"), "main_tree_to_execute=\"A\""));
+  const std::string b = write("b.xml", oneTree("B", uses("C")));
+  const std::string c = write("c.xml", oneTree("C", "<AlwaysSuccess/>", "main_tree_to_execute=\"C\""));
+  const std::string d = write("d.xml", oneTree("D", uses("D")));
+  const TreeFiles together = treeFiles({a, b, c, d, a});
+  EXPECT_THAT(together.helpers, ElementsAre(b, c));
+  EXPECT_THAT(linesOf(together.warnings), IsEmpty());
 }
 
 }  // namespace

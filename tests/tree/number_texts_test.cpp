@@ -37,6 +37,15 @@ TEST(NumberTexts, AreWarnedOfWhereTheyAreCompared) {
               ElementsAre(HasSubstr("AlwaysSuccess._skipIf: `x >= '10'`")));
 }
 
+TEST(NumberTexts, MayBeHexadecimal) {
+  EXPECT_THAT(
+      warningsOf(set("a", "0x10") + set("b", "9") + asks("a > b")),
+      ElementsAre(HasSubstr("`a > b` compares `0x10` and `9` as texts, not as numbers, <Script code=\"a := 0x10")));
+  EXPECT_THAT(warningsOf(set("a", "0x10") + asks("a == '16'")), ElementsAre(HasSubstr("`0x10` and `16`")));
+  EXPECT_THAT(warningsOf(set("a", "0x") + set("b", "0xdoor") + set("c", "9") + asks("a > c") + asks("b > c")),
+              IsEmpty());
+}
+
 TEST(NumberTexts, AreFollowedThroughCopies) {
   EXPECT_THAT(warningsOf(set("a", "9") + set("b", "{a}") + set("c", "10") + asks("c > b")),
               ElementsAre(HasSubstr("`c > b`")));
