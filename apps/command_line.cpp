@@ -16,11 +16,17 @@
 namespace swiftlet::apps {
 namespace {
 
+constexpr std::string_view kValueMissing = "a value is missing behind it";
+
+/// CLI11 takes the next option for the value of one that lacks its own.
+bool isNextOption(const std::string& text) { return text.starts_with("--"); }
+
 /// A finite number within the bounds. CLI11's own check accepts nan and shows the largest double in messages.
 template <typename Number>
 CLI::Validator numberWithin(Within bounds) {
   const std::string description = fmt::format("{} to {}", bounds.low, bounds.high);
   const auto check = [bounds, description](std::string& text) -> std::string {
+    if (isNextOption(text)) return std::string(kValueMissing);
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc{} && end == text.data() + text.size();
@@ -34,7 +40,10 @@ CLI::Validator numberWithin(Within bounds) {
 
 /// An empty text would count as an option that is not given.
 CLI::Validator notEmpty() {
-  return {[](std::string& text) { return text.empty() ? "is empty: give a text, or leave it out" : std::string(); },
+  return {[](std::string& text) {
+            if (isNextOption(text)) return std::string(kValueMissing);
+            return text.empty() ? "is empty: give a text, or leave it out" : std::string();
+          },
           ""};
 }
 
@@ -138,13 +147,11 @@ std::optional<std::string> unknownWord(const CLI::App& app) {
   return unknown(fmt::format("`{}` is not a command of `{}`", word, fullName(app)), commandHint(app, word));
 }
 
-constexpr std::string_view kValueMissing = ": a value is missing behind it";
-
 /// CLI11 speaks of an option with too few or too many values in its own words.
 std::string plainly(const CLI::ParseError& error) {
   const std::string text = error.what(), option = text.substr(0, text.find(':'));
   if (error.get_name() != "ArgumentMismatch" || !isOption(option)) return text;
-  if (text.ends_with("missing")) return option + std::string(kValueMissing);
+  if (text.ends_with("missing")) return fmt::format("{}: {}", option, kValueMissing);
   return text.find("At Most 1") == std::string::npos ? text : fmt::format("{}: is given more than once", option);
 }
 

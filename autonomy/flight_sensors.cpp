@@ -136,8 +136,9 @@ void SensorCheck::checkRate() {
   const double period_s = 1.0 / laser_.rate_hz;
   const double silence_s = period_s + needs_.delay_s, age_s = silence_s + 0.5 * laser_.sweep_s;
   if (silence_s <= needs_.longest_silence_s && age_s <= needs_.longest_age_s) return;
+  // A sweep lasts a period at most.
   const double room_s =
-      std::min(needs_.longest_silence_s, needs_.longest_age_s - 0.5 * laser_.sweep_s) - needs_.delay_s;
+      std::min(needs_.longest_silence_s - needs_.delay_s, (needs_.longest_age_s - needs_.delay_s) / 1.5);
   const bool silent = silence_s > needs_.longest_silence_s;
   add(fmt::format("{} measures too seldom: its scans come every {:.2f} s (rate_hz: {}), and {}", laser_.name, period_s,
                   laser_.rate_hz,
@@ -146,8 +147,7 @@ void SensorCheck::checkRate() {
                          : fmt::format("a position older than {} s is lost "
                                        "(autonomy.estimator.fusion.horizontal_timeout_s)",
                                        needs_.longest_age_s)),
-      room_s > 0.0 ? fmt::format("name a laser of at least {:.1f} scans a second", std::ceil(10.0 / room_s) / 10.0)
-                   : "name a laser with a shorter sweep_s");
+      fmt::format("name a laser of at least {:.1f} scans a second", std::ceil(10.0 / std::max(room_s, 1e-3)) / 10.0));
 }
 
 }  // namespace

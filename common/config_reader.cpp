@@ -63,6 +63,11 @@ struct YamlReader::Impl {
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
     const SourceLocation place = placeOf(name, node);
+    const auto isSame = [&](const Problem& known) {
+      return known.element == pathOf(name) && known.message == message && toString(known.location) == toString(place);
+    };
+    // A key that is read twice, as `based_on`.
+    if (std::any_of(problems.begin(), problems.end(), isSame)) return;
     std::string lookalike = lookalikeHint(lines, place.line);
     problems.push_back(
         {place, pathOf(name), std::move(message), lookalike.empty() ? std::move(hint) : std::move(lookalike)});
@@ -258,7 +263,9 @@ struct YamlReader::Impl {
       refuseUnknownKeys(level);
     else if (!level.node.IsNull())
       report(level.node, "", fmt::format("{} where keys were expected", textOf(level.node)),
-             level.node.IsScalar() ? keyHint(writtenAt(level.node)) : "leave out the dashes");
+             level.node.IsScalar()                    ? keyHint(writtenAt(level.node))
+             : writtenAt(level.node).starts_with('[') ? "write `{key: value}` in place of the brackets"
+                                                      : "leave out the dashes");
     for (const std::string& text : relations) reportRelation(level.node, text);
     levels.pop_back();
   }

@@ -86,7 +86,7 @@ TEST(FlightSensors, ScansComeBeforeTheLastOneIsTooOld) {
   std::string text;
   for (const auto& problem : problemsOfSensors(slow, {}, {.longest_silence_s = 2.0, .longest_age_s = 0.3}))
     text += toString(problem);
-  EXPECT_THAT(text, AllOf(HasSubstr("horizontal_timeout_s"), HasSubstr("at least 6.1 scans a second")));
+  EXPECT_THAT(text, AllOf(HasSubstr("horizontal_timeout_s"), HasSubstr("at least 5.7 scans a second")));
 }
 
 TEST(FlightSensors, TheShortestRangeIsWithinTheHeightsOfTheVehicle) {
