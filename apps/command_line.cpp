@@ -1,6 +1,7 @@
 #include "apps/command_line.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <type_traits>
 #include <utility>
@@ -15,11 +16,17 @@
 namespace swiftlet::apps {
 namespace {
 
+constexpr std::string_view kValueMissing = "a value is missing behind it";
+
+/// CLI11 takes the next option for the value of one that lacks its own.
+bool isNextOption(const std::string& text) { return text.starts_with("--"); }
+
 /// A finite number within the bounds. CLI11's own check accepts nan and shows the largest double in messages.
 template <typename Number>
 CLI::Validator numberWithin(Within bounds) {
   const std::string description = fmt::format("{} to {}", bounds.low, bounds.high);
   const auto check = [bounds, description](std::string& text) -> std::string {
+    if (isNextOption(text)) return std::string(kValueMissing);
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc{} && end == text.data() + text.size();
@@ -33,7 +40,10 @@ CLI::Validator numberWithin(Within bounds) {
 
 /// An empty text would count as an option that is not given.
 CLI::Validator notEmpty() {
-  return {[](std::string& text) { return text.empty() ? "is empty: give a text, or leave it out" : std::string(); },
+  return {[](std::string& text) {
+            if (isNextOption(text)) return std::string(kValueMissing);
+            return text.empty() ? "is empty: give a text, or leave it out" : std::string();
+          },
           ""};
 }
 
@@ -50,6 +60,11 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+bool hasArguments(const CLI::App& app) {
+  const std::vector<const CLI::Option*> options = app.get_options();
+  return std::any_of(options.begin(), options.end(), [](const CLI::Option* one) { return one->get_positional(); });
 }
 
 std::vector<std::string> commandsOf(const CLI::App& app) {
@@ -89,6 +104,29 @@ std::string unknown(const std::string& what, const std::string& hint) {
   return toString(common::Problem{{}, "", what, hint});
 }
 
+std::string unknownOption(const CLI::App& app, const std::string& name) {
+  std::string hint = placeHint(app, name);
+  if (hint.empty()) hint = name == "-v" || name == "-V" ? "did you mean `--version`?" : "";
+  if (hint.empty()) hint = common::didYouMean((name.starts_with("--") ? "" : "-") + name, optionsOf(app));
+  return unknown(fmt::format("`{}` is not an option of `{}`", name, fullName(app)), hint);
+}
+
+/// A long option behind one dash, of which CLI11 would make several short ones: `-headless` would be `-h`, help.
+/// Every option here has two dashes, apart from `-h`.
+std::optional<std::string> oneDash(const CLI::App& program, const std::vector<std::string>& words) {
+  const CLI::App* app = &program;
+  for (const std::string& word : words) {
+    if (word == "--") break;
+    const std::vector<std::string> commands = commandsOf(*app);
+    if (std::find(commands.begin(), commands.end(), word) != commands.end()) app = app->get_subcommand(word);
+    const bool letters = word.size() > 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    if (!letters) continue;
+    return fmt::format("{}\nRun `{} --help` for more information.\n",
+                       unknownOption(*app, word.substr(0, word.find('='))), fullName(*app));
+  }
+  return std::nullopt;
+}
+
 /// A word that `app` cannot use. If several words remain, an option among them is the cause, because the word after it
 /// is its value.
 std::optional<std::string> unknownWord(const CLI::App& app) {
@@ -96,16 +134,18 @@ std::optional<std::string> unknownWord(const CLI::App& app) {
   for (const std::string& word : left_over) {
     if (!isOption(word)) continue;
     const std::string name = word.substr(0, word.find('='));
-    std::string hint = placeHint(app, name);
-    if (hint.empty()) hint = name == "-v" || name == "-V" ? "did you mean `--version`?" : "";
-    if (hint.empty()) hint = common::didYouMean(name, optionsOf(app));
-    return unknown(fmt::format("`{}` is not an option of `{}`", name, fullName(app)), hint);
+    return unknownOption(app, name);
   }
   if (left_over.empty()) return std::nullopt;
   const std::string& word = left_over.front();
-  if (commandsOf(app).empty())
-    return unknown(fmt::format("`{}` is one argument too many for `{}`", word, fullName(app)),
-                   placeHint(app, word.substr(0, word.find('='))));
+  if (commandsOf(app).empty()) {
+    std::string hint = placeHint(app, word.substr(0, word.find('=')));
+    const std::vector<std::string> options = optionsOf(app);
+    // Of a command without arguments that reads a profile.
+    const bool reads_profile = std::find(options.begin(), options.end(), "--system") != options.end();
+    if (hint.empty() && reads_profile && !hasArguments(app)) hint = fmt::format("did you mean `--system {}`?", word);
+    return unknown(fmt::format("`{}` is one argument too many for `{}`", word, fullName(app)), hint);
+  }
   return unknown(fmt::format("`{}` is not a command of `{}`", word, fullName(app)), commandHint(app, word));
 }
 
@@ -113,7 +153,7 @@ std::optional<std::string> unknownWord(const CLI::App& app) {
 std::string plainly(const CLI::ParseError& error) {
   const std::string text = error.what(), option = text.substr(0, text.find(':'));
   if (error.get_name() != "ArgumentMismatch" || !isOption(option)) return text;
-  if (text.ends_with("missing")) return fmt::format("{}: a value is missing behind it", option);
+  if (text.ends_with("missing")) return fmt::format("{}: {}", option, kValueMissing);
   return text.find("At Most 1") == std::string::npos ? text : fmt::format("{}: is given more than once", option);
 }
 
@@ -121,6 +161,8 @@ std::string plainly(const CLI::ParseError& error) {
 std::string usageProblem(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App* app = &program;
   std::optional<std::string> problem;
+  // What follows an option without its value has not been looked at.
+  if (const std::string plain = plainly(error); plain.ends_with(kValueMissing)) problem = plain;
   for (;;) {
     if (!problem) problem = unknownWord(*app);
     const std::vector<CLI::App*> chosen = app->get_subcommands();
@@ -216,6 +258,10 @@ Program::Program(const std::string& name, const std::string& version, const std:
 Program::~Program() = default;
 
 Program::Parsed Program::parse(int argc, const char* const* argv) {
+  if (const auto mistake = oneDash(*app_, {argv + std::min(argc, 1), argv + argc})) {
+    showError(*mistake);
+    return {nullptr, kBadInput};
+  }
   try {
     app_->parse(argc, argv);
     return {chosen_, kDone};

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "apps/given_map.hpp"
 #include "autonomy/flight_sensors.hpp"
@@ -9,25 +12,17 @@
 #include "common/data_paths.hpp"
 #include "common/lower_case.hpp"
 #include "common/printable.hpp"
+#include "common/read_bytes.hpp"
+#include "common/yaml_problem.hpp"
 
 namespace swiftlet::apps {
-namespace {
-
-/// Finds a file of data by its name. Throws common::InputError for an ending of another kind.
-std::string findOfKind(const std::string& name, const std::vector<std::string>& other_endings, const char* message,
-                       const std::string& hint) {
-  const std::filesystem::path file = common::findData(name);
-  if (std::find(other_endings.begin(), other_endings.end(), common::endingOf(file)) != other_endings.end())
-    throw common::InputError(common::Problem{{name}, "", message, hint});
-  return file.string();
-}
-
-}  // namespace
+namespace fs = std::filesystem;
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
   limits.max_height_m = system.vehicle.max_height_m;
   limits.measured_height_m = autonomy::measuredHeight_m(system.laser);
+  limits.least_measured_height_m = autonomy::leastMeasuredHeight_m(system.laser);
   limits.clearance_problems = [autonomy = system.config.autonomy](double clearance_m) {
     return autonomy.problemsWith(clearance_m);
   };
@@ -53,14 +48,87 @@ std::vector<std::string> missionFiles(const simulation::Scenario& scenario, cons
   return files;
 }
 
-std::string findMission(const std::string& name) {
-  return findOfKind(name, {".yaml", ".yml"}, "is no mission, which is an XML file",
-                    "`swiftlet trial " + name + "` flies a trial");
+namespace {
+
+/// What a file is for, and the words of the command line that use it.
+struct Use {
+  std::string what, hint;
+};
+
+/// Of a YAML file by the keys at its top: trials, maps and profiles end alike.
+Use useOfYaml(const std::string& name, const fs::path& file) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  const std::string text = common::readBytes(file.string(), kMostBytes);
+  const std::vector<std::string_view> lines = common::linesOf(text);
+  const auto has = [&](std::string_view key) {
+    return std::any_of(lines.begin(), lines.end(), [&](std::string_view line) { return line.starts_with(key); });
+  };
+  if (has("scenario:") || has("mission:") || has("criteria:"))
+    return {"a trial", "`swiftlet trial " + name + "` flies a trial"};
+  if (has("image:")) return {"a map", "`--map " + name + "` gives a map"};
+  if (has("based_on:") || has("vehicle:") || has("laser:") || has("autonomy:"))
+    return {"a profile",
+            "`--system " + name + "` flies with a profile, and `swiftlet config --system " + name + "` shows it"};
+  return {"", ""};
 }
 
-std::string findTrial(const std::string& name) {
-  return findOfKind(name, {".xml"}, "is no trial, which is a YAML file", "`swiftlet fly " + name + "` flies a mission");
+Use useOf(const std::string& name, const fs::path& file) {
+  const std::string ending = common::endingOf(file);
+  if (ending == ".yaml" || ending == ".yml") return useOfYaml(name, file);
+  if (ending == ".sdf" || ending == ".world")
+    return {"a world", "`swiftlet fly MISSION.xml --world " + name + "` flies in a world"};
+  if (ending == ".xml") return {"a mission", "`swiftlet fly " + name + "` flies a mission"};
+  return {"", ""};
 }
+
+/// `folder` is where those of its kind are, and `ending` that of their names.
+struct Kind {
+  const char *what, *folder, *ending, *format;
+};
+constexpr Kind kMission{"a mission", "missions", ".xml", "an XML file"};
+constexpr Kind kTrial{"a trial", "trials", ".yaml", "a YAML file"};
+
+fs::path findNamed(const std::string& name, const Kind& kind) {
+  try {
+    return common::findData(name);
+  } catch (const common::InputError& missing) {
+    common::Problem problem = missing.problems().front();
+    if (name.empty() || !problem.hint.empty() || fs::path(name).has_parent_path()) throw;
+    const fs::path whole = fs::path(kind.folder) / fs::path(name).replace_extension(kind.ending);
+    try {
+      (void)common::findData(whole);
+      problem.hint = fmt::format("did you mean `{}`?", whole.string());
+    } catch (const common::InputError& other) {
+      problem.hint = other.problems().front().hint;
+    }
+    throw common::InputError(problem);
+  }
+}
+
+std::string findOfKind(const std::string& name, const Kind& kind) {
+  const fs::path file = findNamed(name, kind);
+  const Use use = fs::is_directory(file) ? Use() : useOf(name, file);
+  if (!use.what.empty() && use.what != kind.what)
+    throw common::InputError(common::Problem{
+        {name}, "", fmt::format("is {}, and no {}, which is {}", use.what, kind.what + 2, kind.format), use.hint});
+  const std::string ending = common::endingOf(file);
+  if (use.what.empty() && ending != kind.ending && !fs::is_directory(file) && (ending == ".yaml" || ending == ".yml"))
+    throw common::InputError(
+        common::Problem{{name}, "", fmt::format("is no {}, which is {}", kind.what + 2, kind.format), ""});
+  return file.string();
+}
+
+}  // namespace
+
+std::string findMission(const std::string& name) {
+  std::string file = findOfKind(name, kMission);
+  if (fs::is_directory(file))
+    throw common::InputError(
+        common::Problem{{name}, "", "is a folder, and no mission, which is an XML file", "name a file of it"});
+  return file;
+}
+
+std::string findTrial(const std::string& name) { return findOfKind(name, kTrial); }
 
 std::string lineOf(tree::Problem problem, bool warning) {
   if (warning) problem.element = "warning" + (problem.element.empty() ? "" : ": " + problem.element);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/yaml_problem.hpp"
 
 namespace swiftlet::apps {
@@ -15,11 +16,12 @@ double parseSpeed(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
   const std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
   if (error != std::errc{} || end != text.data() + text.size() || !(speed >= 0.01 && speed <= 1000.0))
-    throw common::InputError(
-        common::Problem{{},
-                        "--speed",
-                        fmt::format("`{}` is neither max nor a number from 0.01 to 1000", text),
-                        rest == "x" || rest == "\xC3\x97" ? "write the number alone" : common::numberHint("", text)});
+    throw common::InputError(common::Problem{{},
+                                             "--speed",
+                                             fmt::format("`{}` is neither max nor a number from 0.01 to 1000", text),
+                                             rest == "x" || rest == "\xC3\x97"  ? "write the number alone"
+                                             : common::lowerCase(text) == "max" ? "write `max`"
+                                                                                : common::numberHint("", text)});
   return speed;
 }
 

@@ -16,6 +16,7 @@
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/misleading.hpp"
 #include "control/controllers/lqr.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
@@ -35,14 +36,29 @@ std::string namesIn(const std::string& folder) {
 
 bool isPath(const std::string& name) { return name.find_first_of("/.") != std::string::npos; }
 
+bool isShipped(const std::string& folder, const std::string& file) {
+  const std::vector<std::filesystem::path> folders = common::dataFolders();
+  return std::any_of(folders.begin(), folders.end(), [&](const std::filesystem::path& data) {
+    std::error_code error;
+    return std::filesystem::exists(data / "config" / folder / file, error);
+  });
+}
+
 /// "utm_30lx" -> config/sensors/utm_30lx.yaml; anything with a dot or a slash is a file.
 std::string fileFor(const std::string& name, const std::string& folder) {
-  if (isPath(name)) return common::findData(name).string();
   try {
+    if (isPath(name)) return common::findData(name).string();
     return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
   } catch (const common::InputError& e) {
     common::Problem problem = e.problems().front();
-    if (const std::string names = namesIn(folder); !names.empty()) problem.hint = names;
+    const std::filesystem::path file(name);
+    const bool could_be_ours = !file.has_parent_path() && file.extension() == ".yaml";
+    if (common::misleadingIn(name)) throw;
+    if (!isPath(name)) {
+      if (const std::string names = namesIn(folder); !names.empty()) problem.hint = names;
+    } else if (could_be_ours && isShipped(folder, name)) {
+      problem.hint = fmt::format("did you mean `{}`?", file.stem().string());
+    }
     throw common::InputError(problem);
   }
 }
@@ -264,10 +280,18 @@ std::vector<common::Problem> problemsOfLqr(const System& system) {
 }
 
 std::vector<common::Problem> problemsOfSensors(const System& system) {
-  const int least_beams = system.config.autonomy.estimator.laser.odometry.matcher.minPoints();
+  const autonomy::AutonomyConfig& config = system.config.autonomy;
+  const autonomy::ScanNeeds needs = {
+      .least_beams = config.estimator.laser.odometry.matcher.minPoints(),
+      .longest_silence_s = config.supervisor.unseen_hold_s,
+      .longest_age_s =
+          std::min(config.estimator.fusion.horizontal_timeout_s, config.estimator.fusion.vertical_timeout_s),
+      .delay_s = config.scans.latency_s + config.scans.reorder_wait_s,
+      .max_rise_m = config.estimator.laser.projection.max_rise_m,
+  };
   common::LaserConfig laser = system.laser;
   laser.name = std::filesystem::path(system.config.laser).stem().string();  // A sheet made from another has its name.
-  std::vector<common::Problem> problems = autonomy::problemsOfSensors(laser, system.vehicle, least_beams);
+  std::vector<common::Problem> problems = autonomy::problemsOfSensors(laser, system.vehicle, needs);
   for (common::Problem& problem : problems) problem.location = system.laser_place;
   return problems;
 }

@@ -30,6 +30,7 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
   return {.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); },
           .max_height_m = setup.vehicle.max_height_m,
           .measured_height_m = measuredHeight_m(setup.laser),
+          .least_measured_height_m = leastMeasuredHeight_m(setup.laser),
           .has_camera = setup.camera != nullptr,
           .target_names = config.estimator.targets.names(),
           .has_map = setup.given != nullptr,

@@ -122,10 +122,16 @@ class LimitsCheck {
 
   /// All that can be judged without a map.
   void checkPlaces(const tree::NodeRecord& node) {
+    const double least_m = limits_.least_measured_height_m;
     const auto checkGoal = [&](const char* port, const common::Goal& goal) {
       const auto verdict = common::judgeGoal(goal, {.greatest_height_m = max_height_m_}, nullptr);
       const bool height = !verdict && verdict.error().reason == common::GoalRefusal::Reason::kHeight;
       if (!verdict) report(node, port, verdict.error().text, height ? kHeightHint : "");
+      if (verdict && goal.height_m.value_or(least_m) < least_m)
+        report(node, port,
+               metres(*goal.height_m) + " is below " + metres(std::ceil(100.0 * least_m) / 100.0) +
+                   ", from which on the beams down of the laser measure the height (range_min_m)",
+               "name a higher one, or fly with a laser of a smaller range_min_m");
     };
     // A height is judged as that of a goal above the take-off place.
     forEachValue<double>(node, "height_m", [&](double height_m) { checkGoal("height_m", {.height_m = height_m}); });

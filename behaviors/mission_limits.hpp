@@ -20,6 +20,8 @@ struct MissionLimits {
   double max_height_m = 2.0;
   /// Above the take-off floor, up to which the sensors measure the height: no TakeOff may ask for more.
   double measured_height_m = std::numeric_limits<double>::infinity();
+  /// Above the take-off floor, from which on they measure it: no flight may be lower.
+  double least_measured_height_m = 0.0;
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
   /// Names of the targets that the profile looks for; none: any name is accepted.
   std::optional<std::vector<std::string>> target_names = {};

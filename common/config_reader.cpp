@@ -46,6 +46,15 @@ struct YamlReader::Impl {
     return {file, mark.line + 1, mark.column + 1};
   }
 
+  /// Of a value, or of the key of an empty one: the library has that where the next word begins.
+  SourceLocation placeOf(std::string_view name, const YAML::Node& value) const {
+    const YAML::Node& section = levels.back().node;
+    if (value.IsNull() && section.IsMap())
+      for (const auto& entry : section)
+        if (entry.first.IsScalar() && entry.first.Scalar() == name) return at(entry.first);
+    return at(value);
+  }
+
   std::string pathOf(std::string_view name) const {
     const std::string& base = levels.back().path;
     if (base.empty() || name.empty()) return base + std::string(name);
@@ -53,16 +62,29 @@ struct YamlReader::Impl {
   }
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
-    const SourceLocation place = at(node);
+    const SourceLocation place = placeOf(name, node);
+    const auto isSame = [&](const Problem& known) {
+      return known.element == pathOf(name) && known.message == message && toString(known.location) == toString(place);
+    };
+    // A key that is read twice, as `based_on`.
+    if (std::any_of(problems.begin(), problems.end(), isSame)) return;
     std::string lookalike = lookalikeHint(lines, place.line);
     problems.push_back(
         {place, pathOf(name), std::move(message), lookalike.empty() ? std::move(hint) : std::move(lookalike)});
   }
 
   /// What to write in place of a value that is not `expected`.
-  static std::string valueHint(std::string_view name, const YAML::Node& node, std::string_view expected) {
+  std::string valueHint(std::string_view name, const YAML::Node& node, std::string_view expected) const {
     if (node.IsSequence() && node.size() == 1) return "leave out the brackets or the dash";
-    if (!node.IsScalar()) return "";
+    if (node.IsSequence()) return "write one value, without brackets or dashes";
+    if (node.IsMap()) return "write the value alone, without keys";
+    if (node.IsNull()) {
+      const SourceLocation place = placeOf(name, node);
+      const bool comment =
+          place.line > 0 && lines[static_cast<std::size_t>(place.line) - 1].find(": #") != std::string_view::npos;
+      return comment ? "`#` begins a comment: put quotes around a value that has one"
+                     : "write a value behind the colon, or leave out the key";
+    }
     if (expected.ends_with("number")) return numberHint(name, node.Scalar());
     const std::string& word = node.Scalar();
     return expected != "true or false" ? "" : word == "1" ? "write `true`" : word == "0" ? "write `false`" : "";
@@ -74,7 +96,8 @@ struct YamlReader::Impl {
 
   std::optional<YAML::Node> find(std::string_view name) {
     Level& level = levels.back();
-    level.known_keys.emplace_back(name);
+    auto& known_keys = level.known_keys;
+    if (std::find(known_keys.begin(), known_keys.end(), name) == known_keys.end()) known_keys.emplace_back(name);
     if (!level.node.IsMap()) return std::nullopt;
     const YAML::Node& node = level.node;
     YAML::Node value = node[std::string(name)];
@@ -112,10 +135,15 @@ struct YamlReader::Impl {
     if (!node) return;
     if (!node->IsSequence())
       return report(*node, name, fmt::format("{} is not a list", textOf(*node)),
-                    node->IsScalar() ? fmt::format("write `[{}]`", node->Scalar()) : "");
+                    node->IsScalar() ? fmt::format("write `[{}]`", node->Scalar())
+                    : node->IsMap()  ? "write the values in brackets, without keys"
+                                     : "");
     std::vector<Value> read;
     for (const YAML::Node& item : *node) {
       Value value{};
+      if (item.IsSequence())
+        return report(item, name, "a list within the list",
+                      "write all values in one list: leave out the inner brackets");
       if (!convert(item, value)) return reportValue(item, name, expected);
       if constexpr (std::is_arithmetic_v<Value>)
         if (bounds && !bounds->contain(value))
@@ -220,6 +248,14 @@ struct YamlReader::Impl {
     report(node, name, text.substr(colon + 2));
   }
 
+  /// The line of a text that may go over several, from where it begins.
+  std::string_view writtenAt(const YAML::Node& node) const {
+    const SourceLocation place = at(node);
+    if (place.line < 1 || place.line > static_cast<int>(lines.size())) return {};
+    const std::string_view line = lines[static_cast<std::size_t>(place.line) - 1];
+    return line.substr(std::min<std::size_t>(static_cast<std::size_t>(place.column) - 1, line.size()));
+  }
+
   void closeLevel(const std::vector<std::string>& relations) {
     const Level level = levels.back();
     known[level.path] = level.known_keys;
@@ -227,7 +263,9 @@ struct YamlReader::Impl {
       refuseUnknownKeys(level);
     else if (!level.node.IsNull())
       report(level.node, "", fmt::format("{} where keys were expected", textOf(level.node)),
-             level.node.IsScalar() ? keyHint(level.node.Scalar()) : "leave out the dashes");
+             level.node.IsScalar()                    ? keyHint(writtenAt(level.node))
+             : writtenAt(level.node).starts_with('[') ? "write `{key: value}` in place of the brackets"
+                                                      : "leave out the dashes");
     for (const std::string& text : relations) reportRelation(level.node, text);
     levels.pop_back();
   }
@@ -302,7 +340,9 @@ void YamlReader::endSection(std::vector<std::string> problems) { impl_->closeLev
 
 std::optional<int> YamlReader::beginList(std::string_view name, int, std::string_view) {
   const auto node = impl_->find(name);
-  if (node && !node->IsSequence()) impl_->report(*node, name, Impl::textOf(*node) + " is not a list");
+  if (node && !node->IsSequence())
+    impl_->report(*node, name, Impl::textOf(*node) + " is not a list",
+                  node->IsMap() ? "begin each item with a dash: `- `" : "");
   const bool given = node && node->IsSequence();
   impl_->lists.push_back(given ? *node : YAML::Node());
   impl_->list_names.push_back(impl_->pathOf(name));

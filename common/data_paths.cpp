@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "common/error.hpp"
+#include "common/misleading.hpp"
 #include "common/read_bytes.hpp"
 
 namespace swiftlet::common {
@@ -83,6 +84,7 @@ std::optional<fs::path> completed(const fs::path& name, const std::vector<fs::pa
 
 /// The name that was meant, or all that are there if they are few.
 std::string hintFor(const fs::path& name, const std::vector<fs::path>& folders) {
+  if (std::string hint = misleadingHint(name.string()); !hint.empty()) return hint;
   constexpr std::size_t kFew = 30;
   const auto didMean = [](const fs::path& path) { return fmt::format("did you mean `{}`?", path.string()); };
   if (const auto whole = completed(name, folders)) return didMean(*whole);

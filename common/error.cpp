@@ -68,9 +68,14 @@ std::optional<std::string> nearestWord(std::string_view word, std::span<const st
   const std::string* best = nullptr;
   // Where every letter would have to change, nothing is alike.
   std::size_t best_distance = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
+  const auto begin = [&](const std::string& candidate) {
+    return std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first - word.begin();
+  };
   for (const std::string& candidate : candidates) {
     const std::size_t distance = editDistance(word, candidate);
-    if (distance < best_distance) {
+    // Of two as near the one that begins alike: `speed` for `sped`, before `seed`.
+    const bool begins_alike = best != nullptr && distance == best_distance && begin(candidate) > begin(*best);
+    if (distance < best_distance || begins_alike) {
       best_distance = distance;
       best = &candidate;
     }

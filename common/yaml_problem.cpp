@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "common/misleading.hpp"
+
 namespace swiftlet::common {
 namespace {
 
@@ -42,30 +44,7 @@ std::string_view keyOf(std::string_view line) {
   return next.starts_with(':') || next.starts_with('=') ? line.substr(0, end) : std::string_view();
 }
 
-struct Lookalike {
-  std::string_view bytes, name, instead;
-};
-constexpr std::array<Lookalike, 17> kLookalikes{{
-    {"\xC2\xA0", "a no-break space (U+00A0)", "a plain blank"},
-    {"\xE2\x80\xAF", "a narrow no-break space (U+202F)", "a plain blank"},
-    {"\xE2\x80\x83", "an em space (U+2003)", "a plain blank"},
-    {"\xE2\x80\x89", "a thin space (U+2009)", "a plain blank"},
-    {"\xE3\x80\x80", "an ideographic space (U+3000)", "a plain blank"},
-    {"\xE2\x80\x8B", "a zero-width space (U+200B)", "nothing there"},
-    {"\xE2\x80\x8D", "a zero-width joiner (U+200D)", "nothing there"},
-    {"\xE2\x81\xA0", "a word joiner (U+2060)", "nothing there"},
-    {"\xC2\xAD", "a soft hyphen (U+00AD)", "nothing there"},
-    {"\xEF\xBB\xBF", "a byte order mark (U+FEFF)", "nothing there"},
-    {"\xE2\x80\x93", "an en dash (U+2013)", "a plain minus"},
-    {"\xE2\x88\x92", "a minus sign (U+2212)", "a plain minus"},
-    {"\xEF\xBC\x9A", "a fullwidth colon (U+FF1A)", "a plain colon"},
-    {"\xE2\x80\x9C", "a typographic quote (U+201C)", "a plain quote"},
-    {"\xE2\x80\x9D", "a typographic quote (U+201D)", "a plain quote"},
-    {"\xE2\x80\x98", "a typographic quote (U+2018)", "a plain quote"},
-    {"\xE2\x80\x99", "a typographic quote (U+2019)", "a plain quote"},
-}};
-
-/// Where a text is not YAML, why, and how to mend it.
+/// What a text that is not YAML is told: where, what and how to mend it.
 struct Cause {
   int line = 0, column = 0;
   std::string message, hint;
@@ -141,6 +120,11 @@ class Diagnosis {
     const std::size_t colon = line.find(": ");
     if (colon == std::string_view::npos) return std::nullopt;
     const std::string_view written = trimmed(line.substr(colon + 2));
+    if (written.starts_with('\'') && std::count(written.begin(), written.end(), '\'') > 2)
+      return with(
+          fmt::format("within single quotes an apostrophe is written twice; double quotes need none of that: "
+                      "`{}: \"{}\"`",
+                      line.substr(0, colon), written.substr(1, written.size() - 2)));
     if (written.starts_with('"') && written.find('\\') != std::string_view::npos)
       return with("in double quotes a backslash begins a special character: use single quotes");
     if (noticed_.message == "illegal flow end") return with("leave out that bracket: none is open there");
@@ -210,7 +194,14 @@ std::optional<Cause> Diagnosis::indentation() const {
   const auto next = std::lower_bound(columns.begin(), columns.end(), indent);
   const int column = static_cast<int>(indent) + 1;
   const bool is_aligned = next != columns.end() && *next == indent;
-  if (is_aligned && lineAt(line).substr(indent).starts_with("- "))
+  const bool is_item = lineAt(line).substr(indent).starts_with("- ");
+  const int above = contentAt(line - 1);
+  const std::string_view list = above > 0 ? trimmed(withoutComment(lineAt(above))) : "";
+  if (is_aligned && is_item && list.ends_with(':'))
+    return Cause{line, column,
+                 fmt::format("an item of a list stands left of its key `{}`", list.substr(0, list.size() - 1)),
+                 fmt::format("begin it in column {}", indentOf(lineAt(above)) + 1)};
+  if (is_aligned && is_item)
     return Cause{line, column, "an item of a list stands where a key is expected",
                  "leave out the dash, or give the list a key of its own"};
   if (columns.empty() || is_aligned) return std::nullopt;
@@ -229,6 +220,42 @@ Problem notYaml(const std::string& text, const std::string& file, const YAML::Ex
           std::string(keyOf(lines[static_cast<std::size_t>(cause.line) - 1])),
           "not YAML: " + cause.message,
           cause.hint};
+}
+
+/// The library takes what follows on a complete text as a second one, with `---` between them or without.
+Problem secondDocument(const std::string& text, const std::string& file, int line) {
+  const std::vector<std::string_view> lines = linesOf(text);
+  int first = 0;  // The first line with more than a comment.
+  for (int above = line - 1; above > 0; --above) {
+    const std::string_view one = lines[static_cast<std::size_t>(above) - 1];
+    if (one.starts_with("---") && first > 0)
+      first = above;
+    else if (one.starts_with("---"))
+      return {{file, line, 1},
+              "",
+              "a second document begins above this line",
+              "leave out the line `---`, or give each its own file"};
+    else if (!isNothing(one))
+      first = above;
+  }
+  if (first == 0) return {{file, line, 1}, "", "not YAML: this line follows on nothing", ""};
+  const std::string_view head = lines[static_cast<std::size_t>(first) - 1];
+  const std::string_view key = trimmed(withoutComment(head));
+  if (const std::size_t indent = indentOf(head); indent > 0)
+    return {{file, first, static_cast<int>(indent) + 1},
+            std::string(keyOf(head)),
+            fmt::format("not YAML: is indented deeper than line {}, which follows on it", line),
+            "begin it in column 1"};
+  if (key.starts_with('[') && key.ends_with(']'))
+    return {{file, first, 1},
+            "",
+            fmt::format("not YAML: `{}` heads a section in an INI file", key),
+            fmt::format("write `{}:`, and below it, indented, each setting as `key: value`",
+                        key.substr(1, key.size() - 2))};
+  return {{file, line, 1},
+          "",
+          "not YAML: what stands above is complete without this line",
+          keyHint(trimmed(withoutComment(lines[static_cast<std::size_t>(line) - 1])))};
 }
 
 /// "m_s" of "m/s" and "m_s", "deg" of "°".
@@ -269,11 +296,7 @@ YAML::Node loadYaml(const std::string& given, const std::string& file) {
     // The mark for the end of a document makes the library notice a quote that is open there.
     const std::vector<YAML::Node> documents = YAML::LoadAll(is_utf16 ? text : text + "\n...\n");
     for (std::size_t i = 1; i < documents.size(); ++i)
-      if (!documents[i].IsNull())
-        throw InputError(Problem{{file, documents[i].Mark().line + 1, 1},
-                                 "",
-                                 "a second document begins above this line",
-                                 "leave out the line `---`, or give each its own file"});
+      if (!documents[i].IsNull()) throw InputError(secondDocument(text, file, documents[i].Mark().line + 1));
     return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::Exception& e) {
     throw InputError(notYaml(text, file, e));
@@ -281,6 +304,7 @@ YAML::Node loadYaml(const std::string& given, const std::string& file) {
 }
 
 std::string numberHint(std::string_view key, std::string_view written) {
+  if (std::string hint = misleadingHint(written); !hint.empty()) return hint;
   const std::string_view text = trimmed(written);
   std::size_t end = 0;
   std::string number;
@@ -307,12 +331,13 @@ std::string numberHint(std::string_view key, std::string_view written) {
   if (rest.empty()) return number == text ? "" : fmt::format("write `{}`", number);
   if (rest.starts_with('#')) return fmt::format("put a blank before the comment: `{} {}`", number, rest);
   if (rest.find_first_of("]}") == 0) return fmt::format("leave out the `{}`: no bracket is open there", rest[0]);
-  if (rest == "%") return fmt::format("write `{}`: shares are of 1", std::strtod(number.c_str(), nullptr) / 100.0);
-  const std::string unit = unitOf(rest);
-  if (key.ends_with("_" + unit)) return fmt::format("write `{}`: the key's name has the unit", number);
   constexpr std::array<std::string_view, 12> kUnits{"m",  "s", "s2", "deg", "rad", "hz",
                                                     "kg", "v", "n",  "ah",  "px",  "m2"};
   const bool has_unit = std::find(kUnits.begin(), kUnits.end(), key.substr(key.rfind('_') + 1)) != kUnits.end();
+  if (rest == "%" && !has_unit)
+    return fmt::format("write `{}`: shares are of 1", std::strtod(number.c_str(), nullptr) / 100.0);
+  const std::string unit = unitOf(rest);
+  if (key.ends_with("_" + unit)) return fmt::format("write `{}`: the key's name has the unit", number);
   if (has_unit) return "write the number alone, in the unit that the key's name ends with";
   const bool has_exponent = std::tolower(static_cast<unsigned char>(rest[0])) == 'e' && rest.size() > 1;
   return has_exponent ? "" : fmt::format("write the number alone: `{}`", number);
@@ -321,21 +346,19 @@ std::string numberHint(std::string_view key, std::string_view written) {
 std::string lookalikeHint(const std::vector<std::string_view>& lines, int line) {
   if (line < 1 || line > static_cast<int>(lines.size())) return "";
   const std::string_view content = withoutComment(lines[static_cast<std::size_t>(line) - 1]);
-  std::size_t first = std::string_view::npos;
-  const Lookalike* found = nullptr;
-  for (const Lookalike& one : kLookalikes) {
-    // At the beginning of a file it is read as intended.
-    const std::size_t from = line == 1 && content.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-    if (const std::size_t at = content.find(one.bytes, from); at < first) {
-      first = at;
-      found = &one;
-    }
-  }
-  if (found == nullptr) return "";
-  return fmt::format("line {} has {} in column {}: write {}", line, found->name, first + 1, found->instead);
+  // At the beginning of a file it is read as intended.
+  const std::size_t mark = line == 1 && content.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  const auto found = misleadingIn(content.substr(mark));
+  if (!found) return "";
+  return fmt::format("line {} has {} in column {}: write {}", line, found->what, mark + found->offset + 1,
+                     found->instead);
 }
 
 std::string keyHint(std::string_view written) {
+  const bool dash = written.size() > 1 && written[0] == '-' &&
+                    std::string_view(" -.0123456789").find(written[1]) == std::string_view::npos;
+  if (dash && written.find(':') != std::string_view::npos)
+    return fmt::format("put a blank behind the dash: `- {}`", written.substr(1));
   if (written.starts_with("- ")) written = trimmed(written.substr(2));
   const std::string_view key = keyOf(written);
   const std::string_view rest = trimmed(written.substr(key.size()));

@@ -136,9 +136,9 @@ TEST_F(CheckMission, AFileOfAnotherKindIsToldInALine) {
     EXPECT_EQ(end.err, line + "\n");
   };
   const std::string no_trial =
-      mission + ": is no trial, which is a YAML file, `swiftlet fly " + mission + "` flies a mission";
+      mission + ": is a mission, and no trial, which is a YAML file, `swiftlet fly " + mission + "` flies a mission";
   const std::string no_mission =
-      trial + ": is no mission, which is an XML file, `swiftlet trial " + trial + "` flies a trial";
+      trial + ": is a trial, and no mission, which is an XML file, `swiftlet trial " + trial + "` flies a trial";
   expectLine({"trial", mission}, no_trial);
   expectLine({"trial", "--envelope", mission}, no_trial);
   expectLine({"fly", mission, "--scenario", mission}, no_trial);

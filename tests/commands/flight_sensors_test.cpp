@@ -54,6 +54,17 @@ TEST_F(FlightSensors, ATakeOffHigherThanTheBeamsDownReachIsRefused) {
                 "high\\.xml:4:[0-9]+: TakeOff\\.max_height_m: 5 m is above 3\\.44 m, up to which the beams down");
 }
 
+TEST_F(FlightSensors, AFlightLowerThanTheBeamsDownMeasureIsRefused) {
+  const std::string low = write("low.xml", missionWith("      <TakeOff height_m=\"0.8\"/>\n      <Land/>\n"));
+  const std::string shipped = readText(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
+  std::string far = shipped;
+  far.replace(far.find("range_min_m: 0.1"), 16, "range_min_m: 1.2");
+  (void)write("far.yaml", far);
+  const std::string system = write("far_sighted.yaml", "based_on: swiftlet\nlaser: far.yaml\n");
+  expectRefused(runSwiftlet({"check", low, "--system", system}),
+                "low\\.xml:4:[0-9]+: TakeOff\\.height_m: 0\\.8 m is below 1\\.24 m, from which on the beams down");
+}
+
 TEST_F(FlightSensors, WhereTheLaserReachesNothingTheTakeOffIsRefused) {
   const std::string hall = floorBox() + box("north", "0 8 1.5 0 0 0", "16 0.1 3") +
                            box("south", "0 -8 1.5 0 0 0", "16 0.1 3") + box("east", "8 0 1.5 0 0 0", "0.1 16 3") +

@@ -75,6 +75,18 @@ TEST(Usage, SuggestsTheClosestName) {
   told({"fly", "hop.xml", "seed=7"}, "`seed=7` is one argument too many for `swiftlet fly`, did you mean `--seed`?");
   told({"fly", "hop.xml", "\xE2\x80\x93seed", "7"},
        "is one argument too many for `swiftlet fly`, did you mean `--seed`?");
+  told({"fly", "hop.xml", "-headless"}, "`-headless` is not an option of `swiftlet fly`, did you mean `--headless`?");
+  told({"fly", "hop.xml", "-sped", "2"}, "`-sped` is not an option of `swiftlet fly`, did you mean `--speed`?");
+  told({"fly", "hop.xml", "--sped", "2"}, "`--sped` is not an option of `swiftlet fly`, did you mean `--speed`?");
+  told({"config", "swiftlet"}, "for `swiftlet config`, did you mean `--system swiftlet`?");
+  told({"config", "--system", "swiftlet.yaml"}, "did you mean `swiftlet`?");
+  told({"fly", "explore_and_return"}, "did you mean `missions/explore_and_return.xml`?");
+  told({"trial", "hall"}, "did you mean `trials/hall.yaml`?");
+  told({"fly", "missions"}, "missions: is a folder, and no mission");
+  told({"fly", "worlds/unb_case1.sdf"}, "--world worlds/unb_case1.sdf` flies in a world");
+  told({"check", "config/systems/swiftlet.yaml"}, "`swiftlet config --system config/systems/swiftlet.yaml` shows it");
+  told({"fly", "missions/explore_and_return.xml", "--map", "worlds/unb_case1.sdf"},
+       "did you mean `--world worlds/unb_case1.sdf`?");
   told({"qqqqqqqqqq"}, "`qqqqqqqqqq` is not a command of `swiftlet`\n");
 }
 
@@ -88,6 +100,8 @@ TEST(Usage, AValueThatCannotBeUsedIsToldInPlainWords) {
   told({"--seed", "-1"}, "--seed: `-1` is not a whole number from 0 to 1000000000");
   told({"--seed", "1.5"}, "--seed: `1.5` is not a whole number from 0");
   told({"--seed"}, "--seed: a value is missing behind it");
+  told({"--seed", "--out", "x"}, "--seed: a value is missing behind it");
+  told({"--speed", "MAX"}, "--speed: `MAX` is neither max nor a number from 0.01 to 1000, write `max`");
   told({"--seed", "1", "--seed", "2"}, "--seed: is given more than once");
   told({"--battery", "90%"}, "--battery: `90%` is not a number from 0.01 to 1, write `0.9`: shares are of 1");
   told({"--battery", "0,9"}, "--battery: `0,9` is not a number from 0.01 to 1, write `0.9`");

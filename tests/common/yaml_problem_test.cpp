@@ -4,6 +4,7 @@
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/misleading.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::common {
@@ -142,6 +143,48 @@ INSTANTIATE_TEST_SUITE_P(
                             "keep one of the two, and take out the lines that begin with <<<<<<<, ======= and "
                             ">>>>>>>"}),
     [](const auto& mistake) { return std::to_string(mistake.index); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Causes, YamlMistake,
+    testing::Values(Mistake{"first line indented", " beams: 4\nrate_hz: 3\n",
+                            "f.yaml:1:2: beams: not YAML: is indented deeper than", "begin it in column 1"},
+                    Mistake{"INI file", "[laser]\nbeams = 4\n", "f.yaml:1:1: not YAML: `[laser]` heads a section",
+                            "write `laser:`, and below it, indented, each setting as `key: value`"},
+                    Mistake{"equals in all lines", "beams = 4\nname = x\n", "f.yaml:1:1: ", "write `beams: 4`"},
+                    Mistake{"dash without a blank", "mount:\n  -x_m: 1\n", "f.yaml:2:3: mount: unknown key `-x_m`",
+                            "put a blank behind the dash: `- x_m`"},
+                    Mistake{"share in a unit", "range_max_m: 60%\n", "f.yaml:1:14: range_max_m: ",
+                            "write the number alone, in the unit that the key's name ends with"},
+                    Mistake{"nothing", "rate_hz: \n\nbeams: 4\n", "f.yaml:1:1: rate_hz: an empty value is not a number",
+                            "write a value behind the colon, or leave out the key"},
+                    Mistake{"comment for a value", "name: #1\nbeams: 4\n",
+                            "f.yaml:1:1: name: ", "`#` begins a comment: put quotes around a value that has one"},
+                    Mistake{"list for a value", "beams: [4, 5]\n",
+                            "f.yaml:1:8: beams: ", "write one value, without brackets or dashes"},
+                    Mistake{"keys for a value", "beams: {n: 4}\n",
+                            "f.yaml:1:8: beams: ", "write the value alone, without keys"},
+                    Mistake{"full-width digit", "range_max_m: \xef\xbc\x90.6\n", "f.yaml:1:14: range_max_m: ",
+                            "line 1 has a character that looks like `0` (U+FF10) in column 14: write `0`"}),
+    [](const auto& mistake) { return std::to_string(mistake.index); });
+
+TEST(Misleading, IsNamedWithWhatIsMeant) {
+  EXPECT_EQ(misleadingHint("cobra\xe2\x80\x8b"), "it has a zero-width space (U+200B): write nothing there");
+  EXPECT_EQ(misleadingHint("c\xd0\xbe"
+                           "bra"),
+            "it has a Cyrillic letter (U+043E): write the Latin one");
+  EXPECT_EQ(misleadingHint("\xe2\x80\x9c"
+                           "cobra\xe2\x80\x9d"),
+            "it has a character that looks like `\"` (U+201C): write `\"`");
+  EXPECT_EQ(misleadingHint("a\xe2\x80\xa8"
+                           "b"),
+            "it has a line separator (U+2028): write a new line");
+  EXPECT_EQ(misleadingHint(std::string("a\0", 2)), "it has a control character (U+0000): write nothing there");
+  for (const char* fine : {"cobra",
+                           "gr\xc3\xb6\xc3\x9f"
+                           "er",
+                           "\xd0\xba\xd0\xbe", "\xff\xfe", ""})
+    EXPECT_EQ(misleadingHint(fine), "") << fine;
+}
 
 TEST(Yaml, WhatEditorsOfOtherSystemsSaveIsRead) {
   EXPECT_EQ(said("\xef\xbb\xbf"
