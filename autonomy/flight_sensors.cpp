@@ -101,9 +101,10 @@ void SensorCheck::checkReach() {
 void SensorCheck::checkPosition() {
   const int around = laser_.beams - laser_.mirror_beams;
   if (around < needs_.least_beams)
-    return add(fmt::format("nothing measures the position: {} of the beams of {} look around, and a match takes {}",
-                           around, laser_.name, needs_.least_beams),
-               "lower min_points of the matcher, below autonomy.estimator.odometry.matcher, or name a laser with more beams");
+    return add(
+        fmt::format("nothing measures the position: {} of the beams of {} look around, and a match takes {}", around,
+                    laser_.name, needs_.least_beams),
+        "lower min_points of the matcher, below autonomy.estimator.odometry.matcher, or name a laser with more beams");
   const double returning = around * (1.0 - laser_.dropout_rate);
   if (returning < needs_.least_beams)
     return add(fmt::format("nothing measures the position: {:.0f} of the beams of {} return, its dropout_rate is {}, "

@@ -63,8 +63,8 @@ struct YamlReader::Impl {
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
     const SourceLocation place = placeOf(name, node);
-    const auto isSame = [&](const Problem& known) {
-      return known.element == pathOf(name) && known.message == message && toString(known.location) == toString(place);
+    const auto isSame = [&](const Problem& other) {
+      return other.element == pathOf(name) && other.message == message && toString(other.location) == toString(place);
     };
     // A key that is read twice, as `based_on`.
     if (std::any_of(problems.begin(), problems.end(), isSame)) return;
@@ -79,9 +79,8 @@ struct YamlReader::Impl {
     if (node.IsSequence()) return "write one value, without brackets or dashes";
     if (node.IsMap()) return "write the value alone, without keys";
     if (node.IsNull()) {
-      const SourceLocation place = placeOf(name, node);
-      const bool comment =
-          place.line > 0 && lines[static_cast<std::size_t>(place.line) - 1].find(": #") != std::string_view::npos;
+      const auto line = static_cast<std::size_t>(placeOf(name, node).line);  // From 1.
+      const bool comment = line - 1 < lines.size() && lines[line - 1].find(": #") != std::string_view::npos;
       return comment ? "`#` begins a comment: put quotes around a value that has one"
                      : "write a value behind the colon, or leave out the key";
     }

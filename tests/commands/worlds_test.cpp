@@ -42,8 +42,7 @@ TEST_F(Worlds, AStartInsideAThingNamesTheNearestFreePlaceWhichWillDo) {
   const ProgramEnd flown =
       fly({"--start", end.err.substr(begin, end.err.find('"', begin) - begin), "--time-limit", "0.5"});
   EXPECT_NE(flown.exit_code, 2) << describe(flown);
-  for (const std::string text :
-       {"here", "1;2;3;4;5", "nan;0;0", "1,5;2;90", "3,5;2", "3,5 2", "1;2;", "1;2;3;20000"})
+  for (const std::string text : {"here", "1;2;3;4;5", "nan;0;0", "1,5;2;90", "3,5;2", "3,5 2", "1;2;", "1;2;3;20000"})
     expectBadStart(fly({"--start", text}));
 }
 

@@ -58,13 +58,18 @@ StartConfig proposedIn(const std::string& text) {
 TEST_F(WorldNumbers, ThatSdfDoesNotHaveAreRefusedWithWhatToWrite) {
   const auto box = [](const std::string& size) { return "<box><size>" + size + "</size></box>"; };
   for (const auto& [geometry, wanted] :
-       {std::pair{box("1,5 2 3"), "write `1.5 2 3`"}, {box("1, 2, 3"), "write `1 2 3`"},
-        {box("1;2;3"), "write `1 2 3`"}, {box("1 2\u200B 3"), "write `1 2 3`"},
-        {box("1\u00A02 3"), "write `1 2 3`"}, {box("1m 2 m 3m"), "write `1 2 3`"},
-        {box("1 2 3 4"), "has 4 numbers"}, {box("wide"), "is not 3 numbers"},
+       {std::pair{box("1,5 2 3"), "write `1.5 2 3`"},
+        {box("1, 2, 3"), "write `1 2 3`"},
+        {box("1;2;3"), "write `1 2 3`"},
+        {box("1 2\u200B 3"), "write `1 2 3`"},
+        {box("1\u00A02 3"), "write `1 2 3`"},
+        {box("1m 2 m 3m"), "write `1 2 3`"},
+        {box("1 2 3 4"), "has 4 numbers"},
+        {box("wide"), "is not 3 numbers"},
         {std::string("<sphere><radius>0,5</radius></sphere>"), "write `0.5`"},
         {std::string("<cylinder><radius>1</radius><length>2,5 m</length></cylinder>"), "write `2.5`"},
-        {std::string("<polyline><point>0 0</point><point>1,5 0</point><point>1 1</point><height>2,5</height></polyline>"),
+        {std::string(
+             "<polyline><point>0 0</point><point>1,5 0</point><point>1 1</point><height>2,5</height></polyline>"),
          "write `2.5`"}})
     EXPECT_THAT(refusalOf(kWideFloor + model("thing", geometry)), AllOf(HasSubstr("world.sdf:4:"), HasSubstr(wanted)))
         << geometry;
