@@ -146,6 +146,7 @@ tl::expected<Image, std::string> colorFromJpeg(std::string_view bytes) {
   int width_px = 0, height_px = 0, subsampling = 0, color_space = 0;
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width_px, &height_px, &subsampling, &color_space) != 0)
     return unexpected(std::string(tjGetErrorStr2(handle.get())));
+  if (width_px <= 0 || height_px <= 0) return unexpected(std::string("is cut off"));
   if (!isSizeAllowed(width_px, height_px)) return unexpected(std::string("is larger than an image may be"));
   Image image{width_px, height_px, std::vector<std::uint8_t>(3 * samples(width_px, height_px))};
   // The accurate transform gives the same bytes with and without the CPU's vector instructions. A warning, such as a

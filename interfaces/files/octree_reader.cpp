@@ -83,7 +83,7 @@ class OctreeReader {
     return bytes_.substr(begin, end - begin);
   }
 
-  /// Files before OctoMap 1.0 have three numbers before the tree: its kind, which is 3, the resolution and its nodes.
+  /// The first files of OctoMap have three numbers before the tree: its kind, which is 3, the resolution and its nodes.
   bool readNumbersOnly() {
     constexpr std::string_view kKind("\3\0\0\0", 4);
     if (!bytes_.starts_with(kKind)) return false;
