@@ -63,8 +63,8 @@ struct YamlReader::Impl {
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
     const SourceLocation place = placeOf(name, node);
-    const auto isSame = [&](const Problem& other) {
-      return other.element == pathOf(name) && other.message == message && toString(other.location) == toString(place);
+    const auto isSame = [&](const Problem& told) {
+      return told.element == pathOf(name) && told.message == message && toString(told.location) == toString(place);
     };
     // A key that is read twice, as `based_on`.
     if (std::any_of(problems.begin(), problems.end(), isSame)) return;
