@@ -63,14 +63,14 @@ std::string percentDecoded(std::string_view text) {
 
 std::optional<FuelAddress> fuelAddress(std::string_view uri) {
   const std::size_t scheme_end = uri.find("://");
-  if (scheme_end == std::string_view::npos || !lowerCase(std::string(uri.substr(0, 4))).starts_with("http"))
+  if (scheme_end == std::string_view::npos || !common::lowerCase(std::string(uri.substr(0, 4))).starts_with("http"))
     return std::nullopt;
   const std::vector<std::string> parts = partsOf(uri.substr(scheme_end + 3));
   const auto models = std::find(parts.begin(), parts.end(), "models");
   if (parts.end() - models < 2 || models - parts.begin() < 2) return std::nullopt;
   // The server's page has OWNER/fuel/models or OWNER/models, its interface 1.0/OWNER/models.
   const bool versioned = parts[1].find('.') != std::string::npos && models - parts.begin() > 2;
-  FuelAddress address{lowerCase(parts[0]), parts[versioned ? 2 : 1], models[1], {}, {}};
+  FuelAddress address{common::lowerCase(parts[0]), parts[versioned ? 2 : 1], models[1], {}, {}};
   auto rest = models + 2;
   if (rest != parts.end() && (numberOf(*rest) || *rest == "tip")) {
     if (*rest != "tip") address.version = *rest;
