@@ -119,7 +119,7 @@ TEST_F(CheckMission, WithoutThePageItWarnsOfWhatWaitsForAnOperator) {
   EXPECT_THAT(end.err, HasSubstr(":5:7: warning: WaitForOperator: nobody says `go on`, and it waits without an end"));
   const ProgramEnd flight = runSwiftlet({"fly", "--headless", "--time-limit", "0.1", "--out", path("run"), mission});
   EXPECT_THAT(flight.err, HasSubstr("warning: WaitForOperator: nobody says `go on`"));
-  const std::string trial = "mission: " + mission + "\ntime_limit_s: 0.1\nscenario: {world: worlds/unb_case1.sdf}\n";
+  const std::string trial = "mission: " + mission + "\ntime_limit_s: 1\nscenario: {world: worlds/unb_case1.sdf}\n";
   EXPECT_THAT(runSwiftlet({"trial", write("t.yaml", trial), "--out", path("t")}).err,
               HasSubstr("warning: WaitForOperator: nobody says `go on`"));
   const std::string with_operator = trial + "operator: [{command: go_on, at_s: 0.01, expect: any}]\n";
