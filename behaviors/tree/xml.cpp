@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <expat.h>
 
@@ -77,8 +78,25 @@ class Reader {
                       [](char c, char low) { return (c | 0x20) == low; });
   }
 
+  /// Of HTML in small letters, which XML does not have.
+  bool beginsWithHtmlDoctype() const {
+    constexpr std::string_view kDoctype = "<!doctype ";
+    const std::string& text = source_.text();
+    const std::size_t at = text.find(kDoctype);
+    return at == text.find_first_not_of(kXmlBlanks) && at != std::string::npos &&
+           isHtml(std::string_view(text).substr(at + kDoctype.size(), kHtml.size()));
+  }
+
+  Problem htmlPage() const {
+    return {source_.locate(offset()),
+            {},
+            "this is an HTML page, not a file of trees",
+            "download the file itself, which GitHub shows by `Raw`"};
+  }
+
   void stopAtHtml() {
-    stop({}, "this is an HTML page, not a file of trees", "download the file itself, which GitHub shows by `Raw`");
+    Problem problem = htmlPage();
+    stop({}, std::move(problem.message), std::move(problem.hint));
   }
 
   void open(const XML_Char* name, const XML_Char** attributes) {
@@ -121,6 +139,7 @@ class Reader {
     const std::string& text = source_.text();
     if (code == XML_ERROR_INVALID_TOKEN && offset() < text.size() && characterLength(text, offset()) == 0)
       return wrongEncoding();
+    if (beginsWithHtmlDoctype()) return htmlPage();
     if (code == XML_ERROR_TAG_MISMATCH && stray_end_)
       if (auto problem = strayCommentEnd(source_, *stray_end_)) return *problem;
     return {source_.locate(offset()), open_.empty() ? std::string() : "<" + open_.back().element->name + ">",

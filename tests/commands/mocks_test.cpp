@@ -98,7 +98,7 @@ TEST_F(MockLeaves, WarnsOfTwoFilesWithATreeOfOneName) {
                               "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><Sequence><Wiggle/><SubTree ID=\"B\"/>"
                               "</Sequence></BehaviorTree></root>");
   EXPECT_THAT(runSwiftlet({"check", "--mock-leaves", a, b, c}).err,
-              HasSubstr(c + ":1:25: warning: BehaviorTree: `B` is defined at " + b + ":1:25 too"));
+              HasSubstr(c + ":1:24: warning: BehaviorTree: `B` is defined at " + b + ":1:24 too"));
   EXPECT_EQ(runSwiftlet({"check", "--mock-leaves", b, c}).err, "") << "nobody uses one of them";
 }
 

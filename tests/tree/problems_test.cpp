@@ -97,15 +97,6 @@ TEST(Problems, AHintIsAboutWhatIsMalformed) {
             "<?xml ...?> stands at the very beginning, or not at all");
 }
 
-TEST(Problems, WhatXmlReservesIsReportedWithHowItIsWritten) {
-  EXPECT_THAT(problemsIn("<Script code=\"a := 1 && 0\"/>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:23: "), HasSubstr(", write & as &amp;"))));
-  EXPECT_THAT(problemsIn("<Script code=\"a := 1 & 0\"/>"), ElementsAre(HasSubstr(", write & as &amp;")));
-  EXPECT_THAT(problemsIn("<ScriptCondition code=\"1 < 2\"/>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:26: "), HasSubstr(", in a value, write < as &lt;"))));
-  EXPECT_THAT(problemsIn("<Script code=1/>"), ElementsAre(HasSubstr(", put the value in quotes")));
-}
-
 TEST(Problems, AnUnknownNodeIsReported) {
   EXPECT_THAT(problemsIn("<Sequence>\n  <Flly goal=\"1;2\"/>\n  <sequence><AlwaysSuccess/></sequence>\n</Sequence>"),
               ElementsAre("f.xml:4:3: Flly: unknown node `Flly`, did you mean `Fly`?",
@@ -279,47 +270,6 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
               ElementsAre(HasSubstr("BehaviorTree: the attribute `ID` is missing")));
   EXPECT_THAT(problemsIn("<AlwaysSuccess/>", "<BehaviorTree ID=\"Fly\"><AlwaysSuccess/></BehaviorTree>"),
               ElementsAre(HasSubstr("`Fly` is the name of a node type")));
-}
-
-TEST(Problems, ACommentThatEndsEarlierThanMeantIsTold) {
-  const std::string ended = "--> in line 3 already, a comment ends at its first -->";
-  EXPECT_THAT(problemsIn("<Sequence><!-- A --> B --> C --><AlwaysSuccess/></Sequence>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:24: -->: the comment before has ended at the "), HasSubstr(ended))));
-  EXPECT_THAT(problemsIn("<Sequence><!-- <Sequence> <!-- a --> <Fly/> </Sequence> -->\n<AlwaysSuccess/></Sequence>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:57: -->: "), HasSubstr(ended))));
-  EXPECT_THAT(problemsIn("<Sequence>--><AlwaysSuccess/></Sequence>"),
-              ElementsAre(HasSubstr("f.xml:3:11: -->: no comment begins before it")));
-  EXPECT_THAT(problemsIn("<Sequence>go<!-- a --><AlwaysSuccess/></Sequence>"),
-              ElementsAre(HasSubstr("text is not expected here")));
-}
-
-TEST(Problems, ATagWithinATagIsToldByWhatItIs) {
-  EXPECT_THAT(problemsIn("<Fly <!-- home --> goal=\"1;1\"/>"),
-              ElementsAre(HasSubstr("a comment stands between two tags, move it out of this one")));
-  EXPECT_THAT(problemsIn("<Fly goal='1;1' <AlwaysSuccess/>"),
-              ElementsAre(HasSubstr("the tag before has no > at its end")));
-  EXPECT_THAT(problemsIn("<Fly goal='<!-- 1;1'/>"), ElementsAre(HasSubstr("in a value, write < as &lt;")));
-}
-
-TEST(Problems, AnHtmlPageIsTold) {
-  for (const char* page : {"<!DOCTYPE html>\n<html lang=\"en\"><br></html>", "<!doctype HTML><p>", "<HTML><br></HTML>"})
-    EXPECT_THAT(problemsOf(page), ElementsAre(HasSubstr("this is an HTML page, not a file of trees"))) << page;
-}
-
-TEST(Problems, ANameThatLooksTheSameIsNamedByItsCharacter) {
-  const std::string set = "<SetBlackboard value=\"1\" output_key=\"n\u200cn\"/>";
-  EXPECT_THAT(problemsIn("<Sequence>" + set + "<ScriptCondition code=\"nn == 1\"/></Sequence>"),
-              ElementsAre(AllOf(HasSubstr("nothing sets the entry {nn}, did you mean `n"),
-                                HasSubstr("which holds U+200C (zero width non-joiner, take it out)?"))));
-  EXPECT_THAT(problemsIn("<SubTree ID=\"a-b\"/>", "<BehaviorTree ID=\"a\u2212b\"><AlwaysSuccess/></BehaviorTree>"),
-              ElementsAre(HasSubstr("which holds U+2212 (minus sign, write `-`)?")));
-}
-
-TEST(Problems, AMarkThatIsNoCommentIsTold) {
-  for (const char* mark : {"<! -- a -->", "<!- a -->", "<!a>"})
-    EXPECT_THAT(problemsIn("<Sequence>" + std::string(mark) + "<AlwaysSuccess/></Sequence>"),
-                ElementsAre(HasSubstr("a comment is written as <!-- text -->")))
-        << mark;
 }
 
 TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {
