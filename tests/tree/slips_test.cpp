@@ -1,5 +1,5 @@
-// Slips that XML shows at another place, or not at all: comments, tags within tags, a page in the place of a file, names
-// that look the same.
+// Slips that XML shows at another place, or not at all: comments, tags within tags, a page in the place of a file,
+// names that look the same.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
