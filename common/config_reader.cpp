@@ -77,7 +77,13 @@ struct YamlReader::Impl {
   std::string valueHint(std::string_view name, const YAML::Node& node, std::string_view expected) const {
     if (node.IsSequence() && node.size() == 1) return "leave out the brackets or the dash";
     if (node.IsSequence()) return "write one value, without brackets or dashes";
-    if (node.IsMap()) return "write the value alone, without keys";
+    if (node.IsMap()) {
+      const auto only = node.begin();  // An item without a blank behind its dash is read as a key.
+      const bool scalars = node.size() == 1 && only->first.IsScalar() && only->second.IsScalar();
+      const std::string hint =
+          scalars ? keyHint(fmt::format("{}: {}", only->first.Scalar(), only->second.Scalar())) : "";
+      return hint.empty() ? "write the value alone, without keys" : hint;
+    }
     if (node.IsNull()) {
       const auto line = static_cast<std::size_t>(placeOf(name, node).line);  // From 1.
       const bool comment = line - 1 < lines.size() && lines[line - 1].find(": #") != std::string_view::npos;

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <string>
+
 #include "common/config.hpp"
 #include "common/error.hpp"
 #include "common/misleading.hpp"
@@ -30,6 +33,9 @@ struct Mistake {
   std::string place;   ///< With the element: "f.yaml:2:3: rate_hz: ".
   std::string remedy;  ///< The hint's literal text.
 };
+
+/// For the names of the tests, which must not hold addresses.
+void PrintTo(const Mistake& mistake, std::ostream* to) { *to << mistake.what; }
 
 class YamlMistake : public testing::TestWithParam<Mistake> {};
 
