@@ -14,7 +14,7 @@ enum class Severity { kInfo, kWarning, kError };
 inline constexpr std::array kSeverities{Severity::kInfo, Severity::kWarning, Severity::kError};
 const char* toString(Severity severity);
 
-/// What an event tells of the safety of the flight. Whoever reports it names what it is about; whether the operator is
+/// What an event tells of the safety of the flight. Its reporter names what it is about; whether the operator is
 /// alarmed is decided by alarmOf() alone.
 enum class Concern {
   kNone,

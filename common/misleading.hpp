@@ -1,4 +1,4 @@
-// Characters that mislead whoever reads a text: they cannot be seen, or look like one of ASCII.
+// Characters that mislead the reader of a text: they cannot be seen, or look like one of ASCII.
 #pragma once
 
 #include <cstddef>
