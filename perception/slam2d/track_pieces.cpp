@@ -36,7 +36,7 @@ class Groups {
 constexpr std::uint64_t kOneUnmatchedOf = 10;
 constexpr std::uint64_t kOneLostOf = 100;
 
-/// Mean violation (MapJudgement) of a map that is not trusted: decision 106 has the figures.
+/// Mean violation (MapJudgement) of a map that is not trusted: decision 026 has the figures.
 constexpr double kMostViolation = 0.05;
 
 /// Places that two pieces must have seen in common to be connected by them, and contradictions among so many of these
