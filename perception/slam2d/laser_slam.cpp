@@ -37,7 +37,7 @@ std::optional<TrackedScan> LaserSlam::add(const LaserSlamInput& input) {
 }
 
 void LaserSlam::finish() {
-  if (const auto task = impl_->slam->takeLastTask()) impl_->slam->apply(run(*task));
+  while (const auto task = impl_->slam->takeLastTask()) impl_->slam->apply(run(*task));
 }
 
 std::vector<Pose2> LaserSlam::keyPoses() const {

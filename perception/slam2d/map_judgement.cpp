@@ -6,8 +6,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Key scans of a stretch: fewer see too little of a place, more are spread over several.
-constexpr std::size_t kStretch = 12;
+constexpr std::size_t kStretch = MapJudgement::kStretch;
 /// Stretches whose middles are this near see the same place, if at least this share of their points was observed by the
 /// other one.
 constexpr double kSamePlace_m = 6.0;

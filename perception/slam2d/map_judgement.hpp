@@ -21,6 +21,8 @@ struct SeenTwice {
 };
 
 struct MapJudgement {
+  static constexpr std::size_t kStretch = 12;  ///< Key scans: fewer see too little of a place, more are spread widely.
+
   std::vector<SeenTwice> agreeing;
   std::vector<SeenTwice> contradicting;  ///< The worst first.
 
