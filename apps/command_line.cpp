@@ -31,7 +31,7 @@ CLI::Validator numberWithin(Within bounds) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc{} && end == text.data() + text.size();
     if (number && value >= bounds.low && value <= bounds.high) return "";
-    const std::string hint = common::numberHint("", text);
+    const std::string hint = common::numberHint("", text, std::is_integral_v<Number>);
     return fmt::format("`{}` is not a {} from {}{}", text, std::is_integral_v<Number> ? "whole number" : "number",
                        description, hint.empty() ? "" : ", " + hint);
   };

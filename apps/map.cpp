@@ -40,6 +40,8 @@ struct MapRun {
   TrackSpool track;
   rendering::ThinnedCurve milliseconds;
   std::uint64_t unmatched = 0;
+  perception::MapJudgement judgement;  ///< Of the finished map.
+  perception::TrackConnection connection;
   double wall_s = 0.0;
   double path_length_m = 0.0;  ///< Length of the robot's path.
 };
@@ -78,6 +80,8 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
                   secondsSince(begin));
   }
   run.slam.finish();
+  run.judgement = run.slam.judgement();
+  run.connection = run.slam.connection(run.judgement);
   run.wall_s = secondsSince(begin);
   run.path_length_m = pathLength_m(run);
   line.close();
@@ -90,8 +94,9 @@ struct Trust {
 };
 
 Trust trustOf(const RecordedLog& log, const MapRun& run) {
-  const perception::TrackConnection track = run.slam.connection();
-  if (std::string why_not = perception::whyNotTrusted(log.scans(), run.unmatched, track); !why_not.empty())
+  const perception::TrackConnection& track = run.connection;
+  if (std::string why_not = perception::whyNotTrusted(log.scans(), run.unmatched, track, run.judgement);
+      !why_not.empty())
     return {false, std::move(why_not)};
   if (track.breaks == 0) return {true, "the track was never lost"};
   return {true, fmt::format("the track was lost {}, and all its pieces are connected",
@@ -102,10 +107,21 @@ std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run, c
   std::vector<std::string> warnings = log.warnings(run.slam.counts());
   if (log.scans() == 1) warnings.emplace_back("the map is that of a single scan: nothing confirms it");
   if (!trust.trusted) warnings.insert(warnings.begin(), "the map is probably wrong: " + trust.reason);
-  if (const auto restarts = run.slam.connection().breaks; trust.trusted && restarts > 0)
+  if (const auto restarts = run.connection.breaks; trust.trusted && restarts > 0)
     warnings.push_back("the track was lost " + plural(restarts, "time", "times") +
                        " and begun anew where it was expected; all its pieces were connected again");
   return warnings;
+}
+
+/// Where the map contradicts itself, the worst place first.
+nlohmann::ordered_json placesOf(const std::vector<perception::SeenTwice>& pairs) {
+  nlohmann::ordered_json places = nlohmann::ordered_json::array();
+  for (const perception::SeenTwice& pair : pairs)
+    places.push_back({{"key_scans", {pair.first_key, pair.other_key}},
+                      {"x_m", std::round(1e2 * pair.at_map_m.x()) / 1e2},
+                      {"y_m", std::round(1e2 * pair.at_map_m.y()) / 1e2},
+                      {"violation", std::round(1e3 * pair.violation) / 1e3}});
+  return places;
 }
 
 nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& log, const MapRun& run,
@@ -125,10 +141,13 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"implausible_odometry_steps", run.slam.counts().implausible_odometry},
           {"path_length_m", std::round(1e3 * run.path_length_m) / 1e3},
           {"unmatched_scans", run.unmatched},
-          {"restarts", run.slam.connection().breaks},
-          {"unconnected_pieces", run.slam.connection().unconnected},
+          {"restarts", run.connection.breaks},
+          {"unconnected_pieces", run.connection.unconnected},
           {"key_scans", run.slam.keyScans()},
           {"loops_closed", run.slam.slam().counts().loops_closed},
+          {"places_seen_again", run.judgement.pairs()},
+          {"violation", std::round(1e4 * run.judgement.violation()) / 1e4},
+          {"contradictions", placesOf(run.judgement.contradicting)},
           {"seconds", run.wall_s},
           {"scans_per_s", static_cast<double>(log.scans()) / run.wall_s},
           {"notes", notes}};
@@ -163,7 +182,8 @@ int map(const MapOptions& options) {
   const std::string no_map = whyNoMap(grid);
   Trust trust = trustOf(log, run);
   if (!no_map.empty()) trust = {false, no_map};
-  MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run, trust), run.milliseconds};
+  MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run, trust), {}, run.milliseconds};
+  if (!trust.trusted) shown.contradicting = run.judgement.contradicting;
   if (!no_map.empty()) showError(no_map + "\n");
   writeMapOutputs(folder.unfinished(), run.slam, no_map.empty() ? &grid : nullptr, run.track, shown);
   folder.publish();

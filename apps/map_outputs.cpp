@@ -1,5 +1,7 @@
 #include "apps/map_outputs.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -74,6 +76,22 @@ std::vector<rendering::MapLine> loopsOf(std::span<const perception::SlamEdge> ed
   return lines;
 }
 
+/// A ring around each of the places where the map contradicts itself most.
+std::vector<rendering::MapLine> doubtsOf(const std::vector<perception::SeenTwice>& contradicting) {
+  constexpr std::size_t kMost = 5;
+  constexpr double kRadius_m = 1.5;
+  std::vector<rendering::MapLine> rings;
+  for (std::size_t i = 0; i < std::min(contradicting.size(), kMost); ++i) {
+    rendering::MapLine& ring = rings.emplace_back();
+    ring.name = "contradicts itself";
+    for (int deg = 0; deg <= 360; deg += 15)
+      ring.points_map_m.emplace_back(
+          contradicting[i].at_map_m +
+          kRadius_m * Eigen::Vector2d(std::cos(deg * common::kRadPerDeg), std::sin(deg * common::kRadPerDeg)));
+  }
+  return rings;
+}
+
 }  // namespace
 
 std::string plotOver(const std::string& title, const std::string& unit, const rendering::ThinnedCurve& curve) {
@@ -114,6 +132,8 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
     rendering::MapPicture picture;
     picture.grid = std::make_shared<const common::OccupancyGrid>(*map);
     picture.lines = {{"trajectory", lineOf(track, keys), rendering::LineStyle::kTrail}};
+    const std::vector<rendering::MapLine> doubts = doubtsOf(figures.contradicting);
+    picture.lines.insert(picture.lines.end(), doubts.begin(), doubts.end());
     required(interfaces::writeAtomically(out / "map.png", mapPng(picture)));
     const std::vector<rendering::MapLine> loops = loopsOf(slam.slam().edges(), keys);
     picture.lines.insert(picture.lines.end(), loops.begin(), loops.end());

@@ -38,6 +38,7 @@ struct MapFigures {
   std::string log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
+  std::vector<perception::SeenTwice> contradicting;  ///< Of a map that is not trusted: drawn, the worst first.
   rendering::ThinnedCurve milliseconds;  ///< Computing time over the index of the scan.
 };
 

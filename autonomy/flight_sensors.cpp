@@ -17,6 +17,10 @@ const double kMostlyCos = std::numbers::sqrt2 / 2.0;
 /// well.
 constexpr double kLeastSight_m = 4.0;
 
+/// With a narrower view, a vehicle that turns in a room loses sight of what it knows before what it sees next has joined
+/// the map: of explorations at 57 deg one of two lost the position, at 80 deg one of four, at 87 and 90 deg none.
+constexpr double kLeastView_deg = 85.0;
+
 /// Of the angle between the deflected beams and straight down.
 double downCos(const common::LaserConfig& laser) {
   return (laser.mirror_mount.pose().rotation * Eigen::Vector3d::UnitZ()).z();
@@ -111,6 +115,11 @@ void SensorCheck::checkPosition() {
                            "and a match takes {}",
                            returning, laser_.name, laser_.dropout_rate, needs_.least_beams),
                "it is the share of beams without a return: 0.002 is usual");
+  if (const double view_deg = laser_.field_of_view_deg * around / laser_.beams; view_deg < kLeastView_deg)
+    add(fmt::format("nothing measures the position: the beams of {} look around over {:.0f} deg (field_of_view_deg), "
+                    "and turns in a room need {:.0f}",
+                    laser_.name, view_deg, kLeastView_deg),
+        "name a laser with a wider view");
   if (const std::string why = below(laser_.mount); !why.empty())
     add(fmt::format("nothing measures the position: the mount of {}: {}", laser_.name, why), "z_m counts upward");
 }

@@ -90,7 +90,7 @@ struct YamlReader::Impl {
       return comment ? "`#` begins a comment: put quotes around a value that has one"
                      : "write a value behind the colon, or leave out the key";
     }
-    if (expected.ends_with("number")) return numberHint(name, node.Scalar());
+    if (expected.ends_with("number")) return numberHint(name, node.Scalar(), expected == "a whole number");
     const std::string& word = node.Scalar();
     return expected != "true or false" ? "" : word == "1" ? "write `true`" : word == "0" ? "write `false`" : "";
   }

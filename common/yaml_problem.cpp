@@ -303,7 +303,7 @@ YAML::Node loadYaml(const std::string& given, const std::string& file) {
   }
 }
 
-std::string numberHint(std::string_view key, std::string_view written) {
+std::string numberHint(std::string_view key, std::string_view written, bool whole) {
   if (std::string hint = misleadingHint(written); !hint.empty()) return hint;
   const std::string_view text = trimmed(written);
   std::size_t end = 0;
@@ -326,7 +326,8 @@ std::string numberHint(std::string_view key, std::string_view written) {
   // "1,081" may be a thousand or one; "0,081" is one.
   const std::size_t comma = text.find(',');
   const bool ambiguous = comma != std::string_view::npos && end == comma + 4 && text.find_first_of("123456789") < comma;
-  if (marks > 1 || ambiguous) return "write decimals with a point, and no other marks";
+  if (!whole && (marks > 1 || ambiguous)) return "write decimals with a point, and no other marks";
+  if (whole && marks > 0) return "write a whole number, without points or commas";
   const std::string_view rest = trimmed(text.substr(end));
   if (rest.empty()) return number == text ? "" : fmt::format("write `{}`", number);
   if (rest.starts_with('#')) return fmt::format("put a blank before the comment: `{} {}`", number, rest);
@@ -340,7 +341,9 @@ std::string numberHint(std::string_view key, std::string_view written) {
   if (key.ends_with("_" + unit)) return fmt::format("write `{}`: the key's name has the unit", number);
   if (has_unit) return "write the number alone, in the unit that the key's name ends with";
   const bool has_exponent = std::tolower(static_cast<unsigned char>(rest[0])) == 'e' && rest.size() > 1;
-  return has_exponent ? "" : fmt::format("write the number alone: `{}`", number);
+  if (has_exponent) return "";
+  return key.empty() ? "write the number alone, in the unit that --help names"
+                     : "write the number alone, in the unit in which it is described";
 }
 
 std::string lookalikeHint(const std::vector<std::string_view>& lines, int line) {

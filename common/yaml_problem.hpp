@@ -18,8 +18,9 @@ namespace swiftlet::common {
 YAML::Node loadYaml(const std::string& text, const std::string& file);
 
 /// How to write a number that was written as `0,5`, `0.5 m`, `90°`, `1'000` or `1#comment`; empty if that is unknown.
-/// The unit is compared with the end of the key's name, `range_m`; a key may have none.
-std::string numberHint(std::string_view key, std::string_view written);
+/// The unit is compared with the end of the key's name, `range_m`; a key may have none, and an option of the command
+/// line is no key: "". Another unit is never dropped, because the number would mean another value.
+std::string numberHint(std::string_view key, std::string_view written, bool whole = false);
 
 /// "line 3 has a no-break space (U+00A0) in column 5: write a plain blank": of the first character of a line, outside
 /// of comments, that looks like another or like nothing; empty without one. Lines and columns (in bytes) count from 1.

@@ -117,10 +117,11 @@ struct Outcome {
   evaluation::Statistics translation_m;
   std::uint64_t scans = 0, unmatched = 0;
   perception::TrackConnection track;
+  perception::MapJudgement judgement;
 
   bool wrong() const { return !(translation_m.rmse <= kWrong_m); }
   /// As `swiftlet map` judges.
-  bool trusted() const { return perception::whyNotTrusted(scans, unmatched, track).empty(); }
+  bool trusted() const { return perception::whyNotTrusted(scans, unmatched, track, judgement).empty(); }
 };
 
 Outcome outcomeOf(const Log& log, bool odometry, const Reference& reference) {
@@ -140,7 +141,8 @@ Outcome outcomeOf(const Log& log, bool odometry, const Reference& reference) {
   }
   outcome.scans = log.size();
   outcome.unmatched = slam.odometryCounts().failures;
-  outcome.track = slam.connection();
+  outcome.judgement = slam.judgement();
+  outcome.track = slam.connection(outcome.judgement);
   return outcome;
 }
 
@@ -149,10 +151,10 @@ void compare(const std::string& file, const std::string& reference_file) {
   Log forwards;
   while (auto logged = reader->next()) forwards.push_back({logged->scan.stamps.measured, *logged});
   const Reference reference = referenceOf(reference_file, forwards);
-  common::Table table{
-      "",
-      {"", "path", "odometry", "RMS m", "mean m", "at most", "lost", "bridged", "loose", "unmatched", "trusted"},
-      {}};
+  common::Table table{"",
+                      {"", "path", "odometry", "RMS m", "mean m", "at most", "lost", "bridged", "loose", "unmatched",
+                       "pairs", "violation", "trusted"},
+                      {}};
   int wrong_trusted = 0, right_untrusted = 0, wrong = 0;
   for (const auto& [name, vary] : variations()) {
     for (const bool backwards : {false, true}) {
@@ -176,6 +178,8 @@ void compare(const std::string& file, const std::string& reference_file) {
                               {fmt::format("{}", outcome.track.bridged)},
                               {fmt::format("{}", outcome.track.unconnected)},
                               {fmt::format("{}", outcome.unmatched)},
+                              {fmt::format("{}", outcome.judgement.pairs())},
+                              {fmt::format("{:.4f}", outcome.judgement.violation())},
                               {outcome.trusted() ? "yes" : "no"}});
         std::fprintf(stderr, "%s: done\n", name.c_str());
       }

@@ -70,12 +70,8 @@ std::optional<Ends> endsBeside(const View& view, float angle_rad) {
   return left && right ? std::optional(ends) : std::nullopt;
 }
 
-struct Counts {
-  int observed = 0, crossed = 0;
-};
-
 /// Counts the points of a scan that the views observed, and those that lie in free space of a view.
-void count(const std::vector<View>& views, const PlacedScan& placed, double max_range_m, Counts& counts) {
+void count(const std::vector<View>& views, const PlacedScan& placed, double max_range_m, FreeSpaceEvidence& counts) {
   const std::vector<Eigen::Vector2f> points = spreadPoints(placed.scan->points_level_m, kPoints, max_range_m);
   std::vector<char> observed(points.size(), 0), crossed(points.size(), 0);
   for (const View& view : views) {
@@ -90,20 +86,26 @@ void count(const std::vector<View>& views, const PlacedScan& placed, double max_
       if (range_m < ends->nearest_m - kBehind_m - kBehindShare * range_m) crossed[i] = 1;
     }
   }
+  counts.points += static_cast<int>(points.size());
   counts.observed += static_cast<int>(std::count(observed.begin(), observed.end(), 1));
   counts.crossed += static_cast<int>(std::count(crossed.begin(), crossed.end(), 1));
 }
 
 }  // namespace
 
-double freeSpaceViolation(std::span<const PlacedScan> one, std::span<const PlacedScan> other, double max_range_m) {
-  Counts counts;
+FreeSpaceEvidence freeSpaceEvidence(std::span<const PlacedScan> one, std::span<const PlacedScan> other,
+                                    double max_range_m) {
+  FreeSpaceEvidence counts;
   for (const auto& [seeing, seen] : {std::pair{one, other}, std::pair{other, one}}) {
     std::vector<View> views;
     for (const PlacedScan& placed : seeing) views.push_back(viewOf(placed));
     for (const PlacedScan& placed : seen) count(views, placed, max_range_m, counts);
   }
-  return counts.observed > 0 ? static_cast<double>(counts.crossed) / counts.observed : 0.0;
+  return counts;
+}
+
+double freeSpaceViolation(std::span<const PlacedScan> one, std::span<const PlacedScan> other, double max_range_m) {
+  return freeSpaceEvidence(one, other, max_range_m).violation();
 }
 
 }  // namespace swiftlet::perception

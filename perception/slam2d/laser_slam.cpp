@@ -1,8 +1,15 @@
 #include "perception/slam2d/laser_slam.hpp"
 
+#include <algorithm>
+
 namespace swiftlet::perception {
 
 using common::Pose2;
+
+namespace {
+/// As far as matches use points (CorrelativeMatcherConfig::max_range_m).
+constexpr double kJudgedRange_m = 20.0;
+}  // namespace
 
 struct LaserSlam::Impl {
   explicit Impl(const LaserSlamConfig& config) : front_end(config.front_end), slam(makeSlam(config.slam)) {}
@@ -10,6 +17,7 @@ struct LaserSlam::Impl {
   LaserFrontEnd front_end;
   std::unique_ptr<PlanarSlam> slam;
   TrackPieces pieces;
+  std::vector<ProjectedScan> key_scans;  ///< With nothing but the points that are matched.
 };
 
 LaserSlam::LaserSlam(const LaserSlamConfig& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -23,12 +31,13 @@ std::optional<TrackedScan> LaserSlam::add(const LaserSlamInput& input) {
   (void)slam.addScan(followed->scan, followed->T_odom_robot, followed->covariance_since_last);
   if (const auto task = slam.takeTask()) slam.apply(run(*task));
   impl_->pieces.add(*followed, keys_before, keyScans());
+  if (keyScans() > keys_before) impl_->key_scans.emplace_back().points_level_m = followed->scan.points_level_m;
   if (slam.anchor() < 0) return std::nullopt;
   return TrackedScan{slam.anchor(), slam.T_anchor_body(), followed->matched};
 }
 
 void LaserSlam::finish() {
-  if (const auto task = impl_->slam->takeLastTask()) impl_->slam->apply(run(*task));
+  while (const auto task = impl_->slam->takeLastTask()) impl_->slam->apply(run(*task));
 }
 
 std::vector<Pose2> LaserSlam::keyPoses() const {
@@ -43,6 +52,16 @@ const PlanarSlam& LaserSlam::slam() const { return *impl_->slam; }
 const LaserOdometryCounts& LaserSlam::odometryCounts() const { return impl_->front_end.odometryCounts(); }
 LaserSlamCounts LaserSlam::counts() const { return impl_->front_end.counts(); }
 
-TrackConnection LaserSlam::connection() const { return impl_->pieces.connection(keyScans(), impl_->slam->edges()); }
+TrackConnection LaserSlam::connection(const MapJudgement& judgement) const {
+  return impl_->pieces.connection(keyScans(), impl_->slam->edges(), judgement);
+}
+
+MapJudgement LaserSlam::judgement() const {
+  const std::vector<Pose2> poses = keyPoses();
+  std::vector<PlacedScan> keys;
+  for (std::size_t i = 0; i < std::min(poses.size(), impl_->key_scans.size()); ++i)
+    keys.push_back({&impl_->key_scans[i], poses[i]});
+  return judgeMap(keys, kJudgedRange_m);
+}
 
 }  // namespace swiftlet::perception

@@ -11,6 +11,7 @@
 
 #include "common/geometry.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
+#include "perception/slam2d/map_judgement.hpp"
 #include "perception/slam2d/slam_method.hpp"
 #include "perception/slam2d/track_pieces.hpp"
 
@@ -52,8 +53,11 @@ class LaserSlam {
   const PlanarSlam& slam() const;
   const LaserOdometryCounts& odometryCounts() const;
   LaserSlamCounts counts() const;
-  /// Which pieces of the track are connected so far. A method without a graph has no loop closures that connect pieces.
-  TrackConnection connection() const;
+  /// What the map says of itself, as it is now.
+  MapJudgement judgement() const;
+  /// Which pieces of the track are connected so far: by loop closures, which only a graph has, or because the map shows
+  /// the same place in both.
+  TrackConnection connection(const MapJudgement& judgement) const;
 
  private:
   struct Impl;

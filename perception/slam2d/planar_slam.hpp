@@ -102,7 +102,8 @@ class PlanarSlam {
 
   /// Heavy work, if there is any and no task is outstanding.
   [[nodiscard]] virtual std::optional<SlamTask> takeTask() { return std::nullopt; }
-  /// The last task, to be taken when no more scans come. None may be outstanding.
+  /// The last tasks, to be taken one after the other when no more scans come, until there is none. None may be
+  /// outstanding.
   [[nodiscard]] virtual std::optional<SlamTask> takeLastTask() { return std::nullopt; }
   /// Applies the result of the outstanding task. Returns true when T_map_odom or the map has changed.
   virtual bool apply(const SlamResult& /*result*/) { return false; }

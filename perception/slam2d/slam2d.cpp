@@ -41,6 +41,11 @@ bool isLevel(const ProjectedScan& scan, double tilt_deg) {
   return common::cosTilt(scan.T_odom_body.rotation) >= std::cos(tilt_deg * kRadPerDeg);
 }
 
+/// A repair may bring stretches near to each other that then contradict others.
+constexpr int kMostRepairs = 3;
+
+enum class Kind { kUsual, kLast, kRepair };
+
 }  // namespace
 
 struct Slam2d::Impl {
@@ -61,7 +66,7 @@ struct Slam2d::Impl {
   void setAnchor(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
   std::optional<int> keyNear(std::span<const int> keys, const Pose2& pose) const;
   void draw(const ProjectedScan& scan);
-  SlamTask makeTask(std::vector<LoopCandidate> candidates, bool is_last);
+  SlamTask makeTask(std::vector<LoopCandidate> candidates, Kind kind);
 
   Slam2dConfig config;
   SlamGraph graph;
@@ -86,6 +91,8 @@ struct Slam2d::Impl {
   bool passes_connected = false;  ///< An edge has connected two passes since the last optimization.
 
   std::uint64_t tasks = 0;
+  int last_tasks = 0;    ///< Taken since no more scans come.
+  bool changed = false;  ///< By the last task.
   bool task_outstanding = false;
   std::vector<FoundLoop> rejected;  ///< Loop closures that were rejected.
   std::size_t task_keys = 0;
@@ -314,13 +321,16 @@ std::optional<SlamTask> Slam2d::takeTask() {
       loopCandidates(self.graph, static_cast<int>(self.graph.keys.size()) - 1, self.config);
   if (candidates.empty() && !self.optimizationIsDue()) return std::nullopt;
   self.path_length_since_search_m = 0.0;
-  return self.makeTask(std::move(candidates), false);
+  return self.makeTask(std::move(candidates), Kind::kUsual);
 }
 
 std::optional<SlamTask> Slam2d::takeLastTask() {
   SWIFTLET_CHECK(!impl_->task_outstanding);
-  if (impl_->graph.keys.empty()) return std::nullopt;
-  return impl_->makeTask({}, true);
+  Impl& self = *impl_;
+  if (self.graph.keys.empty()) return std::nullopt;
+  if (self.last_tasks++ == 0) return self.makeTask({}, Kind::kLast);
+  if (self.last_tasks > 1 + kMostRepairs || !self.changed) return std::nullopt;
+  return self.makeTask({}, Kind::kRepair);
 }
 
 /// Whether an optimization is due that no loop closure asks for. The path length between two of them grows with the
@@ -330,7 +340,7 @@ bool Slam2d::Impl::optimizationIsDue() const {
          path_length_since_optimization_m >= kOptimizationPathPerKey_m * static_cast<double>(graph.keys.size());
 }
 
-SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_last) {
+SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, Kind kind) {
   counts.loop_candidates += candidates.size();
   task_outstanding = true;
   task_keys = graph.keys.size();
@@ -341,8 +351,9 @@ SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_l
   data->query = static_cast<int>(graph.keys.size()) - 1;
   data->candidates = std::move(candidates);
   data->rejected = rejected;
-  data->is_last = is_last;
-  data->optimize_graph = optimizationIsDue();
+  data->is_last = kind == Kind::kLast;
+  data->is_repair = kind == Kind::kRepair;
+  data->optimize_graph = kind != Kind::kRepair && optimizationIsDue();
   if (data->optimize_graph) {
     passes_connected = false;
     path_length_since_optimization_m = 0.0;
@@ -359,7 +370,8 @@ bool Slam2d::apply(const SlamResult& result) {
   self.counts.loops_closed += result.accepted.size();
   self.counts.loops_rejected += result.data->rejected_edges.size();
   const std::vector<Pose2>& poses = result.data->T_map_key;
-  if (poses.empty()) return false;
+  self.changed = !poses.empty();
+  if (!self.changed) return false;
 
   self.optimized_keys = static_cast<int>(self.task_keys);
   // A key scan added after the task keeps its pose relative to the key scan that its first edge comes from.

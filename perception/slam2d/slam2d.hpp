@@ -43,7 +43,7 @@ class Slam2d final : public PlanarSlam {
   std::span<const SlamEdge> edges() const override;
 
   [[nodiscard]] std::optional<SlamTask> takeTask() override;
-  /// A task that optimizes the whole graph.
+  /// A task that optimizes the whole graph, then tasks that repair a map that contradicts itself.
   [[nodiscard]] std::optional<SlamTask> takeLastTask() override;
   bool apply(const SlamResult& result) override;
 

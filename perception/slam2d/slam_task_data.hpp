@@ -21,6 +21,8 @@ struct SlamTask::Data {
   bool optimize_graph = false;
   /// Optimize the graph as a whole: no more scans come.
   bool is_last = false;
+  /// Look for the closures that the map misses if it contradicts itself.
+  bool is_repair = false;
   Slam2dConfig config;
 };
 

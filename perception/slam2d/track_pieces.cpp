@@ -4,12 +4,14 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "common/geometry.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
+#include "perception/slam2d/map_judgement.hpp"
 #include "perception/slam2d/slam_edge.hpp"
 
 namespace swiftlet::perception {
@@ -34,11 +36,42 @@ class Groups {
 constexpr std::uint64_t kOneUnmatchedOf = 10;
 constexpr std::uint64_t kOneLostOf = 100;
 
+/// Mean violation (MapJudgement) of a map that is not trusted: decision 026 has the figures.
+constexpr double kMostViolation = 0.05;
+
+/// Places that two pieces must have seen in common to be connected by them, and contradictions among so many of these
+/// at most.
+constexpr int kLeastAgreeing = 3;
+constexpr int kOneContradictingOf = 5;
+
 std::string times(std::uint64_t count) { return count == 1 ? "once" : fmt::format("{} times", count); }
+
+/// The pairs of pieces that the map connects. `member_of`: the piece of each key scan, or a number from `pieces` on.
+std::vector<std::pair<std::size_t, std::size_t>> agreeingPieces(const std::vector<std::size_t>& member_of,
+                                                                std::size_t pieces, const MapJudgement& judgement) {
+  struct Seen {
+    int agreeing = 0, contradicting = 0;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Seen> seen;
+  const auto count = [&](const std::vector<SeenTwice>& pairs, int Seen::*counted) {
+    for (const SeenTwice& pair : pairs) {
+      const std::size_t one = member_of.at(pair.first_key), other = member_of.at(pair.other_key);
+      if (one != other && one < pieces && other < pieces) ++(seen[std::minmax(one, other)].*counted);
+    }
+  };
+  count(judgement.agreeing, &Seen::agreeing);
+  count(judgement.contradicting, &Seen::contradicting);
+  std::vector<std::pair<std::size_t, std::size_t>> connected;
+  for (const auto& [both, places] : seen)
+    if (places.agreeing >= kLeastAgreeing && kOneContradictingOf * places.contradicting <= places.agreeing)
+      connected.push_back(both);
+  return connected;
+}
 
 }  // namespace
 
-std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const TrackConnection& track) {
+std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const TrackConnection& track,
+                          const MapJudgement& judgement) {
   if (track.unconnected > 0)
     return fmt::format(
         "the track was lost {}, and {} of its {} pieces, with {} key scans, {} connected to the rest neither by a loop "
@@ -49,6 +82,13 @@ std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const Tr
     return fmt::format("{} of {} scans matched nothing, and stand where they were expected", unmatched, scans);
   if (kOneLostOf * track.breaks > scans)
     return fmt::format("the track was lost {} in {} scans", times(track.breaks), scans);
+  if (judgement.violation() > kMostViolation) {
+    const SeenTwice& worst = judgement.contradicting.front();
+    return fmt::format(
+        "the map contradicts itself: of {} times that a place was seen again, {} do not agree in what is free, most of "
+        "all near ({:.1f}, {:.1f})",
+        judgement.pairs(), judgement.contradicting.size(), worst.at_map_m.x(), worst.at_map_m.y());
+  }
   return "";
 }
 
@@ -65,7 +105,8 @@ void TrackPieces::add(const FollowedScan& followed, std::uint64_t keys_before, s
   gap_covariance_.setZero();
 }
 
-TrackConnection TrackPieces::connection(std::uint64_t keys, std::span<const SlamEdge> edges) const {
+TrackConnection TrackPieces::connection(std::uint64_t keys, std::span<const SlamEdge> edges,
+                                        const MapJudgement& judgement) const {
   // The members are the pieces, then the key scans. A key scan made while the track was lost is a group of its own.
   const std::size_t pieces = breaks_.size() + 1;
   Groups groups(pieces + keys);
@@ -88,6 +129,8 @@ TrackConnection TrackPieces::connection(std::uint64_t keys, std::span<const Slam
   for (const SlamEdge& edge : edges)
     if (edge.loop)
       groups.join(member_of[static_cast<std::size_t>(edge.from)], member_of[static_cast<std::size_t>(edge.to)]);
+
+  for (const auto& [one, other] : agreeingPieces(member_of, pieces, judgement)) groups.join(one, other);
 
   std::map<std::size_t, std::uint64_t> keys_of_group;
   for (std::size_t i = 0; i < pieces; ++i) keys_of_group[groups.of(i)] += keys_of_piece[i];

@@ -12,6 +12,7 @@
 
 namespace swiftlet::perception {
 
+struct MapJudgement;
 struct SlamEdge;
 struct FollowedScan;
 
@@ -33,7 +34,8 @@ struct TrackConnection {
 };
 
 /// Why a map of this many scans is probably wrong; empty when there is no reason. `unmatched` scans matched nothing.
-std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const TrackConnection& track);
+std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const TrackConnection& track,
+                          const MapJudgement& judgement);
 
 /// Records the pieces of a track, scan by scan. Not thread-safe.
 class TrackPieces {
@@ -43,10 +45,11 @@ class TrackPieces {
   /// Takes in the next scan. `keys_before` and `keys_after`: numbers of key scans before and after it was added.
   void add(const FollowedScan& followed, std::uint64_t keys_before, std::uint64_t keys_after);
 
-  /// How the pieces are connected by these edges between `keys` key scans. Only loop closures count among the edges: a
-  /// local match searches around the predicted pose, which is wrong by more than the search window once the track is
-  /// lost.
-  TrackConnection connection(std::uint64_t keys, std::span<const SlamEdge> edges) const;
+  /// How the pieces are connected by these edges between `keys` key scans, and by the map. Only loop closures count
+  /// among the edges: a local match searches around the predicted pose, which is wrong by more than the search window
+  /// once the track is lost. In the map, two pieces are connected when they saw several of the same places and agree in
+  /// most.
+  TrackConnection connection(std::uint64_t keys, std::span<const SlamEdge> edges, const MapJudgement& judgement) const;
 
  private:
   struct Break {

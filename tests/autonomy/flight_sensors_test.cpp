@@ -70,6 +70,16 @@ TEST(FlightSensors, AnUprightLaserOrOneOfAFewBeamsMeasuresNoPosition) {
   EXPECT_THAT(said(ring), HasSubstr("24 of the beams of utm_30lx look around, and a match takes 30"));
 }
 
+TEST(FlightSensors, ANarrowViewLosesThePositionInTurns) {
+  LaserConfig narrow = shipped("utm_30lx");
+  for (const double view_deg : {15.0, 30.0, 57.0}) {
+    narrow.field_of_view_deg = view_deg;
+    EXPECT_THAT(said(narrow), HasSubstr("nothing measures the position: the beams of utm_30lx look around over"));
+  }
+  narrow.field_of_view_deg = 90.0;
+  EXPECT_EQ(said(narrow), "");
+}
+
 TEST(FlightSensors, ScansComeBeforeTheLastOneIsTooOld) {
   LaserConfig slow = shipped("utm_30lx");
   for (const double rate_hz : {1.0, 2.0, 3.0, 3.5}) {

@@ -105,6 +105,8 @@ TEST(Usage, AValueThatCannotBeUsedIsToldInPlainWords) {
   told({"--seed", "1", "--seed", "2"}, "--seed: is given more than once");
   told({"--battery", "90%"}, "--battery: `90%` is not a number from 0.01 to 1, write `0.9`: shares are of 1");
   told({"--battery", "0,9"}, "--battery: `0,9` is not a number from 0.01 to 1, write `0.9`");
+  told({"--seed", "1,5"}, "from 0 to 1000000000, write a whole number, without points or commas");
+  told({"--time-limit", "5min"}, "write the number alone, in the unit that --help names");
   told({"--speed", "2x"}, "--speed: `2x` is neither max nor a number from 0.01 to 1000, write the number alone");
 }
 

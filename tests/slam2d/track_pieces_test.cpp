@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "perception/laser_odometry/laser_front_end.hpp"
+#include "perception/slam2d/map_judgement.hpp"
 #include "perception/slam2d/slam2d.hpp"
 
 namespace swiftlet::perception {
@@ -39,7 +40,7 @@ class Track {
     edge.loop = loop;
     edges_.push_back(edge);
   }
-  TrackConnection connection() const { return pieces_.connection(keys_, edges_); }
+  TrackConnection connection(const MapJudgement& map = {}) const { return pieces_.connection(keys_, edges_, map); }
   int last() const { return static_cast<int>(keys_) - 1; }
 
  private:
@@ -58,8 +59,8 @@ TEST(TrackPieces, ATrackThatWasNeverLostIsOnePiece) {
   EXPECT_EQ(connection.breaks, 0U);
   EXPECT_EQ(connection.pieces, 1U);
   EXPECT_EQ(connection.unconnected, 0U);
-  EXPECT_EQ(whyNotTrusted(23, 3, connection), "3 of 23 scans matched nothing, and stand where they were expected");
-  EXPECT_EQ(whyNotTrusted(100, 3, connection), "");
+  EXPECT_EQ(whyNotTrusted(23, 3, connection, {}), "3 of 23 scans matched nothing, and stand where they were expected");
+  EXPECT_EQ(whyNotTrusted(100, 3, connection, {}), "");
 }
 
 TEST(TrackPieces, ALoopClosureConnectsALostTrack) {
@@ -73,14 +74,15 @@ TEST(TrackPieces, ALoopClosureConnectsALostTrack) {
   EXPECT_EQ(connection.pieces, 2U);
   EXPECT_EQ(connection.unconnected, 1U);
   EXPECT_EQ(connection.unconnected_keys, 21U);
-  EXPECT_THAT(whyNotTrusted(1000, 4, connection), HasSubstr("lost once, and 1 of its 2 pieces, with 21 key scans, is"));
+  EXPECT_THAT(whyNotTrusted(1000, 4, connection, {}),
+              HasSubstr("lost once, and 1 of its 2 pieces, with 21 key scans, is"));
   track.edge(60, 65, true);
   EXPECT_EQ(track.connection().unconnected, 1U) << "a loop within the new piece";
   track.edge(51, 65, true);
   EXPECT_EQ(track.connection().unconnected, 1U) << "to a scan that matched nothing";
   track.edge(10, track.last(), true);
   EXPECT_EQ(track.connection().unconnected, 0U);
-  EXPECT_EQ(whyNotTrusted(1000, 4, track.connection()), "");
+  EXPECT_EQ(whyNotTrusted(1000, 4, track.connection(), {}), "");
 }
 
 TEST(TrackPieces, PiecesMayBeConnectedThroughOthers) {
@@ -109,13 +111,39 @@ TEST(TrackPieces, AccurateOdometryConnectsAcrossAGap) {
   }
 }
 
+TEST(TrackPieces, TheMapConnectsPiecesThatAgreeInSeveralPlaces) {
+  Track track;
+  track.scans(50, Seen::kMatched);
+  track.lose();
+  track.scans(50, Seen::kMatched);  // Key scans 53 to 103.
+  MapJudgement map;
+  map.agreeing = {{0, 60}, {12, 60}};
+  EXPECT_EQ(track.connection(map).unconnected, 1U) << "two may agree by chance";
+  map.agreeing.push_back({24, 72});
+  map.agreeing.push_back({0, 24});
+  EXPECT_EQ(track.connection(map).unconnected, 0U);
+  map.contradicting = {{12, 84, 0.3}};
+  EXPECT_EQ(track.connection(map).unconnected, 1U);
+}
+
+TEST(TrackPieces, AMapThatContradictsItselfIsNotTrusted) {
+  MapJudgement map;
+  map.agreeing.resize(18);
+  map.contradicting = {{0, 60, 0.4, {3.0, -2.5}}, {12, 72, 0.3}};
+  EXPECT_EQ(whyNotTrusted(1000, 0, {}, map), "") << "a door that was moved";
+  map.agreeing.resize(8);
+  EXPECT_EQ(whyNotTrusted(1000, 0, {}, map),
+            "the map contradicts itself: of 10 times that a place was seen again, 2 do not agree in what is free, most "
+            "of all near (3.0, -2.5)");
+}
+
 TEST(TrackPieces, AMapWithFewMatchedScansIsNotTrusted) {
-  EXPECT_THAT(whyNotTrusted(30, 29, {}), HasSubstr("29 of 30 scans matched nothing"));
+  EXPECT_THAT(whyNotTrusted(30, 29, {}, {}), HasSubstr("29 of 30 scans matched nothing"));
   TrackConnection often;
   often.breaks = often.bridged = 11;
   often.pieces = 12;
-  EXPECT_EQ(whyNotTrusted(1100, 44, often), "");
-  EXPECT_EQ(whyNotTrusted(1000, 44, often), "the track was lost 11 times in 1000 scans");
+  EXPECT_EQ(whyNotTrusted(1100, 44, often, {}), "");
+  EXPECT_EQ(whyNotTrusted(1000, 44, often, {}), "the track was lost 11 times in 1000 scans");
 }
 
 }  // namespace
