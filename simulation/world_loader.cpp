@@ -82,10 +82,7 @@ class Loader {
   void addWorld(const sdf::World& world) {
     state_ = readState(world, world_.file);
     for (const Problem& insertion : state_.insertions) addMissing(insertion);
-    for (const common::SourceLocation& place : state_.unused)
-      world_.warnings.push_back(toString(
-          Problem{place, "state",
-                  fmt::format("the first <state>, of line {}, counts; this one is left out", state_.source.line), ""}));
+    for (const Problem& warning : state_.warnings) world_.warnings.push_back(toString(warning));
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (!state_.deleted.contains(model.Name())) addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});
@@ -244,7 +241,10 @@ class Loader {
     }
     const auto key = std::make_pair(path->string(), sdf_mesh.Submesh());
     auto cached = meshes_.find(key);
-    if (cached == meshes_.end()) cached = meshes_.emplace(key, loadMesh(key.first, key.second)).first;
+    if (cached == meshes_.end()) {
+      cached = meshes_.emplace(key, loadMesh(key.first, key.second)).first;
+      if (cached->second && !look.color) warnOfMaterials(*cached->second, key.first, location);
+    }
     if (!cached->second) {
       addMissing({location, "mesh", fmt::format("`{}`: {}", path->string(), cached->second.error()), ""});
       return;
@@ -255,6 +255,13 @@ class Loader {
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex = vertex.cwiseProduct(scale);
     addShape(scope, link, location, T_world_item, triangles, look.color.value_or(cached->second->color), look);
     addMaterials(*cached->second, *path, look, world_.shapes.back());
+  }
+
+  void warnOfMaterials(const Mesh& mesh, const std::string& file, const common::SourceLocation& location) {
+    for (const std::string& missing : mesh.missing_materials)
+      world_.warnings.push_back(
+          toString(Problem{location, "mesh", fmt::format("`{}`: its materials `{}` were not found", file, missing),
+                           "they are left out"}));
   }
 
   /// A colour or an image of the world's file replaces those of the mesh.

@@ -22,6 +22,7 @@ TEST(Misleading, IsTheSameInMissionsAndSettings) {
     for (const std::string before : {"", "a"}) {
       const std::string text = before + utf8Of(code);
       EXPECT_EQ(common::misleadingIn(text).has_value(), !tree::misleadingCharacterIn(text).empty()) << std::hex << code;
+      EXPECT_EQ(common::asSeen(text), tree::asSeen(text)) << std::hex << code;
     }
   }
 }

@@ -1,0 +1,193 @@
+// What people mistype in the files of worlds is said with its place and what was meant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/error.hpp"
+#include "fixtures.hpp"
+#include "sdf_texts.hpp"
+#include "simulation/world_model.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class WorldMistakes : public ::testing::Test {
+ protected:
+  /// The models begin in line 3.
+  WorldModel load(const std::string& models, IncompleteWorld incomplete = IncompleteWorld::kRefused) {
+    return loadText("<sdf version='1.9'>\n<world name='w'>\n" + models + "</world></sdf>\n", incomplete);
+  }
+  WorldModel loadText(const std::string& text, IncompleteWorld incomplete = IncompleteWorld::kRefused) {
+    return loadWorld(folder_.write("world.sdf", text), {}, incomplete);
+  }
+  std::string refusalOfText(const std::string& text) {
+    try {
+      loadText(text);
+    } catch (const common::InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  std::string refusalOf(const std::string& models) {
+    return refusalOfText("<sdf version='1.9'>\n<world name='w'>\n" + models + "</world></sdf>\n");
+  }
+
+  TemporaryFolder folder_{"swiftlet_world_mistakes"};
+};
+
+std::string state(const std::string& inside) { return "<state world_name='w'>\n" + inside + "</state>\n"; }
+
+const std::string kPose = "<pose>4 0 0 0 0 0</pose>";
+
+TEST_F(WorldMistakes, NamesOfAStateThatTheWorldDoesNotHaveAreSaid) {
+  const std::string inner = model("inner", kBox);
+  const std::string outer = "<model name='outer'><static>1</static>" + inner.substr(0, inner.size() - 1) + "</model>\n";
+  const auto warningsOf = [&](const std::string& inside) {
+    return load(model("p", kBox) + outer + state(inside)).warnings;
+  };
+  const auto saidOnce = [](const std::string& message) {
+    return ElementsAre(AllOf(HasSubstr("world.sdf:6: state: "), HasSubstr(message)));
+  };
+  EXPECT_THAT(warningsOf("<model name='P'>" + kPose + "</model>"),
+              saidOnce("the world has no model `P`, so this has no effect, did you mean `p`?"));
+  EXPECT_THAT(warningsOf("<model name='p\u200B'>" + kPose + "</model>"),
+              saidOnce("it has a zero-width space (U+200B): write nothing there"));
+  EXPECT_THAT(warningsOf("<model name='ghost'>" + kPose + "</model>"), saidOnce("there is p, outer, outer::inner"));
+  EXPECT_THAT(warningsOf("<model name='p'><link name='body'>" + kPose + "</link></model>"),
+              saidOnce("`p` has no link `body`, so this has no effect, there is l"));
+  EXPECT_THAT(warningsOf("<model name='outer'><model name='iner'>" + kPose + "</model></model>"),
+              saidOnce("`outer` has no model `iner`, so this has no effect, did you mean `inner`?"));
+  EXPECT_THAT(warningsOf("<deletions><name>outr</name></deletions>"),
+              saidOnce("the world has no model `outr`, so this has no effect, did you mean `outer`?"));
+}
+
+TEST_F(WorldMistakes, NamesOfAStateAsGazeboWritesThemPass) {
+  const std::string inner = model("inner", kBox);
+  const std::string things = model("p", kBox) + model("gone", kBox) + "<light name='sun' type='directional'/>\n" +
+                             "<model name='outer'><static>1</static>" + inner + "</model>\n" +
+                             "<include><uri>model://ground_plane</uri></include>\n";
+  const WorldModel w =  // Only older versions of SDF allow `::` in names.
+      loadText("<sdf version='1.6'><world name='w'>" + things +
+               state("<deletions><name>gone</name><name>sun</name></deletions>"
+                     "<model name=' p '><pose>0 0 0 0 0 0</pose><link name='l'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<model name='outer'><model name='inner'><link name='l'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<link name='inner::l'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<model name='outer::inner'><pose>0 0 0 0 0 0</pose></model>"
+                     "<model name='ground_plane'><link name='link'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<light name='lamp'><pose>0 0 10 0 0 0</pose></light>") +
+               "</world></sdf>");
+  EXPECT_THAT(w.warnings, Not(Contains(HasSubstr("has no"))));
+}
+
+TEST_F(WorldMistakes, CharactersThatAreNotSeenAreNamed) {
+  const std::string named = "has a zero-width space (U+200B): write nothing there";
+  const std::string box = model("box", kBox);
+  const auto with = [&](const std::string& part, const std::string& instead) {
+    std::string text = box;
+    return text.replace(text.find(part), part.size(), instead);
+  };
+  EXPECT_THAT(refusalOf(box + model("thing", "<bo\u200Bx><size>1 2 3</size></bo\u200Bx>")),
+              AllOf(HasSubstr("world.sdf:4"), HasSubstr(named)));
+  EXPECT_THAT(refusalOf(with("collision name", "colli\u200Bsion name")), HasSubstr(named)) << "its end has it not";
+  EXPECT_THAT(refusalOf(with("model name", "model\u00A0name")),
+              AllOf(HasSubstr("world.sdf:3"), HasSubstr("is a no-break space (U+00A0): write a plain blank")));
+  EXPECT_THAT(refusalOf(with("<pose>", "<pose relative_to='wo\u200Brld'>")), HasSubstr(named));
+  EXPECT_THAT(refusalOf(box + model("thing", "<bxo><size>1 2 3</size></bxo>")), HasSubstr("did you mean `box`?"));
+  EXPECT_THAT(refusalOf(box + "<include><uri>model://she\u200Blf</uri></include>"), HasSubstr(named));
+  EXPECT_THAT(refusalOfText("<sdf version='1.9\u200B'/>"), HasSubstr(named));
+}
+
+TEST_F(WorldMistakes, EncodingsThatAreDeclaredAreRead) {
+  const auto text = [](const std::string& encoding, const std::string& name) {
+    return "<?xml version='1.0' encoding='" + encoding + "'?>\n<sdf version='1.9'>\n<world name='w'>\n" +
+           model(name, kBox) + "</world></sdf>\n";
+  };
+  for (const auto& [encoding, name] : {std::pair{"KOI8-R", "\xD3\xD4\xCF\xCC"},
+                                       {"windows-1251", "\xF1\xF2\xEE\xEB"},
+                                       {"UTF-8", "\u0441\u0442\u043E\u043B"}})
+    EXPECT_THAT(loadText(text(encoding, name)).modelNames(), ElementsAre("\u0441\u0442\u043E\u043B")) << encoding;
+  EXPECT_THAT(loadText(text("ISO-8859-1", "M\xFCller")).modelNames(), ElementsAre("M\u00FCller"));
+  EXPECT_THAT(loadText(text("UTF-8", "M\xFCller")).modelNames(), ElementsAre("M\u00FCller"));
+  EXPECT_THAT(refusalOfText(text("KOI9-R", "\xD3\xD4")),
+              AllOf(HasSubstr("world.sdf:1"), HasSubstr("`KOI9-R`"), HasSubstr("save it as UTF-8")));
+  EXPECT_THAT(refusalOfText(text("ASCII", "M\xFCller")),
+              AllOf(HasSubstr("world.sdf:1"), HasSubstr("`ASCII`"), HasSubstr("save it as UTF-8")));
+}
+
+TEST_F(WorldMistakes, FilesThatHoldNoMeshAreNamedByTheirKind) {
+  const std::string step = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\n";
+  for (const auto& [file, text, kind] :
+       std::vector<std::array<std::string, 3>>{{"a.step", step, "it is a STEP file"},
+                                               {"a.stl", step, "it is a STEP file"},
+                                               {"a.igs", "junk", "it is an IGES file"},
+                                               {"a.blend", "BLENDER-v402", "it is a file of Blender"},
+                                               {"a.skp", "junk", "it is a file of SketchUp"},
+                                               {"a.fbx", "Kaydara FBX", "it is an FBX file that cannot be read"},
+                                               {"a.xyz", "junk", "that end on `.xyz`"}}) {
+    folder_.write(file, text);
+    EXPECT_THAT(refusalOf(model("m", "<mesh><uri>" + file + "</uri></mesh>")),
+                AllOf(HasSubstr("world.sdf:3: mesh: "), HasSubstr(kind), HasSubstr(".dae, .obj, .stl or .glb"),
+                      Not(HasSubstr("schema"))))
+        << file;
+  }
+}
+
+TEST_F(WorldMistakes, MaterialsOfAMeshThatAreNotThereAreSaidOnce) {
+  folder_.write("red.obj", "mtllib red_paint.mtl\r\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  const std::string mesh = "<mesh><uri>red.obj</uri></mesh>";
+  EXPECT_THAT(load(model("a", mesh) + model("b", mesh)).warnings,
+              ElementsAre(AllOf(HasSubstr("world.sdf:3: mesh: "), HasSubstr("red.obj"), HasSubstr("`red_paint.mtl`"))));
+  folder_.write("red_paint.mtl", "newmtl red\nKd 1 0 0\n");
+  EXPECT_THAT(load(model("a", mesh)).warnings, IsEmpty());
+}
+
+TEST_F(WorldMistakes, MisspeltElementsThatHoldThingsMakeAWorldIncomplete) {
+  const std::string box = model("box", kBox);
+  const std::string thing = model("thing", kBox, "3 0 0 0 0 0");
+  for (const auto& [right, wrong] : {std::pair{"collision", "colision"},
+                                     {"collision", "Collision"},
+                                     {"geometry", "geometri"},
+                                     {"link", "lnik"},
+                                     {"model", "modle"},
+                                     {"pose", "poze"},
+                                     {"size", "siez"}}) {
+    std::string text = thing;
+    for (const std::string before : {"<", "</"}) {
+      const std::size_t at = text.find(before + right);
+      text.replace(at + before.size(), std::string(right).size(), wrong);
+    }
+    EXPECT_THAT(refusalOf(box + text),
+                AllOf(HasSubstr("world.sdf:4: "), HasSubstr(std::string("has no `") + wrong + "`"),
+                      HasSubstr(std::string("did you mean `") + right + "`?"), HasSubstr("--allow-incomplete-world")));
+    const WorldModel w = load(box + text, IncompleteWorld::kAllowed);
+    EXPECT_THAT(w.warnings, Contains(AllOf(HasSubstr("world.sdf:4: "), HasSubstr(wrong), HasSubstr("left out"))));
+  }
+}
+
+TEST_F(WorldMistakes, ThingsInTheWrongElementMakeAWorldIncomplete) {
+  const std::string box = model("box", kBox);
+  EXPECT_THAT(refusalOf(box + "<link name='l'/>\n"),
+              AllOf(HasSubstr("world.sdf:4: "), HasSubstr("belongs in a <model>")));
+  EXPECT_THAT(refusalOf(box + "<model name='m'><static>1</static><link name='l'/>\n<collision name='c'><geometry>" +
+                        kBox + "</geometry></collision></model>"),
+              AllOf(HasSubstr("world.sdf:5: "), HasSubstr("belongs in a <link>")));
+}
+
+TEST_F(WorldMistakes, OtherElementsThatSdfDoesNotHaveAreOnlySaid) {
+  for (const std::string odd : {"<frobnicate>3</frobnicate>", "<road_surface/>", "<gravitty>0 0 -9.8</gravitty>"})
+    EXPECT_THAT(load(model("box", kBox) + odd).warnings, ElementsAre(HasSubstr("world.sdf:4: "))) << odd;
+}
+
+}  // namespace
+}  // namespace swiftlet::simulation
