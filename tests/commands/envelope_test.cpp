@@ -74,7 +74,7 @@ TEST_F(Envelope, AnInterruptionLeavesWhatIsDone) {
   options.while_running = [](pid_t process, const std::string& out) {
     if (out.find("base: 1 of") != std::string::npos) kill(process, SIGINT);
   };
-  const ProgramEnd end = runSwiftlet({"trial", "--envelope", "trials/papers/unb_case1.yaml", "--quantities",
+  const ProgramEnd end = runSwiftlet({"trial", "--envelope", "trials/papers/unb_case1.yaml", "--system", "swiftlet", "--quantities",
                                       quantities(), "--repeat", "2", "--out", path("run")},
                                      options);
   EXPECT_EQ(end.exit_code, 1) << describe(end);
