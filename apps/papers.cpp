@@ -207,8 +207,8 @@ std::string rowOf(const PaperExperiment& experiment, const std::vector<FlownTria
   }
   std::string code;
   for (const std::string& file : experiment.code) code += fmt::format("{}`{}`", code.empty() ? "" : ", ", file);
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", experiment.item, experiment.what, experiment.reported, its,
-                     own, where, code);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", experiment.item, experiment.what, experiment.reported,
+                     its, own, where, code);
 }
 
 /// The first line of the page, which marks it as one of ours.
@@ -219,7 +219,8 @@ std::string page(const Papers& papers, const std::vector<FlownTrial>& trials) {
       std::string(kTitle) +
       "\n\n"
       "Printed by `swiftlet papers`: one row for each experiment, table and figure. Figures are over n flights in the "
-      "simulator,\nin SI units (times of the processor in ms), with the profile of the paper and with our own; those of "
+      "simulator,\nin SI units (times of the processor in ms), with the profile of the paper and with our own; those "
+      "of "
       "phases are medians. Flights that\ncrashed or lack the figure have failed; where half of them did, there is no "
       "figure. An empty cell was not flown for this page.\n";
   std::string paper;

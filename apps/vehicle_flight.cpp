@@ -12,6 +12,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "evaluation/knowable_frame.hpp"
+#include "evaluation/statistics.hpp"
 #include "interfaces/run_files.hpp"
 #include "simulation/nature.hpp"
 

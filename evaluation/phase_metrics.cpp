@@ -157,11 +157,12 @@ void PhaseRecorder::tick(const PhaseTick& tick) {
 void PhaseRecorder::follow(const PhaseTick& tick) {
   const double time_s = (tick.now - *course_.since).seconds();
   const double yaw_off_rad = common::wrapAngle(common::yawOf(tick.T_map_truth.rotation) - course_.yaw_begin_rad);
-  if (std::abs(yaw_off_rad) > PhaseCourse::kReturned_rad) course_.yaw_last_off_s = time_s;
+  if (std::abs(yaw_off_rad) > PhaseCourse::kReturned_rad)
+    course_.yaw_last_off_s = std::max(course_.yaw_last_off_s, time_s);
   if (config_.place_map_m.empty()) return;
   const Eigen::Vector2d place_m(config_.place_map_m[0], config_.place_map_m[1]);
   if ((tick.T_map_truth.position_m.head<2>() - place_m).norm() > PhaseCourse::kReturned_m)
-    course_.place_last_off_s = time_s;
+    course_.place_last_off_s = std::max(course_.place_last_off_s, time_s);
 }
 
 void PhaseRecorder::tickInPhase(const PhaseTick& tick) {
@@ -179,7 +180,7 @@ void PhaseRecorder::tickInPhase(const PhaseTick& tick) {
   course_.yaw_off_max_rad = std::max(course_.yaw_off_max_rad, yaw_off_rad);
   if (tick.reference_odom_m)
     course_.control_error_max_m = std::max(course_.control_error_max_m.value_or(0.0),
-                                            (*tick.reference_odom_m - tick.estimate.T_odom_body.position_m).norm());
+                                           (*tick.reference_odom_m - tick.estimate.T_odom_body.position_m).norm());
   // An estimate is of the last inertial sample, some milliseconds before the tick.
   true_velocities_m_s_.emplace_back(tick.now, velocity_m_s);
   if (true_velocities_m_s_.size() > kTruths) true_velocities_m_s_.pop_front();
@@ -239,7 +240,8 @@ void PhaseRecorder::addBounds(PhaseFigures& figures) const {
   if (course_.control_error_max_m) figures.emplace_back("control_error_max_m", *course_.control_error_max_m);
   if (config_.height_map_m <= 0.0) return;
   double error_max_m = 0.0;
-  for (const double height_m : height_m_) error_max_m = std::max(error_max_m, std::abs(height_m - config_.height_map_m));
+  for (const double height_m : height_m_)
+    error_max_m = std::max(error_max_m, std::abs(height_m - config_.height_map_m));
   figures.emplace_back("height_error_max_m", error_max_m);
 }
 

@@ -74,9 +74,9 @@ struct PhaseCourse {
   std::optional<common::Time> since, last;  ///< First tick of the phase, and the last one that counts.
   double time_s = 0.0;
   double yaw_begin_rad = 0.0;
-  double yaw_off_max_rad = 0.0;                ///< From yaw_begin_rad, of the ticks that count.
-  double place_last_off_s = 0.0;               ///< Time from `since` at which the place was last off by kReturned_m.
-  double yaw_last_off_s = 0.0;                 ///< The same for the yaw and kReturned_rad.
+  double yaw_off_max_rad = 0.0;               ///< From yaw_begin_rad, of the ticks that count.
+  double place_last_off_s = 0.0;              ///< Time from `since` at which the place was last off by kReturned_m.
+  double yaw_last_off_s = 0.0;                ///< The same for the yaw and kReturned_rad.
   std::optional<double> control_error_max_m;  ///< Reference less estimate, in space.
 
   /// The errors with which Grzonka 2012 holds place and yaw (V-D): nearer, the vehicle is back.

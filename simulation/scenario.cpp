@@ -206,9 +206,9 @@ void Scenario::describe(common::config::Fields& fields) {
   fields.section("quadrotor", quadrotor, "The airframe's physics.");
   fields.section("autopilot", autopilot, "The inner loop.");
   fields.section("sensors", sensors, "Errors and delays of the sensors.");
-  fields.list(
-      "vehicles", vehicles,
-      "The vehicles if there are several; each then has its own start, battery_remaining, pushes, hands, faults and pilot.");
+  fields.list("vehicles", vehicles,
+              "The vehicles if there are several; each then has its own start, battery_remaining, pushes, hands, "
+              "faults and pilot.");
 }
 
 std::vector<std::string> Scenario::validate() const {

@@ -147,7 +147,8 @@ struct Scenario {
   AutopilotConfig autopilot;
   SensorsConfig sensors;
   /// All vehicles, in the order of their numbers. If it is empty, there is one vehicle without a name, with the
-  /// `start`, `battery_remaining`, `pushes`, `hands`, `faults` and `pilot` above; otherwise these must have their defaults.
+  /// `start`, `battery_remaining`, `pushes`, `hands`, `faults` and `pilot` above; otherwise these must have their
+  /// defaults.
   std::vector<ScenarioVehicle> vehicles;
 
   /// The ranges that the plant is drawn from; null: the plant has the default values. It is not read from the file.

@@ -295,8 +295,7 @@ class PageOfThePapers : public Identify {
  protected:
   /// The page with the results of one trial with ours: `members` of the trial beside its name and system.
   std::string pageWith(const std::string& name, const std::string& members) {
-    const std::string results =
-        R"({"trials": [{"name": ")" + name + R"(", "system": "swiftlet", )" + members + "}]}";
+    const std::string results = R"({"trials": [{"name": ")" + name + R"(", "system": "swiftlet", )" + members + "}]}";
     const ProgramEnd printed = runSwiftlet({"papers", "--results", write("results.json", results)});
     EXPECT_EQ(printed.exit_code, 0) << describe(printed);
     return printed.out;
@@ -309,13 +308,12 @@ class PageOfThePapers : public Identify {
 
 TEST_F(PageOfThePapers, CountsFlightsThatLackTheFigureOrCrashedAsFailed) {
   const std::string flights = R"("flights": [)" + hover("0.01") + ", " + hover("0.02") + ", " + hover("0.03") + ", ";
-  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + R"({"phases": {}}])"),
-              HasSubstr("| 0.020 (n = 4, 1 failed) |"));
-  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + hover("0.9", 1) + "]"),
-              HasSubstr("| 0.020 (n = 4, 1 failed) |"))
+  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + R"({"phases": {}}])"), HasSubstr("| 0.020 (n = 4, 1 failed) |"));
+  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + hover("0.9", 1) + "]"), HasSubstr("| 0.020 (n = 4, 1 failed) |"))
       << "a hover that ends in a crash is none";
-  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + hover("null") + ", " + hover("null") + ", " + hover("null") + "]"),
-              HasSubstr("| - (n = 6, 3 failed) |"))
+  EXPECT_THAT(
+      pageWith("mit_hover-swiftlet", flights + hover("null") + ", " + hover("null") + ", " + hover("null") + "]"),
+      HasSubstr("| - (n = 6, 3 failed) |"))
       << "half of the flights have no median";
 }
 
