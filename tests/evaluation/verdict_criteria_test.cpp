@@ -91,9 +91,9 @@ TEST(VerdictCriteria, NoFlightThatCrashedHasPassed) {
     TrialResult result = trial(9, {crash});
     result.flights[0].collisions = 1;
     EXPECT_EQ(result.passed(), 9) << toString(crash);
-    const auto json = nlohmann::json::parse(toJson({{result}})).at("trials").at(0);
-    EXPECT_EQ(json.at("passed"), 9) << toString(crash);
-    EXPECT_EQ(json.at("flights").at(0).at("passed"), false) << toString(crash);
+    const auto written = nlohmann::json::parse(toJson({{result}})).at("trials").at(0);
+    EXPECT_EQ(written.at("passed"), 9) << toString(crash);
+    EXPECT_EQ(written.at("flights").at(0).at("passed"), false) << toString(crash);
     EXPECT_THAT(toText(failureTable({{result}})), HasSubstr(std::string("collision (") + toString(crash)));
   }
 }
