@@ -37,7 +37,7 @@ void TruthSink::ticked(const autonomy::TickOutcome& outcome) {
   std::vector<Eigen::Vector2d> people_world_m;
   for (const simulation::Actor& walker : vehicle_.walkers()) people_world_m.emplace_back(walker.position_world_m);
   recorder_.people(std::move(people_world_m));
-  recorder_.tick(vehicle_.truth(), outcome.state);
+  recorder_.tick(vehicle_.truth(), outcome.state, outcome.reference_odom_m);
   recorder_.intent(outcome.now, outcome.intent, outcome.intent_status);
 }
 void TruthSink::world(const WorldPtr& world) {

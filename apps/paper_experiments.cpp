@@ -74,6 +74,7 @@ void PaperExperiment::describe(common::config::Fields& fields) {
   fields("profile", profile, "The paper's profile among those that fly the trial; empty if only ours does.");
   fields("own", own, "Our profile.");
   fields("shown_by", shown_by, "A file or folder that shows it otherwise.");
+  fields("code", code, "The files and folders of the algorithm.");
   fields("missing", missing, "What is not built yet.");
   fields("shortfall", shortfall, "Why the paper's profile falls short of its own paper by more than twice.");
 }

@@ -10,6 +10,7 @@ namespace swiftlet::apps {
 
 struct PaperExperiment {
   std::string paper, item, what, reported, trial, figure, profile, own = "swiftlet", shown_by, missing, shortfall;
+  std::vector<std::string> code;
   double reported_at_most = 0.0;
 
   void describe(common::config::Fields& fields);

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,6 +49,10 @@ void requireSound(const FlownTrial& trial) {
     if (json.contains(key) && !json[key].is_string()) throw trial.problem(key, "is no text");
   if (json.contains("runs") && !json["runs"].is_number_unsigned())
     throw trial.problem("runs", fmt::format("{} is no number of flights", json["runs"].dump()));
+  const Json without = json.value("seeds_without", Json::object());
+  if (!without.is_object()) throw trial.problem("seeds_without", "is no object");
+  for (const auto& [name, seeds] : without.items())
+    if (!seeds.is_array()) throw trial.problem("seeds_without." + name, "is no list");
   const Json flights = json.value("flights", Json::array());
   if (!flights.is_array()) throw trial.problem("flights", "is no list");
   for (std::size_t i = 0; i < flights.size(); ++i) {
@@ -85,9 +90,10 @@ std::optional<double> medianOf(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+/// A figure over all flights of a trial. Those that lack it or crashed have failed, and are counted too.
 struct Measured {
-  double value = 0.0;
-  std::size_t flights = 0;
+  std::optional<double> value;
+  std::size_t flights = 0, failed = 0;
 };
 
 /// None if it is no number, as a figure that was not measured.
@@ -99,20 +105,40 @@ std::optional<double> figureOf(const FlownTrial& trial, const std::string& key, 
   return number;
 }
 
-/// The figure that `read` takes from each flight, by its key in the flight.
-std::optional<Measured> medianOverFlights(const FlownTrial& trial, const std::string& key,
-                                          const std::function<Json(const Json& flight)>& read) {
+bool crashed(const Json& flight) {
+  const Json collisions = flight.value("collisions", Json());
+  return collisions.is_number() && collisions.get<double>() > 0.0;
+}
+
+/// The median over the flights that `read` finds the figure in, by its key in the flight.
+Measured medianOverFlights(const FlownTrial& trial, const std::string& key,
+                           const std::function<Json(const Json& flight)>& read) {
   std::vector<double> values;
+  Measured measured;
   const Json flights = trial.json.value("flights", Json::array());
-  for (std::size_t i = 0; i < flights.size(); ++i)
-    if (const auto value = figureOf(trial, fmt::format("flights[{}].{}", i, key), read(flights[i])))
+  measured.flights = flights.size();
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const auto value = figureOf(trial, fmt::format("flights[{}].{}", i, key), read(flights[i]));
+    if (value && !crashed(flights[i]))
       values.push_back(*value);
-  const auto median = medianOf(values);
-  return median ? std::optional(Measured{*median, values.size()}) : std::nullopt;
+    else
+      ++measured.failed;
+  }
+  measured.value = medianOf(std::move(values));
+  return measured;
+}
+
+/// The flights that lack a figure of the whole trial, or that crashed.
+std::size_t failedFlights(const FlownTrial& trial, const std::string& figure) {
+  const Json without = trial.json.value("seeds_without", Json::object()).value(figure, Json::array());
+  std::set<Json> seeds(without.begin(), without.end());
+  for (const Json& flight : trial.json.value("flights", Json::array()))
+    if (crashed(flight)) seeds.insert(flight.value("seed", Json()));
+  return seeds.size();
 }
 
 /// Of the whole trial, or the median over its flights.
-std::optional<Measured> measured(const FlownTrial& trial, const std::string& figure) {
+Measured measured(const FlownTrial& trial, const std::string& figure) {
   if (figure.starts_with("phases.")) {
     const std::string name = figure.substr(7);
     const std::string phase = name.substr(0, name.find('.')), key = name.substr(name.find('.') + 1);
@@ -124,11 +150,22 @@ std::optional<Measured> measured(const FlownTrial& trial, const std::string& fig
     const std::string key = figure.substr(8);
     return medianOverFlights(trial, key, [&](const Json& flight) { return flight.value(key, Json()); });
   }
-  const auto value = figureOf(trial, figure, trial.json.value(figure, Json()));
-  return value ? std::optional(Measured{*value, trial.json.value("runs", std::size_t{0})}) : std::nullopt;
+  Measured all{figureOf(trial, figure, trial.json.value(figure, Json())), trial.json.value("runs", std::size_t{0}), 0};
+  if (figure == "collisions") return all;  // It counts what failed itself.
+  all.failed = all.value ? failedFlights(trial, figure) : all.flights;
+  return all;
 }
 
-/// "0.031 (n = 5)" of each condition that was flown with the profile, with its name where there are several: a trial in
+/// "0.031 (n = 5, 1 failed)"; no figure where half of the flights failed.
+std::string shown(const Measured& measured) {
+  const bool tells = measured.value && 2 * measured.failed < std::max<std::size_t>(measured.flights, 1);
+  std::string text = tells ? fmt::format("{:.3f} (n = {}", *measured.value, measured.flights)
+                           : fmt::format("- (n = {}", measured.flights);
+  if (measured.failed > 0) text += fmt::format(", {} failed", measured.failed);
+  return text + ")";
+}
+
+/// The figure of each condition that was flown with the profile, with its name where there are several: a trial in
 /// two natures has two figures. Of results with the same name the last counts.
 std::string flownWith(const std::vector<FlownTrial>& trials, const PaperExperiment& experiment,
                       const std::string& profile) {
@@ -143,12 +180,12 @@ std::string flownWith(const std::vector<FlownTrial>& trials, const PaperExperime
   std::string text;
   for (const auto& [name, trial] : conditions) {
     if (!text.empty()) text += "; ";
-    const auto value = measured(*trial, experiment.figure);
-    text += value ? fmt::format("{:.3f} (n = {})", value->value, value->flights) : "-";
+    const Measured figure = measured(*trial, experiment.figure);
+    text += shown(figure);
     if (conditions.size() > 1) text += ", " + name.substr(std::min(name.size(), experiment.trial.size() + 1));
     constexpr double kShort = 2.0;
-    const bool falls_short = value && experiment.reported_at_most > 0.0 && profile == experiment.profile &&
-                             value->value > kShort * experiment.reported_at_most;
+    const bool falls_short = figure.value && experiment.reported_at_most > 0.0 && profile == experiment.profile &&
+                             *figure.value > kShort * experiment.reported_at_most;
     if (falls_short)
       text += ": " +
               (experiment.shortfall.empty() ? "more than twice the paper's, why is not known" : experiment.shortfall);
@@ -168,8 +205,10 @@ std::string rowOf(const PaperExperiment& experiment, const std::vector<FlownTria
   } else {
     where = "not built yet: " + experiment.missing;
   }
-  return fmt::format("| {} | {} | {} | {} | {} | {} |\n", experiment.item, experiment.what, experiment.reported, its,
-                     own, where);
+  std::string code;
+  for (const std::string& file : experiment.code) code += fmt::format("{}`{}`", code.empty() ? "" : ", ", file);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", experiment.item, experiment.what, experiment.reported,
+                     its, own, where, code);
 }
 
 /// The first line of the page, which marks it as one of ours.
@@ -179,17 +218,18 @@ std::string page(const Papers& papers, const std::vector<FlownTrial>& trials) {
   std::string text =
       std::string(kTitle) +
       "\n\n"
-      "Printed by `swiftlet papers`: one row for each experiment, table and figure. Figures are medians over flights "
-      "in the "
-      "simulator,\nin SI units, with the profile of the paper and with our own; an empty cell was not flown for this "
-      "page.\n";
+      "Printed by `swiftlet papers`: one row for each experiment, table and figure. Figures are over n flights in the "
+      "simulator,\nin SI units (times of the processor in ms), with the profile of the paper and with our own; those "
+      "of "
+      "phases are medians. Flights that\ncrashed or lack the figure have failed; where half of them did, there is no "
+      "figure. An empty cell was not flown for this page.\n";
   std::string paper;
   for (const PaperExperiment& experiment : papers.experiments) {
     if (experiment.paper != paper) {
       paper = experiment.paper;
       text += fmt::format(
-          "\n## {}\n\n| in the paper | what | it reports | its profile | `swiftlet` | where |\n"
-          "| --- | --- | --- | --- | --- | --- |\n",
+          "\n## {}\n\n| in the paper | what | it reports | its profile | `swiftlet` | where | code |\n"
+          "| --- | --- | --- | --- | --- | --- | --- |\n",
           paper);
     }
     text += rowOf(experiment, trials);

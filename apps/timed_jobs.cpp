@@ -58,6 +58,12 @@ std::optional<JobMeter::Ends> JobMeter::ends(const std::string& kind) const {
               evaluation::quantile(std::vector<double>(all.end() - tenth, all.end()), 0.5)};
 }
 
+std::vector<double> JobMeter::took_ms(const std::string& kind) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = took_ms_.find(kind);
+  return found == took_ms_.end() ? std::vector<double>() : found->second;
+}
+
 std::unique_ptr<common::JobRunner> timed(std::unique_ptr<common::JobRunner> jobs, std::shared_ptr<JobMeter> meter) {
   return std::make_unique<TimedJobs>(std::move(jobs), std::move(meter));
 }

@@ -23,6 +23,8 @@ class JobMeter {
   };
   /// The medians of the first and of the last tenth of all jobs of a kind; none with fewer than ten.
   std::optional<Ends> ends(const std::string& kind) const;
+  /// Of all jobs of a kind, in their order.
+  std::vector<double> took_ms(const std::string& kind) const;
 
  private:
   mutable std::mutex mutex_;

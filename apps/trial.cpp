@@ -22,6 +22,7 @@
 #include "apps/trial_progress.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
+#include "evaluation/table_cells.hpp"
 #include "evaluation/trial.hpp"
 #include "evaluation/trial_results.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -88,6 +89,7 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
   std::string line = fmt::format("{:<24} seed {:<4} {}{:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed, vehicle,
                                  score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
   for (const std::string& failure : score.failures) line += "\n    " + failure;
+  if (!score.passed() && score.failures.empty()) line += "\n    " + evaluation::collisionText(score);
   if (!score.coverage_problem.empty() && trial.criteria.coverage_min <= 0)
     line += "\n    no coverage: " + score.coverage_problem;
   return line;
@@ -291,8 +293,8 @@ void addTrial(Command& program) {
   command.option("--only", options->only, "With --envelope: keys of the quantities to turn up, separated by commas.");
   command.option("--write", options->write, "With --envelope: page (Markdown) that gets the table and the picture.");
   command.footer(
-      "Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20\n"
-      "Example: swiftlet trial trials/papers/unb_case1.yaml --envelope --jobs 2");
+      "Example: swiftlet trial trials/papers/unb_case1.yaml --system swiftlet --repeat 20\n"
+      "Example: swiftlet trial trials/papers/unb_case1.yaml --system swiftlet --envelope --jobs 2");
   command.runs([options] {
     if (options->envelope) return flyEnvelope(envelopeOptions(*options));
     constexpr const char* kOnlyThere = "goes only with --envelope";

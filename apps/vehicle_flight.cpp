@@ -12,6 +12,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "evaluation/knowable_frame.hpp"
+#include "evaluation/statistics.hpp"
 #include "interfaces/run_files.hpp"
 #include "simulation/nature.hpp"
 
@@ -262,6 +263,10 @@ void VehicleFlight::finish(double wall_s, MemoryWatch& memory) {
 
 common::MachineUse VehicleFlight::machineUse(MemoryWatch& memory) const {
   common::MachineUse use{memory.peak_MB(), std::nullopt, std::nullopt};
+  if (const std::vector<double> plans_ms = job_meter_->took_ms("planning"); !plans_ms.empty()) {
+    use.plan_median_ms = evaluation::quantile(plans_ms, 0.5);
+    use.plan_max_ms = evaluation::quantile(plans_ms, 1.0);
+  }
   if (!autonomy_.cameraCounts()) return use;
   if (const auto ends = job_meter_->ends("mapping3d")) {
     use.frame_first_ms = ends->first_ms;

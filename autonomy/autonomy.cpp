@@ -189,6 +189,11 @@ bool Autonomy::finished() const {
          (controller_.state() == FlightState::kPoweredOff || controller_.state() == FlightState::kPreparation);
 }
 
+std::optional<Eigen::Vector3d> Autonomy::reference_odom_m() const {
+  if (controller_.state() != FlightState::kFlying) return std::nullopt;
+  return controller_.reference().position_odom_m;
+}
+
 std::vector<common::Event> Autonomy::takeEvents() {
   collect(stamps_.takeEvents());
   collect(inertial_.takeEvents());

@@ -112,6 +112,8 @@ class Autonomy {
   /// True if the mission ended by the operator's land command.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
+  /// Where the controller wants the vehicle; none unless it flies.
+  std::optional<Eigen::Vector3d> reference_odom_m() const;
   /// Height over the take-off floor of the slice of the map that is shown.
   double mapHeight_m() const { return map_height_m_; }
   /// Scans that came after a later one had been used, and were left out.

@@ -98,6 +98,13 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const perception::ProjectedScan standing = withoutPeople(outcome.scan, scan.stamps.measured);
   perception::markPeople(people_.movingAt(scan.stamps.measured), map_.T_map_odom() * planar(outcome.scan.T_odom_body),
                          outcome.scan);
+  if (!laser_.wants(outcome.scan.stamp)) {
+    const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
+    outcome.T_map_body = map_.T_map_odom() * T_odom_body;
+    outcome.drift_m = drift_m_;
+    measureHeight(outcome, T_odom_body, now);
+    return outcome;
+  }
   const bool withheld = isWithheld(outcome.scan);
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
   outcome.matched = fuse(odometry);
@@ -110,14 +117,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
       outcome.matched ? step_uncertainty_.add(odometry, T_odom_body, horizontalCovariance_m2()) : odometry.covariance;
   localize({standing, T_odom_body, step_covariance, withheld, odometry.interrupted}, now);
 
-  if (odom_at_key_) altitude_.follow(*map_.keyPoses(), odom_at_key_->key);
-  const AltitudeStep altitude =
-      altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body, filter_.verticalAt(outcome.scan.stamp));
-  fuse(altitude, outcome.scan.stamp);
-  if (altitude.below_m) {
-    outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
-    height_seen_ = now;
-  }
+  measureHeight(outcome, T_odom_body, now);
 
   const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
@@ -131,6 +131,16 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (outcome.matched && below_map_m_ == 0.0) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
   reportHealth(now);
   return outcome;
+}
+
+void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Time now) {
+  if (odom_at_key_) altitude_.follow(*map_.keyPoses(), odom_at_key_->key);
+  const AltitudeStep altitude =
+      altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body, filter_.verticalAt(outcome.scan.stamp));
+  fuse(altitude, outcome.scan.stamp);
+  if (!altitude.below_m) return;
+  outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
+  height_seen_ = now;
 }
 
 void Estimator::loadMap(const GivenMap& given) {

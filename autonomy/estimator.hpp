@@ -159,6 +159,7 @@ class Estimator {
   void sayWaiting(common::Time now, std::string reason);
   perception::ProjectedScan project(const common::LaserScan& scan) const;
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
+  void measureHeight(ScanOutcome& outcome, const common::Pose2& T_odom_body, common::Time now);
   bool isWithheld(const perception::ProjectedScan& scan);
   OdometryStep match(const perception::ProjectedScan& scan);
   bool fuse(const OdometryStep& step);

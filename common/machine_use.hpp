@@ -15,6 +15,10 @@ struct MachineUse {
   std::optional<double> frame_first_ms;
   std::optional<double> frame_last_ms;
 
+  /// Processor time of a planning job, the cost map's update with it: the median, and the greatest.
+  std::optional<double> plan_median_ms = std::nullopt;
+  std::optional<double> plan_max_ms = std::nullopt;
+
   /// How much longer a frame takes at the end than at the start.
   std::optional<double> frameGrowth() const {
     if (!frame_first_ms || !frame_last_ms || *frame_first_ms <= 0.0) return std::nullopt;

@@ -43,12 +43,23 @@ void FlightRecorder::watch(const std::vector<PhaseConfig>& phases) {
   for (const PhaseConfig& phase : phases) phases_.emplace_back(phase);
 }
 
-void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
+void FlightRecorder::tickPhases(const simulation::Truth& truth, const common::VehicleState& estimate,
+                                const std::optional<Eigen::Vector3d>& reference_odom_m) {
+  const PhaseTick tick{truth.stamp, truthInMap(truth.T_world_body),
+                       record_.T_world_map.rotation.conjugate() * truth.velocity_world_m_s, estimate, reference_odom_m};
+  for (PhaseRecorder& phase : phases_) {
+    if (truth.airborne)
+      phase.tick(tick);
+    else
+      phase.stand();
+  }
+}
+
+void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate,
+                          const std::optional<Eigen::Vector3d>& reference_odom_m) {
   conduct_.tick(truth);
   behaviors_.tick(truth, truthInMap(truth.T_world_body), record_.T_world_map);
-  for (PhaseRecorder& phase : phases_)
-    phase.tick(truth.stamp, truthInMap(truth.T_world_body),
-               record_.T_world_map.rotation.conjugate() * truth.velocity_world_m_s, estimate);
+  tickPhases(truth, estimate, reference_odom_m);
   if (!first_tick_) first_tick_ = truth.stamp;
   if (!history_.empty() && truth.airborne)
     record_.true_distance_m += (truth.T_world_body.position_m - history_.back().pose.position_m).head<2>().norm();

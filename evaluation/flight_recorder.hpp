@@ -124,8 +124,9 @@ class FlightRecorder {
   /// Call before tick(): the true places of the people, the one who is to be followed first.
   void people(std::vector<Eigen::Vector2d> people_world_m) { behaviors_.people(std::move(people_world_m)); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second
-  /// old.
-  void tick(const simulation::Truth& truth, const common::VehicleState& estimate);
+  /// old. `reference_odom_m` is where the controller wants the vehicle, none unless it flies.
+  void tick(const simulation::Truth& truth, const common::VehicleState& estimate,
+            const std::optional<Eigen::Vector3d>& reference_odom_m = std::nullopt);
   /// Call at every tick of the mission's tree, with the intent that it emitted and the status that it saw.
   void intent(common::Time now, const common::Intent& intent, const common::IntentStatus& status);
   /// Call when the operator or the pilot orders the end of the flight: landing, flying home, taking over.
@@ -138,6 +139,8 @@ class FlightRecorder {
   FlightRecord finish() const;
 
  private:
+  void tickPhases(const simulation::Truth& truth, const common::VehicleState& estimate,
+                  const std::optional<Eigen::Vector3d>& reference_odom_m);
   common::Pose3 truthInMap(const common::Pose3& T_world_body) const;
   void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);
   ComparedEstimate compared(const common::VehicleState& estimate, const common::Pose3& T_world_body) const;

@@ -103,9 +103,11 @@ struct FlightScore {
   double realtime_factor = 0.0;
   common::MachineUse machine;
 
-  /// Every criterion that was missed, with figure and bound; empty if the flight passed.
+  /// Every criterion that was missed, with figure and bound. A collision that is excused, or that is judged over all
+  /// flights, is none of them.
   std::vector<std::string> failures;
-  bool passed() const { return failures.empty(); }
+  /// No flight passes that ended in a collision, whoever is to blame for it.
+  bool passed() const { return failures.empty() && collisions == 0; }
 };
 
 /// `wall_time_s` is the computing time; 0 if not known.

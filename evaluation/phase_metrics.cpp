@@ -60,6 +60,8 @@ void PhaseConfig::describe(common::config::Fields& fields) {
   fields("settle_s", settle_s, {0, 1e6}, "Time after each beginning of the phase that does not count.");
   fields("place_map_m", place_map_m, {-1e4, 1e4},
          "Place x, y in the vehicle's frame `map` from which the RMS of the position is taken; empty for no RMS.");
+  fields("height_map_m", height_map_m, {0, 100},
+         "Height over the take-off floor that the vehicle is to keep; height_error_max_m is the error of it. 0: none.");
   fields.list("criteria", criteria, "Bounds of the phase's figures.");
 }
 
@@ -103,7 +105,9 @@ std::vector<std::string> phaseFigureNames(const PhaseConfig& config) {
   PhaseConfig any = config;
   any.from_s = any.settle_s = 0.0;
   PhaseRecorder recorder(std::move(any));
-  recorder.tickInPhase({}, {}, {}, {});
+  PhaseTick tick;
+  tick.reference_odom_m = Eigen::Vector3d::Zero();
+  recorder.tickInPhase(tick);
   std::vector<std::string> names;
   for (const auto& [name, value] : recorder.finish().figures)
     if (!name.starts_with("level_")) names.push_back(name);
@@ -111,56 +115,77 @@ std::vector<std::string> phaseFigureNames(const PhaseConfig& config) {
 }
 
 std::string phaseFigureProblem(const PhaseConfig& config, const std::string& name) {
-  PhaseConfig with_place = config;
-  with_place.place_map_m = {0.0, 0.0};
-  const std::vector<std::string> names = phaseFigureNames(with_place);
+  PhaseConfig with_all = config;
+  with_all.place_map_m = {0.0, 0.0};
+  with_all.height_map_m = 1.0;
+  const std::vector<std::string> names = phaseFigureNames(with_all);
   const bool known = std::find(names.begin(), names.end(), name) != names.end() || isHeightOfALevel(name);
   if (!known)
     return toString(
         common::Problem{{}, "", fmt::format("`{}` is not a figure of a phase", name), common::didYouMean(name, names)});
-  const bool needs_place = name == "position_rms_m" || name == "position_max_m";
-  return needs_place && config.place_map_m.empty() ? fmt::format("`{}` needs a place_map_m", name) : std::string();
+  const bool needs_place = name == "position_rms_m" || name == "position_max_m" || name == "position_return_s";
+  if (needs_place && config.place_map_m.empty()) return fmt::format("`{}` needs a place_map_m", name);
+  const bool needs_height = name == "height_error_max_m" && config.height_map_m <= 0.0;
+  return needs_height ? fmt::format("`{}` needs a height_map_m", name) : std::string();
 }
 
 void PhaseRecorder::world(const common::World& world) {
   in_phase_ = anyBeginsWith(phaseWords(world), config_.phase);
-  if (!in_phase_) since_.reset();
-  if (!last_ || !since_ || world.map->levels == nullptr) return;
+  if (!in_phase_) course_.since.reset();
+  if (!course_.last || !course_.since || world.map->levels == nullptr) return;
   level_heights_m_.clear();
   for (const common::Level& level : world.map->levels->levels) level_heights_m_.push_back(level.height_m);
   std::sort(level_heights_m_.begin(), level_heights_m_.end());
 }
 
-void PhaseRecorder::tick(Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
-                         const common::VehicleState& estimate) {
-  if (!in_phase_ || now.seconds() < config_.from_s || now.seconds() >= config_.to_s) {
-    since_.reset();
+void PhaseRecorder::tick(const PhaseTick& tick) {
+  if (!in_phase_ || tick.now.seconds() < config_.from_s || tick.now.seconds() >= config_.to_s) {
+    course_.since.reset();
     return;
   }
-  if (!since_) {
-    since_ = now;
-    last_.reset();
+  if (!course_.since) {
+    course_.since = tick.now;
+    course_.last.reset();
+    course_.yaw_begin_rad = common::yawOf(tick.T_map_truth.rotation);
   }
-  if ((now - *since_).seconds() < config_.settle_s) return;
-  tickInPhase(now, T_map_truth, velocity_map_m_s, estimate);
+  follow(tick);
+  if ((tick.now - *course_.since).seconds() < config_.settle_s) return;
+  tickInPhase(tick);
 }
 
-void PhaseRecorder::tickInPhase(Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
-                                const common::VehicleState& estimate) {
-  if (last_) time_s_ += (now - *last_).seconds();
-  last_ = now;
-  x_m_.push_back(T_map_truth.position_m.x());
-  y_m_.push_back(T_map_truth.position_m.y());
-  height_m_.push_back(T_map_truth.position_m.z());
-  speed_m_s_.push_back(velocity_map_m_s.head<2>().norm());
-  speed_x_m_s_.push_back(std::abs(velocity_map_m_s.x()));
-  speed_y_m_s_.push_back(std::abs(velocity_map_m_s.y()));
-  yaw_rad_.push_back(common::yawOf(T_map_truth.rotation));
+/// From the first tick of the phase on: what does not count yet is the way back.
+void PhaseRecorder::follow(const PhaseTick& tick) {
+  const double time_s = (tick.now - *course_.since).seconds();
+  const double yaw_off_rad = common::wrapAngle(common::yawOf(tick.T_map_truth.rotation) - course_.yaw_begin_rad);
+  if (std::abs(yaw_off_rad) > PhaseCourse::kReturned_rad)
+    course_.yaw_last_off_s = std::max(course_.yaw_last_off_s, time_s);
+  if (config_.place_map_m.empty()) return;
+  const Eigen::Vector2d place_m(config_.place_map_m[0], config_.place_map_m[1]);
+  if ((tick.T_map_truth.position_m.head<2>() - place_m).norm() > PhaseCourse::kReturned_m)
+    course_.place_last_off_s = std::max(course_.place_last_off_s, time_s);
+}
+
+void PhaseRecorder::tickInPhase(const PhaseTick& tick) {
+  const Eigen::Vector3d& velocity_m_s = tick.velocity_map_m_s;
+  if (course_.last) course_.time_s += (tick.now - *course_.last).seconds();
+  course_.last = tick.now;
+  x_m_.push_back(tick.T_map_truth.position_m.x());
+  y_m_.push_back(tick.T_map_truth.position_m.y());
+  height_m_.push_back(tick.T_map_truth.position_m.z());
+  speed_m_s_.push_back(velocity_m_s.head<2>().norm());
+  speed_x_m_s_.push_back(std::abs(velocity_m_s.x()));
+  speed_y_m_s_.push_back(std::abs(velocity_m_s.y()));
+  yaw_rad_.push_back(common::yawOf(tick.T_map_truth.rotation));
+  const double yaw_off_rad = std::abs(common::wrapAngle(yaw_rad_.back() - course_.yaw_begin_rad));
+  course_.yaw_off_max_rad = std::max(course_.yaw_off_max_rad, yaw_off_rad);
+  if (tick.reference_odom_m)
+    course_.control_error_max_m = std::max(course_.control_error_max_m.value_or(0.0),
+                                           (*tick.reference_odom_m - tick.estimate.T_odom_body.position_m).norm());
   // An estimate is of the last inertial sample, some milliseconds before the tick.
-  true_velocities_m_s_.emplace_back(now, velocity_map_m_s);
+  true_velocities_m_s_.emplace_back(tick.now, velocity_m_s);
   if (true_velocities_m_s_.size() > kTruths) true_velocities_m_s_.pop_front();
-  if (const auto then_m_s = trueVelocityAt(estimate.stamp))
-    velocity_error_m_s_.push_back((estimate.velocity_map_m_s() - *then_m_s).norm());
+  if (const auto then_m_s = trueVelocityAt(tick.estimate.stamp))
+    velocity_error_m_s_.push_back((tick.estimate.velocity_map_m_s() - *then_m_s).norm());
 }
 
 /// Interpolated; nothing outside of the last ticks.
@@ -196,6 +221,7 @@ void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
                             {"height_mean_m", height.mean},
                             {"height_std_m", height.standard_deviation},
                             {"velocity_error_mean_m_s", velocity_error.mean},
+                            {"velocity_error_std_m_s", velocity_error.standard_deviation},
                             {"velocity_error_rms_m_s", velocity_error.rmse}};
   figures.insert(figures.end(), all.begin(), all.end());
   if (config_.place_map_m.empty()) return;
@@ -206,6 +232,19 @@ void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
   if (!off_m.empty()) figures.emplace_back("position_max_m", *std::max_element(off_m.begin(), off_m.end()));
 }
 
+/// Greatest errors, as papers give them, and how long the vehicle needed to come back.
+void PhaseRecorder::addBounds(PhaseFigures& figures) const {
+  figures.emplace_back("yaw_off_max_rad", course_.yaw_off_max_rad);
+  figures.emplace_back("yaw_return_s", course_.yaw_last_off_s);
+  if (!config_.place_map_m.empty()) figures.emplace_back("position_return_s", course_.place_last_off_s);
+  if (course_.control_error_max_m) figures.emplace_back("control_error_max_m", *course_.control_error_max_m);
+  if (config_.height_map_m <= 0.0) return;
+  double error_max_m = 0.0;
+  for (const double height_m : height_m_)
+    error_max_m = std::max(error_max_m, std::abs(height_m - config_.height_map_m));
+  figures.emplace_back("height_error_max_m", error_max_m);
+}
+
 void PhaseRecorder::addLevels(PhaseFigures& figures) const {
   figures.emplace_back("levels", static_cast<double>(level_heights_m_.size()));
   for (std::size_t i = 0; i < level_heights_m_.size(); ++i)
@@ -213,9 +252,10 @@ void PhaseRecorder::addLevels(PhaseFigures& figures) const {
 }
 
 PhaseScore PhaseRecorder::finish() const {
-  PhaseScore score{config_.name, {{"time_s", time_s_}}, config_.criteria};
+  PhaseScore score{config_.name, {{"time_s", course_.time_s}}, config_.criteria};
   if (x_m_.empty()) return score;
   addPlaces(score.figures);
+  addBounds(score.figures);
   addLevels(score.figures);
   return score;
 }

@@ -41,6 +41,7 @@ struct PhaseConfig {
   std::string phase = {};
   double settle_s = 0.0;
   std::vector<double> place_map_m = {};
+  double height_map_m = 0.0;
   std::vector<PhaseBound> criteria = {};
 
   void describe(common::config::Fields& fields);
@@ -68,6 +69,30 @@ struct PhaseScore {
 /// The figures that such a phase has of a flight that came into it, without the heights of its levels.
 std::vector<std::string> phaseFigureNames(const PhaseConfig& config);
 
+/// When the phase lasts, how far the vehicle is off the pose at which it began, and until when it was far off.
+struct PhaseCourse {
+  std::optional<common::Time> since, last;  ///< First tick of the phase, and the last one that counts.
+  double time_s = 0.0;
+  double yaw_begin_rad = 0.0;
+  double yaw_off_max_rad = 0.0;               ///< From yaw_begin_rad, of the ticks that count.
+  double place_last_off_s = 0.0;              ///< Time from `since` at which the place was last off by kReturned_m.
+  double yaw_last_off_s = 0.0;                ///< The same for the yaw and kReturned_rad.
+  std::optional<double> control_error_max_m;  ///< Reference less estimate, in space.
+
+  /// The errors with which Grzonka 2012 holds place and yaw (V-D): nearer, the vehicle is back.
+  static constexpr double kReturned_m = 0.2;
+  static constexpr double kReturned_rad = 2.0 * common::kRadPerDeg;
+};
+
+/// What one control tick shows of the vehicle, in its frame `map`.
+struct PhaseTick {
+  common::Time now;
+  common::Pose3 T_map_truth;
+  Eigen::Vector3d velocity_map_m_s = Eigen::Vector3d::Zero();
+  common::VehicleState estimate;
+  std::optional<Eigen::Vector3d> reference_odom_m = std::nullopt;  ///< Of the controller; none unless it flies.
+};
+
 /// Collects the ticks of one phase, and computes its figures from the truth.
 class PhaseRecorder {
  public:
@@ -75,25 +100,26 @@ class PhaseRecorder {
 
   /// Call at every snapshot: what the vehicle does from now on.
   void world(const common::World& world);
-  /// Call at every control tick, with the true pose and velocity in the vehicle's frame `map`, and the estimate.
-  void tick(common::Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
-            const common::VehicleState& estimate);
+  /// Call at every control tick in the air.
+  void tick(const PhaseTick& tick);
+  /// Call instead of tick() while the vehicle stands: the floor holds it, not its controller, so it is in no phase.
+  void stand() { course_.since.reset(); }
 
   /// As tick(), at an instant that counts whatever the vehicle does.
-  void tickInPhase(common::Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
-                   const common::VehicleState& estimate);
+  void tickInPhase(const PhaseTick& tick);
 
   PhaseScore finish() const;
 
  private:
   std::optional<Eigen::Vector3d> trueVelocityAt(common::Time time) const;
+  void follow(const PhaseTick& tick);
   void addPlaces(PhaseFigures& figures) const;
+  void addBounds(PhaseFigures& figures) const;
   void addLevels(PhaseFigures& figures) const;
 
   PhaseConfig config_;
   bool in_phase_ = false;  ///< By the last snapshot.
-  std::optional<common::Time> since_, last_;
-  double time_s_ = 0.0;
+  PhaseCourse course_;
   std::deque<std::pair<common::Time, Eigen::Vector3d>> true_velocities_m_s_;  ///< Of the last ticks, in `map`.
   std::vector<double> x_m_, y_m_, height_m_, speed_m_s_, yaw_rad_, velocity_error_m_s_;
   std::vector<double> speed_x_m_s_, speed_y_m_s_;  ///< Sizes of the velocity along the axes of `map`.

@@ -51,6 +51,8 @@ std::optional<double> visualOdometryLostShare(const FlightScore& flight) {
 }
 std::optional<double> memoryPeak_MB(const FlightScore& flight) { return flight.machine.memory_peak_MB; }
 std::optional<double> frameGrowth(const FlightScore& flight) { return flight.machine.frameGrowth(); }
+std::optional<double> planMedian_ms(const FlightScore& flight) { return flight.machine.plan_median_ms; }
+std::optional<double> planMax_ms(const FlightScore& flight) { return flight.machine.plan_max_ms; }
 template <Verdict kVerdict>
 std::optional<double> is(const FlightScore& flight) {
   return flight.verdict == kVerdict ? 1.0 : 0.0;
@@ -115,6 +117,8 @@ const std::vector<TrialFigure>& trialFigures() {
       {"realtime_factor_median", kMedian, of<&Score::realtime_factor>},
       {"memory_peak_MB", kMax, memoryPeak_MB},
       {"frame_growth_max", kMax, frameGrowth},
+      {"plan_time_median_ms", kMedian, planMedian_ms},
+      {"plan_time_max_ms", kMax, planMax_ms},
   };
   return figures;
 }
@@ -143,6 +147,13 @@ std::optional<double> valueOf(const TrialFigure& figure, const std::vector<Fligh
       return statisticsOf(values).mean;
   }
   return std::nullopt;
+}
+
+std::vector<std::int64_t> seedsWithout(const TrialFigure& figure, const std::vector<FlightScore>& flights) {
+  std::vector<std::int64_t> seeds;
+  for (const FlightScore& flight : flights)
+    if (!figure.of(flight)) seeds.push_back(flight.seed);
+  return seeds;
 }
 
 std::optional<double> trialFigure(std::string_view name, const std::vector<FlightScore>& flights) {

@@ -1,6 +1,7 @@
 // The figures over all flights of a trial: of each flight's figure the least, the median, the greatest or the mean.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ std::string trialFigureProblem(const std::string& name);
 std::optional<double> valueOf(const TrialFigure& figure, const std::vector<FlightScore>& flights);
 /// By its name, which must exist.
 std::optional<double> trialFigure(std::string_view name, const std::vector<FlightScore>& flights);
+
+/// The seeds of the flights that lack the figure.
+std::vector<std::int64_t> seedsWithout(const TrialFigure& figure, const std::vector<FlightScore>& flights);
 
 /// The median over all flights, where one that lacks the figure counts as worse than any that has it; none without
 /// flights.

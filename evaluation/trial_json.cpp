@@ -51,7 +51,9 @@ ordered_json map3dJson(const Map3dScore& score) {
 ordered_json machineJson(const common::MachineUse& machine) {
   return {{"memory_peak_MB", orNull(machine.memory_peak_MB)},
           {"frame_first_ms", orNull(machine.frame_first_ms)},
-          {"frame_last_ms", orNull(machine.frame_last_ms)}};
+          {"frame_last_ms", orNull(machine.frame_last_ms)},
+          {"plan_median_ms", orNull(machine.plan_median_ms)},
+          {"plan_max_ms", orNull(machine.plan_max_ms)}};
 }
 
 ordered_json phasesJson(const FlightScore& flight) {
@@ -141,6 +143,15 @@ ordered_json verdictsJson(const TrialResult& trial) {
   return json;
 }
 
+/// Of figures that some flights lack, which count for nothing in them.
+ordered_json seedsWithoutJson(const TrialResult& trial) {
+  ordered_json json = ordered_json::object();
+  for (const TrialFigure& figure : trialFigures())
+    if (const auto seeds = seedsWithout(figure, trial.flights); !seeds.empty() && seeds.size() < trial.flights.size())
+      json[figure.name] = seeds;
+  return json;
+}
+
 ordered_json trialJson(const TrialResult& trial) {
   ordered_json flights = ordered_json::array(), paper = ordered_json::object();
   for (const FlightScore& flight : trial.flights) flights.push_back(flightJson(flight));
@@ -155,6 +166,7 @@ ordered_json trialJson(const TrialResult& trial) {
                        {"glass_contacts", trial.glassContacts()},
                        {"verdicts", verdictsJson(trial)}};
   for (const TrialFigure& figure : trialFigures()) json[figure.name] = orNull(valueOf(figure, trial.flights));
+  json["seeds_without"] = seedsWithoutJson(trial);
   json["paper"] = paper;
   json["flights"] = flights;
   return json;

@@ -69,7 +69,10 @@ std::vector<std::string> TrialResult::missed() const {
   return judge.failures;
 }
 
-bool TrialResult::met() const { return !flights.empty() && passed() == flown() && missed().empty(); }
+bool TrialResult::met() const {
+  const auto meets = [](const FlightScore& flight) { return flight.failures.empty(); };
+  return !flights.empty() && std::all_of(flights.begin(), flights.end(), meets) && missed().empty();
+}
 
 int TrialResult::collisions() const {
   return summed(flights, [](const FlightScore& flight) { return flight.collisions; });

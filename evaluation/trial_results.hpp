@@ -28,7 +28,8 @@ struct TrialResult {
   int passed() const;
   /// The criteria over all flights that are missed.
   std::vector<std::string> missed() const;
-  /// Every flight passed, at least one flew, and no criterion over all of them is missed.
+  /// At least one flew, and neither a criterion of a flight nor one over all of them is missed. A collision that is
+  /// excused, or one of those that `crashes_max` allows, misses none, although its flight has not passed.
   bool met() const;
   int collisions() const;  ///< All of them, the unavoidable ones included.
   int glassContacts() const;

@@ -187,6 +187,9 @@ Table failureTable(const TrialResults& results) {
     for (const FlightScore& flight : trial.flights)
       for (const std::string& failure : flight.failures)
         table.rows.push_back({{trial.name}, {flightName(flight)}, {failure, Mark::kBad}});
+    for (const FlightScore& flight : trial.flights)
+      if (!flight.passed() && flight.failures.empty())
+        table.rows.push_back({{trial.name}, {flightName(flight)}, {collisionText(flight), Mark::kBad}});
     for (const std::string& failure : trial.missed())
       table.rows.push_back({{trial.name}, {"all"}, {failure, Mark::kBad}});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/config_fields.hpp"
 #include "common/first_order_lag.hpp"
@@ -135,7 +136,8 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   Vector3d force_world = R_world_body * Vector3d(0.0, 0.0, groundEffect(floor_world_m) * (f[0] + f[1] + f[2] + f[3])) +
                          drag_world + Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
   if (config_.wall_effect_share > 0.0) force_world.head<2>() += (f[0] + f[1] + f[2] + f[3]) * wall_pull_world_;
-  const Vector3d acceleration_world = force_world / vehicle_.mass_kg - common::kGravity_m_s2 * Vector3d::UnitZ();
+  const Vector3d acceleration_world = force_world / vehicle_.mass_kg - common::kGravity_m_s2 * Vector3d::UnitZ() +
+                                      std::exchange(led_world_m_s2_, Vector3d::Zero());
 
   // Euler's equation in the body frame. Motors: front left, front right, rear right, rear left.
   const double lever_m = config_.arm_m / std::sqrt(2.0);
@@ -145,7 +147,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   Vector3d& omega = state_.angular_velocity_body_rad_s;
   const Vector3d angular_acceleration =
       (torque - config_.angular_drag_n_m_s * omega - omega.cross(inertia.cwiseProduct(omega))).cwiseQuotient(inertia) +
-      gearAngularAcceleration(gear_n);
+      gearAngularAcceleration(gear_n) + std::exchange(led_yaw_rad_s2_, 0.0) * Vector3d::UnitZ();
 
   // Semi-implicit Euler: the new velocities move the pose.
   const Vector3d velocity_before = state_.velocity_world_m_s;
@@ -212,6 +214,11 @@ void Quadrotor::applyFriction(double gear_n, double step_s) {
   auto slide = state_.velocity_world_m_s.head<2>();
   const double speed = slide.norm(), stopped = kFriction * gear_n / vehicle_.mass_kg * step_s;
   slide *= speed > stopped ? 1.0 - stopped / speed : 0.0;
+}
+
+void Quadrotor::lead(const Eigen::Vector2d& acceleration_world_m_s2, double yaw_acceleration_rad_s2) {
+  led_world_m_s2_.head<2>() += acceleration_world_m_s2;
+  led_yaw_rad_s2_ += yaw_acceleration_rad_s2;
 }
 
 void Quadrotor::push(const Vector3d& impulse_world_n_s) {

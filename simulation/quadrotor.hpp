@@ -83,6 +83,9 @@ class Quadrotor {
   void push(const Eigen::Vector3d& impulse_world_n_s);
   static constexpr double kPush_s = 0.1;
 
+  /// Moves it in the next step beside all that acts on it, as a hand does: horizontally, and about the body's z.
+  void lead(const Eigen::Vector2d& acceleration_world_m_s2, double yaw_acceleration_rad_s2);
+
   /// Holds it on a bench, after each step: it stays where it was, and turns only about x (0) or y (1) of its body.
   void holdOnBench(int axis_body, const Eigen::Vector3d& place_world_m);
 
@@ -103,6 +106,8 @@ class Quadrotor {
   Battery battery_;
   Eigen::Vector3d push_world_n_s_ = Eigen::Vector3d::Zero();  ///< The part of the push that is still to come.
   double push_left_s_ = 0.0;
+  Eigen::Vector3d led_world_m_s2_ = Eigen::Vector3d::Zero();  ///< What a hand adds in the next step.
+  double led_yaw_rad_s2_ = 0.0;
   /// Pull of the wall, as a share of the thrust.
   Eigen::Vector2d wall_pull_world_ = Eigen::Vector2d::Zero();
 };

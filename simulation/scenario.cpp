@@ -46,6 +46,7 @@ std::vector<std::string> vehicleProblems(const Scenario& scenario) {
   alone("start", scenario.start.from_world);
   alone("battery_remaining", scenario.battery_remaining == 1.0);
   alone("pushes", scenario.pushes.empty());
+  alone("hands", scenario.hands.empty());
   alone("faults", scenario.faults.empty());
   alone("pilot", scenario.pilot.empty());
   return validation.problems();
@@ -175,6 +176,7 @@ void ScenarioVehicle::describe(common::config::Fields& fields) {
   fields.section("start", start, "Where the vehicle stands.");
   fields("battery_remaining", battery_remaining, {0.01, 1}, "Charge at the start, as a share of the full one.");
   fields.list("pushes", pushes, "Pushes of the vehicle.");
+  fields.list("hands", hands, "Hands that take the vehicle, carry and turn it, and let go.");
   fields.list("faults", faults, "Sensor faults.");
   fields.list("pilot", pilot, "The pilot's sticks over time; without entries there is no remote control.");
 }
@@ -198,14 +200,15 @@ void Scenario::describe(common::config::Fields& fields) {
   fields.section("variation", variation, "What the seed varies, each uniformly up to the given value.");
   fields.list("walkers", walkers, "People; they never yield.");
   fields.list("pushes", pushes, "Pushes of the vehicle.");
+  fields.list("hands", hands, "Hands that take the vehicle, carry and turn it, and let go.");
   fields.list("faults", faults, "Sensor faults.");
   fields.list("pilot", pilot, "The pilot's sticks over time; without entries there is no remote control.");
   fields.section("quadrotor", quadrotor, "The airframe's physics.");
   fields.section("autopilot", autopilot, "The inner loop.");
   fields.section("sensors", sensors, "Errors and delays of the sensors.");
-  fields.list(
-      "vehicles", vehicles,
-      "The vehicles if there are several; each then has its own start, battery_remaining, pushes, faults and pilot.");
+  fields.list("vehicles", vehicles,
+              "The vehicles if there are several; each then has its own start, battery_remaining, pushes, hands, "
+              "faults and pilot.");
 }
 
 std::vector<std::string> Scenario::validate() const {
@@ -243,6 +246,7 @@ Scenario Scenario::withVehicleAlone(std::size_t number) const {
   alone.start = own.start;
   alone.battery_remaining = own.battery_remaining;
   alone.pushes = own.pushes;
+  alone.hands = own.hands;
   alone.faults = own.faults;
   alone.pilot = own.pilot;
   const std::string own_keys = fmt::format("vehicles[{}].", number);

@@ -1,4 +1,4 @@
-// One scripted flight of one vehicle or several: world, starts, wind, people, pushes and faults, and what a seed
+// One scripted flight of one vehicle or several: world, starts, wind, people, pushes, hands and faults, and what a seed
 // varies. It is the `scenario` section of a trial file.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "common/vehicle_config.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/fault_config.hpp"
+#include "simulation/hand.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/sensors/sensor_config.hpp"
 
@@ -122,6 +123,7 @@ struct ScenarioVehicle {
   std::vector<FaultConfig> faults;
   std::vector<PilotConfig> pilot;
   std::string mission = {};
+  std::vector<HandConfig> hands = {};
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -138,13 +140,15 @@ struct Scenario {
   Variation variation;
   std::vector<WalkerConfig> walkers;
   std::vector<PushConfig> pushes;
+  std::vector<HandConfig> hands;
   std::vector<FaultConfig> faults;
   std::vector<PilotConfig> pilot;
   QuadrotorConfig quadrotor;
   AutopilotConfig autopilot;
   SensorsConfig sensors;
   /// All vehicles, in the order of their numbers. If it is empty, there is one vehicle without a name, with the
-  /// `start`, `battery_remaining`, `pushes`, `faults` and `pilot` above; otherwise these must have their defaults.
+  /// `start`, `battery_remaining`, `pushes`, `hands`, `faults` and `pilot` above; otherwise these must have their
+  /// defaults.
   std::vector<ScenarioVehicle> vehicles;
 
   /// The ranges that the plant is drawn from; null: the plant has the default values. It is not read from the file.
@@ -166,7 +170,7 @@ struct Scenario {
   std::size_t vehicleCount() const { return vehicles.empty() ? 1 : vehicles.size(); }
   /// The number of the vehicle with that name, which must exist; 0 for an empty name.
   std::size_t vehicleNumber(const std::string& name) const;
-  /// This scenario with that vehicle alone: its start, charge, pushes, faults and pilot, and no `vehicles`.
+  /// This scenario with that vehicle alone: its start, charge, pushes, hands, faults and pilot, and no `vehicles`.
   Scenario withVehicleAlone(std::size_t number) const;
 };
 

@@ -30,7 +30,8 @@ VehicleModel::VehicleModel(PlacedVehicle placed, const WorldModel& world, const 
       autopilot_(placed_.scenario.vehicle, placed_.scenario.quadrotor, placed_.scenario.autopilot),
       referee_(world, rays, placed_.scenario),
       sensors_(placed_.scenario, faults_, placed_.stream_seed, world),
-      command_link_(placed_.scenario.sensors.command_link, placed_.stream_seed, "command") {
+      command_link_(placed_.scenario.sensors.command_link, placed_.stream_seed, "command"),
+      hands_(placed_.scenario.hands.begin(), placed_.scenario.hands.end()) {
   referee_.lookDown(quadrotor_.state());
   updateTruth(Time());
 }
@@ -70,6 +71,7 @@ void VehicleModel::fly(Time now, std::uint64_t step, const Eigen::Vector3d& wind
   receiveSetpoints(now);
   if (step % kStepsPerAutopilotTick == 0) stepAutopilot(now, step / kStepsPerAutopilotTick);
   push(now);
+  lead(now);
   before_step_ = quadrotor_.state();
   quadrotor_.step(throttles_, wind_world_m_s, referee_.floor_world_m(), kStep_s);
 }
@@ -92,6 +94,13 @@ void VehicleModel::push(Time now) {
   for (const PushConfig& push : placed_.scenario.pushes)
     if (now == Time() + kStep * std::llround(push.time_s / kStep_s))
       quadrotor_.push({push.x_n_s, push.y_n_s, push.z_n_s});
+}
+
+void VehicleModel::lead(Time now) {
+  for (Hand& hand : hands_) {
+    const HandPull pull = hand.pull(now, quadrotor_.state());
+    quadrotor_.lead(pull.acceleration_world_m_s2, pull.yaw_acceleration_rad_s2);
+  }
 }
 
 // The truth stays at the contact; only the hull that other vehicles can hit falls.

@@ -14,6 +14,7 @@
 #include "common/vehicle.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/fault_schedule.hpp"
+#include "simulation/hand.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/referee.hpp"
@@ -50,7 +51,7 @@ class VehicleModel {
 
   /// The sensors' first measurements, before any step.
   void begin(const std::vector<Actor>& around);
-  /// Step number `step`, which begins at `now`: autopilot, pushes and physics.
+  /// Step number `step`, which begins at `now`: autopilot, pushes, hands and physics.
   void fly(common::Time now, std::uint64_t step, const Eigen::Vector3d& wind_world_m_s);
   /// At the end of step number `step`, at `now`: touch-downs, and contacts when a look is due.
   void judge(common::Time now, std::uint64_t step, std::span<const Walker> walkers);
@@ -69,6 +70,7 @@ class VehicleModel {
   void receiveSetpoints(common::Time now);
   void stepAutopilot(common::Time now, std::uint64_t tick);
   void push(common::Time now);
+  void lead(common::Time now);
   void feelWall();
   void fall();
   void updateTruth(common::Time now);
@@ -80,6 +82,7 @@ class VehicleModel {
   Referee referee_;
   SensorSuite sensors_;
   Link command_link_;
+  std::vector<Hand> hands_;
   std::uint64_t commands_ = 0;
   std::deque<std::pair<common::Time, common::Setpoint>> commands_under_way_;
   std::array<double, 4> throttles_{};

@@ -25,6 +25,8 @@ void LaserPipelineConfig::describe(common::config::Fields& fields) {
          "Position error of a match for each radian of tilt, since the attitude is not exact.");
   fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, {0, 100},
          "Yaw error of a match for each radian of tilt, since the attitude is not exact.");
+  fields("match_rate_hz", match_rate_hz, {0, 1000},
+         "Scans that are matched in a second, at most; the others only measure heights, and what is near. 0: all.");
 }
 
 LaserPipeline::LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser)
@@ -35,7 +37,13 @@ perception::ProjectedScan LaserPipeline::project(const common::LaserScan& scan,
   return perception::project(scan, laser_, pose_at, config_.projection);
 }
 
+bool LaserPipeline::wants(common::Time stamp) const {
+  if (config_.match_rate_hz <= 0.0 || !asked_) return true;
+  return (stamp - *asked_).seconds() >= 1.0 / config_.match_rate_hz - 0.5 / laser_.rate_hz;
+}
+
 OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const FilterView& filter) {
+  asked_ = scan.stamp;
   const bool begun = lastMatch().has_value();
   const auto relative = odometry_.add(scan, filter.T_odom_last);
   if (!relative) return {};

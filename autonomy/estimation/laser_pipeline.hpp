@@ -25,6 +25,7 @@ struct LaserPipelineConfig {
   double drift_floor_deg = 0.03;
   double match_per_tilt_m_rad = 0.05;
   double match_per_tilt_deg_rad = 1.5;
+  double match_rate_hz = 0.0;
 
   void describe(common::config::Fields& fields);
 };
@@ -41,6 +42,9 @@ class LaserPipeline {
   LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser);
 
   perception::ProjectedScan project(const common::LaserScan& scan, const perception::PoseAt& pose_at) const;
+
+  /// Whether a scan of that time is to be matched: false while `match_rate_hz` leaves it to its heights alone.
+  bool wants(common::Time stamp) const;
 
   /// Matches a scan. It must have been projected by poses of the same history as `filter`, so that a correction since
   /// the last match does not count as motion.
@@ -63,6 +67,7 @@ class LaserPipeline {
   LaserPipelineConfig config_;
   common::LaserConfig laser_;
   perception::LaserOdometry odometry_;
+  std::optional<common::Time> asked_;  ///< Stamp of the last scan that was to be matched.
 
   /// The pose of the odometry's reference scan relative to a clone of the filter's pose. A new reference gets no clone
   /// of its own, because the error of a reference is shared by the scans matched to it and does not outlast it.

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+
+#include <Eigen/Core>
 
 #include "autonomy/input.hpp"
 #include "autonomy/requests/run_files.hpp"
@@ -24,6 +27,8 @@ struct TickOutcome {
   common::VehicleState state;
   common::Intent intent;               ///< The intent since the last tick of the behaviours.
   common::IntentStatus intent_status;  ///< The status of that intent.
+  /// Where the controller wants the vehicle; none unless it flies.
+  std::optional<Eigen::Vector3d> reference_odom_m = std::nullopt;
 };
 
 /// Each function is called in the loop's thread, and may be left out. The order is that of the loop: the inputs up to a

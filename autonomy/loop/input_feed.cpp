@@ -23,7 +23,8 @@ void InputFeed::tell(common::Event event) {
 }
 
 void InputFeed::publish(common::Time now, const common::Setpoint& setpoint) {
-  const TickOutcome outcome{now, setpoint, autonomy_.state(), autonomy_.intent(), autonomy_.intentStatus()};
+  const TickOutcome outcome{
+      now, setpoint, autonomy_.state(), autonomy_.intent(), autonomy_.intentStatus(), autonomy_.reference_odom_m()};
   for (FlightSink* sink : sinks_) sink->ticked(outcome);
   if (const auto world = autonomy_.world(); world != last_world_) {
     last_world_ = world;

@@ -4,7 +4,9 @@
 //                                     \-- does not fit: left out
 //
 // Key frames and submaps hang on the key scans of the 2D map, so a loop closure moves them and draws nothing again.
-// Source: Saeedi et al., Algorithm 1.
+// After Saeedi et al., Algorithm 1, with two differences: frames are aligned directly instead of matching features by
+// ICP (decision 032), and instead of a bundle adjustment the poses of key frames follow those of the 2D map, or a graph
+// of their own where there is none.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// What other sensors know of the camera's pose (UNB's Algorithm 1, line 1), and how it keeps frames and key frames near
-// the 2D map.
+// What other sensors know of the camera's pose, where Saeedi's Algorithm 1 begins (its line 2), and how it keeps frames
+// and key frames near the 2D map.
 //
 // A bare wall tells nothing of the motion along it. There the frames follow the motion of the seeds, which is known
 // much better than their place. From key frame to key frame the errors of the alignment add up, so that a 3D map of its

@@ -1,4 +1,5 @@
-// The pose of an RGB-D camera against a persistent model of what it has seen (UNB's Algorithm 1, lines 1 to 3).
+// The pose of an RGB-D camera against a persistent model of what it has seen: its key frames, to which frames are
+// aligned directly (decision 032). The model is persistent as in Saeedi's Algorithm 1; features only recognize a place.
 //
 //              +------------- a frame fits: tracked, the model grows
 //              v                  |

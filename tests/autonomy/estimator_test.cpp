@@ -86,6 +86,22 @@ TEST(Estimator, MirrorBeamsCorrectTheHeight) {
   EXPECT_FALSE(story.estimator.levels()->levels.empty());
 }
 
+TEST(Estimator, ScansThatAreNotMatchedStillMeasureTheHeight) {
+  EstimatorConfig config = EstimatorStory::config();
+  config.laser.match_rate_hz = 10.0;
+  EstimatorStory story(6.0, nullptr, config);
+  int scans = 0, matched = 0, heights = 0;
+  story.run(6.0, [&](const std::optional<ScanOutcome>& outcome) {
+    if (!outcome || outcome->scan.stamp.seconds() < 3.0) return;
+    ++scans;
+    matched += outcome->matched ? 1 : 0;
+    heights += outcome->raw_height ? 1 : 0;
+  });
+  EXPECT_NEAR(matched, scans / 4, 2);
+  EXPECT_EQ(heights, scans);
+  EXPECT_LT(story.positionError_m(), 0.1);
+}
+
 TEST(Estimator, ReportsWhenTheLaserIsBlindAndWhenItRecovers) {
   EstimatorStory story(9.0);
   story.run(4.0);

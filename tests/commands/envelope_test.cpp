@@ -74,8 +74,8 @@ TEST_F(Envelope, AnInterruptionLeavesWhatIsDone) {
   options.while_running = [](pid_t process, const std::string& out) {
     if (out.find("base: 1 of") != std::string::npos) kill(process, SIGINT);
   };
-  const ProgramEnd end = runSwiftlet({"trial", "--envelope", "trials/papers/unb_case1.yaml", "--quantities",
-                                      quantities(), "--repeat", "2", "--out", path("run")},
+  const ProgramEnd end = runSwiftlet({"trial", "--envelope", "trials/papers/unb_case1.yaml", "--system", "swiftlet",
+                                      "--quantities", quantities(), "--repeat", "2", "--out", path("run")},
                                      options);
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   const auto read = nlohmann::json::parse(readText(path("run/envelope.json")));

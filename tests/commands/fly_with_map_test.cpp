@@ -22,8 +22,8 @@ using testing::HasSubstr;
 class FlyWithMap : public test_support::Scratch {};
 
 TEST_F(FlyWithMap, FindsItsPoseWithinFiveMetresInAMapFromAnotherHeight) {
-  const ProgramEnd end = runSwiftlet({"trial", "trials/papers/freiburg_localize.yaml", "--repeat", "1", "--seed",
-                                      "8101", "--json", "--out", path("out")});
+  const ProgramEnd end = runSwiftlet({"trial", "trials/papers/freiburg_localize.yaml", "--system", "swiftlet",
+                                      "--repeat", "1", "--seed", "8101", "--json", "--out", path("out")});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const auto trial = nlohmann::json::parse(end.out)["trials"][0];
   const auto localization = trial["flights"][0]["localization"];

@@ -291,5 +291,56 @@ TEST_F(Identify, ThePageOfThePapersShowsEveryNatureAndWhatFallsShort) {
                         "paper's, why is not known | 0.010 (n = 1) |"));
 }
 
+class PageOfThePapers : public Identify {
+ protected:
+  /// The page with the results of one trial with ours: `members` of the trial beside its name and system.
+  std::string pageWith(const std::string& name, const std::string& members) {
+    const std::string results = R"({"trials": [{"name": ")" + name + R"(", "system": "swiftlet", )" + members + "}]}";
+    const ProgramEnd printed = runSwiftlet({"papers", "--results", write("results.json", results)});
+    EXPECT_EQ(printed.exit_code, 0) << describe(printed);
+    return printed.out;
+  }
+  static std::string hover(const std::string& rms_m, int collisions = 0) {
+    return R"({"collisions": )" + std::to_string(collisions) + R"(, "phases": {"hover": {"position_rms_m": )" + rms_m +
+           "}}}";
+  }
+};
+
+TEST_F(PageOfThePapers, CountsFlightsThatLackTheFigureOrCrashedAsFailed) {
+  const std::string flights = R"("flights": [)" + hover("0.01") + ", " + hover("0.02") + ", " + hover("0.03") + ", ";
+  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + R"({"phases": {}}])"), HasSubstr("| 0.020 (n = 4, 1 failed) |"));
+  EXPECT_THAT(pageWith("mit_hover-swiftlet", flights + hover("0.9", 1) + "]"), HasSubstr("| 0.020 (n = 4, 1 failed) |"))
+      << "a hover that ends in a crash is none";
+  EXPECT_THAT(
+      pageWith("mit_hover-swiftlet", flights + hover("null") + ", " + hover("null") + ", " + hover("null") + "]"),
+      HasSubstr("| - (n = 6, 3 failed) |"))
+      << "half of the flights have no median";
+}
+
+TEST_F(PageOfThePapers, CountsFailedFlightsOfFiguresOfTheWholeTrial) {
+  const std::string runs = R"("runs": 4, "goal_error_max_m": 0.05, "mission_time_median_s": 60, )";
+  const std::string without = R"("seeds_without": {"goal_error_max_m": [7]}, )";
+  const std::string flights = R"("flights": [{"seed": 7, "collisions": 1}, {"seed": 8, "collisions": 1}, {"seed": 9}])";
+  const std::string page = pageWith("unb_case1-swiftlet", runs + without + flights);
+  EXPECT_THAT(page, HasSubstr("| - (n = 4, 2 failed) |")) << "the one that lacks it, and one that crashed";
+  EXPECT_THAT(pageWith("unb_case1-swiftlet", runs + without + R"("flights": [{"seed": 7, "collisions": 1}])"),
+              HasSubstr("| 0.050 (n = 4, 1 failed) |"));
+}
+
+TEST_F(PageOfThePapers, NamesCodeThatExists) {
+  std::istringstream lines(runSwiftlet({"papers"}).out);
+  int named = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("| ") || line.starts_with("| ---") || line.starts_with("| in the paper")) continue;
+    const std::size_t end = line.rfind(" |"), begin = line.rfind("| ", end - 1);
+    std::istringstream files(line.substr(begin + 2, end - begin - 2));
+    for (std::string file; files >> file; ++named) {
+      std::erase_if(file, [](char c) { return c == '`' || c == ','; });
+      EXPECT_TRUE(fs::exists(fs::path(SWIFTLET_SOURCE_DIR) / file)) << file;
+    }
+  }
+  EXPECT_GT(named, 50);
+}
+
 }  // namespace
 }  // namespace swiftlet::commands

@@ -106,6 +106,18 @@ TEST(FlightRecorder, MeasuresNothingOnTheGround) {
 }
 
 /// At 1 m/s along x of `map`; the given map is shifted from `map` by (10, 20) m and turned by a quarter.
+TEST(FlightRecorder, AVehicleOnTheFloorIsInNoPhase) {
+  FlightRecorder recorder(kTakeOff);
+  recorder.watch({{.name = "all"}});
+  recorder.world(worldOf(0.0, MissionState::kRunning));
+  for (int i = 0; i < 100; ++i) {
+    simulation::Truth truth = truthAt(0.1 * i, {0, 0, 1});
+    truth.airborne = i <= 10;
+    recorder.tick(truth, estimateAt(0.1 * i, {0, 0, 1}));
+  }
+  EXPECT_NEAR(recorder.finish().phases.at(0).figure("time_s").value(), 1.0, 1e-9);
+}
+
 TEST(FlightRecorder, RecordsTheLocalizationInTheGivenMap) {
   const common::Pose2 T_map_given{10.0, 20.0, M_PI_2};
   FlightRecorder recorder(kTakeOff, common::planar(kTakeOff) * T_map_given);

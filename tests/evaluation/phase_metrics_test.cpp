@@ -35,7 +35,7 @@ class Phase : public testing::Test {
     common::VehicleState estimate;
     estimate.stamp = time_;
     estimate.velocity_odom_m_s = {speed_m_s + 0.1, 0, 0};
-    recorder_.tick(time_, pose, {speed_m_s, 0, 0}, estimate);
+    recorder_.tick({time_, pose, {speed_m_s, 0, 0}, estimate});
   }
   double figure(const std::string& name) const { return recorder_.finish().figure(name).value(); }
 
@@ -81,6 +81,47 @@ TEST_F(Phase, SettlesAgainAtEachBegin) {
   EXPECT_NEAR(figure("position_rms_m"), 0.0, 1e-9);
 }
 
+/// The controller of a vehicle on the floor holds nothing.
+TEST_F(Phase, StandingIsNoHover) {
+  see("hold");
+  for (int i = 0; i < 4; ++i) tick(1.0);
+  for (int i = 0; i < 1000; ++i) {
+    time_ = time_ + common::Duration::fromMilliseconds(500);
+    recorder_.stand();
+  }
+  EXPECT_NEAR(figure("time_s"), 0.5, 1e-9);
+}
+
+TEST_F(Phase, CountsFromItsFirstTickHowLongTheWayBackTakes) {
+  see("hold");
+  const double places_m[] = {1.0, 0.0, 0.5, 0.79, 0.81, 1.1, 1.0};
+  const double yaws_rad[] = {0.5, 1.3, 1.0, 0.6, 0.53, 0.52, 0.51};
+  for (int i = 0; i < 7; ++i) tick(places_m[i], 1.0, 0.0, yaws_rad[i]);
+  EXPECT_NEAR(figure("position_return_s"), 1.5, 1e-9) << "0.21 m off at the fourth tick, and then no more";
+  EXPECT_NEAR(figure("yaw_return_s"), 1.5, 1e-9);
+  EXPECT_NEAR(figure("yaw_off_max_rad"), 0.5, 1e-9) << "of the ticks from 1 s on, against the first one of all";
+}
+
+class PhaseAtHeight : public Phase {
+ protected:
+  PhaseAtHeight() : Phase({.name = "hold", .phase = "hold", .height_map_m = 0.6}) {}
+};
+
+TEST_F(PhaseAtHeight, IsJudgedByItsGreatestError) {
+  see("hold");
+  for (const double height_m : {0.61, 0.6, 0.52, 0.6}) tick(1.0, height_m);
+  EXPECT_NEAR(figure("height_error_max_m"), 0.08, 1e-9);
+}
+
+TEST_F(Phase, HasTheControllersErrorOnlyWhereThereIsAReference) {
+  see("hold");
+  for (int i = 0; i < 4; ++i) tick(1.0);
+  EXPECT_FALSE(recorder_.finish().figure("control_error_max_m"));
+  PhaseTick off{time_, {}, {}, {}, Eigen::Vector3d(0.03, 0.0, 0.04)};
+  recorder_.tick(off);
+  EXPECT_NEAR(figure("control_error_max_m"), 0.05, 1e-9);
+}
+
 TEST_F(Phase, HasTheLevelsOfItsLastMap) {
   see("hold");
   for (int i = 0; i < 4; ++i) tick(1.0);
@@ -99,7 +140,7 @@ TEST(PhaseVelocity, IsComparedWithTheTruthAtTheTimeOfTheEstimate) {
     common::VehicleState estimate;
     estimate.stamp = now - common::Duration::fromMilliseconds(6);
     estimate.velocity_odom_m_s.x() = 3.0 * estimate.stamp.seconds() + 0.02;
-    recorder.tick(now, {}, {3.0 * now.seconds(), 0, 0}, estimate);
+    recorder.tick({now, {}, {3.0 * now.seconds(), 0, 0}, estimate});
   }
   EXPECT_NEAR(recorder.finish().figure("velocity_error_mean_m_s").value(), 0.02, 1e-9);
   EXPECT_NEAR(recorder.finish().figure("velocity_error_rms_m_s").value(), 0.02, 1e-9);
@@ -112,7 +153,7 @@ TEST(PhaseYaw, IsAveragedOnTheCircle) {
   for (const double yaw_rad : {3.1, -3.1}) {
     common::Pose3 pose;
     pose.rotation = common::quaternionFrom({0.0, 0.0, yaw_rad});
-    recorder.tick(time, pose, {0, 0, 0}, {});
+    recorder.tick({time, pose, {0, 0, 0}, {}});
     time = time + common::Duration::fromMilliseconds(10);
   }
   EXPECT_NEAR(recorder.finish().figure("yaw_std_rad").value(), std::numbers::pi - 3.1, 1e-9);

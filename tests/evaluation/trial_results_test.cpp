@@ -135,6 +135,15 @@ TEST(TrialResults, CountFlightsLocalizedInTimeAndCorrectly) {
   EXPECT_TRUE(written["flights"][4]["localization"]["path_length_m"].is_null());
 }
 
+TEST(TrialResultsJson, NamesTheSeedsThatAFigureIsWithout) {
+  TrialResults all = results();
+  all.trials[0].flights[1].goal_error_m.reset();
+  all.trials[0].flights[1].seed = 77;
+  const json trial = json::parse(toJson(all))["trials"][0];
+  EXPECT_THAT(trial["seeds_without"]["goal_error_max_m"].get<std::vector<int>>(), testing::Contains(77));
+  EXPECT_FALSE(trial["seeds_without"].contains("done_share")) << "each flight has it";
+}
+
 TEST(TrialResultsJson, HasNullFiguresWithoutFlights) {
   const json trial = json::parse(toJson(TrialResults{{{"empty", "swiftlet", {}, {}}}}))["trials"][0];
   EXPECT_EQ(trial["runs"], 0);
@@ -199,8 +208,12 @@ TEST(CriteriaOverAllFlights, AreInTheTablesAndTheJson) {
 }
 
 TEST(CriteriaOverAllFlights, AreReadFromTheShippedTrial) {
-  const Criteria criteria = readTrial(fs::path(SWIFTLET_SOURCE_DIR) / "trials/papers/unb_case1.yaml").criteria;
-  EXPECT_EQ(criteria.mission_time_median_max_s, 70);
+  TrialConfig trial = readTrial(fs::path(SWIFTLET_SOURCE_DIR) / "trials/papers/unb_case1.yaml");
+  const Criteria& criteria = trial.criteria;
+  EXPECT_EQ(criteria.mission_time_max_s, 320);
+  trial.system = "swiftlet";
+  ASSERT_EQ(trial.figureBounds().size(), 1u);
+  EXPECT_EQ(trial.figureBounds()[0].max, 70) << "asked of ours";
   EXPECT_EQ(criteria.goal_error_median_max_m, 0.05);
   EXPECT_EQ(criteria.home_error_median_max_m, 0.08);
   EXPECT_EQ(criteria.estimate_rms_median_max_m, 0.05);

@@ -86,6 +86,18 @@ TEST(VerdictCriteria, NoCrashIsAllowedUnlessAsked) {
   EXPECT_EQ(trial(18, {Verdict::kForced, Verdict::kUnseen}).glassContacts(), 1);
 }
 
+TEST(VerdictCriteria, NoFlightThatCrashedHasPassed) {
+  for (const Verdict crash : {Verdict::kCrashed, Verdict::kForced, Verdict::kStruck, Verdict::kUnseen}) {
+    TrialResult result = trial(9, {crash});
+    result.flights[0].collisions = 1;
+    EXPECT_EQ(result.passed(), 9) << toString(crash);
+    const auto written = nlohmann::json::parse(toJson({{result}})).at("trials").at(0);
+    EXPECT_EQ(written.at("passed"), 9) << toString(crash);
+    EXPECT_EQ(written.at("flights").at(0).at("passed"), false) << toString(crash);
+    EXPECT_THAT(toText(failureTable({{result}})), HasSubstr(std::string("collision (") + toString(crash)));
+  }
+}
+
 TEST(VerdictCriteria, WhoLeavesTheBuildingOrIsStillUpFails) {
   EXPECT_THAT(missed(flight(Verdict::kOutside), byVerdict()), ElementsAre(HasSubstr("verdict outside")));
   EXPECT_THAT(missed(flight(Verdict::kUnfinished), byVerdict()), ElementsAre(HasSubstr("verdict unfinished")));

@@ -19,6 +19,7 @@ TEST(Scenario, PrintsAsYamlAndReadsBack) {
   scenario.faults.push_back({Sensor::kLaser, FaultKind::kNan, 1, 2, 0.5});
   scenario.pilot.push_back({1.0, 0.1, 0.2, 0.3, 0.4, true});
   scenario.pushes.push_back({1.0, 2.0, 3.0, 4.0});
+  scenario.hands.push_back({1.0, 2.0, 3.0, 4.0, 5.0});
   const std::string text = common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(scenario);
   Scenario back;
   common::config::YamlReader::fromText(text, "scenario.yaml").read(back);

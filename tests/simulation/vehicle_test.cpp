@@ -176,5 +176,22 @@ TEST(SimulatedVehicle, APushMovesItWithoutACrash) {
   EXPECT_GT(vehicle.truth().velocity_world_m_s.x() - before, 0.5);
 }
 
+TEST(SimulatedVehicle, AHandCarriesAndTurnsItWhateverItsPilotDoes) {
+  Scenario scenario;
+  scenario.hands.push_back({.time_s = 4.0, .lasts_s = 2.0, .x_m = -1.0, .yaw_deg = 45.0});
+  SimulatedVehicle vehicle(boxRoom(), scenario);
+  TruthPilot pilot(vehicle);
+  pilot.flyTo(0, 0, 1);
+  ASSERT_TRUE(pilot.fly(4.0));
+  const common::Pose3 before = vehicle.truth().T_world_body;
+  ASSERT_TRUE(pilot.fly(1.99)) << vehicle.stopReason();
+  const common::Pose3 moved = vehicle.truth().T_world_body;
+  EXPECT_NEAR(moved.position_m.x() - before.position_m.x(), -1.0, 0.05);
+  EXPECT_NEAR(common::yawOf(moved.rotation) - common::yawOf(before.rotation), 0.785, 0.05);
+  EXPECT_LT(vehicle.truth().velocity_world_m_s.head<2>().norm(), 0.15) << "it lets go at rest";
+  ASSERT_TRUE(pilot.fly(4.0)) << vehicle.stopReason();
+  EXPECT_NEAR(vehicle.truth().T_world_body.position_m.x(), before.position_m.x(), 0.1) << "and the pilot flies back";
+}
+
 }  // namespace
 }  // namespace swiftlet::simulation

@@ -1,0 +1,48 @@
+// A hand that takes the vehicle, carries it aside and turns it, and lets go: what moves it, whatever its controller
+// does.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/config_fwd.hpp"
+#include "common/time.hpp"
+#include "simulation/quadrotor.hpp"
+
+namespace swiftlet::simulation {
+
+/// Takes the vehicle at `time_s`, and lets go at rest after `lasts_s`.
+struct HandConfig {
+  double time_s = 0.0;
+  double lasts_s = 2.0;
+  double x_m = 0.0;  ///< How far it carries the vehicle, along the world's axes.
+  double y_m = 0.0;
+  double yaw_deg = 0.0;  ///< How far it turns the vehicle, counterclockwise.
+
+  void describe(common::config::Fields& fields);
+};
+
+/// What a hand adds to the motion of the vehicle.
+struct HandPull {
+  Eigen::Vector2d acceleration_world_m_s2 = Eigen::Vector2d::Zero();
+  double yaw_acceleration_rad_s2 = 0.0;
+};
+
+class Hand {
+ public:
+  explicit Hand(const HandConfig& config) : config_(config) {}
+
+  /// At `now`, to be called at every step. Zero while it does not hold the vehicle, and while the vehicle stands.
+  HandPull pull(common::Time now, const QuadrotorState& state);
+
+ private:
+  struct Grip {
+    Eigen::Vector2d position_world_m;
+    double yaw_rad;
+  };
+  HandConfig config_;
+  std::optional<Grip> grip_;  ///< Where it took the vehicle.
+};
+
+}  // namespace swiftlet::simulation
