@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/cloud_unit.hpp"
 #include "apps/command.hpp"
 #include "apps/listed_numbers.hpp"
 #include "apps/output_file.hpp"
@@ -33,8 +34,6 @@ namespace fs = std::filesystem;
 constexpr double kUsualResolution_m = 0.05;
 /// By how much a point may be moved where its coordinates are rounded to single precision.
 constexpr double kMostRounding_m = 0.001;
-/// Buildings are lower and shorter than these, but a room in centimetres is not lower, nor one in millimetres shorter.
-constexpr double kTallest_m = 100.0, kLongest_m = 1000.0;
 /// Points that an octree may become. A few bytes of a file can be a cube of billions of voxels.
 constexpr std::size_t kMostPoints = 50'000'000;
 
@@ -115,10 +114,15 @@ std::string originNear(const std::vector<common::SurfacePoint>& points, const in
   return fmt::format("--origin '{:.0f};{:.0f};{:.0f}'", middle(0), middle(1), std::abs(z) < 1e4 ? 0.0 : z);
 }
 
-std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
+void sayUnless(bool known, const std::string& note) {
+  if (!known && !note.empty()) showNotes({note});
+}
+
+interfaces::StoredCloud readPoints(const ConvertOptions& options) {
   const interfaces::CloudPlacement placement = placementOf(options);
   interfaces::StoredCloud cloud = interfaces::readCloud(options.from, placement);
   showNotes(cloud.notes);
+  sayUnless(options.scale.has_value(), headerUnitNote(options.from, cloud));
   if (cloud.points.empty() && cloud.not_finite == 0) showNotes({fmt::format("{} holds no points", options.from)});
   sayLeftOut(options, cloud.not_finite, cloud.points.size() + cloud.not_finite, "without a finite position", "");
   if (cloud.rounding_m > kMostRounding_m)
@@ -126,23 +130,7 @@ std::vector<common::SurfacePoint> readPoints(const ConvertOptions& options) {
         options,
         fmt::format("its coordinates are so great that they would be rounded by up to {:.3g} m", cloud.rounding_m),
         fmt::format("they are kept in single precision: give {}", originNear(cloud.points, placement)));
-  return std::move(cloud.points);
-}
-
-constexpr const char* kUnitHint = "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres";
-
-void sayIfHuge(const ConvertOptions& options, const std::vector<common::SurfacePoint>& points) {
-  if (options.scale || points.empty()) return;
-  Eigen::Vector3f lowest = points.front().position_m, highest = lowest;
-  for (const common::SurfacePoint& point : points) {
-    lowest = lowest.cwiseMin(point.position_m);
-    highest = highest.cwiseMax(point.position_m);
-  }
-  const Eigen::Vector3f extent_m = highest - lowest;
-  if (extent_m.z() > kTallest_m)
-    showNotes({fmt::format("the points reach over {:.0f} m of height: {}", extent_m.z(), kUnitHint)});
-  else if (const float length_m = extent_m.head<2>().maxCoeff(); length_m > kLongest_m)
-    showNotes({fmt::format("the points reach over {:.0f} m: {}", length_m, kUnitHint)});
+  return cloud;
 }
 
 /// Octrees are written as OctoMap's OcTree, which has neither.
@@ -167,7 +155,8 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
     if (to == Kind::kOctree && !octree.colors.empty()) showNotes({"colours left out: an octree is written without"});
     return std::move(octree.map);
   }
-  const std::vector<common::SurfacePoint> points = readPoints(options);
+  const interfaces::StoredCloud cloud = readPoints(options);
+  const std::vector<common::SurfacePoint>& points = cloud.points;
   if (to == Kind::kOctree) sayWithoutColors(points);
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
   mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m, interfaces::kMostOctreeBlocks);
@@ -176,7 +165,7 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
                fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
                            interfaces::kMostOctreeBlocks, resolution_m),
                fmt::format("give a greater --resolution; {}", kUnitHint));
-  if (voxels.left_out <= points.size() / 10) sayIfHuge(options, points);
+  sayUnless(options.scale || voxels.left_out > points.size() / 10, extentNote(cloud));
   if (voxels.left_out > 0)
     sayLeftOut(options, voxels.left_out, points.size(),
                fmt::format("farther than {:.0f} m from the origin, where an octree of this resolution ends",
@@ -188,9 +177,9 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
 
 std::vector<common::SurfacePoint> pointsOf(const ConvertOptions& options, Kind from) {
   if (from == Kind::kCloud) {
-    std::vector<common::SurfacePoint> points = readPoints(options);
-    sayIfHuge(options, points);
-    return points;
+    interfaces::StoredCloud cloud = readPoints(options);
+    sayUnless(options.scale.has_value(), extentNote(cloud));
+    return std::move(cloud.points);
   }
   const interfaces::StoredOctree octree = readTree(options);
   const std::size_t occupied = mapping3d::occupiedCount(octree.map);

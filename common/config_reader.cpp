@@ -9,6 +9,7 @@
 #include "common/config.hpp"
 #include "common/config_text.hpp"
 #include "common/error.hpp"
+#include "common/number_list.hpp"
 #include "common/read_bytes.hpp"
 #include "common/yaml_problem.hpp"
 
@@ -133,6 +134,19 @@ struct YamlReader::Impl {
     value = read;
   }
 
+  /// Without commas between them several numbers are one item. One that has a comma itself is in quotes or behind a
+  /// dash.
+  void reportItem(const YAML::Node& list, const YAML::Node& item, std::string_view name, std::string_view expected) {
+    std::string list_text;
+    for (const YAML::Node& one : list) {
+      const bool plain = one.IsScalar() && one.Scalar().find(',') == std::string::npos;
+      list_text += (list_text.empty() ? "" : ", ") + (plain ? one.Scalar() : "?");
+    }
+    const std::string numbers = expected.ends_with("number") ? numberListOf(list_text) : "";
+    report(item, name, fmt::format("{} is not {}", textOf(item), expected),
+           numbers.empty() ? valueHint(name, item, expected) : fmt::format("write `{}`", numbers));
+  }
+
   template <typename Value>
   void sequence(std::string_view name, std::vector<Value>& values, const char* expected,
                 const std::optional<Bounds>& bounds = std::nullopt) {
@@ -140,7 +154,8 @@ struct YamlReader::Impl {
     if (!node) return;
     if (!node->IsSequence())
       return report(*node, name, fmt::format("{} is not a list", textOf(*node)),
-                    node->IsScalar() ? fmt::format("write `[{}]`", node->Scalar())
+                    node->IsScalar() ? (std::is_arithmetic_v<Value> ? numberListHint(node->Scalar())
+                                                                    : fmt::format("write `[{}]`", node->Scalar()))
                     : node->IsMap()  ? "write the values in brackets, without keys"
                                      : "");
     std::vector<Value> read;
@@ -149,7 +164,7 @@ struct YamlReader::Impl {
       if (item.IsSequence())
         return report(item, name, "a list within the list",
                       "write all values in one list: leave out the inner brackets");
-      if (!convert(item, value)) return reportValue(item, name, expected);
+      if (!convert(item, value)) return reportItem(*node, item, name, expected);
       if constexpr (std::is_arithmetic_v<Value>)
         if (bounds && !bounds->contain(value))
           report(item, fmt::format("{}[{}]", name, read.size()), bounds->problem(value));

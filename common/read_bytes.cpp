@@ -45,12 +45,7 @@ std::optional<Problem> pointerInsteadOf(const std::filesystem::path& file) {
   std::array<char, 256> first{};
   std::ifstream stream(file, std::ios::binary);
   stream.read(first.data(), first.size());
-  const std::string_view text(first.data(), static_cast<std::size_t>(stream.gcount()));
-  for (const Pointer& pointer : kPointers)
-    if (text.starts_with(pointer.begins_with))
-      return problemWith(file, fmt::format("this is a pointer of {}, not the file", pointer.keeper), pointer.remedy);
-  if (leadsIntoAnnex(text)) return problemWith(file, "this is a pointer of git-annex, not the file", kAnnexRemedy);
-  return std::nullopt;
+  return problemOfPointer(file, {first.data(), static_cast<std::size_t>(stream.gcount())});
 }
 
 }  // namespace
@@ -61,6 +56,16 @@ std::optional<Problem> problemOfLink(const std::filesystem::path& file) {
   if (failure || std::filesystem::exists(file, failure) || failure) return std::nullopt;
   return problemWith(file, fmt::format("is a link that leads to nothing: `{}`", target.string()),
                      target.generic_string().find("/annex/objects/") == std::string::npos ? "" : kAnnexRemedy);
+}
+
+std::optional<Problem> problemOfPointer(const std::filesystem::path& file, std::string_view beginning) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // Some editors put it before a text.
+  if (beginning.starts_with(kByteOrderMark)) beginning.remove_prefix(kByteOrderMark.size());
+  for (const Pointer& pointer : kPointers)
+    if (beginning.starts_with(pointer.begins_with))
+      return problemWith(file, fmt::format("this is a pointer of {}, not the file", pointer.keeper), pointer.remedy);
+  if (leadsIntoAnnex(beginning)) return problemWith(file, "this is a pointer of git-annex, not the file", kAnnexRemedy);
+  return std::nullopt;
 }
 
 std::optional<Problem> problemOfFile(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/error.hpp"
 
@@ -16,6 +17,9 @@ std::optional<Problem> problemOfLink(const std::filesystem::path& file);
 /// in a clone: a small text, or a link that leads to nothing. A pipe or a device could block a reader forever. What
 /// cannot be opened otherwise passes.
 std::optional<Problem> problemOfFile(const std::filesystem::path& file);
+
+/// What is wrong with a file that begins so, if that is such a text.
+std::optional<Problem> problemOfPointer(const std::filesystem::path& file, std::string_view beginning);
 
 /// Throws InputError where problemOfFile() has one.
 void requireFile(const std::filesystem::path& file);

@@ -46,25 +46,11 @@ std::optional<fs::path> versionIn(const fs::path& model, const std::string& want
 
 }  // namespace
 
-std::string percentDecoded(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = 0;
-    const char* digits = text.data() + i + 1;
-    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-      decoded += static_cast<char>(code);
-      i += 2;
-    } else {
-      decoded += text[i];
-    }
-  }
-  return decoded;
-}
-
 std::optional<FuelAddress> fuelAddress(std::string_view uri) {
   const std::size_t scheme_end = uri.find("://");
-  if (scheme_end == std::string_view::npos || !common::lowerCase(std::string(uri.substr(0, 4))).starts_with("http"))
-    return std::nullopt;
+  if (scheme_end == std::string_view::npos) return std::nullopt;
+  const std::string scheme = common::lowerCase(uri.substr(0, scheme_end));
+  if (scheme != "https" && scheme != "http" && scheme != "fuel") return std::nullopt;
   const std::vector<std::string> parts = partsOf(uri.substr(scheme_end + 3));
   const auto models = std::find(parts.begin(), parts.end(), "models");
   if (parts.end() - models < 2 || models - parts.begin() < 2) return std::nullopt;

@@ -1,5 +1,5 @@
-// Addresses of Gazebo Fuel, such as https://fuel.gazebosim.org/1.0/OpenRobotics/models/Oak Tree/3, and where they lie
-// in a folder: https://gazebosim.org/api/fuel_tools has the layout of its cache.
+// Addresses of Gazebo Fuel, such as https://fuel.gazebosim.org/1.0/OpenRobotics/models/Oak Tree/3 or the same with
+// fuel://, and where they lie in a folder: https://gazebosim.org/api/fuel_tools has the layout of its cache.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "common/file_address.hpp"
 
 namespace swiftlet::simulation {
 
@@ -22,8 +24,7 @@ struct FuelAddress {
 /// None if the URI is not the address of a model.
 std::optional<FuelAddress> fuelAddress(std::string_view uri);
 
-/// The text with "%20" and the like replaced by what they stand for.
-std::string percentDecoded(std::string_view text);
+using common::percentDecoded;
 
 /// `relative` below `folder`, each part in whatever case it is there; none if there is no such file or folder.
 std::optional<std::filesystem::path> findIgnoringCase(const std::filesystem::path& folder,

@@ -31,6 +31,8 @@ std::optional<std::string> readFromDisk(const std::string& path, std::size_t lim
 /// What a clone has in place of a file that Git LFS or git-annex keeps, until it is brought: its message and remedy, or
 /// two empty texts.
 std::pair<std::string, std::string> pointerIn(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (text.starts_with("version https://git-lfs.github.com/spec/") ||
       text.starts_with("version https://hawser.github.com/spec/"))
     return {"this is a pointer of Git LFS, not the file", "run `git lfs pull` in its repository"};
@@ -43,6 +45,23 @@ std::pair<std::string, std::string> pointerIn(std::string_view text) {
 }
 
 std::string normalized(const fs::path& path) { return path.lexically_normal().generic_string(); }
+
+/// Whether these dashes within a comment look like the beginning of another.
+bool beginsComment(const SourceText& source, std::size_t dashes) {
+  return dashes >= 2 && source.text().compare(dashes - 2, 2, "<!") == 0;
+}
+
+/// "; also in line 5, 9 and 3 more": the other lines with such a place; empty without any.
+std::string otherLines(const SourceText& source, const std::vector<std::size_t>& offsets) {
+  constexpr std::size_t kMost = 10;
+  std::vector<int> lines;
+  for (const std::size_t offset : offsets)
+    if (const int line = source.locate(offset).line; lines.empty() || lines.back() != line) lines.push_back(line);
+  std::string text;
+  for (std::size_t i = 1; i < std::min(lines.size(), kMost + 1); ++i)
+    text += (i == 1 ? "; also in line " : i + 1 == lines.size() ? " and " : ", ") + std::to_string(lines[i]);
+  return lines.size() <= kMost + 1 ? text : text + " and " + std::to_string(lines.size() - 1 - kMost) + " more";
+}
 
 bool isForEditors(std::string_view attribute) {
   return attribute.starts_with("xmlns") || attribute.starts_with("xsi:") || attribute == "project_name";
@@ -129,7 +148,7 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
   seen_.insert(normalized(path));
   SourceText source(path, std::move(text));
   XmlResult xml = parseXml(source, options_.limits.depth, options_.lenient);
-  for (const std::size_t offset : xml.unescaped) warnUnescaped(source, offset);
+  warnUnescaped(source, xml.unescaped);
   if (!xml.root) {
     problems_.add(std::move(*xml.problem));
     return false;
@@ -146,22 +165,29 @@ bool Documents::add(std::string text, const std::string& path, const Document* f
   return usable;
 }
 
-void Documents::warnUnescaped(const SourceText& source, std::size_t offset) {
-  if (problems_.fullOfWarnings()) return;
-  const char c = source.text()[offset];
-  if (c == '-') {
-    const bool nested = offset >= 2 && source.text().compare(offset - 2, 2, "<!") == 0;
+/// A file may have dashes in each of its comments: one warning names all lines.
+void Documents::warnUnescaped(const SourceText& source, const std::vector<std::size_t>& offsets) {
+  std::vector<std::size_t> dashes, nested, values;
+  for (const std::size_t offset : offsets)
+    (source.text()[offset] != '-' ? values : beginsComment(source, offset) ? nested : dashes).push_back(offset);
+  if (!dashes.empty())
+    problems_.warn({source.locate(dashes.front()),
+                    {},
+                    "`--` stands in a comment, which XML does not allow" + otherLines(source, dashes),
+                    "write <!-- == text == -->"});
+  if (!nested.empty())
+    problems_.warn({source.locate(nested.front()),
+                    {},
+                    "`<!--` stands in a comment, which ends at its first -->" + otherLines(source, nested),
+                    "take the inner <!-- and --> out"});
+  for (const std::size_t offset : values) {
+    if (problems_.fullOfWarnings()) return;
+    const char c = source.text()[offset];
     problems_.warn({source.locate(offset),
                     {},
-                    nested ? "`<!--` stands in a comment, which ends at its first -->"
-                           : "`--` stands in a comment, which XML does not allow",
-                    nested ? "take the inner <!-- and --> out" : "write <!-- == text == -->"});
-    return;
+                    "`" + std::string(1, c) + "` stands for itself in a value, which XML does not allow",
+                    c == '&' ? "write &amp;" : "write &lt;"});
   }
-  problems_.warn({source.locate(offset),
-                  {},
-                  "`" + std::string(1, c) + "` stands for itself in a value, which XML does not allow",
-                  c == '&' ? "write &amp;" : "write &lt;"});
 }
 
 bool Documents::checkRoot(const Document& document) {

@@ -73,7 +73,7 @@ class Documents {
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
   /// False if a mistake keeps out what it would add, as in addTree().
   bool include(const Document& document, const XmlElement& element, const std::string& path);
-  void warnUnescaped(const SourceText& source, std::size_t offset);
+  void warnUnescaped(const SourceText& source, const std::vector<std::size_t>& offsets);
   bool checkRoot(const Document& document);
   /// False for a file of another version than 4.
   bool checkFormat(const Document& document);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace swiftlet::tree {
 namespace {
@@ -58,7 +57,7 @@ bool EscapedText::takeComment() {
   if (dashes == words.npos) return true;
   const auto end = text_.end() - static_cast<std::ptrdiff_t>(behind);
   std::replace(end - static_cast<std::ptrdiff_t>(words.size()), end, '-', '=');
-  if (closed && !std::exchange(found_dashes_, true)) found_.push_back(begin + dashes);
+  if (closed) found_.push_back(begin + dashes);
   return true;
 }
 

@@ -18,7 +18,7 @@ class EscapedText {
   const std::string& text() const { return text_; }
   /// Where the byte at an offset of text() stands in the original.
   std::size_t originalOffset(std::size_t offset) const;
-  /// Offsets in the original of what XML does not allow: the first of each value, and the first `--` of all comments.
+  /// Offsets in the original of what XML does not allow: the first of each value, and the first `--` of each comment.
   const std::vector<std::size_t>& found() const { return found_; }
 
  private:
@@ -35,7 +35,6 @@ class EscapedText {
 
   std::string_view original_;
   bool values_;
-  bool found_dashes_ = false;
   std::size_t at_ = 0;  ///< In the original.
   std::string text_;
   std::vector<Shift> shifts_;

@@ -40,8 +40,8 @@ struct XmlElement {
 struct XmlResult {
   std::optional<XmlElement> root;
   std::optional<Problem> problem;  ///< Present if `root` is not.
-  /// What XML does not allow, as offsets: the first `--` within a comment, and of a lenient reading `<` and `&` that
-  /// stand for themselves, the first of each value.
+  /// What XML does not allow, as offsets: the first `--` within each comment, and of a lenient reading `<` and `&`
+  /// that stand for themselves, the first of each value.
   std::vector<std::size_t> unescaped;
 };
 

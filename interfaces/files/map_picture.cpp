@@ -46,8 +46,21 @@ bool isNetpbm(std::string_view bytes) {
   return std::find(kMagics.begin(), kMagics.end(), bytes.substr(0, 2)) != kMagics.end();
 }
 bool isBmp(std::string_view bytes) { return bytes.starts_with("BM"); }
-bool isPngOrJpeg(std::string_view bytes) {
-  return bytes.starts_with("\x89PNG\r\n\x1a\n") || bytes.starts_with("\xff\xd8\xff");
+constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
+bool isPngOrJpeg(std::string_view bytes) { return bytes.starts_with(kPngMagic) || bytes.starts_with("\xff\xd8\xff"); }
+
+/// The bytes behind the last chunk of a PNG, each of which is a length, four letters, so many bytes and a checksum.
+std::size_t bytesBehindPng(std::string_view bytes) {
+  constexpr std::size_t kFrame = 12;
+  bytes.remove_prefix(kPngMagic.size());
+  while (bytes.size() >= kFrame) {
+    std::size_t length = 0;
+    for (const char c : bytes.substr(0, 4)) length = 256 * length + static_cast<std::uint8_t>(c);
+    const bool last = bytes.substr(4, 4) == "IEND";
+    bytes.remove_prefix(std::min(kFrame + length, bytes.size()));
+    if (last) return bytes.size();
+  }
+  return 0;
 }
 
 /// The words of a PGM or PPM: they stand between blanks, `#` to the end of the line is a comment.
@@ -191,7 +204,7 @@ MapPicture parsePicture(std::string_view bytes, const std::string& name) {
     throw InputError(
         Problem{{name}, "", (damaged ? "is damaged: " : "") + image.error(), damaged ? kGetAgain : kConvert});
   }
-  return {std::move(*image)};
+  return {std::move(*image), bytes.starts_with(kPngMagic) ? bytesBehindPng(bytes) : 0};
 }
 
 bool isPicture(const std::filesystem::path& file) {

@@ -12,7 +12,7 @@ namespace swiftlet::interfaces {
 
 struct MapPicture {
   common::GreyImage image;
-  std::size_t left_over_bytes = 0;  ///< How many bytes follow the pixels of a PGM or PPM.
+  std::size_t left_over_bytes = 0;  ///< How many bytes follow the pixels of a PGM, PPM or PNG.
 };
 
 /// Messages use `name` as the file. Throws InputError.

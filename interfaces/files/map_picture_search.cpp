@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/file_address.hpp"
 #include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/map_picture.hpp"
@@ -35,10 +36,9 @@ std::vector<std::string> namesBeside(const fs::path& file) {
 
 std::string stemOf(const std::string& name) { return common::lowerCase(fs::path(name).stem().string()); }
 
-/// The path without the scheme of a file:// address and its host, and with the home folder for `~`.
-fs::path localPath(std::string named) {
-  constexpr std::string_view kScheme = "file://";
-  if (named.starts_with(kScheme)) named.erase(0, std::min(named.find('/', kScheme.size()), named.size()));
+/// The path of a file:// address, and with the home folder for `~`.
+fs::path localPath(const std::string& address) {
+  std::string named = common::pathOfAddress(address);
   const char* home = std::getenv("HOME");
   if (named.starts_with("~/") && home != nullptr) named.replace(0, 1, home);
   return named;

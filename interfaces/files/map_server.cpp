@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -104,6 +106,31 @@ struct MapYaml {
   }
 };
 
+/// The number of "`45°` is not a number", if it is followed by a sign for degrees.
+std::optional<double> degreesIn(const std::string& message) {
+  const std::string written = common::lowerCase(message.substr(std::min(message.find('`') + 1, message.size())));
+  char* end = nullptr;
+  const double value = std::strtod(written.c_str(), &end);
+  std::string_view unit = end;
+  unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
+  if (end == written.c_str() || !(unit.starts_with("\xC2\xB0") || unit.starts_with("\xB0") || unit.starts_with("deg")))
+    return std::nullopt;
+  return value;
+}
+
+/// The reader of lists does not know that the yaw is in radians, and would leave the sign for degrees out.
+std::vector<Problem> readYaml(common::config::YamlReader& reader, MapYaml& yaml) {
+  try {
+    return reader.readKnown(yaml);
+  } catch (const common::InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      if (const auto yaw_deg = problem.element == "origin" ? degreesIn(problem.message) : std::nullopt)
+        problem.hint = fmt::format("the yaw is in radians: write `{:.6f}`", *yaw_deg * common::kRadPerDeg);
+    throw common::InputError(std::move(problems));
+  }
+}
+
 occupancy::Cell cellOfProbability(double probability) {
   const double odds = std::clamp(probability, 1e-6, 1 - 1e-6);
   const double steps = std::log(odds / (1 - odds)) / occupancy::kLogOddsPerStep;
@@ -181,8 +208,10 @@ std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
   };
   std::vector<Problem> notes;
   if (const std::size_t bytes = picture.left_over_bytes; bytes > 0)
-    notes.push_back(
-        {{}, "image", counted(bytes, "byte") + " after the picture's pixels are left out", "is the map shifted?"});
+    notes.push_back({{},
+                     "image",
+                     counted(bytes, "byte") + " after the picture's pixels are left out",
+                     "is the map shifted, or another file appended?"});
   if (const double yaw = yaml.origin[2]; std::abs(yaw) > 2 * std::numbers::pi)
     notes.push_back({{},
                      "origin",
@@ -271,7 +300,7 @@ StoredMap readMap(const std::filesystem::path& yaml_file) {
   if (isPicture(yaml_file)) throw pictureForYaml(yaml_file);
   auto reader = common::config::YamlReader::fromFile(yaml_file.string());
   MapYaml yaml;
-  std::vector<Problem> notes = reader.readKnown(yaml);
+  std::vector<Problem> notes = readYaml(reader, yaml);
   const FoundPicture found = findPicture(yaml_file, yaml.image, reader.locationOf("image"));
   if (found.note) notes.push_back(*found.note);
   const MapPicture picture = parsePicture(common::readBytes(found.file), found.file.string());

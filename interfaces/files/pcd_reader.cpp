@@ -74,8 +74,12 @@ class HeaderReader {
   PcdHeader read() {
     PcdHeader header;
     while (header.data.empty()) {
-      const std::vector<std::string_view> line = words(cursor_.line());
-      if (line.empty() || line[0].starts_with('#')) continue;
+      const std::string_view text = cursor_.line();
+      const std::vector<std::string_view> line = words(text);
+      if (line.empty() || line[0].starts_with('#')) {
+        builder_.comment(cursor_, text);
+        continue;
+      }
       const std::string key = common::lowerCase(line[0]);
       const std::vector<std::string_view> values(line.begin() + 1, line.end());
       if (key == "fields" || key == "columns")  // COLUMNS in files before version .6.

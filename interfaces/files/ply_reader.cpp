@@ -78,17 +78,20 @@ Property propertyOf(const Cursor& cursor, const std::vector<std::string_view>& l
   cursor.fail("a property is neither `property TYPE NAME` nor `property list TYPE TYPE NAME`");
 }
 
-PlyHeader readHeader(Cursor& cursor) {
+PlyHeader readHeader(Cursor& cursor, Builder& builder) {
   const std::vector<std::string_view> first = words(cursor.line());
   if (first.size() != 1 || common::lowerCase(first[0]) != "ply") cursor.fail("the file does not begin with `ply`");
   PlyHeader header;
   bool has_format = false;
   for (;;) {
-    const std::vector<std::string_view> line = words(cursor.line());
+    const std::string_view text = cursor.line();
+    const std::vector<std::string_view> line = words(text);
     const std::string key = line.empty() ? "" : common::lowerCase(line[0]);
-    if (key.empty() || key == "comment" || key == "obj_info") continue;
+    if (key.empty()) continue;
     if (key == "end_header") break;
-    if (key == "format" && line.size() >= 2) {
+    if (key == "comment" || key == "obj_info") {
+      builder.comment(cursor, text.substr(text.find(line[0]) + key.size()));
+    } else if (key == "format" && line.size() >= 2) {
       header.encoding = encodingOf(cursor, line[1]);
       has_format = true;
     } else if (key == "element" && line.size() == 3) {
@@ -184,8 +187,8 @@ void noteSurplus(const Cursor& cursor, bool text, const Element& points, std::si
 
 StoredCloud parsePly(std::string_view bytes, const std::string& name, const CloudPlacement& placement) {
   Cursor cursor(bytes, name);
-  PlyHeader header = readHeader(cursor);
   Builder builder(placement);
+  PlyHeader header = readHeader(cursor, builder);
   ElementReader reader(cursor, header.encoding);
   for (Element& element : header.elements) {
     const bool points = isNamed(element, "vertex");

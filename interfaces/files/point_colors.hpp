@@ -19,7 +19,8 @@ enum class ColorType { kByte, kShort, kFloat };
 /// bits often hold 0 to 255, and so do floats. So the greatest number of all decides: the range is the least one that
 /// reaches half as far or farther, because interpolated colours go a little beyond their range. What is beyond is cut
 /// off. Colours that are not finite, and all colours where no range fits, are common::kUnknownColor.
-/// Returns a note for people if the range is not the usual one of the type, or is coarser here; empty otherwise.
+/// Returns a note for people if the range is not the usual one of the type, or is coarser here, or if colours are below
+/// 0 or not finite; empty otherwise.
 std::string setColors(const std::vector<RawColor>& colors, ColorType type, std::vector<common::SurfacePoint>& points);
 
 }  // namespace swiftlet::interfaces

@@ -85,9 +85,12 @@ Cursor::Cursor(std::string_view bytes, const std::string& name) : bytes_(bytes),
 
 void Cursor::fail(const std::string& message, const std::string& hint) const {
   if (!text_) throw common::InputError(common::Problem{{name_}, fmt::format("byte {}", place_), message, hint});
+  throw common::InputError(common::Problem{{name_, lineNumber()}, "", message, hint});
+}
+
+int Cursor::lineNumber() const {
   const std::string_view before = bytes_.substr(0, word_place_);
-  const auto line = static_cast<int>(1 + std::count(before.begin(), before.end(), '\n'));
-  throw common::InputError(common::Problem{{name_, line}, "", message, hint});
+  return static_cast<int>(1 + std::count(before.begin(), before.end(), '\n'));
 }
 
 std::string_view Cursor::line() {
@@ -192,7 +195,8 @@ std::size_t count(const Cursor& cursor, std::string_view text) {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    cursor.fail(fmt::format("`{}` is not a whole number", common::printable(std::string(text.substr(0, 40)))));
+    cursor.fail(fmt::format("`{}` is not a whole number from 0 on, written in digits alone",
+                            common::printable(std::string(text.substr(0, 40)))));
   return value;
 }
 
@@ -239,6 +243,12 @@ std::vector<std::string_view> words(std::string_view line) {
     begin = end;
   }
   return found;
+}
+
+void Builder::comment(const Cursor& cursor, std::string_view text) {
+  if (cloud_.unit) return;
+  cloud_.unit = unitIn(text);
+  cloud_.unit_line = cloud_.unit ? cursor.lineNumber() : 0;
 }
 
 void Builder::note(const std::string& text) {

@@ -40,6 +40,8 @@ class Cursor {
   std::size_t left() const { return bytes_.size() - place_; }
   /// Throws InputError with the file, the line in text or the byte in binary, and the reason.
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
+  /// Of what was read last, in text; from 1.
+  int lineNumber() const;
   /// The next line of a header, without its end. Throws InputError at the end of the file or if it is too long.
   std::string_view line();
   /// Throws InputError if fewer are left.
@@ -88,6 +90,8 @@ class Builder {
 
   void set(const Column& column, double value);
   void finish();
+  /// Takes the unit that a comment of the header names, if it is the first that does.
+  void comment(const Cursor& cursor, std::string_view text);
   /// Notes that are empty are none.
   void note(const std::string& text);
   /// Notes how many points the file has behind those that its header promises.

@@ -131,7 +131,20 @@ UnpackedStream::UnpackedStream(ByteSource packed, std::string name, bool may_be_
 }
 
 UnpackedStream::UnpackedStream(const std::filesystem::path& file)
-    : UnpackedStream(sourceOf(file), file.string(), false) {}
+    : UnpackedStream(sourceOf(file), file.string(), false) {
+  UnpackedStream again(sourceOf(file), name_, false);
+  std::array<char, 256> beginning{};
+  std::size_t count = 0;
+  while (count < beginning.size()) {
+    const std::size_t read = again.read(beginning.data() + count, beginning.size() - count).value_or(0);
+    if (read == 0) break;
+    count += read;
+  }
+  if (auto problem = common::problemOfPointer(file, {beginning.data(), count})) {
+    problem->hint += ", then pack it again";
+    throw common::InputError(*std::move(problem));
+  }
+}
 
 UnpackedStream UnpackedStream::fromBytes(std::string_view bytes, std::string name) {
   return {sourceOf(bytes), std::move(name), false};

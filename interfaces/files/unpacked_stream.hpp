@@ -19,7 +19,7 @@ namespace swiftlet::interfaces {
 /// Used by one thread.
 class UnpackedStream {
  public:
-  /// Throws InputError if the file is not a regular file or cannot be opened.
+  /// Throws InputError if the file is not a regular file, cannot be opened, or holds a pointer of Git LFS or git-annex.
   explicit UnpackedStream(const std::filesystem::path& file);
   /// Reads `bytes` as if a file named `name` contained them. They must outlive this.
   static UnpackedStream fromBytes(std::string_view bytes, std::string name);

@@ -55,7 +55,7 @@ TEST(ForeignColours, OfAnyRangeAreRead) {
                                           {"float", "255 128 0", "0 0 0", {255, 128, 0}, true},
                                           {"double", "65535 32768 0", "0 0 0", {255, 128, 0}, true},
                                           {"int", "256 128 0", "0 0 0", {255, 128, 0}, true},
-                                          {"double", "1 nan 0", "1 0 0", common::kUnknownColor, false},
+                                          {"double", "1 nan 0", "1 0 0", common::kUnknownColor, true},
                                           {"float", "1e9 0 0", "0 0 0", common::kUnknownColor, true}}) {
     SCOPED_TRACE(of.type + " " + of.first);
     const StoredCloud cloud = colored(of.type, {of.first, of.second});
@@ -63,6 +63,17 @@ TEST(ForeignColours, OfAnyRangeAreRead) {
     EXPECT_EQ(cloud.points[0].rgb, of.expected);
     EXPECT_EQ(!cloud.notes.empty(), of.noted);
   }
+}
+
+TEST(ForeignColours, BelowZeroOrNotFiniteAreNoted) {
+  EXPECT_THAT(colored("float", {"0.5 -0.5 0", "1 0 0"}).notes,
+              ElementsAre("colours go down to -0.5: what is below 0 is taken as 0"));
+  EXPECT_THAT(colored("float", {"0 -1 -2"}).points[0].rgb, (Rgb{0, 0, 0}));
+  EXPECT_THAT(colored("float", {"1 nan 0", "1 inf 0", "1 0 0"}).notes,
+              ElementsAre("colours left out: those of 2 points are not finite"));
+  EXPECT_THAT(colored("float", {"255 -1 0", "nan 0 0"}).notes,
+              ElementsAre("colours go up to 255: they are taken to be from 0 to 255; colours go down to -1: what is "
+                          "below 0 is taken as 0; colours left out: those of 1 points are not finite"));
 }
 
 /// A channel alone is dark in a bright cloud: the range is that of the cloud.

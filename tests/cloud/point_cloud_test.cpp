@@ -228,7 +228,9 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
   ply("ply\nformat ascii 1.0\nend_header\n", "no element `vertex`");
   ply("ply\nformat morse 1.0\n", "`morse` is not a format");
   ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "no x, y and z");
-  ply("ply\nformat ascii 1.0\nelement vertex -1\n", "`-1` is not a whole number");
+  for (const std::string count : {"-1", "abc", "1e3", "+4", "4.0", "99999999999999999999"})
+    ply("ply\nformat ascii 1.0\nelement vertex " + count + "\n",
+        "broken:3: `" + count + "` is not a whole number from 0 on, written in digits alone");
   ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "`half` is not a type");
   ply("ply\nformat ascii 1.0\nproperty float x\n", "`property` is not a line");
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";

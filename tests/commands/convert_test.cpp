@@ -155,9 +155,11 @@ TEST_F(Convert, AsksForTheUnitWhereMostPointsAreFarAndTakesOneThatIsGiven) {
   const ProgramEnd far = runSwiftlet({"convert", room, path("far.bt")});
   ASSERT_EQ(far.exit_code, 0) << describe(far);
   EXPECT_THAT(far.out, HasSubstr("note: 3 of 4 points left out"));
-  EXPECT_THAT(far.out,
-              HasSubstr("left out: farther than 1638 m from the origin, where an octree of this resolution ends: "
-                        "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres"));
+  EXPECT_THAT(
+      far.out,
+      HasSubstr(
+          "left out: farther than 1638 m from the origin, where an octree of this resolution ends: "
+          "are they in metres? Give --scale 0.01 if in centimetres, 0.001 if in millimetres, 0.0254 if in inches"));
   const ProgramEnd near = runSwiftlet({"convert", room, path("near.bt"), "--scale", "0.001"});
   ASSERT_EQ(near.exit_code, 0) << describe(near);
   EXPECT_THAT(near.out, Not(HasSubstr("note:")));
@@ -193,6 +195,41 @@ TEST_F(Convert, AsksForTheUnitOfWhatIsTooTallForABuilding) {
     arguments.insert(arguments.end(), {"--scale", "0.01"});
     EXPECT_THAT(runSwiftlet(arguments).out, Not(HasSubstr("metres")));
   }
+}
+
+TEST_F(Convert, SaysTheUnitThatAHeaderNames) {
+  const auto out = [&](const std::string& comment, const std::vector<std::string>& more = {}) {
+    const std::string cloud = write("unit.ply", "ply\nformat ascii 1.0\n" + comment +
+                                                    "\nelement vertex 2\nproperty float x\nproperty float y\n"
+                                                    "property float z\nend_header\n0 0 0\n1 1 1\n");
+    std::vector<std::string> arguments{"convert", cloud, path("unit.pcd")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runSwiftlet(arguments).out;
+  };
+  EXPECT_THAT(out("comment units: centimeters"),
+              HasSubstr("note: " + path("unit.ply") + ":3: its header says centimeters: give --scale 0.01\n"));
+  EXPECT_THAT(out("comment unit: mm"), HasSubstr("says mm: give --scale 0.001"));
+  EXPECT_THAT(out("obj_info inches"), HasSubstr("says inches: give --scale 0.0254"));
+  EXPECT_THAT(out("obj_info units=millimeter"), HasSubstr("says millimeter: give --scale 0.001"));
+  EXPECT_THAT(out("comment units: mm", {"--scale", "0.001"}), Not(HasSubstr("note:")));
+  EXPECT_THAT(out("comment units: mm", {"--scale", "1"}), Not(HasSubstr("note:")));
+  for (const std::string& none : {"comment metres", "comment units: m", "comment scanned in 5 cm steps"})
+    EXPECT_THAT(out(none), Not(HasSubstr("note:"))) << none;
+  const std::string room = write("cm.pcd", "# units: centimetres\n" + cloudOf(2, "0 0 10\n400 400 240\n"));
+  const std::string of_pcd = runSwiftlet({"convert", room, path("cm.ply")}).out;
+  EXPECT_THAT(of_pcd, HasSubstr("cm.pcd:1: its header says centimetres: give --scale 0.01"));
+  EXPECT_THAT(of_pcd, Not(HasSubstr("are they in metres?"))) << "that is known";
+}
+
+TEST_F(Convert, SaysThatPointsLookLikeDegrees) {
+  const auto out = [&](const std::string& rows) {
+    return runSwiftlet({"convert", write("far.pcd", cloudOf(2, rows)), path("far.ply")}).out;
+  };
+  const std::string note = "note: the points look like longitude and latitude in degrees: project them to metres first";
+  EXPECT_THAT(out("8.5471 47.3763 408\n8.5475 47.3768 412\n"), HasSubstr(note));
+  EXPECT_THAT(out("139.7454 35.6586 10\n139.7457 35.6588 60\n"), HasSubstr(note));
+  EXPECT_THAT(out("0 0 0\n0.05 0.05 3\n"), Not(HasSubstr("degrees"))) << "a post";
+  EXPECT_THAT(out("8.5 47.3 0\n9.5 48.3 4\n"), Not(HasSubstr("degrees"))) << "a box";
 }
 
 /// The hint of the refusal, done literally, works.

@@ -41,6 +41,8 @@ TEST_F(ReadBytes, KnowsThePointersThatStandForFilesInAClone) {
               HasSubstr("f: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
   EXPECT_THAT(problem(lfs + "\r\noid sha256:83d7\r\nsize 234686\r\n"), HasSubstr("a pointer of Git LFS"));
   EXPECT_THAT(problem("version https://git-lfs.github.com/spec/v2\n"), HasSubstr("a pointer of Git LFS"));
+  EXPECT_THAT(problem("\xef\xbb\xbf" + lfs + "\n"), HasSubstr("a pointer of Git LFS"));
+  EXPECT_THAT(problem("\xef\xbb\xbf/annex/objects/K\n"), HasSubstr("a pointer of git-annex"));
   EXPECT_THAT(problem("/annex/objects/SHA256E-s234686--83d7.pcd\n"),
               HasSubstr("f: this is a pointer of git-annex, not the file, run `git annex get`"));
   for (const std::string link : {".git/annex/objects/Zx/9q/K/K", "../../.git/annex/objects/Zx/9q/K/K",

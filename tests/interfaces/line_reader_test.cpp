@@ -75,6 +75,19 @@ TEST(LineReader, CompressedFilesGiveTheSameLines) {
   }
 }
 
+TEST(LineReader, ACompressedPointerOfGitLfsIsKnownAsOne) {
+  const ScratchFolder folder;
+  put(folder / "p", "\xef\xbb\xbfversion https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n");
+  for (const char* tool : {"gzip", "bzip2", "xz"}) {
+    const fs::path packed = folder / (std::string("p.") + tool);
+    if (!outputOf(std::string(tool) + " -c " + (folder / "p").string() + " > " + packed.string())) continue;
+    EXPECT_THAT(
+        problemOf([&] { UnpackedStream{packed}; }),
+        HasSubstr("this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository, then pack"))
+        << tool;
+  }
+}
+
 /// Reads to the end or to a problem, which it returns; `lines` counts those that were returned before.
 std::string readUntilProblem(const fs::path& file, int& lines) {
   lines = 0;

@@ -58,6 +58,10 @@ TEST(MapPicture, CountsWhatFollowsThePixels) {
   EXPECT_EQ(parsePicture("P5 2 1 255\n# c\nab\n\n", "p").left_over_bytes, 2u);
   EXPECT_EQ(parsePicture("P2 2 1 255\n1 2\n", "p").left_over_bytes, 0u);
   EXPECT_EQ(parsePicture("P2 2 1 255\n1 2 34", "p").left_over_bytes, 2u);
+  const std::string png = pngOf(3, 1, bytes({0, 205, 254}), {});
+  EXPECT_EQ(parsePicture(png, "p").left_over_bytes, 0u);
+  EXPECT_EQ(parsePicture(png + "\n", "p").left_over_bytes, 1u);
+  EXPECT_EQ(parsePicture(png + png, "p").left_over_bytes, png.size());
 }
 
 TEST(MapPicture, ReadsPngOfEveryKind) {

@@ -240,7 +240,8 @@ TEST(MapServer, TakesTheWordsOfOtherPrograms) {
                                         HasSubstr("m.yaml:5:1: unknown key `static_layer`, not used")));
   EXPECT_THAT(notesOf(readTwo(folder, pixels + "\n\n", origin)),
               ElementsAre(HasSubstr(
-                  "m.yaml:1:8: image: 2 bytes after the picture's pixels are left out, is the map shifted?")));
+                  "m.yaml:1:8: image: 2 bytes after the picture's pixels are left out, is the map shifted, or another "
+                  "file appended?")));
 }
 
 TEST(MapServer, SuspectsDegrees) {
@@ -252,6 +253,22 @@ TEST(MapServer, SuspectsDegrees) {
   for (const std::string yaw : {"0", "1.5708", "-3.14159", "6.2831853"})
     EXPECT_TRUE(readTwo(folder, pixels, "origin: [0, 0, " + yaw + "]\n").notes.empty()) << yaw;
   EXPECT_EQ(readTwo(folder, pixels, "origin: [0, 0, -45]\n").notes.size(), 1u);
+}
+
+/// What the hints say, done literally, is read.
+TEST(MapServer, SaysHowTheOriginIsWritten) {
+  const ScratchFolder folder;
+  const std::string pixels = {'\0', static_cast<char>(254)};
+  const auto problem = [&](const std::string& origin) {
+    return problemOf([&] { readTwo(folder, pixels, "origin: " + origin + "\n"); });
+  };
+  for (const std::string origin : {"-1.55 -1.55 0", "(-1.55, -1.55, 0)", "-1.55; -1.55; 0", "[-1.55; -1.55; 0]",
+                                   "[-1.55 -1.55 0]", "[-1.55 -1.55, 0]", "[(-1.55, -1.55, 0)]", "-1,55; -1,55; 0"})
+    EXPECT_THAT(problem(origin), HasSubstr("write `[-1.55, -1.55, 0]`")) << origin;
+  EXPECT_EQ(readTwo(folder, pixels, "origin: [-1.55, -1.55, 0]\n").notes.size(), 0u);
+  for (const std::string yaw : {"45°", "45 °", "45deg", "'45 degrees'", "45\xB0"})
+    EXPECT_THAT(problem("[0, 0, " + yaw + "]"), HasSubstr("the yaw is in radians: write `0.785398`")) << yaw;
+  EXPECT_THAT(problem("[0, 0, 0.5rad]"), HasSubstr("`0.5`"));
 }
 
 TEST(MapServer, TakesThePictureBesideTheYaml) {
@@ -270,6 +287,7 @@ TEST(MapServer, TakesThePictureBesideTheYaml) {
   EXPECT_TRUE(read("m.pgm").notes.empty());
   EXPECT_TRUE(read((folder / "m.pgm").string()).notes.empty());
   EXPECT_TRUE(read("file://" + (folder / "m.pgm").string()).notes.empty());
+  EXPECT_TRUE(read("file://" + (folder / "%6d.pgm").string()).notes.empty());
   const std::string offer = "`m.pgm` lies beside the YAML: write `image: m.pgm`";
   EXPECT_THAT(problemOf([&] { read("M.PGM"); }), HasSubstr(offer));
   EXPECT_THAT(problemOf([&] { read("m.png"); }), HasSubstr(offer));

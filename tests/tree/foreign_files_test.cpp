@@ -114,8 +114,14 @@ TEST_F(ForeignFile, HasCommentsWithDashes) {
   const MockedTree tree(path_);
   EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
   EXPECT_THAT(shortLines(tree.warnings()),
-              ElementsAre("1:12: `--` stands in a comment, which XML does not allow, write <!-- == text == -->",
+              ElementsAre("1:12: `--` stands in a comment, which XML does not allow; also in line 4, 5 and 6, write "
+                          "<!-- == text == -->",
                           HasSubstr("6:40: `<` stands for itself")));
+  std::string many;
+  for (int i = 0; i < 13; ++i) many += "<!-- a <!-- b -->\n";
+  writeTree("<Sequence>" + many + "<AlwaysSuccess/></Sequence>");
+  EXPECT_THAT(shortLines(MockedTree(path_).warnings()),
+              ElementsAre(HasSubstr("; also in line 4, 5, 6, 7, 8, 9, 10, 11, 12, 13 and 2 more, take the inner <!--")));
   writeTree("<Sequence>" + comments + "<AlwaysSuccess/></Sequence>");
   EXPECT_THAT(problemsOfMission(), IsEmpty()) << "in a mission, too";
   writeTree("<Sequence>" + comments + "\n<Nobody/></Sequence>");

@@ -52,8 +52,9 @@ TEST(Problems, OfAPointerOfGitAnnexNameIt) {
 }
 
 TEST(Problems, OfAPointerOfGitLfsNameIt) {
-  EXPECT_THAT(problemsOf("version https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n"),
-              ElementsAre("f.xml: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
+  for (const std::string mark : {"", "\xEF\xBB\xBF"})
+    EXPECT_THAT(problemsOf(mark + "version https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n"),
+                ElementsAre("f.xml: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
 }
 
 TEST(Problems, AValidFileHasNone) {
