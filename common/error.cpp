@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/lower_case.hpp"
+#include "common/misleading.hpp"
 #include "common/printable.hpp"
 
 namespace swiftlet::common {
@@ -61,6 +63,10 @@ InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(joinProblems(problems)), problems_(std::move(problems)) {}
 
 std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> candidates) {
+  // `p` for `P`, which has no letter in common with it.
+  const auto same = [seen = lowerCase(asSeen(word))](const auto& one) { return lowerCase(asSeen(one)) == seen; };
+  if (const auto found = std::find_if(candidates.begin(), candidates.end(), same); found != candidates.end())
+    return *found;
   // `roll` for `roll_deg`, `fx` for `fx_px`.
   const auto begins = [&](const std::string& candidate) { return word.size() >= 2 && candidate.starts_with(word); };
   if (const auto found = std::find_if(candidates.begin(), candidates.end(), begins); found != candidates.end())
@@ -86,7 +92,9 @@ std::optional<std::string> nearestWord(std::string_view word, std::span<const st
 
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {
   const auto nearest = nearestWord(word, candidates);
-  return nearest ? fmt::format("did you mean `{}`?", *nearest) : std::string();
+  if (!nearest) return {};
+  const auto odd = misleadingIn(*nearest);
+  return fmt::format("did you mean `{}`{}?", *nearest, odd ? fmt::format(", which has {}", odd->what) : "");
 }
 
 }  // namespace swiftlet::common

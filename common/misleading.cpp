@@ -85,24 +85,26 @@ std::string insteadOf(const std::string& meant) {
   return meant.empty() ? "nothing there" : fmt::format("`{}`", meant);
 }
 
-std::optional<Misleading> judged(std::uint32_t code, std::size_t offset) {
+/// What is meant by a character that misleads.
+std::optional<std::string> meantBy(std::uint32_t code) {
   const auto* range = std::find_if(kRanges.begin(), kRanges.end(),
                                    [&](const Range& one) { return code >= one.first && code <= one.last; });
-  std::string meant;
+  if (range != kRanges.end()) return range->meant;
+  if (code < kFirstFullWidth || code > kLastFullWidth) return std::nullopt;
+  return std::string(1, static_cast<char>(code - kFullWidthShift));
+}
+
+std::optional<Misleading> judged(std::uint32_t code, std::size_t offset) {
+  const auto meant = meantBy(code);
+  if (!meant) return std::nullopt;
   const char* kind = "an invisible character";
-  if (range != kRanges.end())
-    meant = range->meant;
-  else if (code >= kFirstFullWidth && code <= kLastFullWidth)
-    meant = static_cast<char>(code - kFullWidthShift);
-  else
-    return std::nullopt;
-  if (meant == " ") kind = "a blank of another kind";
+  if (*meant == " ") kind = "a blank of another kind";
   if (code < 0xA0) kind = "a control character";
   const char* name = nameOf(code);
-  const std::string what = name != nullptr                 ? name
-                           : meant.empty() || meant == " " ? kind
-                                                           : fmt::format("a character that looks like `{}`", meant);
-  return Misleading{offset, fmt::format("{} (U+{:04X})", what, code), insteadOf(meant)};
+  const std::string what = name != nullptr                   ? name
+                           : meant->empty() || *meant == " " ? kind
+                                                             : fmt::format("a character that looks like `{}`", *meant);
+  return Misleading{offset, fmt::format("{} (U+{:04X})", what, code), insteadOf(*meant)};
 }
 
 bool isLetter(std::string_view text, std::size_t at) {
@@ -126,6 +128,17 @@ std::optional<Misleading> misleadingIn(std::string_view text) {
 std::string misleadingHint(std::string_view text) {
   const auto found = misleadingIn(text);
   return found ? fmt::format("it has {}: write {}", found->what, found->instead) : "";
+}
+
+std::string asSeen(std::string_view text) {
+  std::string seen;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto [code, bytes] = characterAt(text, at);
+    const auto meant = meantBy(code);
+    seen += meant ? std::string_view(*meant) : text.substr(at, bytes);
+    at += bytes;
+  }
+  return seen;
 }
 
 }  // namespace swiftlet::common

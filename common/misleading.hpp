@@ -21,4 +21,8 @@ std::optional<Misleading> misleadingIn(std::string_view text);
 /// "it has a zero-width space (U+200B): write nothing there"; empty for a text in which nothing misleads.
 std::string misleadingHint(std::string_view text);
 
+/// The text as it is seen: without what cannot be seen, and with the characters of ASCII that others look like. Letters
+/// stay as they are.
+std::string asSeen(std::string_view text);
+
 }  // namespace swiftlet::common
