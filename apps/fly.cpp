@@ -64,7 +64,9 @@ struct FlyOptions {
 };
 
 void takeWorldOptions(const FlyOptions& options, simulation::Scenario& scenario) {
-  scenario.model_paths.insert(scenario.model_paths.begin(), options.model_paths.begin(), options.model_paths.end());
+  std::vector<std::string> folders;
+  for (const std::string& folder : options.model_paths) folders.push_back(findModelFolder(folder, "--model-path"));
+  scenario.model_paths.insert(scenario.model_paths.begin(), folders.begin(), folders.end());
   scenario.allow_incomplete_world = scenario.allow_incomplete_world || options.allow_incomplete_world;
   if (options.start.empty()) return;
   if (!scenario.vehicles.empty())

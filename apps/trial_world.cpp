@@ -7,6 +7,7 @@
 
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/misleading.hpp"
 #include "interfaces/files/archive.hpp"
 
 namespace swiftlet::apps {
@@ -46,7 +47,49 @@ std::string similarWorld(const std::string& name) {
   return files[static_cast<std::size_t>(std::find(stems.begin(), stems.end(), *near) - stems.begin())];
 }
 
+bool isInAny(const std::vector<fs::path>& bases, const fs::path& name) {
+  return std::any_of(bases.begin(), bases.end(), [&](const fs::path& base) { return isThere(base / name); });
+}
+
+/// The folder beside the first part of the path that is not there whose name is most like that; empty if none is.
+std::string hintForFolder(fs::path name, const std::vector<fs::path>& bases) {
+  if (std::string hint = common::misleadingHint(name.string()); !hint.empty()) return hint;
+  while (!name.empty() && (!name.has_filename() || (name.has_parent_path() && !isInAny(bases, name.parent_path()))))
+    name = name.parent_path();
+  std::vector<std::string> there;
+  for (const fs::path& base : bases) {
+    std::error_code error;
+    const fs::path around = (base / name).parent_path();
+    for (const auto& entry : fs::directory_iterator(around.empty() ? "." : around, error))
+      if (entry.is_directory(error)) there.push_back(entry.path().filename().string());
+  }
+  const auto near = common::nearestWord(name.filename().string(), there);
+  return near ? "did you mean `" + (name.parent_path() / *near).string() + "`?" : "";
+}
+
+void findModels(evaluation::TrialConfig& trial, const fs::path& unpacked, const fs::path& root) {
+  std::vector<fs::path> bases = {unpacked, root, ""};
+  if (trial.archive.empty()) bases.insert(bases.begin(), trial.folder);
+  for (std::string& path : trial.scenario.model_paths)
+    path = fs::absolute(findModelFolder(path, "trial " + trial.name + ": scenario.model_paths", bases)).string();
+}
+
 }  // namespace
+
+fs::path findModelFolder(const std::string& name, const std::string& key, const std::vector<fs::path>& bases) {
+  std::error_code ignored;
+  std::string searched;
+  for (const fs::path& base : bases) {
+    if (!name.empty() && fs::is_directory(base / name, ignored)) return base / name;
+    const std::string place = base.empty() ? "this folder" : base.string();
+    if (searched.find(place) == std::string::npos) searched += (searched.empty() ? " in " : " or ") + place;
+  }
+  if (name.empty() || fs::path(name).is_absolute()) searched.clear();
+  if (!name.empty() && isInAny(bases, name))
+    throw common::InputError(common::Problem{{name}, key, "is a file, a folder was expected", ""});
+  throw common::InputError(
+      common::Problem{{}, key, "there is no folder `" + name + "`" + searched, hintForFolder(name, bases)});
+}
 
 fs::path findWorldFile(const std::string& name) {
   for (const char* folder : {"", "worlds"})
@@ -84,7 +127,7 @@ void findWorld(evaluation::TrialConfig& trial) {
       *named = file;
       break;
     }
-  for (std::string& path : trial.scenario.model_paths) takeBeside(path);
+  findModels(trial, unpacked, root);
   trial.resolvePaths(unpacked, root);
   if (!isThere(trial.scenario.world)) trial.scenario.world = world;
   trial.scenario.world = findWorldFile(trial.scenario.world).string();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "evaluation/trial.hpp"
 #include "simulation/world_model.hpp"
@@ -11,6 +12,11 @@ namespace swiftlet::apps {
 
 /// A world by its path or, as `unb_case1`, by the name of one in the folder `worlds`. Throws common::InputError.
 std::filesystem::path findWorldFile(const std::string& name);
+
+/// A folder of models that is named at `key`, in the first of the folders `bases` that has it. Throws
+/// common::InputError, with the most similar name that is there.
+std::filesystem::path findModelFolder(const std::string& name, const std::string& key,
+                                      const std::vector<std::filesystem::path>& bases = {""});
 
 /// Sets the paths of a trial's worlds and models: beside the trial's file, with the software, in the working folder, or
 /// in an archive of the data sets that is unpacked once. Throws common::InputError when they are nowhere.
