@@ -6,12 +6,17 @@
 #include <assimp/Importer.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
+#include "simulation/mesh_kinds.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -88,6 +93,23 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_root
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], T_root_node, submesh, here, out);
 }
 
+/// The files of materials that an OBJ file names and that are not there. Assimp then takes the one that is named as the
+/// OBJ file, if there is one.
+std::vector<std::string> missingMaterials(std::filesystem::path file) {
+  std::vector<std::string> missing;
+  std::ifstream stream(file);
+  std::error_code ignored;
+  for (std::string line; std::getline(stream, line);) {
+    constexpr std::string_view kKey = "mtllib ", kBlanks = " \t\r";
+    if (!line.starts_with(kKey)) continue;
+    line.erase(0, std::min(line.find_first_not_of(kBlanks, kKey.size()), line.size()));
+    line.erase(line.find_last_not_of(kBlanks) + 1);
+    if (!line.empty() && !std::filesystem::exists(file.parent_path() / line, ignored)) missing.push_back(line);
+  }
+  if (!missing.empty() && std::filesystem::exists(file.replace_extension(".mtl"), ignored)) missing.clear();
+  return missing;
+}
+
 }  // namespace
 
 tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh) {
@@ -98,15 +120,16 @@ tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::str
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-  if (scene == nullptr) return tl::unexpected(std::string(importer.GetErrorString()));
+  if (scene == nullptr) return tl::unexpected(explainUnreadMesh(file, importer.GetErrorString()));
   Collected out;
   if (scene->mRootNode != nullptr) addNode(*scene, *scene->mRootNode, aiMatrix4x4(), submesh, submesh.empty(), out);
   if (out.mesh.triangles.indices.empty())
-    return tl::unexpected(submesh.empty() ? std::string("it has no triangles")
+    return tl::unexpected(submesh.empty() ? explainUnreadMesh(file, "it has no triangles")
                                           : fmt::format("it has no triangles in a submesh `{}`", submesh));
   for (const Eigen::Vector3f& vertex : out.mesh.triangles.vertices_m)
     if (!vertex.allFinite()) return tl::unexpected(std::string("it has a vertex that is not a number"));
   out.mesh.color = out.color_sum / static_cast<float>(out.mesh.triangles.indices.size());
+  if (common::endingOf(file) == ".obj") out.mesh.missing_materials = missingMaterials(file);
   return std::move(out.mesh);
 }
 

@@ -20,6 +20,8 @@ struct Mesh {
   /// Of the vertices in their images: (0, 0) is the top left corner and (1, 1) the bottom right one; (0, 0) where none
   /// is given.
   std::vector<Eigen::Vector2f> image_places;
+  /// Files of materials (.mtl) that are not there. What has them is of one grey.
+  std::vector<std::string> missing_materials;
 };
 
 /// In metres: a COLLADA file's unit is applied. Its `<up_axis>` is not, because Gazebo, for which these files were

@@ -244,7 +244,10 @@ class Loader {
     }
     const auto key = std::make_pair(path->string(), sdf_mesh.Submesh());
     auto cached = meshes_.find(key);
-    if (cached == meshes_.end()) cached = meshes_.emplace(key, loadMesh(key.first, key.second)).first;
+    if (cached == meshes_.end()) {
+      cached = meshes_.emplace(key, loadMesh(key.first, key.second)).first;
+      if (cached->second && !look.color) warnOfMaterials(*cached->second, key.first, location);
+    }
     if (!cached->second) {
       addMissing({location, "mesh", fmt::format("`{}`: {}", path->string(), cached->second.error()), ""});
       return;
@@ -255,6 +258,13 @@ class Loader {
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex = vertex.cwiseProduct(scale);
     addShape(scope, link, location, T_world_item, triangles, look.color.value_or(cached->second->color), look);
     addMaterials(*cached->second, *path, look, world_.shapes.back());
+  }
+
+  void warnOfMaterials(const Mesh& mesh, const std::string& file, const common::SourceLocation& location) {
+    for (const std::string& missing : mesh.missing_materials)
+      world_.warnings.push_back(
+          toString(Problem{location, "mesh", fmt::format("`{}`: its materials `{}` were not found", file, missing),
+                           "they are left out"}));
   }
 
   /// A colour or an image of the world's file replaces those of the mesh.
