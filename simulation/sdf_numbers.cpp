@@ -4,12 +4,12 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <initializer_list>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "common/misleading.hpp"
 #include "common/printable.hpp"
 
 namespace swiftlet::simulation {
@@ -101,20 +101,7 @@ std::string withoutMetres(std::string text) {
 
 /// What the text most likely means, written as SDF wants it; none if that cannot be told.
 std::optional<std::string> meant(const std::string& text, Count count) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOdd{{{"\u2212", "-"},
-                                                                                {"\u2013", "-"},
-                                                                                {"\u2010", "-"},
-                                                                                {"\u200B", ""},
-                                                                                {"\u200E", ""},
-                                                                                {"\uFEFF", ""},
-                                                                                {"\u00A0", " "},
-                                                                                {"\u202F", " "},
-                                                                                {"\u2009", " "},
-                                                                                {";", " "},
-                                                                                {"&#160;", " "}}};
-  std::string plain = text;
-  for (const auto& [odd, usual] : kOdd) plain = replaced(plain, odd, usual);
-  plain = withoutMetres(plain);
+  const std::string plain = withoutMetres(replaced(replaced(common::asSeen(text), "&#160;", " "), ";", " "));
   for (const std::string& guess : {plain, replaced(replaced(plain, ", ", " "), ",", "."), replaced(plain, ",", " ")})
     if (const auto found = numbersIn(guess); found && *found >= count.least && *found <= count.most) {
       std::string words;
@@ -140,6 +127,21 @@ std::string wanted(Count count) {
   return count.least == count.most ? most : fmt::format("{} or {}", count.least, most);
 }
 
+std::string faultOf(const std::string& written, std::optional<std::size_t> found, Count count) {
+  if (found)
+    return fmt::format("`{}` has {} numbers, expected is {}", common::printable(written), *found, wanted(count));
+  const auto odd = common::misleadingIn(written);
+  return fmt::format("`{}` is not {}{}", common::printable(written), wanted(count),
+                     odd ? fmt::format(": it has {}", odd->what) : "");
+}
+
+std::string hintFor(const std::string& written, Count count) {
+  if (const auto guess = meant(written, count)) return fmt::format("write `{}`", *guess);
+  if (std::string hint = common::misleadingHint(written); !hint.empty()) return hint;
+  return "SDF writes metres and radians without units, decimals with a point, and blanks between numbers, as in `1.5 "
+         "-2 0.1`";
+}
+
 }  // namespace
 
 std::vector<common::Problem> numberProblems(const std::string& file, std::string_view text,
@@ -152,16 +154,18 @@ std::vector<common::Problem> numberProblems(const std::string& file, std::string
     const std::string written = textOf(tag, text);
     const auto found = numbersIn(written);
     if (written.empty() || (found && *found >= count->least && *found <= count->most)) continue;
-    const auto guess = meant(written, *count);
-    problems.push_back(
-        {locationIn(file, text, tag.begin), std::string(tag.name),
-         found ? fmt::format("`{}` has {} numbers, expected is {}", common::printable(written), *found, wanted(*count))
-               : fmt::format("`{}` is not {}", common::printable(written), wanted(*count)),
-         guess ? fmt::format("write `{}`", *guess)
-               : "SDF writes metres and radians without units, decimals with a point, and blanks "
-                 "between numbers, as in `1.5 -2 0.1`"});
+    problems.push_back({locationIn(file, text, tag.begin), std::string(tag.name), faultOf(written, found, *count),
+                        hintFor(written, *count)});
   }
   return problems;
+}
+
+std::vector<std::string> numberElementsOf(std::string_view parent) {
+  std::vector<std::string> names;
+  for (const NumberElement& element : kNumberElements)
+    if (element.parent == parent) names.emplace_back(element.name);
+  if (std::find(kPlaced.begin(), kPlaced.end(), parent) != kPlaced.end()) names.emplace_back("pose");
+  return names;
 }
 
 }  // namespace swiftlet::simulation

@@ -15,4 +15,7 @@ namespace swiftlet::simulation {
 std::vector<common::Problem> numberProblems(const std::string& file, std::string_view text,
                                             const std::vector<SdfTag>& tags);
 
+/// The names of the elements with such numbers that an element can hold: `size` for `box`.
+std::vector<std::string> numberElementsOf(std::string_view parent);
+
 }  // namespace swiftlet::simulation

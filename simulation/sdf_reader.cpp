@@ -1,7 +1,6 @@
 #include "simulation/sdf_reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <iostream>
@@ -15,8 +14,11 @@
 
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
+#include "common/misleading.hpp"
 #include "common/read_bytes.hpp"
+#include "simulation/sdf_encoding.hpp"
 #include "simulation/sdf_sources.hpp"
+#include "simulation/sdf_spelling.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -67,11 +69,16 @@ bool mentions(std::string_view message, std::string_view word) {
   return text.find(word) != std::string::npos;
 }
 
+/// An element or attribute that SDF does not have.
+bool isUnknown(const sdf::Error& error) {
+  const bool of_kind = error.Code() == sdf::ErrorCode::ATTRIBUTE_INCORRECT_TYPE ||
+                       error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE;
+  return of_kind && mentions(error.Message(), "not defined in sdf");
+}
+
 bool isWarning(const sdf::Error& error) {
+  if (isUnknown(error)) return true;
   switch (error.Code()) {
-    case sdf::ErrorCode::ATTRIBUTE_INCORRECT_TYPE:  // "not defined in SDF": an unknown attribute.
-    case sdf::ErrorCode::ELEMENT_INCORRECT_TYPE:    // An unknown element.
-      return mentions(error.Message(), "not defined in sdf");
     case sdf::ErrorCode::ATTRIBUTE_DEPRECATED:
     case sdf::ErrorCode::ELEMENT_DEPRECATED:
     case sdf::ErrorCode::VERSION_DEPRECATED:
@@ -99,15 +106,22 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Where an error is. Those of the frame graphs have no line, but give their subject in brackets.
-common::SourceLocation locate(const sdf::Error& error, const std::string& file, const std::string& text) {
-  common::SourceLocation location{error.FilePath().value_or(file), error.LineNumber().value_or(0)};
-  if (location.line > 0) return location;
-  const std::string message = error.Message();
+/// The names in brackets in a message, in their order.
+std::vector<std::string> namesIn(const std::string& message) {
+  std::vector<std::string> names;
   for (auto open = message.find('['); open != std::string::npos; open = message.find('[', open + 1)) {
     const auto close = message.find(']', open);
     if (close == std::string::npos) break;
-    std::string name = message.substr(open + 1, close - open - 1);
+    names.push_back(message.substr(open + 1, close - open - 1));
+  }
+  return names;
+}
+
+/// Where an error is. Those of the frame graphs have no line, but name their subject.
+common::SourceLocation locate(const sdf::Error& error, const std::string& file, const std::string& text) {
+  common::SourceLocation location{error.FilePath().value_or(file), error.LineNumber().value_or(0)};
+  if (location.line > 0) return location;
+  for (std::string name : namesIn(error.Message())) {
     if (const auto colon = name.rfind("::"); colon != std::string::npos) name.erase(0, colon + 2);
     const auto at = name.empty() ? std::string::npos : text.find(name);
     if (at == std::string::npos) continue;
@@ -119,24 +133,38 @@ common::SourceLocation locate(const sdf::Error& error, const std::string& file, 
 
 struct Sorted {
   std::vector<Problem> problems;
+  std::vector<Problem> missing;
   std::vector<std::string> warnings;
 };
+
+/// Of an unknown element or attribute without which something would be missing or stand elsewhere.
+std::optional<Problem> misspelling(const sdf::Error& error, const common::SourceLocation& location) {
+  const std::vector<std::string> names = namesIn(error.Message());  // Its own and that of the element around it.
+  if (!isUnknown(error) || names.size() < 2) return std::nullopt;
+  const std::string hint = spellingHint(names[0], names[1]);
+  if (hint.empty()) return std::nullopt;
+  return Problem{location, names[1], fmt::format("SDF has no `{}` in it", names[0]), hint};
+}
 
 Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& console, const std::string& file,
                   const std::string& text) {
   Sorted sorted;
   const sdf::Error* first_echo = nullptr;
   for (const sdf::Error& error : errors) {
-    const Problem problem{locate(error, file, text), "", trimmed(error.Message()), ""};
+    const Problem problem{locate(error, file, text), "", trimmed(error.Message()),
+                          common::misleadingHint(error.Message())};
     if (isEcho(error))
       first_echo = first_echo == nullptr ? &error : first_echo;
+    else if (auto misspelt = misspelling(error, problem.location))
+      sorted.missing.push_back(*std::move(misspelt));
     else if (isWarning(error))
       sorted.warnings.push_back(toString(problem));
     else
       sorted.problems.push_back(problem);
   }
   // These are echoes: the original message was printed, with its line.
-  if (sorted.problems.empty() && first_echo != nullptr && (sorted.warnings.empty() || !console.empty())) {
+  const bool explained = !sorted.missing.empty() || (!sorted.warnings.empty() && console.empty());
+  if (sorted.problems.empty() && first_echo != nullptr && !explained) {
     Problem problem{locate(*first_echo, file, text), "", trimmed(first_echo->Message()), ""};
     for (const std::string& line : console) problem.message += ": " + line;
     constexpr std::string_view kLine = "Line number=";  // Of TinyXML-2.
@@ -178,13 +206,16 @@ SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
   SdfFile result{{}, sources.missing(), sources.warnings(), sources.wantsGroundPlane()};
   const ConsoleCapture console;
   const sdf::Errors errors = loadOrExplain(result.root, sources, config);
-  Sorted sorted = sortErrors(errors, console.lines(), sources.toRead(), utf8Text(common::readBytes(sources.toRead())));
+  Sorted sorted = sortErrors(errors, console.lines(), sources.toRead(),
+                             utf8Text(sources.toRead(), common::readBytes(sources.toRead())));
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
     sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});
-  for (Problem& problem : sorted.problems) {
-    problem.location.file = sources.originalOf(problem.location.file);
-    problem.message = sources.withOriginals(problem.message);
-  }
+  for (std::vector<Problem>* problems : {&sorted.problems, &sorted.missing})
+    for (Problem& problem : *problems) {
+      problem.location.file = sources.originalOf(problem.location.file);
+      problem.message = sources.withOriginals(problem.message);
+    }
+  result.missing.insert(result.missing.end(), sorted.missing.begin(), sorted.missing.end());
   if (!sorted.problems.empty()) {
     sorted.problems.insert(sorted.problems.begin(), result.missing.begin(), result.missing.end());
     throw InputError(sorted.problems);

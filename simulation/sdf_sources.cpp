@@ -12,7 +12,9 @@
 
 #include "common/lower_case.hpp"
 #include "common/markup.hpp"
+#include "common/misleading.hpp"
 #include "common/read_bytes.hpp"
+#include "simulation/sdf_encoding.hpp"
 #include "simulation/sdf_numbers.hpp"
 
 namespace swiftlet::simulation {
@@ -50,7 +52,7 @@ std::optional<fs::path> modelFileIn(const fs::path& folder) {
   std::error_code ignored;
   for (const char* config : {"model.config", "manifest.xml"}) {
     if (!fs::is_regular_file(folder / config, ignored)) continue;
-    const std::string text = utf8Text(common::readBytes(folder / config));
+    const std::string text = utf8Text((folder / config).string(), common::readBytes(folder / config));
     const auto tags = readTags((folder / config).string(), text);
     if (!tags) throw InputError(tags.error());
     std::string best;
@@ -135,7 +137,7 @@ std::string SdfSources::visit(const std::string& file, const common::SourceLocat
 }
 
 std::string SdfSources::prepare(Document& document, const std::string& bytes) {
-  document.text = utf8Text(bytes);
+  document.text = utf8Text(document.file, bytes);
   auto tags = readTags(document.file, document.text);
   if (const std::size_t ruby = document.text.find("<%"); !tags && ruby != std::string::npos)
     throw InputError(Problem{locationIn(document.file, document.text, ruby), "",
@@ -160,11 +162,12 @@ std::string SdfSources::prepare(Document& document, const std::string& bytes) {
 void SdfSources::checkVersion(Document& document) {
   const auto version = attributeOf(document.tags.front(), "version");
   const auto minor = minorVersion(version.value_or(""));
-  if (!minor)
-    throw InputError(Problem{{document.file, 1},
-                             "sdf",
-                             fmt::format("the version `{}` is none of SDF", version.value_or("")),
-                             "expected is version=\"1.9\" or another from 1.0 on"});
+  if (!minor) {
+    std::string hint = common::misleadingHint(document.tags.front().attributes);
+    if (hint.empty()) hint = "expected is version=\"1.9\" or another from 1.0 on";
+    throw InputError(
+        Problem{{document.file, 1}, "sdf", fmt::format("the version `{}` is none of SDF", version.value_or("")), hint});
+  }
   if (*minor <= kNewestMinorVersion) return;
   warnings_.push_back(toString(Problem{document.locationOf(document.tags.front()), "sdf",
                                        fmt::format("version {} is read by the rules of 1.9", *version), ""}));
@@ -236,8 +239,8 @@ void SdfSources::standIn(Document& document, std::size_t number, const std::stri
   const SdfTag* pose = document.child(number, "pose");
   document.replace(
       include.begin, include.end,
-      fmt::format("<model name=\"{}\">{}<static>1</static><link name=\"stand_in\"/></model>", common::escaped(name),
-                  pose == nullptr ? "" : document.text.substr(pose->begin, pose->end - pose->begin)));
+      fmt::format("<model name=\"{}\">{}<static>1</static><link name=\"{}\"/></model>", common::escaped(name),
+                  pose == nullptr ? "" : document.text.substr(pose->begin, pose->end - pose->begin), kStandInLink));
 }
 
 void SdfSources::reportMissing(const Document& document, const SdfTag& uri_tag, const std::string& uri,

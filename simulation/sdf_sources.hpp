@@ -14,6 +14,9 @@
 
 namespace swiftlet::simulation {
 
+/// The only link of a model that stands for an include that was not found.
+inline constexpr const char* kStandInLink = "stand_in";
+
 /// Follows all includes. Where libsdformat could not read a file as it is (another encoding, a version after 1.9) or
 /// would search an include elsewhere, it gets a copy, line for line the same, with what it needs instead. The copies
 /// are removed with this object.

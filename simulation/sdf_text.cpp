@@ -6,59 +6,22 @@
 
 #include <fmt/format.h>
 
+#include "common/misleading.hpp"
 #include "common/printable.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
-constexpr std::array<std::string_view, 4> kOddSpaces{"\u00A0", "\u202F", "\u2009", "\u3000"};
 
-bool isUtf8(std::string_view bytes) {
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const auto first = static_cast<unsigned char>(bytes[i]);
-    if (first < 0x80U) continue;
-    const std::size_t more = first >= 0xF0U ? 3 : first >= 0xE0U ? 2 : 1;
-    if (first < 0xC2U || first > 0xF4U || i + more >= bytes.size()) return false;
-    for (std::size_t k = 0; k < more; ++k)
-      if ((static_cast<unsigned char>(bytes[++i]) & 0xC0U) != 0x80U) return false;
+/// Whether every value of the attributes begins with a quote.
+bool areQuoted(std::string_view attributes) {
+  for (std::size_t at = 0; (at = attributes.find('=', at)) != std::string_view::npos; ++at) {
+    const std::size_t quote = attributes.find_first_not_of(kSpace, at + 1);
+    if (quote == std::string_view::npos || (attributes[quote] != '"' && attributes[quote] != '\'')) return false;
+    at = std::min(attributes.find(attributes[quote], quote + 1), attributes.size());
   }
   return true;
-}
-
-void addUtf8(std::uint32_t code, std::string& text) {
-  const auto more = [&text, code](unsigned shift) { text += static_cast<char>(0x80U | ((code >> shift) & 0x3FU)); };
-  if (code < 0x80U) {
-    text += static_cast<char>(code);
-  } else if (code < 0x800U) {
-    text += static_cast<char>(0xC0U | (code >> 6U));
-    more(0);
-  } else if (code < 0x10000U) {
-    text += static_cast<char>(0xE0U | (code >> 12U));
-    more(6);
-    more(0);
-  } else {
-    text += static_cast<char>(0xF0U | (code >> 18U));
-    more(12);
-    more(6);
-    more(0);
-  }
-}
-
-std::string fromUtf16(std::string_view bytes, bool big_endian) {
-  const auto unitAt = [&](std::size_t i) {
-    const auto first = static_cast<unsigned char>(bytes[i]), second = static_cast<unsigned char>(bytes[i + 1]);
-    return static_cast<std::uint32_t>(big_endian ? first << 8U | second : second << 8U | first);
-  };
-  std::string text;
-  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-    std::uint32_t code = unitAt(i);
-    if (code == 0xFEFFU) continue;
-    const bool pair = code >= 0xD800U && code < 0xDC00U && i + 3 < bytes.size();
-    if (pair) code = 0x10000U + ((code - 0xD800U) << 10U) + ((unitAt(i += 2) - 0xDC00U) & 0x3FFU);
-    addUtf8(code, text);
-  }
-  return text;
 }
 
 /// Follows one text; the views that it gives are into it.
@@ -118,15 +81,20 @@ class TagReader {
     tag.name = nameAt(at_ + 1);
     const auto end = endOfTag();
     if (!end) return fail(at_, "the tag <{}> has no `>`", tag.name);
-    for (const std::string_view odd : kOddSpaces)
-      if (const std::size_t at = tag.name.find(odd); at != std::string_view::npos)
-        return fail(at_, "behind `<{}` is a no-break or other typographic space; XML wants a plain one",
-                    tag.name.substr(0, at));
+    if (common::asSeen(tag.name).find(' ') != std::string::npos) {
+      const common::Misleading odd = *common::misleadingIn(tag.name);
+      return fail(at_, "behind `<{}` is {}: write {}", tag.name.substr(0, odd.offset), odd.what, odd.instead);
+    }
     if (tag.name.empty() || tag.name.find_first_of("<\"'&=") != std::string_view::npos)
       return fail(at_, "`<` begins no tag; in a text it is written &lt;");
     const bool empty = text_[*end - 2] == '/';
     const std::size_t attributes = tag.begin + 1 + tag.name.size();
     tag.attributes = text_.substr(attributes, *end - attributes - (empty ? 2 : 1));
+    if (!areQuoted(tag.attributes)) {
+      fail(at_, "a value in the tag <{}> is not in quotes", tag.name);
+      problem_->hint = common::misleadingHint(tag.attributes);
+      return;
+    }
     tag.content = tag.content_end = tag.end = *end;
     if (!open_.empty()) tag.parent = static_cast<int>(open_.back());
     if (!empty) open_.push_back(tags_.size());
@@ -140,9 +108,12 @@ class TagReader {
     if (!end) return fail(at_, "the tag </{}> has no `>`", name);
     if (open_.empty()) return fail(at_, "mismatched tag: </{}> closes nothing", name);
     SdfTag& tag = tags_[open_.back()];
-    if (tag.name != name)
-      return fail(at_, "mismatched tag: </{}> where </{}> is expected, for the <{}> of line {}", name, tag.name,
-                  tag.name, locationIn(file_, text_, tag.begin).line);
+    if (tag.name != name) {
+      fail(at_, "mismatched tag: </{}> where </{}> is expected, for the <{}> of line {}", name, tag.name, tag.name,
+           locationIn(file_, text_, tag.begin).line);
+      problem_->hint = common::misleadingHint(problem_->message);
+      return;
+    }
     tag.content_end = at_;
     tag.end = *end;
     open_.pop_back();
@@ -164,19 +135,6 @@ class TagReader {
 };
 
 }  // namespace
-
-std::string utf8Text(std::string_view bytes) {
-  const auto startsWith = [bytes](std::initializer_list<char> with) {
-    return bytes.starts_with(std::string_view(with.begin(), with.size()));
-  };
-  if (startsWith({'\xFF', '\xFE'}) || startsWith({'<', '\0'})) return fromUtf16(bytes, false);
-  if (startsWith({'\xFE', '\xFF'}) || startsWith({'\0', '<'})) return fromUtf16(bytes, true);
-  if (startsWith({'\xEF', '\xBB', '\xBF'})) bytes.remove_prefix(3);
-  if (isUtf8(bytes)) return std::string(bytes);
-  std::string text;
-  for (const char byte : bytes) addUtf8(static_cast<unsigned char>(byte), text);
-  return text;
-}
 
 common::SourceLocation locationIn(const std::string& file, std::string_view text, std::size_t offset) {
   // A line ends with "\n", "\r\n" or, of old systems, "\r".

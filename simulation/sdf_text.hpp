@@ -15,10 +15,6 @@
 
 namespace swiftlet::simulation {
 
-/// The text of a file as UTF-8 without a byte order mark. UTF-16 is recognised by its first bytes; bytes that are not
-/// UTF-8 are taken for ISO-8859-1.
-std::string utf8Text(std::string_view bytes);
-
 /// Where an offset in a text is.
 common::SourceLocation locationIn(const std::string& file, std::string_view text, std::size_t offset);
 

@@ -12,7 +12,9 @@
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
 
+#include "common/error.hpp"
 #include "common/image_decoder.hpp"
+#include "common/misleading.hpp"
 #include "common/polygon.hpp"
 #include "common/read_bytes.hpp"
 #include "simulation/sdf_math.hpp"
@@ -121,6 +123,14 @@ Result terrainOf(const sdf::Heightmap& heightmap, const UriResolver& resolver) {
   });
 }
 
+std::string unknownKind(const std::string& name) {
+  static const std::vector<std::string> kKnown{"box",  "cylinder", "sphere",   "capsule",   "ellipsoid",
+                                               "cone", "plane",    "polyline", "heightmap", "mesh"};
+  std::string hint = common::misleadingHint(name);
+  if (hint.empty()) hint = common::didYouMean(name, kKnown);
+  return fmt::format("<{}> is a geometry that the simulator does not know{}{}", name, hint.empty() ? "" : ", ", hint);
+}
+
 /// What libsdformat 12 does not know by itself.
 Result otherTriangles(const sdf::ElementPtr& geometry) {
   if (geometry && geometry->HasElement("polyline")) return prismOf(*geometry);
@@ -130,8 +140,7 @@ Result otherTriangles(const sdf::ElementPtr& geometry) {
     return ofSize({radius_m, length_m}, [&] { return coneTriangles(radius_m, length_m); });
   }
   const auto kind = geometry ? geometry->GetFirstElement() : nullptr;
-  return tl::unexpected(kind ? fmt::format("<{}> is a geometry that the simulator does not know", kind->GetName())
-                             : std::string("its geometry is empty"));
+  return tl::unexpected(kind ? unknownKind(kind->GetName()) : std::string("its geometry is empty"));
 }
 
 }  // namespace

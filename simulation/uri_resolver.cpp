@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/misleading.hpp"
+
 namespace swiftlet::simulation {
 namespace fs = std::filesystem;
 namespace {
@@ -104,6 +106,7 @@ std::optional<fs::path> UriResolver::findFuel(const FuelAddress& address) const 
 }
 
 std::string UriResolver::hintFor(const std::string& uri, const fs::path& used_in) const {
+  if (std::string hint = common::misleadingHint(uri); !hint.empty()) return hint;
   std::vector<std::string> searched;
   for (const fs::path& folder : folders_)
     if (const std::string name = fs::absolute(folder / "").lexically_normal().parent_path().string();

@@ -85,8 +85,8 @@ enum class IncompleteWorld { kRefused, kAllowed };
 /// The poses of a `<state>` that Gazebo classic saved replace those of the models. `model://`, `file://` and Fuel URIs
 /// are searched for as UriResolver does. The sun needs no file; the well-known ground plane is replaced by one at z = 0
 /// if it is not found. Throws common::InputError (file:line) if the file cannot be read or is malformed, or, unless it
-/// may be incomplete, if something that it names cannot be found or a collision cannot be built; otherwise that is a
-/// warning. Not thread-safe: libsdformat has global state.
+/// may be incomplete, if something that it names cannot be found, a collision cannot be built or an element that holds
+/// things is misspelt; otherwise that is a warning. Not thread-safe: libsdformat has global state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {},
                      IncompleteWorld incomplete = IncompleteWorld::kRefused);
 

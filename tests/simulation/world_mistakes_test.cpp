@@ -50,6 +50,43 @@ std::string state(const std::string& inside) { return "<state world_name='w'>\n"
 
 const std::string kPose = "<pose>4 0 0 0 0 0</pose>";
 
+TEST_F(WorldMistakes, CharactersThatAreNotSeenAreNamed) {
+  const std::string named = "has a zero-width space (U+200B): write nothing there";
+  const std::string box = model("box", kBox);
+  const auto with = [&](const std::string& part, const std::string& instead) {
+    std::string text = box;
+    return text.replace(text.find(part), part.size(), instead);
+  };
+  EXPECT_THAT(refusalOf(box + model("thing", "<bo\u200Bx><size>1 2 3</size></bo\u200Bx>")),
+              AllOf(HasSubstr("world.sdf:4"), HasSubstr(named)));
+  EXPECT_THAT(refusalOf(with("collision name", "colli\u200Bsion name")), HasSubstr(named)) << "its end has it not";
+  EXPECT_THAT(refusalOf(with("model name", "model\u00A0name")),
+              AllOf(HasSubstr("world.sdf:3"), HasSubstr("is a no-break space (U+00A0): write a plain blank")));
+  EXPECT_THAT(refusalOf(with("'box'", "\u201Cbox\u201D")),
+              AllOf(HasSubstr("world.sdf:3:1: "), HasSubstr("has a character that looks like `\"` (U+201C)")));
+  EXPECT_THAT(refusalOf(with("<pose>", "<pose relative_to='wo\u200Brld'>")), HasSubstr(named));
+  EXPECT_THAT(refusalOf(box + model("thing", "<bxo><size>1 2 3</size></bxo>")), HasSubstr("did you mean `box`?"));
+  EXPECT_THAT(refusalOf(box + "<include><uri>model://she\u200Blf</uri></include>"), HasSubstr(named));
+  EXPECT_THAT(refusalOfText("<sdf version='1.9\u200B'/>"), HasSubstr(named));
+}
+
+TEST_F(WorldMistakes, EncodingsThatAreDeclaredAreRead) {
+  const auto text = [](const std::string& encoding, const std::string& name) {
+    return "<?xml version='1.0' encoding='" + encoding + "'?>\n<sdf version='1.9'>\n<world name='w'>\n" +
+           model(name, kBox) + "</world></sdf>\n";
+  };
+  for (const auto& [encoding, name] : {std::pair{"KOI8-R", "\xD3\xD4\xCF\xCC"},
+                                       {"windows-1251", "\xF1\xF2\xEE\xEB"},
+                                       {"UTF-8", "\u0441\u0442\u043E\u043B"}})
+    EXPECT_THAT(loadText(text(encoding, name)).modelNames(), ElementsAre("\u0441\u0442\u043E\u043B")) << encoding;
+  EXPECT_THAT(loadText(text("ISO-8859-1", "M\xFCller")).modelNames(), ElementsAre("M\u00FCller"));
+  EXPECT_THAT(loadText(text("UTF-8", "M\xFCller")).modelNames(), ElementsAre("M\u00FCller"));
+  EXPECT_THAT(refusalOfText(text("KOI9-R", "\xD3\xD4")),
+              AllOf(HasSubstr("world.sdf:1"), HasSubstr("`KOI9-R`"), HasSubstr("save it as UTF-8")));
+  EXPECT_THAT(refusalOfText(text("ASCII", "M\xFCller")),
+              AllOf(HasSubstr("world.sdf:1"), HasSubstr("`ASCII`"), HasSubstr("save it as UTF-8")));
+}
+
 TEST_F(WorldMistakes, FilesThatHoldNoMeshAreNamedByTheirKind) {
   const std::string step = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\n";
   for (const auto& [file, text, kind] :
@@ -75,6 +112,43 @@ TEST_F(WorldMistakes, MaterialsOfAMeshThatAreNotThereAreSaidOnce) {
               ElementsAre(AllOf(HasSubstr("world.sdf:3: mesh: "), HasSubstr("red.obj"), HasSubstr("`red_paint.mtl`"))));
   folder_.write("red_paint.mtl", "newmtl red\nKd 1 0 0\n");
   EXPECT_THAT(load(model("a", mesh)).warnings, IsEmpty());
+}
+
+TEST_F(WorldMistakes, MisspeltElementsThatHoldThingsMakeAWorldIncomplete) {
+  const std::string box = model("box", kBox);
+  const std::string thing = model("thing", kBox, "3 0 0 0 0 0");
+  for (const auto& [right, wrong] : {std::pair{"collision", "colision"},
+                                     {"collision", "Collision"},
+                                     {"geometry", "geometri"},
+                                     {"link", "lnik"},
+                                     {"model", "modle"},
+                                     {"pose", "poze"},
+                                     {"size", "siez"}}) {
+    std::string text = thing;
+    for (const std::string before : {"<", "</"}) {
+      const std::size_t at = text.find(before + right);
+      text.replace(at + before.size(), std::string(right).size(), wrong);
+    }
+    EXPECT_THAT(refusalOf(box + text),
+                AllOf(HasSubstr("world.sdf:4: "), HasSubstr(std::string("has no `") + wrong + "`"),
+                      HasSubstr(std::string("did you mean `") + right + "`?"), HasSubstr("--allow-incomplete-world")));
+    const WorldModel w = load(box + text, IncompleteWorld::kAllowed);
+    EXPECT_THAT(w.warnings, Contains(AllOf(HasSubstr("world.sdf:4: "), HasSubstr(wrong), HasSubstr("left out"))));
+  }
+}
+
+TEST_F(WorldMistakes, ThingsInTheWrongElementMakeAWorldIncomplete) {
+  const std::string box = model("box", kBox);
+  EXPECT_THAT(refusalOf(box + "<link name='l'/>\n"),
+              AllOf(HasSubstr("world.sdf:4: "), HasSubstr("belongs in a <model>")));
+  EXPECT_THAT(refusalOf(box + "<model name='m'><static>1</static><link name='l'/>\n<collision name='c'><geometry>" +
+                        kBox + "</geometry></collision></model>"),
+              AllOf(HasSubstr("world.sdf:5: "), HasSubstr("belongs in a <link>")));
+}
+
+TEST_F(WorldMistakes, OtherElementsThatSdfDoesNotHaveAreOnlySaid) {
+  for (const std::string odd : {"<frobnicate>3</frobnicate>", "<road_surface/>", "<gravitty>0 0 -9.8</gravitty>"})
+    EXPECT_THAT(load(model("box", kBox) + odd).warnings, ElementsAre(HasSubstr("world.sdf:4: "))) << odd;
 }
 
 }  // namespace
