@@ -82,10 +82,7 @@ class Loader {
   void addWorld(const sdf::World& world) {
     state_ = readState(world, world_.file);
     for (const Problem& insertion : state_.insertions) addMissing(insertion);
-    for (const common::SourceLocation& place : state_.unused)
-      world_.warnings.push_back(toString(
-          Problem{place, "state",
-                  fmt::format("the first <state>, of line {}, counts; this one is left out", state_.source.line), ""}));
+    for (const Problem& warning : state_.warnings) world_.warnings.push_back(toString(warning));
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (!state_.deleted.contains(model.Name())) addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});

@@ -24,9 +24,9 @@ struct EntityState {
 struct WorldState {
   common::SourceLocation source;
   std::map<std::string, EntityState> entities;
-  std::set<std::string> deleted;               ///< Models that are gone.
-  std::vector<common::Problem> insertions;     ///< Models that were added; they are not read.
-  std::vector<common::SourceLocation> unused;  ///< Of further <state>s, which say nothing.
+  std::set<std::string> deleted;            ///< Models that are gone.
+  std::vector<common::Problem> insertions;  ///< Models that were added; they are not read.
+  std::vector<common::Problem> warnings;    ///< Of names that the world does not have, and of further <state>s.
 
   const EntityState* of(const std::string& name) const;
 };

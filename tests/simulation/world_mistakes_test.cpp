@@ -50,6 +50,46 @@ std::string state(const std::string& inside) { return "<state world_name='w'>\n"
 
 const std::string kPose = "<pose>4 0 0 0 0 0</pose>";
 
+TEST_F(WorldMistakes, NamesOfAStateThatTheWorldDoesNotHaveAreSaid) {
+  const std::string inner = model("inner", kBox);
+  const std::string outer = "<model name='outer'><static>1</static>" + inner.substr(0, inner.size() - 1) + "</model>\n";
+  const auto warningsOf = [&](const std::string& inside) {
+    return load(model("p", kBox) + outer + state(inside)).warnings;
+  };
+  const auto saidOnce = [](const std::string& message) {
+    return ElementsAre(AllOf(HasSubstr("world.sdf:6: state: "), HasSubstr(message)));
+  };
+  EXPECT_THAT(warningsOf("<model name='P'>" + kPose + "</model>"),
+              saidOnce("the world has no model `P`, so this has no effect, did you mean `p`?"));
+  EXPECT_THAT(warningsOf("<model name='p\u200B'>" + kPose + "</model>"),
+              saidOnce("it has a zero-width space (U+200B): write nothing there"));
+  EXPECT_THAT(warningsOf("<model name='ghost'>" + kPose + "</model>"), saidOnce("there is p, outer, outer::inner"));
+  EXPECT_THAT(warningsOf("<model name='p'><link name='body'>" + kPose + "</link></model>"),
+              saidOnce("`p` has no link `body`, so this has no effect, there is l"));
+  EXPECT_THAT(warningsOf("<model name='outer'><model name='iner'>" + kPose + "</model></model>"),
+              saidOnce("`outer` has no model `iner`, so this has no effect, did you mean `inner`?"));
+  EXPECT_THAT(warningsOf("<deletions><name>outr</name></deletions>"),
+              saidOnce("the world has no model `outr`, so this has no effect, did you mean `outer`?"));
+}
+
+TEST_F(WorldMistakes, NamesOfAStateAsGazeboWritesThemPass) {
+  const std::string inner = model("inner", kBox);
+  const std::string things = model("p", kBox) + model("gone", kBox) + "<light name='sun' type='directional'/>\n" +
+                             "<model name='outer'><static>1</static>" + inner + "</model>\n" +
+                             "<include><uri>model://ground_plane</uri></include>\n";
+  const WorldModel w =  // Only older versions of SDF allow `::` in names.
+      loadText("<sdf version='1.6'><world name='w'>" + things +
+               state("<deletions><name>gone</name><name>sun</name></deletions>"
+                     "<model name=' p '><pose>0 0 0 0 0 0</pose><link name='l'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<model name='outer'><model name='inner'><link name='l'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<link name='inner::l'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<model name='outer::inner'><pose>0 0 0 0 0 0</pose></model>"
+                     "<model name='ground_plane'><link name='link'><pose>0 0 0 0 0 0</pose></link></model>"
+                     "<light name='lamp'><pose>0 0 10 0 0 0</pose></light>") +
+               "</world></sdf>");
+  EXPECT_THAT(w.warnings, Not(Contains(HasSubstr("has no"))));
+}
+
 TEST_F(WorldMistakes, CharactersThatAreNotSeenAreNamed) {
   const std::string named = "has a zero-width space (U+200B): write nothing there";
   const std::string box = model("box", kBox);
