@@ -14,6 +14,16 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
 
+/// Whether every value of the attributes begins with a quote.
+bool areQuoted(std::string_view attributes) {
+  for (std::size_t at = 0; (at = attributes.find('=', at)) != std::string_view::npos; ++at) {
+    const std::size_t quote = attributes.find_first_not_of(kSpace, at + 1);
+    if (quote == std::string_view::npos || (attributes[quote] != '"' && attributes[quote] != '\'')) return false;
+    at = std::min(attributes.find(attributes[quote], quote + 1), attributes.size());
+  }
+  return true;
+}
+
 /// Follows one text; the views that it gives are into it.
 class TagReader {
  public:
@@ -80,6 +90,11 @@ class TagReader {
     const bool empty = text_[*end - 2] == '/';
     const std::size_t attributes = tag.begin + 1 + tag.name.size();
     tag.attributes = text_.substr(attributes, *end - attributes - (empty ? 2 : 1));
+    if (!areQuoted(tag.attributes)) {
+      fail(at_, "a value in the tag <{}> is not in quotes", tag.name);
+      problem_->hint = common::misleadingHint(tag.attributes);
+      return;
+    }
     tag.content = tag.content_end = tag.end = *end;
     if (!open_.empty()) tag.parent = static_cast<int>(open_.back());
     if (!empty) open_.push_back(tags_.size());

@@ -1,6 +1,7 @@
 #include "simulation/world_state.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>

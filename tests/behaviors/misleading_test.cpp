@@ -22,7 +22,8 @@ TEST(Misleading, IsTheSameInMissionsAndSettings) {
     for (const std::string before : {"", "a"}) {
       const std::string text = before + utf8Of(code);
       EXPECT_EQ(common::misleadingIn(text).has_value(), !tree::misleadingCharacterIn(text).empty()) << std::hex << code;
-      EXPECT_EQ(common::asSeen(text), tree::asSeen(text)) << std::hex << code;
+      const bool ends_line = code == 0x2028 || code == 0x2029;  // A blank in XML, a new line in YAML.
+      EXPECT_TRUE(ends_line || common::asSeen(text) == tree::asSeen(text)) << std::hex << code;
     }
   }
 }

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/commands/refusals.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/scratch.hpp"
@@ -59,6 +61,7 @@ TEST_F(Worlds, ATrialsWorldAndMissionAreFoundBesideItsFile) {
 }
 
 TEST_F(Worlds, FoldersOfModelsThatAreNotThereAreRefused) {
+  std::filesystem::create_directories(path("my_models"));
   write("my_models/readme.txt", "");
   const std::string folder = path("my_models");
   expectRefused(fly({"--model-path", path("my_modles")}),
@@ -67,7 +70,7 @@ TEST_F(Worlds, FoldersOfModelsThatAreNotThereAreRefused) {
   expectRefused(fly({"--model-path", path("my_models/readme.txt")}), "readme.txt: --model-path: is a file, a folder");
   expectRefused(fly({"--model-path", ""}), "--model-path: there is no folder");
   expectRefused(fly({"--model-path", folder, "--start", "900;0;0"}), "start: at \\(900\\.00");
-  const std::string trial = "mission: " + kMission + "\nscenario: {world: worlds/unb_case1.sdf, start: {x_m: 900}, ";
+  const std::string trial = "mission: " + kMission + "\nscenario: {world: worlds/unb_case1.sdf, ";
   expectRefused(runSwiftlet({"trial", write("t.yaml", trial + "model_paths: [my_model]}\n"), "--out", path("run")}),
                 "trial t: scenario.model_paths: there is no folder `my_model` in .*did you mean `my_models`");
   expectRefused(runSwiftlet({"trial", write("t.yaml", trial + "model_paths: [" + path("my_model") + "]}\n"), "--out",

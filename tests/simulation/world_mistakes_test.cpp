@@ -102,6 +102,8 @@ TEST_F(WorldMistakes, CharactersThatAreNotSeenAreNamed) {
   EXPECT_THAT(refusalOf(with("collision name", "colli\u200Bsion name")), HasSubstr(named)) << "its end has it not";
   EXPECT_THAT(refusalOf(with("model name", "model\u00A0name")),
               AllOf(HasSubstr("world.sdf:3"), HasSubstr("is a no-break space (U+00A0): write a plain blank")));
+  EXPECT_THAT(refusalOf(with("'box'", "\u201Cbox\u201D")),
+              AllOf(HasSubstr("world.sdf:3:1: "), HasSubstr("has a character that looks like `\"` (U+201C)")));
   EXPECT_THAT(refusalOf(with("<pose>", "<pose relative_to='wo\u200Brld'>")), HasSubstr(named));
   EXPECT_THAT(refusalOf(box + model("thing", "<bxo><size>1 2 3</size></bxo>")), HasSubstr("did you mean `box`?"));
   EXPECT_THAT(refusalOf(box + "<include><uri>model://she\u200Blf</uri></include>"), HasSubstr(named));
