@@ -213,7 +213,7 @@ TEST_F(Convert, SaysTheUnitThatAHeaderNames) {
   EXPECT_THAT(out("obj_info units=millimeter"), HasSubstr("says millimeter: give --scale 0.001"));
   EXPECT_THAT(out("comment units: mm", {"--scale", "0.001"}), Not(HasSubstr("note:")));
   EXPECT_THAT(out("comment units: mm", {"--scale", "1"}), Not(HasSubstr("note:")));
-  for (const std::string& none : {"comment metres", "comment units: m", "comment scanned in 5 cm steps"})
+  for (const std::string none : {"comment metres", "comment units: m", "comment scanned in 5 cm steps"})
     EXPECT_THAT(out(none), Not(HasSubstr("note:"))) << none;
   const std::string room = write("cm.pcd", "# units: centimetres\n" + cloudOf(2, "0 0 10\n400 400 240\n"));
   const std::string of_pcd = runSwiftlet({"convert", room, path("cm.ply")}).out;
