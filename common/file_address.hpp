@@ -1,4 +1,4 @@
-// Addresses of files, as other programs write them where a path is expected: file:///home/me/my%20hall.sdf.
+// Addresses of files, as other programs write them where a path is expected: file:///maps/my%20hall.sdf.
 #pragma once
 
 #include <string>

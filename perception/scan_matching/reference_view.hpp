@@ -2,8 +2,8 @@
 // bias the sum of the scores towards the observed area: a robot that drives backwards along a corridor, where new wall
 // appears beside it all the time, would seem to stand still.
 //
-// Nor has a scan observed the back of a surface whose front it saw: in a doorway, the outer face of a wall would be
-// matched to the inner one, and the pose be wrong by the thickness of the wall (decision 085).
+// Nor has a scan observed a surface that faces away from it: in a doorway, the outer face of a wall would be matched to
+// the inner one, and the pose be wrong by the thickness of the wall.
 #pragma once
 
 #include <array>
@@ -27,28 +27,23 @@ class ReferenceView {
   enum class Sight : std::uint8_t {
     kSeen,
     kUnseen,
-    kBackOfSeen,  ///< Behind a surface that a scan saw from its front, and not seen by any other.
+    kBackOfSeen,  ///< On a surface that faces away from every scan.
   };
   /// Judges the points, given in beam order in the frame of a body at `T_reference_body`. A point is seen if at least
-  /// one scan observed it, from the same side, at least `margin_m` inside the angular limits of the scan's view.
+  /// one scan observed it, from the side that its surface faces, at least `margin_m` inside the angular limits of the
+  /// scan's view.
   std::vector<Sight> look(std::span<const float> x_m, std::span<const float> y_m, const common::Pose2& T_reference_body,
                           double margin_m) const;
 
  private:
   static constexpr int kBins = 360;
-  struct Face {
-    Eigen::Vector2f point_m = Eigen::Vector2f::Zero();
-    Eigen::Vector2f normal = Eigen::Vector2f::Zero();  ///< Towards the laser; zero if it is not known.
-  };
   struct Scan {
     common::Pose2 T_body_reference;
     std::array<float, kBins> seen_to_m{};  ///< Approximate range of the beams in each degree.
-    std::array<Face, kBins> faces{};       ///< The farthest end point in each degree.
     /// Sine of the angle from this bin to the end of the view; 1 from 90 degrees on.
     std::array<float, kBins> sine_to_end{};
   };
   static int binOf(double angle_rad);
-  static bool isBack(const Scan& scan, const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal);
   static bool looksAt(const Scan& scan, const Eigen::Vector2d& point_m, double margin_m);
 
   std::vector<Scan> scans_;

@@ -41,9 +41,8 @@ bool isLevel(const ProjectedScan& scan, double tilt_deg) {
   return common::cosTilt(scan.T_odom_body.rotation) >= std::cos(tilt_deg * kRadPerDeg);
 }
 
-/// A repair may bring stretches near to each other that then contradict others.
-constexpr int kMostRepairs = 3;
-
+/// One optimizes; the others repair. A repair may bring stretches near to each other that then contradict others.
+constexpr int kMostLastTasks = 4;
 enum class Kind { kUsual, kLast, kRepair };
 
 }  // namespace
@@ -326,11 +325,9 @@ std::optional<SlamTask> Slam2d::takeTask() {
 
 std::optional<SlamTask> Slam2d::takeLastTask() {
   SWIFTLET_CHECK(!impl_->task_outstanding);
-  Impl& self = *impl_;
-  if (self.graph.keys.empty()) return std::nullopt;
-  if (self.last_tasks++ == 0) return self.makeTask({}, Kind::kLast);
-  if (self.last_tasks > 1 + kMostRepairs || !self.changed) return std::nullopt;
-  return self.makeTask({}, Kind::kRepair);
+  const int before = impl_->graph.keys.empty() ? kMostLastTasks : impl_->last_tasks++;
+  if (before >= kMostLastTasks || (before > 0 && !impl_->changed)) return std::nullopt;
+  return impl_->makeTask({}, before == 0 ? Kind::kLast : Kind::kRepair);
 }
 
 /// Whether an optimization is due that no loop closure asks for. The path length between two of them grows with the
@@ -370,11 +367,9 @@ bool Slam2d::apply(const SlamResult& result) {
   self.counts.loops_closed += result.accepted.size();
   self.counts.loops_rejected += result.data->rejected_edges.size();
   const std::vector<Pose2>& poses = result.data->T_map_key;
-  self.changed = !poses.empty();
-  if (!self.changed) return false;
-
+  if (self.changed = !poses.empty(); !self.changed) return false;
   self.optimized_keys = static_cast<int>(self.task_keys);
-  // A key scan added after the task keeps its pose relative to the key scan that its first edge comes from.
+  // A later key scan keeps its pose relative to the one that its first edge comes from.
   std::vector<Pose2> T_map_before;
   for (const KeyScan& key : self.graph.keys) T_map_before.push_back(key.T_map_body);
   for (std::size_t i = 0; i < self.graph.keys.size(); ++i) {
