@@ -9,8 +9,9 @@
 
 namespace swiftlet::apps {
 
-/// A world by its path or, as `unb_case1`, by the name of one in the folder `worlds`. Throws common::InputError.
-std::filesystem::path findWorldFile(const std::string& name);
+/// A world by its path or, as `unb_case1`, by the name of one in the folder `worlds`. Throws common::InputError, which
+/// also names `beside` and what is there: the folder of a file that names the world.
+std::filesystem::path findWorldFile(const std::string& name, const std::filesystem::path& beside = {});
 
 /// Sets the paths of a trial's worlds and models: beside the trial's file, with the software, in the working folder, or
 /// in an archive of the data sets that is unpacked once. Throws common::InputError when they are nowhere.
