@@ -68,7 +68,7 @@ TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, con
     throw refused("each_fault", "does not go with --envelope, which flies one condition", "leave it out");
   if (!trial.batteries.empty())
     throw refused("batteries", "does not go with --envelope, which pins the plant", "leave it out");
-  if (!options.system.empty()) trial.systems = {options.system};
+  if (!options.system.empty()) trial.setSystem(options.system);
   if (trial.systems.size() > 1)
     throw refused("systems", fmt::format("names several: {}", fmt::join(trial.systems, ", ")), "give --system");
   trial.natures.resize(1);
@@ -82,7 +82,7 @@ TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature
     throw common::InputError(
         common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});
   std::vector<TrialConfig> trials = {onlyCondition(evaluation::readTrial(file), options, file)};
-  prepare(trials, file);
+  prepare(trials);
   TrialConfig trial = std::move(trials.front());
   trial.scenario = evaluation::pinned(trial.scenario, base);
   return trial;

@@ -16,6 +16,7 @@
 #include "apps/speed.hpp"
 #include "apps/start_option.hpp"
 #include "apps/stop_signals.hpp"
+#include "apps/trial_files.hpp"
 #include "apps/trial_world.hpp"
 #include "apps/web_link.hpp"
 #include "behaviors/mission_check.hpp"
@@ -90,6 +91,8 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
     trial.system = options.system;
   else if (!trial.systems.empty())
     trial.system = trial.systems.front();
+  if (options.system.empty())
+    if (auto missing = findSystemOf(trial)) throw common::InputError(*std::move(missing));
   if (!options.nature.empty()) trial.natures = {options.nature};
   takeWorldOptions(options, trial.scenario);
   return trial;

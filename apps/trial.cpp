@@ -184,12 +184,12 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   for (TrialConfig& trial : evaluation::readTrials(file_or_folder)) {
     if (!options.nature.empty()) trial.natures = {options.nature};
     if (options.battery) trial.batteries = {*options.battery};
-    if (!options.system.empty()) trial.systems = {options.system};
+    if (!options.system.empty()) trial.setSystem(options.system);
     trial.scenario.allow_incomplete_world |= options.allow_incomplete_world;
     for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
   refuseSameNames(trials, file_or_folder);
-  prepare(trials, file_or_folder);
+  prepare(trials);
   for (const std::string& warning : warningsOfOperator(trials)) showError(warning);
   for (const TrialConfig& trial : trials) {
     const Seeds seeds = seedsOf(trial, options);

@@ -9,6 +9,7 @@
 #include "apps/command_line.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/trial_files.hpp"
 #include "apps/trial_world.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
@@ -23,30 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 using evaluation::TrialConfig;
 
-/// The file of the map that its flights are given: beside the trials, or where data is.
-void findMap(TrialConfig& trial, const fs::path& trials) {
+/// The file of the map that its flights are given: beside the trial, or where data is.
+void findMap(TrialConfig& trial) {
   if (trial.map.file.empty()) return;
-  const fs::path folder = fs::is_directory(trials) ? trials : trials.parent_path();
   try {
-    trial.map.file = common::findBeside(folder, trial.map.file).string();
-  } catch (const common::InputError& e) {
-    throw common::InputError(
-        common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});
+    trial.map.file = common::findBeside(trial.folder, trial.map.file).string();
+  } catch (const common::InputError& missing) {
+    throw common::InputError(inTrial(trial, "map.file", trial.map.file, missing.problems().front()));
   }
-}
-
-/// A mission or a system that is not where data is may be beside the trial, also named without its ending.
-std::string besideTrial(const TrialConfig& trial, const std::string& name, const char* ending) {
-  const std::vector<fs::path> folders = common::dataFolders();
-  for (const std::string& file : {name, name + ending}) {
-    const auto isIn = [&file](const fs::path& folder) {
-      std::error_code ignored;
-      return fs::is_regular_file(folder / file, ignored);
-    };
-    if (name.empty() || std::any_of(folders.begin(), folders.end(), isIn)) return name;
-    if (isIn(trial.folder)) return (trial.folder / file).string();
-  }
-  return name;
 }
 
 FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
@@ -123,26 +108,47 @@ void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& proble
   }
 }
 
+/// The key of each mission that is flown, and the mission.
+std::vector<std::pair<std::string, std::string*>> missionsOf(TrialConfig& trial) {
+  std::vector<std::pair<std::string, std::string*>> missions;
+  std::vector<simulation::ScenarioVehicle>& vehicles = trial.scenario.vehicles;
+  for (std::size_t i = 0; i < vehicles.size(); ++i)
+    if (!vehicles[i].mission.empty())
+      missions.emplace_back(fmt::format("scenario.vehicles[{}].mission", i), &vehicles[i].mission);
+  if (missions.size() < std::max<std::size_t>(1, vehicles.size()))
+    missions.emplace(missions.begin(), "mission", &trial.mission);
+  return missions;
+}
+
+/// Finds the system and the missions, and checks what does not need the world.
+void checkFiles(TrialConfig& trial, std::set<std::string>& judged_systems, std::vector<common::Problem>& problems) {
+  const auto addOnce = [&](const common::Problem& problem) {  // Several conditions are of one file.
+    const std::string text = toString(problem);
+    if (std::none_of(problems.begin(), problems.end(), [&](const auto& told) { return toString(told) == text; }))
+      problems.push_back(problem);
+  };
+  if (const auto missing = findSystemOf(trial)) return addOnce(*missing);
+  const System system = loadSystem(trial.system);
+  if (judged_systems.insert(trial.system).second)
+    for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));
+  for (const auto& [key, mission] : missionsOf(trial)) {
+    if (const auto missing = findMissionOf(trial, key, *mission))
+      addOnce(*missing);
+    else
+      for (auto& problem : missionProblems(*mission, system, trial.map.given())) problems.push_back(std::move(problem));
+  }
+  checkControllers(trial, system, problems);
+}
+
 }  // namespace
 
-void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
+void prepare(std::vector<TrialConfig>& trials) {
   std::vector<common::Problem> problems;
-  std::set<std::string> systems;  // That were judged.
-  for (TrialConfig& trial : trials) {
-    trial.mission = besideTrial(trial, trial.mission, ".xml");
-    for (simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles)
-      vehicle.mission = besideTrial(trial, vehicle.mission, ".xml");
-    if (trial.system.find_first_of("/.") != std::string::npos) trial.system = besideTrial(trial, trial.system, ".yaml");
-    const System system = loadSystem(trial.system);
-    if (systems.insert(trial.system).second)
-      for (common::Problem& problem : problemsOfSensors(system)) problems.push_back(std::move(problem));
-    for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
-      for (auto& problem : missionProblems(mission, system, trial.map.given())) problems.push_back(std::move(problem));
-    checkControllers(trial, system, problems);
-  }
+  std::set<std::string> judged_systems;
+  for (TrialConfig& trial : trials) checkFiles(trial, judged_systems, problems);
   if (!problems.empty()) throw common::InputError(std::move(problems));
   for (TrialConfig& trial : trials) {
-    findMap(trial, file_or_folder);
+    findMap(trial);
     findWorld(trial);
     checkTargets(trial, problems);
   }

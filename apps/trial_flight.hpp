@@ -17,9 +17,9 @@
 
 namespace swiftlet::apps {
 
-/// Finds the maps and the worlds of trials that were read from `file_or_folder`, and checks their missions for the
-/// systems that fly them. Throws common::InputError with the problems of all missions.
-void prepare(std::vector<evaluation::TrialConfig>& trials, const std::filesystem::path& file_or_folder);
+/// Finds the maps and the worlds of trials, and checks their missions for the systems that fly them. Throws
+/// common::InputError with the problems of all missions.
+void prepare(std::vector<evaluation::TrialConfig>& trials);
 
 /// Warnings of missions that wait for an operator, in trials whose script does not answer: a line each.
 std::vector<std::string> warningsOfOperator(const std::vector<evaluation::TrialConfig>& trials);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "apps/trial_files.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "common/misleading.hpp"
@@ -26,22 +27,26 @@ bool isThere(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// The world of the shipped folders whose name is most like this one, in whatever case; empty if none is.
-std::string similarWorld(const std::string& name) {
+/// The world of the shipped folders, or of `beside`, whose name is most like this one, in whatever case; empty if none
+/// is.
+std::string similarWorld(const std::string& name, const fs::path& beside) {
   const auto small = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text;
   };
   std::vector<std::string> files, stems;
-  std::error_code ignored;
+  const auto addFolder = [&](const fs::path& folder, const fs::path& shown) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      const fs::path file = entry.path().filename();
+      if (file.extension() != ".sdf" && file.extension() != ".world") continue;
+      files.push_back((shown / file).string());
+      stems.push_back(small(file.stem().string()));
+    }
+  };
+  if (!beside.empty()) addFolder(beside, {});
   for (const char* folder : {"worlds", "trials/worlds"})
-    for (const fs::path& data : common::dataFolders())
-      for (const fs::directory_entry& entry : fs::directory_iterator(data / folder, ignored)) {
-        const fs::path file = entry.path().filename();
-        if (file.extension() != ".sdf" && file.extension() != ".world") continue;
-        files.push_back((fs::path(folder) / file).string());
-        stems.push_back(small(file.stem().string()));
-      }
+    for (const fs::path& data : common::dataFolders()) addFolder(data / folder, folder);
   const auto near = common::nearestWord(small(fs::path(name).stem().string()), stems);
   if (!near) return {};
   return files[static_cast<std::size_t>(std::find(stems.begin(), stems.end(), *near) - stems.begin())];
@@ -91,7 +96,7 @@ fs::path findModelFolder(const std::string& name, const std::string& key, const 
       common::Problem{{}, key, "there is no folder `" + name + "`" + searched, hintForFolder(name, bases)});
 }
 
-fs::path findWorldFile(const std::string& name) {
+fs::path findWorldFile(const std::string& name, const fs::path& beside) {
   for (const char* folder : {"", "worlds"})
     for (const char* ending : {"", ".sdf", ".world"})
       for (const fs::path& data : common::dataFolders()) {
@@ -99,15 +104,28 @@ fs::path findWorldFile(const std::string& name) {
         if (std::error_code ignored; !name.empty() && fs::is_regular_file(path, ignored)) return path;
       }
   try {
-    return common::findData(name);  // For its message.
+    return common::findBeside(beside, name);  // For its message.
   } catch (const common::InputError& error) {
     common::Problem problem = error.problems().front();
     // Of a bare name the hint would be any file of the working folder.
-    if (const std::string similar = similarWorld(name); !name.empty() && !fs::path(name).has_parent_path())
+    if (const std::string similar = similarWorld(name, beside); !name.empty() && !fs::path(name).has_parent_path())
       problem.hint = similar.empty() ? "" : "did you mean `" + similar + "`?";
     throw common::InputError(problem);
   }
 }
+
+namespace {
+
+/// At the place of the trial that names it.
+std::string worldOf(const evaluation::TrialConfig& trial, const std::string& key, const std::string& name) {
+  try {
+    return findWorldFile(name, trial.folder).string();
+  } catch (const common::InputError& missing) {
+    throw common::InputError(inTrial(trial, key, name, missing.problems().front()));
+  }
+}
+
+}  // namespace
 
 void findWorld(evaluation::TrialConfig& trial) {
   const fs::path root = common::findData("worlds").parent_path();
@@ -130,8 +148,9 @@ void findWorld(evaluation::TrialConfig& trial) {
   findModels(trial, unpacked, root);
   trial.resolvePaths(unpacked, root);
   if (!isThere(trial.scenario.world)) trial.scenario.world = world;
-  trial.scenario.world = findWorldFile(trial.scenario.world).string();
-  if (!trial.map.survey.world.empty()) trial.map.survey.world = findWorldFile(trial.map.survey.world).string();
+  trial.scenario.world = worldOf(trial, "scenario.world", trial.scenario.world);
+  if (!trial.map.survey.world.empty())
+    trial.map.survey.world = worldOf(trial, "map.survey.world", trial.map.survey.world);
 }
 
 simulation::WorldModel loadWorldOf(const simulation::Scenario& scenario, const std::string& file) {

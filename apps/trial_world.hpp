@@ -10,8 +10,9 @@
 
 namespace swiftlet::apps {
 
-/// A world by its path or, as `unb_case1`, by the name of one in the folder `worlds`. Throws common::InputError.
-std::filesystem::path findWorldFile(const std::string& name);
+/// A world by its path or, as `unb_case1`, by the name of one in the folder `worlds`. Throws common::InputError, which
+/// also names `beside` and what is there: the folder of a file that names the world.
+std::filesystem::path findWorldFile(const std::string& name, const std::filesystem::path& beside = {});
 
 /// A folder of models that is named at `key`, in the first of the folders `bases` that has it. Throws
 /// common::InputError, with the most similar name that is there.

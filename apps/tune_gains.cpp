@@ -36,13 +36,13 @@ using evaluation::TrialConfig;
 TrialConfig trialToFly(const TuneGainsOptions& options) {
   const fs::path file = common::findData(options.trial);
   TrialConfig trial = evaluation::readTrial(file);
-  trial.systems = {options.system};
+  trial.setSystem(options.system);
   if (!options.nature.empty()) trial.natures = {options.nature};
   std::vector<TrialConfig> conditions = trial.byCondition();
   if (conditions.size() != 1)
     throw common::InputError(common::Problem{
         {file.string()}, "natures", "has several conditions to fly in", "choose a nature with --nature"});
-  prepare(conditions, file);
+  prepare(conditions);
   TrialConfig one = conditions.front();
   if (one.phases.empty())
     throw common::InputError(common::Problem{

@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "common/error.hpp"
+#include "common/file_address.hpp"
 #include "common/misleading.hpp"
 #include "common/read_bytes.hpp"
 
@@ -119,8 +120,10 @@ std::vector<fs::path> dataFolders() {
   return folders;
 }
 
-fs::path findData(const fs::path& name) {
-  const std::vector<fs::path> folders = name.is_absolute() ? std::vector<fs::path>{"/"} : dataFolders();
+namespace {
+
+/// Searches the folders in this order.
+fs::path findIn(const std::vector<fs::path>& folders, const fs::path& name) {
   std::string places;
   std::error_code unusable;  // Why a name that is there cannot be followed: a loop of links, a folder without rights.
   for (const fs::path& folder : folders) {
@@ -136,10 +139,23 @@ fs::path findData(const fs::path& name) {
   throw InputError(Problem{{name.string()}, "", message, name.empty() ? std::string() : hintFor(name, folders)});
 }
 
+}  // namespace
+
+fs::path findData(const fs::path& name) {
+  const fs::path path = pathOfAddress(name.string());
+  return findIn(path.is_absolute() ? std::vector<fs::path>{"/"} : dataFolders(), path);
+}
+
 fs::path findBeside(const fs::path& folder, const fs::path& name) {
-  const fs::path beside = folder / name;
+  const fs::path path = pathOfAddress(name.string()), beside = folder / path;
   std::error_code failure;
-  return fs::exists(beside, failure) || failure ? beside : findData(name);
+  if (fs::exists(beside, failure) || failure) return beside;
+  if (path.is_absolute()) return findData(path);
+  std::vector<fs::path> folders = dataFolders();
+  const auto isFolder = [&](const fs::path& other) { return fs::equivalent(folder, other, failure); };
+  if (!folder.empty() && std::none_of(folders.begin(), folders.end(), isFolder))
+    folders.insert(folders.begin(), folder);
+  return findIn(folders, path);
 }
 
 }  // namespace swiftlet::common

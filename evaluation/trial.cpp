@@ -222,13 +222,26 @@ void TrialConfig::resolvePaths(const fs::path& unpacked, const fs::path& root) {
   for (std::string& path : scenario.model_paths) resolve(path);
 }
 
+void TrialConfig::setSystem(const std::string& profile) {
+  systems = {profile};
+  places.erase("system");
+  places.erase("systems");
+}
+
+common::SourceLocation TrialConfig::placeOf(const std::string& key) const {
+  const auto place = places.find(key);
+  return place == places.end() ? common::SourceLocation{} : place->second;
+}
+
 TrialConfig readTrial(const fs::path& file) {
   TrialConfig trial;
   auto reader = common::config::YamlReader::fromFile(file.string());
   reader.read(trial);
   constexpr std::string_view kScenario = "scenario.";
-  for (const std::string& key : reader.writtenKeys())
+  for (const std::string& key : reader.writtenKeys()) {
     if (key.starts_with(kScenario)) trial.scenario.written.push_back(key.substr(kScenario.size()));
+    trial.places[key] = reader.locationOf(key);
+  }
   for (std::size_t i = 0; i < trial.operator_steps.size(); ++i)
     trial.operator_steps[i].place = reader.locationOf(fmt::format("operator[{}].command", i));
   if (trial.name.empty()) trial.name = file.stem().string();

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/error.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
@@ -64,6 +66,7 @@ struct TrialConfig {
   std::vector<TrialTarget> targets;
   simulation::Scenario scenario;
   std::filesystem::path folder;  ///< Of the file that it was read from; it is not read itself.
+  std::map<std::string, common::SourceLocation> places = {};  ///< Of the values in that file, by their keys.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -73,6 +76,11 @@ struct TrialConfig {
   /// name where there are several; the second of two faults with the same name has a 2 behind it. The charge is that of
   /// every vehicle, as if the scenario had written it out.
   std::vector<TrialConfig> byCondition() const;
+
+  /// Flies with this profile in place of those that its file names.
+  void setSystem(const std::string& profile);
+  /// Where its file gives a value, "scenario.world"; without a file and a line if it does not.
+  common::SourceLocation placeOf(const std::string& key) const;
 
   /// Whether one of its flights is with that profile.
   bool flies(const std::string& profile) const;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/file_address.hpp"
 
 namespace swiftlet::common {
 namespace {
@@ -62,6 +63,32 @@ TEST_F(DataPaths, TheSourceTreeIsFoundFromAnyFolder) {
 TEST_F(DataPaths, AbsolutePathsAreNotChanged) {
   EXPECT_EQ(findData(folder_ / "missions"), folder_ / "missions");
   EXPECT_THROW(findData(folder_ / "missions/other.xml"), InputError);
+}
+
+TEST_F(DataPaths, AnAddressIsThePathInIt) {
+  fs::create_directories(folder_ / "my data");
+  std::ofstream(folder_ / "my data/a%b.xml") << "<root/>";
+  const std::string address = "file://" + folder_.string() + "/my%20data/a%25b.xml";
+  EXPECT_EQ(findData(address), folder_ / "my data/a%b.xml");
+  EXPECT_EQ(findBeside("/", address), folder_ / "my data/a%b.xml");
+  EXPECT_EQ(findData("FILE://localhost" + folder_.string() + "/missions"), folder_ / "missions");
+  EXPECT_EQ(pathOfAddress("file://beside.xml"), "beside.xml");
+  for (const char* name : {"my%20data.xml", "https://host/a%20b", "file:a"}) EXPECT_EQ(pathOfAddress(name), name);
+}
+
+TEST_F(DataPaths, BesideAFileItsFolderIsNamedAndSearchedForSuggestions) {
+  fs::create_directories(folder_ / "trials");
+  std::ofstream(folder_ / "trials/hop_there.xml") << "<root/>";
+  EXPECT_EQ(findBeside(folder_ / "trials", "hop_there.xml"), folder_ / "trials/hop_there.xml");
+  EXPECT_EQ(findBeside(folder_ / "trials", "missions/only_here.xml"), folder_ / "missions/only_here.xml");
+  try {
+    findBeside(folder_ / "trials", "hop_their.xml");
+    FAIL() << "a file that does not exist was found";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("no such file in " + (folder_ / "trials").string() + " or this folder"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean `hop_there.xml`?"));
+  }
 }
 
 TEST_F(DataPaths, AMissingFileGetsASuggestion) {

@@ -242,6 +242,18 @@ TEST_F(Trials, PathsAreFoundInTheArchiveOrInTheSoftware) {
   EXPECT_EQ(trial.scenario.world, "/software/trials/worlds/with_software.sdf");
 }
 
+TEST_F(Trials, KnowWhereTheirFileGivesAValue) {
+  put("t.yaml", "mission: m.xml\nsystems: [a, b]\nscenario:\n  world: w.sdf\n");
+  TrialConfig trial = readTrial(folder_ / "t.yaml");
+  EXPECT_EQ(trial.placeOf("mission").line, 1);
+  EXPECT_EQ(trial.placeOf("scenario.world").line, 4);
+  EXPECT_EQ(trial.placeOf("map.file").file, "");
+  EXPECT_EQ(trial.byCondition().back().placeOf("systems").line, 2);
+  trial.setSystem("c");
+  EXPECT_EQ(trial.systems, std::vector<std::string>{"c"});
+  EXPECT_EQ(trial.placeOf("systems").file, "") << "that is another one";
+}
+
 TEST_F(Trials, ArchivesAreFoundOrReportedMissing) {
   put("papers/w.tar.xz", "");
   ::unsetenv("SWIFTLET_DATASETS");
