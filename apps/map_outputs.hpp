@@ -39,7 +39,7 @@ struct MapFigures {
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
   std::vector<perception::SeenTwice> contradicting;  ///< Of a map that is not trusted: drawn, the worst first.
-  rendering::ThinnedCurve milliseconds;  ///< Computing time over the index of the scan.
+  rendering::ThinnedCurve milliseconds;              ///< Computing time over the index of the scan.
 };
 
 /// Why a map cannot be written, for people: it is larger than readMap accepts. Empty if it can.

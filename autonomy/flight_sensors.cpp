@@ -17,8 +17,9 @@ const double kMostlyCos = std::numbers::sqrt2 / 2.0;
 /// well.
 constexpr double kLeastSight_m = 4.0;
 
-/// With a narrower view, a vehicle that turns in a room loses sight of what it knows before what it sees next has joined
-/// the map: of explorations at 57 deg one of two lost the position, at 80 deg one of four, at 87 and 90 deg none.
+/// With a narrower view, a vehicle that turns in a room loses sight of what it knows before what it sees next has
+/// joined the map: of explorations at 57 deg one of two lost the position, at 80 deg one of four, at 87 and 90 deg
+/// none.
 constexpr double kLeastView_deg = 85.0;
 
 /// Of the angle between the deflected beams and straight down.

@@ -327,7 +327,8 @@ std::string numberHint(std::string_view key, std::string_view written, bool whol
   const std::size_t comma = text.find(',');
   const bool ambiguous = comma != std::string_view::npos && end == comma + 4 && text.find_first_of("123456789") < comma;
   if (!whole && (marks > 1 || ambiguous)) return "write decimals with a point, and no other marks";
-  if (whole && marks > 0) return "write a whole number, without points or commas";
+  if (whole && marks > 0)
+    return comma == std::string_view::npos ? "" : "write a whole number, without points or commas";
   const std::string_view rest = trimmed(text.substr(end));
   if (rest.empty()) return number == text ? "" : fmt::format("write `{}`", number);
   if (rest.starts_with('#')) return fmt::format("put a blank before the comment: `{} {}`", number, rest);

@@ -120,8 +120,9 @@ TEST_F(ForeignFile, HasCommentsWithDashes) {
   std::string many;
   for (int i = 0; i < 13; ++i) many += "<!-- a <!-- b -->\n";
   writeTree("<Sequence>" + many + "<AlwaysSuccess/></Sequence>");
-  EXPECT_THAT(shortLines(MockedTree(path_).warnings()),
-              ElementsAre(HasSubstr("; also in line 4, 5, 6, 7, 8, 9, 10, 11, 12, 13 and 2 more, take the inner <!--")));
+  EXPECT_THAT(
+      shortLines(MockedTree(path_).warnings()),
+      ElementsAre(HasSubstr("; also in line 4, 5, 6, 7, 8, 9, 10, 11, 12, 13 and 2 more, take the inner <!--")));
   writeTree("<Sequence>" + comments + "<AlwaysSuccess/></Sequence>");
   EXPECT_THAT(problemsOfMission(), IsEmpty()) << "in a mission, too";
   writeTree("<Sequence>" + comments + "\n<Nobody/></Sequence>");
