@@ -62,7 +62,7 @@ void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const
   float last_m = 0.0F;
   for (std::size_t i = 0; i < points_body_m.size(); ++i) {
     const Eigen::Vector2f& point = points_body_m[i];
-    const float range_m = point.norm();
+    const float range_m = std::min(point.norm(), max_range_m_);
     if (!std::isfinite(range_m)) continue;
     const Surface surface{point, normalAt(split.x_m, split.y_m, i).cast<float>()};
     const int bin = binOf(std::atan2(point.y(), point.x()));

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace swiftlet::perception {
 /// Not thread-safe.
 class ReferenceView {
  public:
+  /// End points beyond `max_range_m` are not in the reference: the scans have seen up to there, and nothing is drawn.
+  explicit ReferenceView(double max_range_m = std::numeric_limits<double>::infinity())
+      : max_range_m_(static_cast<float>(max_range_m)) {}
   void clear() { scans_.clear(); }
   /// Adds the end points of a scan, ordered by angle, in the frame of the body. They must not include points on the
   /// body itself.
@@ -52,6 +56,7 @@ class ReferenceView {
   static bool isBack(const Scan& scan, const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal);
   static bool looksAt(const Scan& scan, const Eigen::Vector2d& point_m, double margin_m);
 
+  float max_range_m_;
   std::vector<Scan> scans_;
 };
 
