@@ -81,10 +81,11 @@ void Land::choose(const ManeuverInput& input) {
 /// A place to look from need not be reached; what is seen on the way counts, too.
 void Land::approach(const ManeuverInput& input) {
   const bool there = (*place_map_m_ - input.position_map_m()).norm() < kTolerance_m && setup_.controller.stopped();
-  const bool given_up = (input.now - *since_).seconds() > kApproach_s || !no_path_.empty();
-  if (phase_ == Phase::kLooksBeyond && (there || given_up)) return choose(input);
+  const bool late = (input.now - *since_).seconds() > kApproach_s;
+  if (phase_ == Phase::kLooksBeyond && (there || late || !no_path_.empty())) return choose(input);
   if (there) return descend(input.now, {});
-  if (given_up || !input.state.horizontal_valid)
+  // While somebody passes there is no path; a moment later there is.
+  if (late || !input.state.horizontal_valid)
     return descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));
   if (!setup_.retreat.active() && flight_.keep(input) && flight_.mayAsk())
     flight_.ask(input, GoalRequest{*place_map_m_, kTolerance_m});
@@ -92,10 +93,8 @@ void Land::approach(const ManeuverInput& input) {
 
 Progress Land::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
   if (!answer.path || phase_ == Phase::kDescends) return Progress::running();
-  if (*answer.path)
-    flight_.offer(**answer.path, now, state);
-  else
-    no_path_ = answer.path->error().text;
+  no_path_ = *answer.path ? "" : answer.path->error().text;
+  if (*answer.path) flight_.offer(**answer.path, now, state);
   return Progress::running();
 }
 

@@ -28,8 +28,10 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
          "what comes out of a shadow would pull the scan along.");
   fields("max_range_m", max_range_m, {0.5, 100},
          "Points farther than this are not used, which bounds the memory of the field.");
-  fields("max_gap_m", max_gap_m, {0, 10},
-         "Neighbouring end points of the reference nearer than this are joined to a contour.");
+  fields(
+      "max_gap_m", max_gap_m, {0, 10},
+      "Neighbouring end points of the reference nearer than this are joined to a contour; more than 0.3 m apart only "
+      "along a straight line.");
   fields("guess_weight", guess_weight, {0, 1},
          "Greatest loss of quality of a pose far from the guess, as the motion's prior.");
   fields("guess_distance_m", guess_distance_m, {0.001, 100},

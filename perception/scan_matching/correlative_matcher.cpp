@@ -52,6 +52,7 @@ struct CorrelativeMatcher::Impl {
       : config(config_in),
         instructions(instructions_in),
         field(config_in.resolution_m, config_in.sigma_m),
+        view(config_in.max_range_m),
         search(instructions_in),
         all_scores(instructions_in) {}
 

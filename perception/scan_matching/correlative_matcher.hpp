@@ -35,7 +35,7 @@ struct CorrelativeMatcherConfig {
   int surface_points = 512;
   bool only_seen = true;
   double max_range_m = 20.0;
-  double max_gap_m = 0.3;
+  double max_gap_m = 10.0;
   double guess_weight = 0.1;
   double guess_distance_m = 0.08;
   double guess_rotation_deg = 3.0;

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "perception/scan_matching/split_points.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
@@ -20,8 +22,10 @@ constexpr double kBehind_m = 0.15;
 /// A normal is that of the line between the nearest points on either side that are so far away, over steps along one
 /// surface. Shorter lines are noise; a point that lies farther off its line than this share of its length is a corner.
 constexpr double kNormalReach_m = 0.10, kLongestStep_m = 0.6, kLeastLine_m = 0.08, kBend = 0.25;
-/// Sine of the angle by which a surface must face away: normals err.
-constexpr double kFacesAway = 0.17;
+/// A surface is the back of one that a reference scan saw if it faces the other way, by more than 120 deg, and lies
+/// beside it: so far off its plane, as a wall is thick, and so far from its nearest end point. Over a grazing stretch
+/// of wall range noise turns a normal by tens of degrees, so one that merely faces away from the scan is no evidence.
+constexpr double kOpposite = -0.5, kThickest_m = 0.5, kNearby_m = 1.0;
 
 /// The unit normal of the surface at a point, towards the laser at the origin; zero if it is not known.
 Eigen::Vector2d normalAt(std::span<const float> x_m, std::span<const float> y_m, std::size_t i) {
@@ -41,10 +45,6 @@ Eigen::Vector2d normalAt(std::span<const float> x_m, std::span<const float> y_m,
   return normal.dot(here) > 0.0 ? Eigen::Vector2d(-normal) : normal;
 }
 
-bool facesAway(const Eigen::Vector2d& normal, const Eigen::Vector2d& to_scan_m) {
-  return normal.dot(to_scan_m) < -kFacesAway * to_scan_m.norm();
-}
-
 }  // namespace
 
 int ReferenceView::binOf(double angle_rad) {
@@ -55,18 +55,25 @@ int ReferenceView::binOf(double angle_rad) {
 void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const Pose2& T_reference_body) {
   Scan scan;
   scan.T_body_reference = T_reference_body.inverse();
+  const SplitPoints split(points_body_m);
   std::array<float, kBins> ends_m{};
   const auto wrapped = [](int bin) { return static_cast<std::size_t>((bin + kBins) % kBins); };
   int last_bin = 0;
   float last_m = 0.0F;
-  for (const Eigen::Vector2f& point : points_body_m) {
-    const float range_m = point.norm();
+  for (std::size_t i = 0; i < points_body_m.size(); ++i) {
+    const Eigen::Vector2f& point = points_body_m[i];
+    const float range_m = std::min(point.norm(), max_range_m_);
     if (!std::isfinite(range_m)) continue;
+    const Surface surface{point, normalAt(split.x_m, split.y_m, i).cast<float>()};
     const int bin = binOf(std::atan2(point.y(), point.x()));
     int step = bin - last_bin;
     if (step > kBins / 2) step -= kBins;
     if (step < -kBins / 2) step += kBins;
-    const auto reach = [&](int at, float to_m) { ends_m[wrapped(at)] = std::max(ends_m[wrapped(at)], to_m); };
+    const auto reach = [&](int at, float to_m) {
+      float& end_m = ends_m[wrapped(at)];
+      if (to_m > end_m) scan.surfaces[wrapped(at)] = surface;
+      end_m = std::max(end_m, to_m);
+    };
     if (last_m > 0.0F && std::abs(step) <= kJoinedBins)
       for (int k = 1; k < std::abs(step); ++k) reach(last_bin + (step < 0 ? -k : k), std::max(range_m, last_m));
     reach(bin, range_m);
@@ -104,31 +111,36 @@ bool ReferenceView::looksAt(const Scan& scan, const Eigen::Vector2d& point_m, do
          range_m * static_cast<double>(scan.sine_to_end[bin]) >= margin_m;
 }
 
+bool ReferenceView::isBack(const Scan& scan, const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal) {
+  const Surface& seen = scan.surfaces[static_cast<std::size_t>(binOf(std::atan2(point_m.y(), point_m.x())))];
+  const Eigen::Vector2d seen_normal = seen.normal.cast<double>(), offset_m = point_m - seen.point_m.cast<double>();
+  return normal.dot(seen_normal) < kOpposite && std::abs(seen_normal.dot(offset_m)) < kThickest_m &&
+         offset_m.norm() < kNearby_m;
+}
+
 std::vector<ReferenceView::Sight> ReferenceView::look(std::span<const float> x_m, std::span<const float> y_m,
                                                       const Pose2& T_reference_body, double margin_m) const {
   struct Placed {
     Eigen::Matrix2d rotation;
     Eigen::Vector2d position_m;
-    Eigen::Vector2d scan_m;  ///< Where the scan was taken, in the frame of the points.
   };
   std::vector<Placed> T_scan_body;
   T_scan_body.reserve(scans_.size());
   for (const Scan& scan : scans_) {
     const Pose2 pose = scan.T_body_reference * T_reference_body;
-    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
-    T_scan_body.push_back({rotation, pose.position_m(), -(rotation.transpose() * pose.position_m())});
+    T_scan_body.push_back({Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix(), pose.position_m()});
   }
   std::vector<Sight> sights(x_m.size(), Sight::kUnseen);
   for (std::size_t i = 0; i < x_m.size(); ++i) {
     const Eigen::Vector2d point_m(x_m[i], y_m[i]), normal = normalAt(x_m, y_m, i);
-    bool faced = false;
     for (std::size_t k = scans_.size(); k-- > 0 && sights[i] != Sight::kSeen;) {  // Newest first: it usually sees most.
       const Placed& at = T_scan_body[k];
-      if (facesAway(normal, at.scan_m - point_m)) continue;
-      faced = true;
-      if (looksAt(scans_[k], at.rotation * point_m + at.position_m, margin_m)) sights[i] = Sight::kSeen;
+      const Eigen::Vector2d in_scan_m = at.rotation * point_m + at.position_m;
+      if (isBack(scans_[k], in_scan_m, at.rotation * normal))
+        sights[i] = Sight::kBackOfSeen;
+      else if (looksAt(scans_[k], in_scan_m, margin_m))
+        sights[i] = Sight::kSeen;
     }
-    if (!faced && !scans_.empty()) sights[i] = Sight::kBackOfSeen;
   }
   return sights;
 }

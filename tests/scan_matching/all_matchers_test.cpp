@@ -162,7 +162,7 @@ TEST_P(AllMatchers, ReportTheUnobservableDirectionOfACorridor) {
     ASSERT_TRUE(match.unobservable_direction);
     EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
     EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
-    EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
+    EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, GetParam().tolerance.most_m);
     EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kRadPerDeg);
     EXPECT_GT(match.covariance(0, 0), 0.09);
     EXPECT_LT(match.covariance(1, 1), 1e-4);

@@ -56,6 +56,28 @@ TEST(CorrelativeMatcher, EqualsTheExhaustiveSearchWithoutThePriorOfTheGuess) {
   expectTheExhaustiveAnswer(config, {0.15, 2.0 * common::kRadPerDeg}, 20);
 }
 
+/// One beam a degree meets the walls of a corridor, 10 m off, in dots 0.9 m apart. The same beams of the next scan meet
+/// them in the same pattern: matched to dots they would outvote the pillar, and the vehicle would stand still.
+TEST(CorrelativeMatcher, DotsOnADistantWallDoNotHoldTheVehicleInPlace) {
+  test::PlanarWorld world = test::corridor();
+  world.addPolyline({{4.0, -1.0}, {4.0, -0.6}}, false);
+  common::LaserConfig laser;
+  laser.beams = 181;
+  laser.field_of_view_deg = 180.0;
+  laser.range_noise_m = 0.002;
+  CorrelativeMatcherConfig config;
+  config.guess_weight = 0.0;
+  config.min_normal_spread = 0.0;
+  for (const double step_m : {0.08, 0.10, 0.12}) {
+    CorrelativeMatcher matcher{config};
+    const Pose2 reference{0.0, 0.1, 0.0}, truth{step_m, 0.1, 0.0};
+    matcher.addReference(test::scanAt(world, reference, 0, 1.0, laser), reference);
+    const MatchResult match = matcher.match(test::scanAt(world, truth, 1, 1.0, laser), reference, {0.25, 0.03});
+    EXPECT_FALSE(match.failed);
+    EXPECT_NEAR(match.T_reference_body.x_m, step_m, 0.02);
+  }
+}
+
 TEST(CorrelativeMatcher, EveryInstructionSetGivesIdenticalResults) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(4, "instructions");

@@ -7,9 +7,8 @@
 namespace swiftlet::test {
 
 inline perception::ProjectedScan scanAt(const PlanarWorld& world, const common::Pose2& pose, std::uint64_t frame,
-                                        double height_m = 1.0) {
+                                        double height_m = 1.0, common::LaserConfig laser = {}) {
   common::RandomStream random(7, "scene", frame);
-  common::LaserConfig laser;
   laser.sweep_s = 0.0;
   const auto still = [&](common::Time) { return common::lifted(pose, height_m); };
   const auto start = common::Time::fromSeconds(static_cast<double>(frame) / laser.rate_hz);

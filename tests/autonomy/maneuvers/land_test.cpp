@@ -83,6 +83,23 @@ TEST_F(LandManeuver, LandsWhereItTookOffAlsoOnAnEdge) {
   EXPECT_EQ(timesSaid("landing at"), 0);
 }
 
+/// Somebody walks over the place where it took off while it flies there.
+TEST_F(LandManeuver, WaitsForAPathToThePlaceWhereItTookOff) {
+  want(to(1.95, 2.0));
+  ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  surfaces_ = edgeAt(2.5);
+  follows_ = false;
+  want(common::LandIntent{});
+  run(2.0);
+  discs_ = {{{1.5, 2.0}, 0.2}};
+  run(3.0);
+  discs_.clear();
+  follows_ = true;
+  ASSERT_EQ(runToTheEnd(25.0), IntentState::kSucceeded);
+  EXPECT_LT(distanceTo_m({1.5, 2.0}), 0.1);
+  EXPECT_EQ(timesSaid("landing where it is"), 0);
+}
+
 TEST_F(LandManeuver, LandsWhereItIsIfNoLevelPlaceIsKnown) {
   want(to(6.0, 2.0));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
