@@ -51,7 +51,7 @@ tree::Status printJson(tree::DryRun& run) {
 
 int showDryRun(const DryRunOptions& options) {
   tree::DryRun run(options.mission, behaviors::missionRegistry(),
-                   tree::readOutcomeScript(common::readBytes(options.script), options.script), options.mock_leaves,
+                   tree::readOutcomeScript(common::readText(options.script), options.script), options.mock_leaves,
                    options.parsing);
   if (!run.problems().empty()) throw common::InputError(behaviors::toCommon(run.problems()));
   const tree::Status answer = options.json ? printJson(run) : printTicks(run);

@@ -26,7 +26,7 @@ struct MigrateOptions {
 int migrate(const MigrateOptions& options) {
   if (!options.out.empty()) requireWritable(options.out, "--out");
   const std::string file = findMission(options.file);
-  const tree::Migration migration = tree::migrateToVersion4(common::readBytes(file), file);
+  const tree::Migration migration = tree::migrateToVersion4(common::readText(file), file);
   if (!migration.problems.empty()) throw common::InputError(behaviors::toCommon(migration.problems));
   // What is printed to the standard output is the file alone, so that it can be redirected.
   for (const tree::Problem& change : migration.changes) showError(common::printable(toString(change)) + "\n");

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,14 +13,6 @@ namespace swiftlet::apps {
 namespace {
 
 constexpr double kElsewhere_s = 2.0;
-
-/// None before it can be told.
-std::optional<double> timeLeft_s(double share, double wall_s) {
-  // The first part may be that of a file that is opened, or of a map that is small.
-  constexpr double kLeastShare = 0.02, kLeastWall_s = 2.0;
-  if (share < kLeastShare || wall_s < kLeastWall_s) return std::nullopt;
-  return wall_s * std::max(0.0, 1.0 - share) / share;
-}
 
 std::string leftText(double left_s) {
   const auto minutes = std::lround(left_s / 60.0);
@@ -47,7 +38,7 @@ void ProgressLine::update(const std::string& done, double wall_s, std::optional<
 }
 
 void ProgressLine::update(double share, const std::string& done, double wall_s) {
-  update(fmt::format("{:3.0f} %  {}", 100.0 * share, done), wall_s, timeLeft_s(share, wall_s));
+  update(fmt::format("{:3.0f} %  {}", 100.0 * share, done), wall_s, time_left_.after(share, wall_s));
 }
 
 void ProgressLine::close() {

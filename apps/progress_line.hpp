@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/time_left.hpp"
+
 namespace swiftlet::apps {
 
 /// One thread at a time.
@@ -23,6 +25,7 @@ class ProgressLine {
  private:
   bool quiet_, interactive_, open_ = false;
   double last_s_ = -1e9;
+  TimeLeft time_left_;
 };
 
 }  // namespace swiftlet::apps

@@ -297,7 +297,7 @@ YamlReader::YamlReader(YamlReader&&) noexcept = default;
 
 YamlReader YamlReader::fromFile(const std::string& file) {
   constexpr std::size_t kMostBytes = std::size_t{8} << 20;
-  return fromText(readBytes(file, kMostBytes), file);
+  return fromText(readText(file, kMostBytes), file);
 }
 
 YamlReader YamlReader::fromText(const std::string& text, const std::string& name) {

@@ -41,6 +41,18 @@ bool leadsIntoAnnex(std::string_view target) {
          folder.find('\n') == std::string_view::npos;
 }
 
+/// How packed files begin.
+struct Packer {
+  std::string_view begins_with;
+  const char* name;
+  const char* remedy;
+};
+constexpr std::array kPackers{Packer{"\x1f\x8b", "gzip", "gunzip"}, Packer{"BZh9", "bzip2", "bunzip2"},
+                              Packer{"\xfd"
+                                     "7zXZ",
+                                     "xz", "unxz"},
+                              Packer{"\x28\xb5\x2f\xfd", "zstd", "unzstd"}, Packer{"PK\x03\x04", "zip", "unzip"}};
+
 std::optional<Problem> pointerInsteadOf(const std::filesystem::path& file) {
   std::array<char, 256> first{};
   std::ifstream stream(file, std::ios::binary);
@@ -100,6 +112,15 @@ std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes)
   if (bytes.size() > most_bytes)
     throw InputError(problemWith(file, fmt::format("is larger than {} bytes", most_bytes)));
   return bytes;
+}
+
+std::string readText(const std::filesystem::path& file, std::size_t most_bytes) {
+  std::string text = readBytes(file, most_bytes);
+  for (const Packer& packer : kPackers)
+    if (text.starts_with(packer.begins_with))
+      throw InputError(problemWith(file, fmt::format("is packed by {}, a text was expected", packer.name),
+                                   fmt::format("unpack it by `{}`", packer.remedy)));
+  return text;
 }
 
 }  // namespace swiftlet::common

@@ -95,11 +95,14 @@ std::array<Color, 256> cellColors(const Theme& theme) {
   for (int i = 0; i < 256; ++i) {
     const auto cell = static_cast<common::occupancy::Cell>(i - 128);
     const double p = common::occupancy::probability(cell);
-    // A cell seen once already looks free or occupied; a certain one looks slightly more so.
-    const auto weight = [](double certainty) { return static_cast<int>(std::lround(255 * (0.55 + 0.45 * certainty))); };
+    // A cell seen once already looks free or occupied; a certain one looks slightly more so. A free one always has a
+    // contrast of 3:1 with the unknown.
+    const auto weight = [](double least, double certainty) {
+      return static_cast<int>(std::lround(255 * (least + (1.0 - least) * certainty)));
+    };
     colors[static_cast<std::size_t>(i)] = common::occupancy::isUnknown(cell) ? theme.unknown
-                                          : p <= 0.5 ? mix(theme.unknown, theme.free, weight(1.0 - 2.0 * p))
-                                                     : mix(theme.unknown, theme.wall, weight(2.0 * p - 1.0));
+                                          : p <= 0.5 ? mix(theme.unknown, theme.free, weight(0.94, 1.0 - 2.0 * p))
+                                                     : mix(theme.unknown, theme.wall, weight(0.55, 2.0 * p - 1.0));
   }
   return colors;
 }

@@ -19,7 +19,7 @@ constexpr Theme kLight{.unknown = rgb(0x7d8a98),
                        .laser = rgb(0xc92020).withAlpha(225),
                        .level = rgb(0xb7791f)};
 
-constexpr Theme kDark{.unknown = rgb(0x0c1116),
+constexpr Theme kDark{.unknown = rgb(0x030406),
                       .free = rgb(0x56657a),
                       .wall = rgb(0xdfe7ef),
                       .behind_3d = rgb(0x12181f),

@@ -48,7 +48,7 @@ Nature Nature::load(const std::string& name) {
   const fs::path file =
       given.has_extension() ? common::findData(given) : common::findData(fs::path("config/nature") / (name + ".yaml"));
   constexpr std::size_t kMostBytes = std::size_t{1} << 20;
-  Nature nature = fromText(common::readBytes(file.string(), kMostBytes), file.string());
+  Nature nature = fromText(common::readText(file.string(), kMostBytes), file.string());
   nature.name_ = given.stem().string();
   return nature;
 }

@@ -207,7 +207,7 @@ SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
   const ConsoleCapture console;
   const sdf::Errors errors = loadOrExplain(result.root, sources, config);
   Sorted sorted = sortErrors(errors, console.lines(), sources.toRead(),
-                             utf8Text(sources.toRead(), common::readBytes(sources.toRead())));
+                             utf8Text(sources.toRead(), common::readText(sources.toRead())));
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
     sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});
   for (std::vector<Problem>* problems : {&sorted.problems, &sorted.missing})

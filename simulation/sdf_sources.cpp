@@ -52,7 +52,7 @@ std::optional<fs::path> modelFileIn(const fs::path& folder) {
   std::error_code ignored;
   for (const char* config : {"model.config", "manifest.xml"}) {
     if (!fs::is_regular_file(folder / config, ignored)) continue;
-    const std::string text = utf8Text((folder / config).string(), common::readBytes(folder / config));
+    const std::string text = utf8Text((folder / config).string(), common::readText(folder / config));
     const auto tags = readTags((folder / config).string(), text);
     if (!tags) throw InputError(tags.error());
     std::string best;
@@ -131,7 +131,7 @@ std::string SdfSources::visit(const std::string& file, const common::SourceLocat
         Problem{from, "include", fmt::format("files include each other: {} leads back to itself", file), ""});
   open_.push_back(real);
   Document document{file, {}, {}, {}, {}};
-  std::string result = prepare(document, common::readBytes(file));
+  std::string result = prepare(document, common::readText(file));
   open_.pop_back();
   return done_[real] = std::move(result);
 }

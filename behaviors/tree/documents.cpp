@@ -28,9 +28,11 @@ std::optional<std::string> readFromDisk(const std::string& path, std::size_t lim
   return text;
 }
 
-/// What a clone has in place of a file that Git LFS or git-annex keeps, until it is brought: its message and remedy, or
-/// two empty texts.
-std::pair<std::string, std::string> pointerIn(std::string_view text) {
+/// What stands in place of a text: a packed one, or what a clone has for a file of Git LFS or git-annex until it is
+/// brought. Its message and remedy, or two empty texts.
+std::pair<std::string, std::string> placeholderIn(std::string_view text) {
+  if (text.starts_with("\x1f\x8b")) return {"is packed by gzip, a text was expected", "unpack it by `gunzip`"};
+  if (text.starts_with("PK\x03\x04")) return {"is packed by zip, a text was expected", "unpack it by `unzip`"};
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (text.starts_with("version https://git-lfs.github.com/spec/") ||
@@ -132,7 +134,7 @@ void Documents::load(std::string text, const std::string& name) {
 bool Documents::add(std::string text, const std::string& path, const Document* from, const XmlElement* element) {
   const Location place = from == nullptr ? Location{path, 0, 0} : from->at(*element);
   const std::string tag = from == nullptr ? std::string() : "include";
-  if (auto [message, remedy] = pointerIn(text); !message.empty()) {
+  if (auto [message, remedy] = placeholderIn(text); !message.empty()) {
     problems_.add({{path, 0, 0}, {}, std::move(message), std::move(remedy)});
     return false;
   }

@@ -34,7 +34,8 @@ double G2oFields::number(const char* name) {
   const Word& word = words_[next_++];
   double value = 0.0;
   if (!parseNumber(word.text, value))
-    throw problem(word.column, fmt::format("{}: `{}` is not a finite number", name, word.text));
+    throw problem(word.column, fmt::format("{}: `{}` is not a finite number", name, word.text),
+                  decimalCommaHint(word.text));
   return value;
 }
 

@@ -45,14 +45,14 @@ common::Time LineFields::stamp(std::size_t field) const {
   const std::string unit = stampUnitHint(words_[field].text);
   throw problemAt(field, std::string(format_.fields[field]),
                   fmt::format("`{}` is not a time in seconds", words_[field].text),
-                  unit.empty() ? "expected " + toString(format_) : unit);
+                  unit.empty() ? hintFor(words_[field].text) : unit);
 }
 
 double LineFields::number(std::size_t field) const {
   double value = 0.0;
   if (parseNumber(words_[field].text, value)) return value;
   throw problemAt(field, std::string(format_.fields[field]),
-                  fmt::format("`{}` is not a finite number", words_[field].text), "expected " + toString(format_));
+                  fmt::format("`{}` is not a finite number", words_[field].text), hintFor(words_[field].text));
 }
 
 double LineFields::coordinate_m(std::size_t field) const {
@@ -73,6 +73,11 @@ bool LineFields::flag(std::size_t field) const {
   if (value == 0.0 || value == 1.0) return value == 1.0;
   throw problemAt(field, std::string(format_.fields[field]),
                   fmt::format("`{}` is neither 0 nor 1", words_[field].text));
+}
+
+std::string LineFields::hintFor(std::string_view word) const {
+  std::string comma = decimalCommaHint(word);
+  return comma.empty() ? "expected " + toString(format_) : comma;
 }
 
 common::InputError LineFields::problemAt(std::size_t field, std::string element, std::string message,

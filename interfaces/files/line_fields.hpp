@@ -49,6 +49,8 @@ class LineFields {
                                std::string hint = "") const;
 
  private:
+  std::string hintFor(std::string_view word) const;
+
   const LineReader& reader_;
   const std::vector<Word>& words_;
   const LineFormat& format_;

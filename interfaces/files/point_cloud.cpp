@@ -26,36 +26,46 @@ void append(std::string& bytes, const Eigen::Vector3f& vector) {
   for (const float value : {vector.x(), vector.y(), vector.z()}) append(bytes, std::bit_cast<std::uint32_t>(value));
 }
 
-std::string plyHeader(std::size_t points, bool normals, std::optional<std::size_t> triangles = std::nullopt) {
+/// What a point has beside its place.
+struct Columns {
+  bool normals = false, colors = false;
+};
+
+std::string plyHeader(std::size_t points, const Columns& columns, std::optional<std::size_t> triangles = std::nullopt) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\nproperty float x\nproperty float y\n"
-      "property float z\n{}property uchar red\nproperty uchar green\nproperty uchar blue\n{}end_header\n",
-      points, normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+      "property float z\n{}{}{}end_header\n",
+      points, columns.normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+      columns.colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
       triangles ? fmt::format("element face {}\nproperty list uchar uint vertex_indices\n", *triangles) : "");
 }
 
-std::string pcdHeader(std::size_t points, bool normals) {
+std::string pcdHeader(std::size_t points, const Columns& columns) {
+  const auto line = [&](const char* of_normals, const char* of_color) {
+    return std::string(columns.normals ? of_normals : "") + (columns.colors ? of_color : "");
+  };
   return fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z{}rgb\nSIZE 4 4 4{}4\n"
-      "TYPE F F F{}U\nCOUNT 1 1 1{}1\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
-      normals ? " normal_x normal_y normal_z " : " ", normals ? " 4 4 4 " : " ", normals ? " F F F " : " ",
-      normals ? " 1 1 1 " : " ", points, points);
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z{}\nSIZE 4 4 4{}\n"
+      "TYPE F F F{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+      line(" normal_x normal_y normal_z", " rgb"), line(" 4 4 4", " 4"), line(" F F F", " U"), line(" 1 1 1", " 1"),
+      points, points);
 }
 
 /// Hands on the bytes of a file, piece by piece.
 void writePieces(std::span<const SurfacePoint> points, CloudFormat format, const WriteBytes& write) {
   constexpr std::size_t kPiece = 1 << 20;
-  const bool normals =
-      std::any_of(points.begin(), points.end(), [](const SurfacePoint& point) { return !point.normal.isZero(); });
+  const auto any = [&](const auto& has) { return std::any_of(points.begin(), points.end(), has); };
+  const Columns columns{any([](const SurfacePoint& point) { return !point.normal.isZero(); }),
+                        any([](const SurfacePoint& point) { return point.rgb != common::kUnknownColor; })};
   std::string bytes =
-      format == CloudFormat::kPly ? plyHeader(points.size(), normals) : pcdHeader(points.size(), normals);
+      format == CloudFormat::kPly ? plyHeader(points.size(), columns) : pcdHeader(points.size(), columns);
   for (const SurfacePoint& point : points) {
     append(bytes, point.position_m);
-    if (normals) append(bytes, point.normal);
+    if (columns.normals) append(bytes, point.normal);
     const auto& [red, green, blue] = point.rgb;
-    if (format == CloudFormat::kPcd)
+    if (columns.colors && format == CloudFormat::kPcd)
       append(bytes, static_cast<std::uint32_t>(red << 16 | green << 8 | blue));
-    else
+    else if (columns.colors)
       for (const std::uint8_t color : point.rgb) bytes.push_back(static_cast<char>(color));
     if (bytes.size() < kPiece) continue;
     write(bytes);
@@ -86,7 +96,7 @@ Written writeCloud(const std::filesystem::path& file, std::span<const SurfacePoi
 }
 
 Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh) {
-  std::string bytes = plyHeader(mesh.vertices.size(), false, mesh.triangles.size());
+  std::string bytes = plyHeader(mesh.vertices.size(), {false, true}, mesh.triangles.size());
   for (const auto& [position_m, rgb] : mesh.vertices) {
     append(bytes, position_m);
     for (const std::uint8_t color : rgb) bytes.push_back(static_cast<char>(color));

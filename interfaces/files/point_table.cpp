@@ -15,6 +15,7 @@
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "common/printable.hpp"
+#include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces::point_table {
 namespace {
@@ -158,7 +159,7 @@ double Cursor::number() {
     stop = std::find_if(stop, end, isBlank);
   }
   if (error == std::errc::invalid_argument || (stop != end && !isBlank(*stop)))
-    fail(fmt::format("`{}` is not a number", word()));
+    fail(fmt::format("`{}` is not a number", word()), decimalCommaHint(word()));
   // Where a number is out of range, from_chars() does not say whether it is too great: infinite, or too small: 0.
   if (error == std::errc::result_out_of_range) value = std::strtod(std::string(begin, stop).c_str(), nullptr);
   place_ = static_cast<std::size_t>(stop - bytes_.data());

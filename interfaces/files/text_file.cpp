@@ -36,6 +36,15 @@ bool parseNumber(std::string_view word, double& value) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
 }
 
+std::string decimalCommaHint(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) return "";
+  std::string with_point(word);
+  with_point[comma] = '.';
+  double value = 0.0;
+  return parseNumber(with_point, value) ? "write decimals with a point, for instance by `tr , . < FILE`" : "";
+}
+
 std::optional<common::Time> parseStamp(std::string_view word) {
   double seconds = 0;
   if (!parseNumber(word, seconds) || std::abs(seconds) > common::kFarthestStamp_s) return std::nullopt;

@@ -14,6 +14,7 @@
 #include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/gunzip.hpp"
+#include "interfaces/files/utf16.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -66,13 +67,16 @@ ByteSource joined(std::string first, ByteSource rest) {
   };
 }
 
-/// Unpacks gzip, also if it is packed several times; other packings are left unchanged.
-tl::expected<ByteSource, std::string> withoutGzip(ByteSource source) {
+/// Unpacks gzip, also if it is packed several times, and makes UTF-8 of UTF-16 where `text_is_likely`; everything else
+/// is left unchanged.
+tl::expected<ByteSource, std::string> withoutGzip(ByteSource source, bool text_is_likely) {
   for (int layers = 0; layers <= kMostGzipLayers; ++layers) {
     auto first = firstBytes(source, kGzipMagic.size());
     if (!first) return tl::unexpected(first.error());
     const bool packed = *first == kGzipMagic;
+    const auto utf16_order = text_is_likely ? utf16OrderOf(*first) : std::nullopt;
     source = joined(std::move(*first), std::move(source));
+    if (utf16_order) return utf8From(std::move(source), *utf16_order);
     if (!packed) return source;
     source = gunzipped(std::move(source));
   }
@@ -110,14 +114,14 @@ struct UnpackedStream::Feed {
 
 void UnpackedStream::ArchiveDeleter::operator()(struct archive* opened) const { archive_read_free(opened); }
 
-UnpackedStream::UnpackedStream(ByteSource packed, std::string name, bool may_be_lz4)
+UnpackedStream::UnpackedStream(ByteSource packed, std::string name, bool is_chunk)
     : name_(std::move(name)), feed_(std::make_unique<Feed>()), archive_(archive_read_new()) {
   archive_read_support_filter_bzip2(archive_.get());
   archive_read_support_filter_xz(archive_.get());
-  if (may_be_lz4) archive_read_support_filter_lz4(archive_.get());
+  if (is_chunk) archive_read_support_filter_lz4(archive_.get());
   archive_read_support_format_raw(archive_.get());
   archive_read_support_format_empty(archive_.get());
-  auto source = withoutGzip(feed_->counted(std::move(packed)));
+  auto source = withoutGzip(feed_->counted(std::move(packed)), !is_chunk);
   if (!source) {
     failure_ = source.error();
     return;

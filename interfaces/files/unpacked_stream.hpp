@@ -1,5 +1,6 @@
 // The bytes of a file, plain or compressed by gzip, bzip2 or xz (recognized by its bytes, not by its name). It is
-// unpacked as a stream: the memory used does not depend on the file's size.
+// unpacked as a stream: the memory used does not depend on the file's size. A text in UTF-16 with its byte order mark
+// comes as UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,7 @@ class UnpackedStream {
   explicit UnpackedStream(const std::filesystem::path& file);
   /// Reads `bytes` as if a file named `name` contained them. They must outlive this.
   static UnpackedStream fromBytes(std::string_view bytes, std::string name);
-  /// Reads from `source`; this also unpacks lz4, which chunks of bags may use.
+  /// Reads a chunk of a bag from `source`, which may be packed by lz4, too, and is no text.
   static UnpackedStream fromSource(ByteSource source, std::string name);
   ~UnpackedStream();
   UnpackedStream(UnpackedStream&&) noexcept;
@@ -42,7 +43,7 @@ class UnpackedStream {
   };
   struct Feed;
 
-  UnpackedStream(ByteSource packed, std::string name, bool may_be_lz4);
+  UnpackedStream(ByteSource packed, std::string name, bool is_chunk);
   void unpackBlock();
   std::string archiveError() const;
 

@@ -17,6 +17,8 @@ constexpr std::size_t kShownBytes = 40;
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
+std::string joined(const std::string& hint) { return hint.empty() ? "" : "; " + hint; }
+
 }  // namespace
 
 std::string shown(std::string_view word) {
@@ -47,7 +49,7 @@ double LogFields::number(const char* name) {
   double value = 0.0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && rest == text.data() + text.size()) return value;
-  failAt(text.data(), name, fmt::format("`{}` is not a number", shown(text)));
+  failAt(text.data(), name, fmt::format("`{}` is not a number{}", shown(text), joined(decimalCommaHint(text))));
   return 0.0;
 }
 
@@ -87,7 +89,8 @@ common::Time LogFields::stamp(const char* name) {
   if (!stamp) {
     const std::string unit = stampUnitHint(text);
     failAt(text.data(), name,
-           fmt::format("`{}` is not a time in seconds{}{}", shown(text), unit.empty() ? "" : "; ", unit));
+           fmt::format("`{}` is not a time in seconds{}", shown(text),
+                       joined(unit.empty() ? decimalCommaHint(text) : unit)));
   }
   return stamp.value_or(common::Time());
 }

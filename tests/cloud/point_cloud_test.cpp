@@ -144,6 +144,15 @@ TEST(PointCloudTest, PlyHasAHeaderAndFifteenBytesAPointWithoutNormals) {
   EXPECT_EQ(ply.substr(body + 12, 3), "\x0a\x14\x1e");
 }
 
+TEST(PointCloudTest, ACloudWithoutColorsIsWrittenWithoutThem) {
+  const std::vector<SurfacePoint> points{{{1.0F, 2.0F, 3.0F}, {0, 0, 1}, common::kUnknownColor}};
+  EXPECT_THAT(toCloud(points, CloudFormat::kPly), ::testing::Not(HasSubstr("red")));
+  EXPECT_THAT(toCloud(points, CloudFormat::kPcd),
+              HasSubstr("FIELDS x y z normal_x normal_y normal_z\nSIZE 4 4 4 4 4 4\n"));
+  for (const CloudFormat format : {CloudFormat::kPly, CloudFormat::kPcd})
+    expectSame(parseCloud(toCloud(points, format), "cloud", format).points, points);
+}
+
 TEST(PointCloudTest, ReadsWhatOtherToolsWrite) {
   // Columns in another order, doubles, faces after the points, an element before them, Windows line ends.
   const StoredCloud text = parseCloud(
@@ -236,6 +245,8 @@ TEST(PointCloudTest, SaysWhatIsWrong) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
   ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3\n4 5", "broken:9: the file is cut");
   ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 three\n4 5 6\n", "broken:8: `three` is not a number");
+  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3,5\n4 5 6\n",
+      "broken:8: `3,5` is not a number, write decimals with a point");
   ply("ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\n" + xyz + "1234", "the file is cut");
   ply("ply\nformat ascii 1.0\nelement nothing 99999999999999\nelement vertex 1\n" + xyz, "no properties");
   ply("ply\nformat ascii 1.0\nelement list 1\nproperty list int int a\nelement vertex 1\n" + xyz + "-3\n",

@@ -53,6 +53,27 @@ TEST_F(ReadBytes, KnowsThePointersThatStandForFilesInAClone) {
   EXPECT_EQ(problem("see " + lfs), "");
 }
 
+TEST_F(ReadBytes, APackedFileIsNoText) {
+  const auto problem = [&](const std::string& bytes) {
+    std::ofstream(folder_ / "f", std::ios::binary) << bytes;
+    try {
+      readText(folder_ / "f");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(problem("\x1f\x8b\x08 and more"),
+              HasSubstr("f: is packed by gzip, a text was expected, unpack it by `gunzip`"));
+  EXPECT_THAT(problem("BZh91AY"), HasSubstr("is packed by bzip2"));
+  EXPECT_THAT(problem("\xfd"
+                      "7zXZ"),
+              HasSubstr("is packed by xz"));
+  EXPECT_THAT(problem("PK\x03\x04"), HasSubstr("is packed by zip"));
+  EXPECT_EQ(problem("image: map.pgm\n"), "");
+  EXPECT_EQ(problem(""), "");
+}
+
 TEST_F(ReadBytes, SaysWhereALinkLeadsThatLeadsToNothing) {
   fs::create_symlink("../.git/annex/objects/Zx/9q/K/K.bag", folder_ / "annexed");
   fs::create_symlink("elsewhere", folder_ / "dangling");

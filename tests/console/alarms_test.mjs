@@ -196,6 +196,16 @@ const tests = {
         const style = getComputedStyle(document.documentElement);
         return Object.fromEntries(names.filter((name) => /^--(map|frontier)-/.test(name)).map((name) => [name, style.getPropertyValue(name).trim()]));
       });
+      const shades = await page.evaluate(async () => {
+        const { shades: own, givenShades } = (await import('./map_colors.js')).readColors();
+        return [own, givenShades];
+      });
+      for (const [unknown, ...known] of shades.map((list) => list.map((color) => color.map((value) => value / 255))))
+        for (const [i, color] of known.slice(0, 4).entries())
+          for (const [sight, matrix] of Object.entries(kSights)) {
+            const ratio = contrast(color, unknown, matrix);
+            assert.ok(ratio >= 3, `${colorScheme}, ${sight}: free cells of shade ${i + 1} on unknown are ${ratio.toFixed(2)}:1`);
+          }
       const free = colorOf(styles['--map-free']);
       const over = (name, back) => colorOf(styles[name], back);
       const pairs = [...kOnFree.map((name) => [`--map-${name}`, '--map-free']), ['--map-wall', '--map-unknown'],

@@ -78,6 +78,8 @@ TEST(G2o, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(problem(kPlane + "VERTEX_SE2 x 0 0 0\n"), HasSubstr("x.g2o:3:12: VERTEX_SE2: `x` is not an id"));
   EXPECT_THAT(problem("VERTEX_SE2 -1 0 0 0\n"), HasSubstr("`-1` is not an id"));
   EXPECT_THAT(problem("VERTEX_SE2 1 0 nan 0\n"), HasSubstr("x.g2o:1:16: VERTEX_SE2: y: `nan` is not a finite number"));
+  EXPECT_THAT(problem("VERTEX_SE2 1 0 0,5 0\n"),
+              HasSubstr("`0,5` is not a finite number, write decimals with a point"));
   EXPECT_THAT(problem("VERTEX_SE2 1 0 0 inf\n"), HasSubstr("yaw: `inf` is not a finite number"));
   EXPECT_THAT(problem("VERTEX_SE2 1 0 -1e300 0\n"),
               HasSubstr("x.g2o:1:16: VERTEX_SE2: y: is farther away than 100000000"));

@@ -75,6 +75,33 @@ TEST(LineReader, CompressedFilesGiveTheSameLines) {
   }
 }
 
+/// In UTF-16 with its byte order mark.
+std::string utf16(const std::u16string& text, bool big_endian) {
+  std::string bytes;
+  for (const char16_t unit : u'\ufeff' + text) {
+    const char low = static_cast<char>(unit & 0xff), high = static_cast<char>(unit >> 8);
+    bytes += big_endian ? std::string{high, low} : std::string{low, high};
+  }
+  return bytes;
+}
+
+TEST(LineReader, TextsInUtf16GiveTheSameLines) {
+  std::u16string numbers;
+  for (const char letter : longText().substr(0, 50'000)) numbers += static_cast<char16_t>(letter);
+  for (const bool big_endian : {false, true}) {
+    EXPECT_THAT(linesOfText(utf16(u"1.5 2\r\n\u00e9 \u20ac \U0001f681\n", big_endian)),
+                ElementsAre("1.5 2", "\u00e9 \u20ac \U0001f681"));
+    EXPECT_EQ(linesOfText(utf16(numbers, big_endian)), cutByHand(longText().substr(0, 50'000)));
+    EXPECT_THAT(linesOfText(utf16(u"a\xd83d"
+                                  u"b\xde81",
+                                  big_endian)),
+                ElementsAre("a\ufffdb\ufffd"))
+        << "halves of pairs";
+    EXPECT_THAT(linesOfText(utf16(u"a", big_endian) + "b"), ElementsAre("a\ufffd")) << "half of a unit";
+    EXPECT_THAT(linesOfText(utf16(u"", big_endian)), ElementsAre());
+  }
+}
+
 TEST(LineReader, ACompressedPointerOfGitLfsIsKnownAsOne) {
   const ScratchFolder folder;
   put(folder / "p", "\xef\xbb\xbfversion https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n");

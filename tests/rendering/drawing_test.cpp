@@ -106,6 +106,23 @@ Eigen::Vector3d sampled(const common::OccupancyGrid& grid, const Viewport& viewp
   return sum / (kSamples * kSamples);
 }
 
+/// WCAG 2.1.
+double contrast(Color a, Color b) {
+  const auto luminance = [](Color c) {
+    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+    return 0.05 + 0.2126 * linear(c.red / 255.0) + 0.7152 * linear(c.green / 255.0) + 0.0722 * linear(c.blue / 255.0);
+  };
+  return std::max(luminance(a), luminance(b)) / std::min(luminance(a), luminance(b));
+}
+
+TEST(GridLayerTest, AFreeCellCanBeToldFromTheUnknownHoweverOftenItWasSeen) {
+  for (const Scheme scheme : {Scheme::kLight, Scheme::kDark}) {
+    const auto colors = cellColors(themeOf(scheme));
+    for (int cell = -127; cell <= 0; ++cell)
+      EXPECT_GE(contrast(colors[static_cast<std::size_t>(cell + 128)], themeOf(scheme).unknown), 3.0) << cell;
+  }
+}
+
 TEST(GridLayerTest, APixelIsTheMeanOfTheCellsItCovers) {
   testing::ExampleFlight flight;
   const auto world = flight.advance(3.0);

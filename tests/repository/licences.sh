@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # licences.sh PROGRAM: docs/licences.md names what the program links, what the build installs, and what comes from npm,
-# and no library that is not linked.
+# no library that is not linked, and the packages that CMake files name as optional.
 set -euo pipefail
 program=$1
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -18,6 +18,10 @@ for library in $(grep -oE '^\| `[^|]*' "$page" | grep -oE 'lib[A-Za-z0-9_.+-]+\.
 done
 for package in $(sed 's/#.*//; /^\[/d' scripts/packages.txt | awk 'NF { print $1 }'); do
   on_page "$package" || fail "$page does not name the package $package"
+done
+# Those that are used where they happen to be installed, by what the build says of them.
+for package in $(grep -rhoE '\<lib[a-z0-9-]+-dev\>' --include=CMakeLists.txt --include='*.cmake' . | sort -u); do
+  on_page "$package" || fail "$page does not name the package $package, which a CMake file asks for"
 done
 command -v node >/dev/null || exit $failed
 for package in $(find . -name node_modules -prune -o -path ./build -prune -o -name package.json -print | xargs -r node -p '

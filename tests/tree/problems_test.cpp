@@ -57,6 +57,13 @@ TEST(Problems, OfAPointerOfGitLfsNameIt) {
                 ElementsAre("f.xml: this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository"));
 }
 
+TEST(Problems, OfAPackedFileSayHowToUnpackIt) {
+  EXPECT_THAT(problemsOf("\x1f\x8b\x08 and more"),
+              ElementsAre("f.xml: is packed by gzip, a text was expected, unpack it by `gunzip`"));
+  EXPECT_THAT(problemsOf("PK\x03\x04 and more"),
+              ElementsAre("f.xml: is packed by zip, a text was expected, unpack it by `unzip`"));
+}
+
 TEST(Problems, AValidFileHasNone) {
   EXPECT_THAT(problemsIn(R"(<Sequence name="all of it" _description="x">
       <Fly goal="1;-2.5;3" clearance_m=" 0.1 " speed_m_s="1e0" tries="-3" careful="true" patience_s="1.5"/>

@@ -24,7 +24,8 @@ export function readColors() {
   );
   const unknown = parseHex(color.unknown);
   // Shades 1 (surely) to 4 are free, 5 to 8 (surely) occupied; see web/server/tile_codec.hpp.
-  const shades = (free, wall) => [unknown, ...[1, 0.9, 0.75, 0.6].map((t) => mix(unknown, parseHex(free), t)),
+  // Free cells keep a contrast of 3:1 with unknown ones, however often they were seen.
+  const shades = (free, wall) => [unknown, ...[1, 0.98, 0.96, 0.94].map((t) => mix(unknown, parseHex(free), t)),
     ...[0.6, 0.75, 0.9, 1].map((t) => mix(unknown, parseHex(wall), t))];
   color.shades = shades(color.free, color.wall);
   color.givenShades = shades(color['given-free'], color['given-wall']);
