@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/command.hpp"
+#include "apps/evaluate_logs.hpp"
 #include "apps/evaluation_metrics.hpp"
 
 namespace swiftlet::apps {
@@ -81,6 +82,7 @@ void addEvaluate(Command& program) {
   rpe.choice("--unit", options->unit, kUnits, "Unit of --delta; metres are along the reference's path.");
   rpe.footer(std::string(kKnownPoses) +
              "Example: swiftlet evaluate rpe trajectory.tum groundtruth.txt.gz --delta 1 --unit seconds");
+  addEvaluateLogs(command);
 }
 
 }  // namespace swiftlet::apps
