@@ -267,7 +267,7 @@ int flyEnvelope(const EnvelopeOptions& options) {
   evaluation::EnvelopeConfig config = evaluation::readEnvelope(common::findData(options.quantities));
   if (!options.only.empty()) keepOnly(options.only, config);
   config.seeds = options.repeat.value_or(config.seeds);
-  if (!options.write.empty()) checkPage(options.write);
+  if (!options.write.empty()) checkPage(options.write, kEnvelopeMarks);
   TrialConfig trial = pinnedTrial(options, simulation::Nature::load(config.base));
   evaluation::EnvelopeResults results = emptyResults(options, std::move(config), trial);
   checkSeeds(results.first_seed, results.config.seeds);

@@ -1,14 +1,10 @@
 #include "apps/envelope_page.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "apps/build_version.hpp"
-#include "apps/output_file.hpp"
 #include "apps/required.hpp"
-#include "common/error.hpp"
-#include "common/read_bytes.hpp"
+#include "interfaces/files/atomic_file.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/envelope_svg.hpp"
 
@@ -48,23 +44,6 @@ rendering::EnvelopeBar barOf(const EnvelopeEntry& entry) {
   return bar;
 }
 
-std::string markdownOf(const common::Table& table) {
-  const auto row = [](const auto& cells, auto&& textOf) {
-    std::string line = "|";
-    for (const auto& cell : cells) {
-      std::string text = textOf(cell);
-      for (std::size_t bar = text.find('|'); bar != std::string::npos; bar = text.find('|', bar + 2))
-        text.replace(bar, 1, "\\|");
-      line += " " + text + " |";
-    }
-    return line + "\n";
-  };
-  std::string text = row(table.columns, [](const std::string& column) { return column; });
-  text += row(table.columns, [](const std::string&) { return std::string("---"); });
-  for (const auto& cells : table.rows) text += row(cells, [](const common::TableCell& cell) { return cell.text; });
-  return text;
-}
-
 std::string conditionsOf(const EnvelopeResults& results) {
   return fmt::format(
       "Trial `{}`, system `{}`, base `{}`: {} flights at each value (seeds {} to {}), {} flights in all, version {}.",
@@ -78,23 +57,6 @@ std::string blockOf(const EnvelopeResults& results, const std::string& picture) 
   const common::Table ragged = evaluation::raggedTable(results);
   if (!ragged.rows.empty()) block += "\n" + ragged.title + ":\n\n" + markdownOf(ragged);
   return block + "\n";
-}
-
-/// Where the block begins and ends in the text of the page.
-std::pair<std::size_t, std::size_t> placeIn(const std::string& text, const fs::path& page) {
-  const std::size_t begin = text.find(kPageBegin);
-  const std::size_t end = begin == std::string::npos ? begin : text.find(kPageEnd, begin);
-  if (end == std::string::npos)
-    throw common::InputError(common::Problem{{page.string()},
-                                             "--write",
-                                             "the page has no place for the results",
-                                             fmt::format("it needs the lines `{}` and `{}`", kPageBegin, kPageEnd)});
-  return {begin + std::string_view(kPageBegin).size() + 1, end};
-}
-
-std::string readPage(const fs::path& page) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
-  return common::readBytes(page.string(), kMostBytes);
 }
 
 }  // namespace
@@ -117,20 +79,12 @@ std::string envelopeReport(const EnvelopeResults& results, const std::string& st
   return interfaces::trialReport(report);
 }
 
-void checkPage(const fs::path& page) {
-  placeIn(readPage(page), page);
-  requireWritable(page, "--write");
-}
-
 void writePage(const fs::path& page, const EnvelopeResults& results) {
   const fs::path picture = fs::path("images") / page.stem().concat(".svg");
   std::error_code failure;  // Told by the write below.
   fs::create_directories(page.parent_path() / "images", failure);
   required(interfaces::writeAtomically(page.parent_path() / picture, envelopePicture(results)));
-  std::string text = readPage(page);
-  const auto [begin, end] = placeIn(text, page);
-  text.replace(begin, end - begin, blockOf(results, picture.string()));
-  required(interfaces::writeAtomically(page, text));
+  writeBetween(page, kEnvelopeMarks, blockOf(results, picture.string()));
 }
 
 }  // namespace swiftlet::apps

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "apps/markdown_page.hpp"
 #include "evaluation/envelope_results.hpp"
 
 namespace swiftlet::apps {
@@ -14,12 +15,9 @@ std::string envelopePicture(const evaluation::EnvelopeResults& results);
 /// The text of report.html.
 std::string envelopeReport(const evaluation::EnvelopeResults& results, const std::string& started);
 
-/// The lines of a page between which the program writes; the rest of the page stays as it is.
-inline constexpr const char* kPageBegin = "<!-- written by `swiftlet trial --envelope --write` -->";
-inline constexpr const char* kPageEnd = "<!-- end of what is written -->";
-
-/// Throws common::InputError if the page is not there or lacks one of these lines.
-void checkPage(const std::filesystem::path& page);
+/// The lines of the page between which table and picture are written.
+inline constexpr PageMarks kEnvelopeMarks{"<!-- written by `swiftlet trial --envelope --write` -->",
+                                          "<!-- end of what is written -->", "--write"};
 
 /// Writes table and picture into the page; the picture is images/NAME.svg beside the page NAME.md. Throws
 /// common::InputError.

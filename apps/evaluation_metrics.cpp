@@ -7,6 +7,7 @@
 
 #include "apps/command.hpp"
 #include "apps/error_figures.hpp"
+#include "apps/pose_order.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
 #include "common/median_step.hpp"
@@ -26,6 +27,7 @@ using common::Problem;
 using evaluation::Alignment;
 using evaluation::PosePair;
 using evaluation::Stretch;
+using interfaces::PoseOrder;
 
 constexpr double kDegPerRad = 1.0 / common::kRadPerDeg;
 
@@ -74,26 +76,41 @@ std::vector<ErrorFigures> figuresOf(const evaluation::RelationErrors& errors) {
 /// An estimate with its reference.
 struct Compared {
   Ordered estimate, reference;
-  std::vector<PosePair> pairs;  ///< Not empty.
+  PoseOrder order = PoseOrder::kStamps;
+  std::size_t without_pose = 0;  ///< Frames of both files that have none.
+  std::vector<PosePair> pairs;   ///< Not empty.
 };
+
+Compared read(const EvaluateOptions& options) {
+  interfaces::RecordedPoses estimate = interfaces::readRecordedPoses(options.estimate);
+  interfaces::RecordedPoses reference = interfaces::readRecordedPoses(options.against);
+  const PoseOrder order = giveOneClock(options.estimate, estimate, options.against, reference);
+  return {common::ordered(std::move(estimate.poses)),
+          common::ordered(std::move(reference.poses)),
+          order,
+          estimate.without_pose + reference.without_pose,
+          {}};
+}
 
 /// That the stamps of one file look like another unit, if they do; else `otherwise`.
 std::string unitHint(const Compared& compared, const std::string& otherwise) {
+  if (compared.order != PoseOrder::kStamps) return otherwise;
   const std::string of_estimate = stepNote(compared.estimate), of_reference = stepNote(compared.reference);
   if (!of_estimate.empty()) return "in the first file " + of_estimate;
   return of_reference.empty() ? otherwise : "in the second file " + of_reference;
 }
 
 Compared compare(const EvaluateOptions& options) {
-  Compared compared{read(options.estimate), read(options.against), {}};
+  Compared compared = read(options);
   const common::Trajectory &estimate = compared.estimate.trajectory, &reference = compared.reference.trajectory;
   compared.pairs = evaluation::associate(estimate, reference, common::Duration::fromSeconds(options.max_difference_s));
   if (compared.pairs.empty())
     throw InputError(
         Problem{{options.estimate},
                 "",
-                fmt::format("no pose is within {} s of one of {}: {} to {} against {} to {}", options.max_difference_s,
-                            options.against, textOf(estimate.front().stamp), textOf(estimate.back().stamp),
+                fmt::format("no pose is within {} {} of one of {}: {} to {} against {} to {}", options.max_difference_s,
+                            compared.order == PoseOrder::kStamps ? "s" : "frames", options.against,
+                            textOf(estimate.front().stamp), textOf(estimate.back().stamp),
                             textOf(reference.front().stamp), textOf(reference.back().stamp)),
                 unitHint(compared, "see --max-difference")});
   return compared;
@@ -115,14 +132,19 @@ void report(const EvaluateOptions& options, const Compared& compared, nlohmann::
   if (options.json) {
     for (const ErrorFigures& figure : figures) addTo(json, figure);
     json["pairs"] = compared.pairs.size();
+    json["paired_by"] = toString(compared.order);
+    json["frames_without_pose"] = compared.without_pose;
     addStamps(json, "estimate", compared.estimate);
     addStamps(json, "reference", compared.reference);
     print(json);
     return;
   }
   fmt::print("{}", toText(tableOf(title, figures)));
-  fmt::print("{} pairs of {} estimated and {} reference poses\n", compared.pairs.size(),
-             compared.estimate.trajectory.size(), compared.reference.trajectory.size());
+  fmt::print("{} pairs, by {}, of {} estimated and {} reference poses\n", compared.pairs.size(),
+             toString(compared.order), compared.estimate.trajectory.size(), compared.reference.trajectory.size());
+  if (compared.without_pose > 0)
+    show(fmt::format("{} frames have no pose: their matrices are not finite\n", compared.without_pose));
+  if (compared.order == PoseOrder::kLines) return;
   noteStamps(options.estimate, compared.estimate);
   noteStamps(options.against, compared.reference);
 }
@@ -202,6 +224,9 @@ int evaluateRpe(const EvaluateOptions& options) {
                              fmt::format("{} is no number of frames", options.delta),
                              "give a whole one, or --unit seconds or metres"});
   const Compared compared = compare(options);
+  if (stretch.unit == Stretch::Unit::kSeconds && compared.order != PoseOrder::kStamps)
+    throw InputError(
+        Problem{{}, "--unit", "the poses have no times in seconds", "give --unit frames or --unit metres"});
   const evaluation::RelativeError error = evaluation::relativePoseError(compared.pairs, stretch);
   const std::size_t stretches = error.translation_m.count;
   if (stretches == 0)

@@ -1,5 +1,8 @@
 // swiftlet localize: where a recorded laser log was, in a given map.
+#include <cmath>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/core.h>
@@ -59,19 +62,39 @@ void refuseOutside(const common::Pose2& T_map_start, const interfaces::StoredMap
       fmt::format("two of its corners are {:.1f};{:.1f} and {:.1f};{:.1f}", a_m.x(), a_m.y(), b_m.x(), b_m.y())});
 }
 
+/// The pose was lost after this one.
+struct Loss {
+  common::Time stamp;
+  std::uint64_t scan = 0;
+  common::Pose2 T_map_body;  ///< The last localized pose.
+  std::string reason;
+  std::uint64_t scans = 0;  ///< Number of scans until it was localized again, or to the end.
+};
+
 struct LocalizeRun {
   std::uint64_t estimates = 0;  ///< Number of scans since the first one with enough points.
-  std::uint64_t localized = 0, times_localized = 0, times_lost = 0;
+  std::uint64_t localized = 0, times_localized = 0;
   LocalizationState state = LocalizationState::kGlobal;
+  bool refuted = false;      ///< At the last scan.
+  common::Pose2 T_map_body;  ///< The last localized pose.
+  std::vector<Loss> losses;
   LocalizeFigures shown;
   double wall_s = 0.0;
+
+  /// Whether the map is of another place than the log; none if that is not known. `given`: the start was.
+  std::optional<bool> wrongMap(bool given) const {
+    if (refuted) return true;
+    const bool found = times_localized > (given ? 1U : 0U) || state == LocalizationState::kLocalized;
+    return found ? std::optional(false) : std::nullopt;
+  }
 };
 
 /// The event with the stamp of the log; `run.state` is the state before it.
 void note(const perception::LocalizationEvent& event, common::Time stamp, std::uint64_t scan, LocalizeRun& run) {
   run.times_localized += event.state == LocalizationState::kLocalized ? 1 : 0;
   const bool lost = event.state == LocalizationState::kLost;
-  run.times_lost += lost && run.state == LocalizationState::kLocalized ? 1 : 0;
+  if (lost && run.state == LocalizationState::kLocalized)
+    run.losses.push_back({stamp, scan, run.T_map_body, event.reason, 0});
   run.shown.events.push_back({{stamp, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization",
                                toString(event.state), event.reason},
                               scan});
@@ -92,8 +115,11 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
     run.shown.paths.add(*estimate);
     if (estimate->event) note(*estimate->event, stamp, log.scans() - 1, run);
     run.state = estimate->state;
+    run.refuted = estimate->refuted;
+    if (estimate->state != LocalizationState::kLocalized && !run.losses.empty()) ++run.losses.back().scans;
     if (estimate->state == LocalizationState::kLocalized) {
       ++run.localized;
+      run.T_map_body = estimate->T_map_body;
       run.shown.unexplained.add(index, 100.0 * (1.0 - estimate->explained));
       run.shown.track.add({stamp, estimate->T_map_body});
     }
@@ -115,6 +141,24 @@ std::vector<std::string> warningsOf(const interfaces::StoredMap& map, const Reco
   return warnings;
 }
 
+double hundredth(double value) { return std::round(1e2 * value) / 1e2; }
+
+nlohmann::ordered_json lossesOf(const LocalizeRun& run) {
+  nlohmann::ordered_json losses = nlohmann::ordered_json::array();
+  for (const Loss& loss : run.losses)
+    losses.push_back({{"t_s", loss.stamp.seconds()},
+                      {"scan", loss.scan},
+                      {"x_m", hundredth(loss.T_map_body.x_m)},
+                      {"y_m", hundredth(loss.T_map_body.y_m)},
+                      {"reason", loss.reason},
+                      {"scans_lost", loss.scans}});
+  return losses;
+}
+
+double localizedShare(const RecordedLog& log, const LocalizeRun& run) {
+  return static_cast<double>(run.localized) / static_cast<double>(log.scans());
+}
+
 nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedLog& log, const LocalizeRun& run,
                                  const perception::LogLocalizerCounts& counts, const fs::path& out) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
@@ -128,8 +172,11 @@ nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedL
           {"skipped_records", log.reader().counts().skipped_records},
           {"first_skipped_line", orNull<nlohmann::ordered_json>(log.firstSkippedLine())},
           {"localized_scans", run.localized},
+          {"localized_share", std::round(1e4 * localizedShare(log, run)) / 1e4},
+          {"wrong_map", orNull<nlohmann::ordered_json>(run.wrongMap(!options.start.empty()))},
           {"times_localized", run.times_localized},
-          {"times_lost", run.times_lost},
+          {"times_lost", run.losses.size()},
+          {"losses", lossesOf(run)},
           {"state_at_end", toString(run.state)},
           {"unreliable_stamps", counts.front_end.unreliable_stamps},
           {"breaks", counts.breaks},
@@ -147,14 +194,19 @@ void showForPeople(const LocalizeRun& run, const fs::path& out) {
   show(fmt::format("{}\n", (out / "report.html").string()));
 }
 
-std::vector<std::pair<std::string, std::string>> factsOf(const RecordedLog& log, const LocalizeRun& run) {
-  const auto scans = static_cast<double>(log.scans());
+std::string wordFor(std::optional<bool> wrong_map) {
+  if (!wrong_map) return "not known";
+  return *wrong_map ? "yes: the log is of another place" : "no";
+}
+
+std::vector<std::pair<std::string, std::string>> factsOf(const RecordedLog& log, const LocalizeRun& run, bool given) {
   auto facts = log.facts();
-  facts.insert(facts.end(), {{"localized", fmt::format("{:.1f} %", 100.0 * static_cast<double>(run.localized) / scans)},
-                             {"times lost", fmt::format("{}", run.times_lost)},
+  facts.insert(facts.end(), {{"localized", fmt::format("{:.1f} %", 100.0 * localizedShare(log, run))},
+                             {"wrong map", wordFor(run.wrongMap(given))},
+                             {"times lost", fmt::format("{}", run.losses.size())},
                              {"at the end", toString(run.state)},
                              {"computing time", fmt::format("{:.1f} s", run.wall_s)},
-                             {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
+                             {"scans a second", fmt::format("{:.0f}", static_cast<double>(log.scans()) / run.wall_s)}});
   return facts;
 }
 
@@ -185,7 +237,7 @@ int localize(const LocalizeOptions& options) {
   run.shown.log = options.log.file;
   run.shown.warnings = warningsOf(map, log, counts);
   run.shown.has_stamps = !log.hasOneStamp();
-  run.shown.facts = factsOf(log, run);
+  run.shown.facts = factsOf(log, run, !options.start.empty());
   writeLocalizeOutputs(folder.unfinished(), map, run.shown);
   folder.publish();
   if (options.log.json)
@@ -194,11 +246,12 @@ int localize(const LocalizeOptions& options) {
   else
     showForPeople(run, out);
   // A given start counts as localized until something contradicts it.
-  const bool given = !options.start.empty(), given_lost = given && run.times_lost > 0;
+  const bool given = !options.start.empty(), given_lost = given && !run.losses.empty();
   const bool localized = run.localized > 0 && (run.times_localized > (given ? 1U : 0U) || (given && !given_lost));
   if (!localized && !options.log.json)
-    show(given_lost ? "the given start was followed until it was lost, and no place found since: was it right?\n"
-                    : "never localized: is the log of another place, or floor?\n");
+    show(given_lost    ? "the given start was followed until it was lost, and no place found since: was it right?\n"
+         : run.refuted ? "never localized: the log is of another place, or floor\n"
+                       : "never localized: is the log of another place, or floor?\n");
   return localized && log.damage().empty() ? kDone : kFailed;
 }
 

@@ -1,12 +1,12 @@
 // swiftlet map: the map of a recorded laser log.
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/log_mapping.hpp"
 #include "apps/map_outputs.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
@@ -34,80 +34,39 @@ perception::LaserSlamConfig configOf(const MapOptions& options) {
 }
 
 struct MapRun {
-  explicit MapRun(const MapOptions& options) : slam(configOf(options)) {}
+  explicit MapRun(const MapOptions& options) : mapping(configOf(options)) {}
 
-  perception::LaserSlam slam;
-  TrackSpool track;
+  LogMapping mapping;
   rendering::ThinnedCurve milliseconds;
-  std::uint64_t unmatched = 0;
-  perception::MapJudgement judgement;  ///< Of the finished map.
-  perception::TrackConnection connection;
   double wall_s = 0.0;
   double path_length_m = 0.0;  ///< Length of the robot's path.
 };
 
-/// Sums steps of at least this length, so that a standing robot adds nothing.
-constexpr double kPathStep_m = 0.1;
-
-double pathLength_m(const MapRun& run) {
-  const std::vector<common::Pose2> keys = run.slam.keyPoses();
-  std::optional<Eigen::Vector2d> last_m;
-  double path_length_m = 0.0;
-  run.track.forEach([&](const StampedScan& tracked) {
-    const Eigen::Vector2d now_m = tracked.scan.T_map_robot(keys).position_m();
-    const double step_m = last_m ? (now_m - *last_m).norm() : 0.0;
-    if (last_m && step_m < kPathStep_m) return;
-    path_length_m += step_m;
-    last_m = now_m;
-  });
-  return path_length_m;
-}
-
 void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
   const auto begin = Clock::now();
+  const perception::LaserSlam& slam = run.mapping.slam;
   ProgressLine line(options.log.json);
   while (const auto logged = log.next()) {
     const auto scan_begin = Clock::now();
-    const auto tracked = run.slam.add(log.inputOf(*logged));
+    const auto tracked = run.mapping.add(logged->scan.stamps.measured, log.inputOf(*logged));
     run.milliseconds.add(static_cast<double>(log.scans() - 1), 1e3 * secondsSince(scan_begin));
-    if (!tracked) continue;
-    run.unmatched += tracked->matched ? 0 : 1;
-    run.track.add({logged->scan.stamps.measured, *tracked});
-    if (log.scans() % 50 == 0)
+    if (tracked && log.scans() % 50 == 0)
       line.update(log.reader().progress(),
-                  fmt::format("{} scans, {} key scans, {}", log.scans(), run.slam.keyScans(),
-                              plural(run.slam.slam().counts().loops_closed, "loop", "loops")),
+                  fmt::format("{} scans, {} key scans, {}", log.scans(), slam.keyScans(),
+                              plural(slam.slam().counts().loops_closed, "loop", "loops")),
                   secondsSince(begin));
   }
-  run.slam.finish();
-  run.judgement = run.slam.judgement();
-  run.connection = run.slam.connection(run.judgement);
+  run.mapping.finish();
   run.wall_s = secondsSince(begin);
-  run.path_length_m = pathLength_m(run);
+  run.path_length_m = run.mapping.pathLength_m();
   line.close();
 }
 
-/// Whether the map can be trusted, and why not.
-struct Trust {
-  bool trusted = false;
-  std::string reason;
-};
-
-Trust trustOf(const RecordedLog& log, const MapRun& run) {
-  const perception::TrackConnection& track = run.connection;
-  if (std::string why_not = perception::whyNotTrusted(log.scans(), run.unmatched, track, run.judgement);
-      !why_not.empty())
-    return {false, std::move(why_not)};
-  if (track.breaks == 0) return {true, "the track was never lost"};
-  return {true, fmt::format("the track was lost {}, and all its pieces are connected",
-                            plural(track.breaks, "time", "times"))};
-}
-
 std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run, const Trust& trust) {
-  std::vector<std::string> warnings = log.warnings(run.slam.counts());
+  std::vector<std::string> warnings = log.warnings(run.mapping.slam.counts());
   if (log.scans() == 1) warnings.emplace_back("the map is that of a single scan: nothing confirms it");
   if (!trust.trusted) warnings.insert(warnings.begin(), "the map is probably wrong: " + trust.reason);
-  if (const auto restarts = run.connection.breaks; trust.trusted && restarts > 0)
+  if (const auto restarts = run.mapping.connection.breaks; trust.trusted && restarts > 0)
     warnings.push_back("the track was lost " + plural(restarts, "time", "times") +
                        " and begun anew where it was expected; all its pieces were connected again");
   return warnings;
@@ -137,17 +96,17 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"skipped_records", read.skipped_records},
           {"first_skipped_line", orNull<nlohmann::ordered_json>(log.firstSkippedLine())},
           {"invalid_ranges", read.invalid_ranges},
-          {"unreliable_stamps", run.slam.counts().unreliable_stamps},
-          {"implausible_odometry_steps", run.slam.counts().implausible_odometry},
+          {"unreliable_stamps", run.mapping.slam.counts().unreliable_stamps},
+          {"implausible_odometry_steps", run.mapping.slam.counts().implausible_odometry},
           {"path_length_m", std::round(1e3 * run.path_length_m) / 1e3},
-          {"unmatched_scans", run.unmatched},
-          {"restarts", run.connection.breaks},
-          {"unconnected_pieces", run.connection.unconnected},
-          {"key_scans", run.slam.keyScans()},
-          {"loops_closed", run.slam.slam().counts().loops_closed},
-          {"places_seen_again", run.judgement.pairs()},
-          {"violation", std::round(1e4 * run.judgement.violation()) / 1e4},
-          {"contradictions", placesOf(run.judgement.contradicting)},
+          {"unmatched_scans", run.mapping.unmatched},
+          {"restarts", run.mapping.connection.breaks},
+          {"unconnected_pieces", run.mapping.connection.unconnected},
+          {"key_scans", run.mapping.slam.keyScans()},
+          {"loops_closed", run.mapping.slam.slam().counts().loops_closed},
+          {"places_seen_again", run.mapping.judgement.pairs()},
+          {"violation", std::round(1e4 * run.mapping.judgement.violation()) / 1e4},
+          {"contradictions", placesOf(run.mapping.judgement.contradicting)},
           {"seconds", run.wall_s},
           {"scans_per_s", static_cast<double>(log.scans()) / run.wall_s},
           {"notes", notes}};
@@ -158,14 +117,14 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 Facts factsOf(const RecordedLog& log, const MapRun& run) {
   const auto scans = static_cast<double>(log.scans());
   Facts facts = log.facts();
-  facts.insert(
-      facts.end(),
-      {{"path length", fmt::format("{:.1f} m", run.path_length_m)},
-       {"not matched", fmt::format("{}", run.unmatched)},
-       {"key scans", fmt::format("{}", run.slam.keyScans())},
-       {"loops closed", run.slam.slam().hasGraph() ? fmt::format("{}", run.slam.slam().counts().loops_closed) : "-"},
-       {"computing time", fmt::format("{:.1f} s", run.wall_s)},
-       {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
+  facts.insert(facts.end(), {{"path length", fmt::format("{:.1f} m", run.path_length_m)},
+                             {"not matched", fmt::format("{}", run.mapping.unmatched)},
+                             {"key scans", fmt::format("{}", run.mapping.slam.keyScans())},
+                             {"loops closed", run.mapping.slam.slam().hasGraph()
+                                                  ? fmt::format("{}", run.mapping.slam.slam().counts().loops_closed)
+                                                  : "-"},
+                             {"computing time", fmt::format("{:.1f} s", run.wall_s)},
+                             {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
   return facts;
 }
 
@@ -175,17 +134,17 @@ int map(const MapOptions& options) {
   const fs::path& out = folder.path();
   MapRun run(options);
   mapLog(log, options, run);
-  if (run.slam.keyPoses().empty()) throw log.error("no map: " + log.whyNoPoints());
+  if (run.mapping.slam.keyPoses().empty()) throw log.error("no map: " + log.whyNoPoints());
   if (!log.damage().empty()) showError(log.damage() + "\n");
 
-  const common::OccupancyGrid grid = run.slam.map();
+  const common::OccupancyGrid grid = run.mapping.slam.map();
   const std::string no_map = whyNoMap(grid);
-  Trust trust = trustOf(log, run);
+  Trust trust = run.mapping.trust();
   if (!no_map.empty()) trust = {false, no_map};
   MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run, trust), {}, run.milliseconds};
-  if (!trust.trusted) shown.contradicting = run.judgement.contradicting;
+  if (!trust.trusted) shown.contradicting = run.mapping.judgement.contradicting;
   if (!no_map.empty()) showError(no_map + "\n");
-  writeMapOutputs(folder.unfinished(), run.slam, no_map.empty() ? &grid : nullptr, run.track, shown);
+  writeMapOutputs(folder.unfinished(), run.mapping.slam, no_map.empty() ? &grid : nullptr, run.mapping.track, shown);
   folder.publish();
   const int exit_code = log.damage().empty() && no_map.empty() ? kDone : kFailed;
   if (options.log.json) {

@@ -9,10 +9,9 @@
 
 #include <Eigen/Core>
 
+#include "apps/log_mapping.hpp"
 #include "apps/results_folder.hpp"
-#include "apps/spool.hpp"
 #include "common/occupancy_grid.hpp"
-#include "common/time.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "rendering/thinned_curve.hpp"
 
@@ -23,13 +22,6 @@ inline const ResultsKind kMapResults{"map",
                                      "report.html",
                                      "<title>" + kMapTitle,
                                      {"report.html", "map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o"}};
-
-/// A scan of the log, with the log's own stamp.
-struct StampedScan {
-  common::Time stamp;
-  perception::TrackedScan scan;
-};
-using TrackSpool = Spool<StampedScan>;
 
 /// SVG of a curve over the scans of a log.
 std::string plotOver(const std::string& title, const std::string& unit, const rendering::ThinnedCurve& curve);

@@ -10,13 +10,6 @@
 namespace swiftlet::apps {
 namespace {
 
-/// Of this thread: what else the computer does is not counted.
-double processorMs() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 class TimedJobs final : public common::JobRunner {
  public:
   TimedJobs(std::unique_ptr<common::JobRunner> jobs, std::shared_ptr<JobMeter> meter)
@@ -42,6 +35,12 @@ class TimedJobs final : public common::JobRunner {
 };
 
 }  // namespace
+
+double processorMs() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 void JobMeter::add(const std::string& kind, double took_ms) {
   const std::scoped_lock lock(mutex_);

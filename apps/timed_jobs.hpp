@@ -12,6 +12,9 @@
 
 namespace swiftlet::apps {
 
+/// The processor time of this thread so far: what else the computer does is not counted.
+double processorMs();
+
 /// All functions may be called from any thread.
 class JobMeter {
  public:

@@ -1,5 +1,6 @@
 // links: interfaces common
-// Any bytes as relations and as reference poses: refused as InputError, or finite, with rotations of length one.
+// Any bytes as relations, as reference poses and as pose matrices: refused as InputError, or finite, with rotations of
+// length one.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -35,6 +36,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   refusedOr([&] {
     for (const common::StampedPose& pose : interfaces::parseReferencePoses(text, "fuzz.txt")) check(pose.pose);
+  });
+  refusedOr([&] {
+    for (const common::StampedPose& pose : interfaces::parsePoseMatrices(text, "fuzz.txt").poses) check(pose.pose);
   });
   return 0;
 }

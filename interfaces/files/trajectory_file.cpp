@@ -1,11 +1,16 @@
 #include "interfaces/files/trajectory_file.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
+#include "interfaces/files/numbered_frames.hpp"
 #include "interfaces/files/tum.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
+
+namespace fs = std::filesystem;
 
 const LineFormat& referenceFormat() {
   static const LineFormat kFormat{"pose", {"ipc_timestamp", "scan_index", "x", "y", "theta"}};
@@ -27,17 +32,38 @@ std::vector<common::StampedPose> readReferencePoses(LineReader reader) {
 
 }  // namespace
 
-std::vector<common::StampedPose> readPoses(const std::filesystem::path& file) {
-  LineReader reader(file);
+RecordedPoses readRecordedPoses(const fs::path& path) {
+  std::error_code failure;
+  if (fs::is_directory(path, failure)) {
+    for (const char* name : {"trajectory.tum", "groundtruth.txt", "trajectory.log"})
+      if (fs::exists(path / name, failure)) return readRecordedPoses(path / name);
+    return readNumberedFrames(path);
+  }
+  LineReader reader(path);
   std::vector<Word> words;
   if (!nextWords(reader, words)) throw reader.problemAt(0, "", "holds no poses");
-  if (words.size() == tumFormat().fields.size()) return readTum(file, StampOrder::kAny);
-  if (words.size() == referenceFormat().fields.size()) return readReferencePoses(LineReader(file));
-  const std::string commas = commaHint(words);
-  throw reader.problemAt(words.back().column, "pose",
-                         commas.empty() ? fmt::format("{} numbers", words.size()) : "no numbers between blanks",
-                         fmt::format("expected {} or {}{}{}", toString(tumFormat()), toString(referenceFormat()),
-                                     commas.empty() ? "" : "; ", commas));
+  if (words.size() == tumFormat().fields.size()) return {PoseOrder::kStamps, readTum(path, StampOrder::kAny), 0};
+  if (words.size() == referenceFormat().fields.size())
+    return {PoseOrder::kStamps, readReferencePoses(LineReader(path)), 0};
+  if (!areMatrices(words)) {
+    const std::string commas = commaHint(words);
+    throw reader.problemAt(words.back().column, "pose",
+                           commas.empty() ? fmt::format("{} numbers", words.size()) : "no numbers between blanks",
+                           fmt::format("expected {}, {} or a matrix of 12 or 16 numbers{}{}", toString(tumFormat()),
+                                       toString(referenceFormat()), commas.empty() ? "" : "; ", commas));
+  }
+  RecordedPoses found = readPoseMatrices(path);
+  if (found.poses.empty())
+    throw common::InputError(
+        common::Problem{{path.string()}, "", "holds no poses: not one of its matrices is finite", ""});
+  return found;
+}
+
+std::vector<common::StampedPose> readPoses(const fs::path& file) {
+  RecordedPoses found = readRecordedPoses(file);
+  if (found.order == PoseOrder::kStamps) return std::move(found.poses);
+  throw common::InputError(
+      common::Problem{{file.string()}, "", "has no stamps", fmt::format("expected {}", toString(tumFormat()))});
 }
 
 std::vector<common::StampedPose> parseReferencePoses(std::string_view text, const std::string& name) {

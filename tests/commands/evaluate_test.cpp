@@ -128,7 +128,7 @@ TEST_F(Evaluate, RefusesBadInput) {
                 "holds no relations, a line of them is `from to x y z roll pitch yaw`");
   expectRefused({"relations", none, relations()}, "holds no poses");
   expectRefused({"relations", path("nowhere.tum"), relations()}, "nowhere.tum");
-  expectRefused({"ate", estimate(), write("odd.txt", "1 2 3\n")}, "odd.txt:1:5: pose: 3 numbers");
+  expectRefused({"ate", estimate(), write("odd.txt", "1 2 3.5\n")}, "odd.txt:1:5: pose: 3 numbers");
   expectRefused({"ate", estimate(), write("late.txt", "9 0 0 0 0\n")}, "1.000000 to 3.000000 against 9.000000");
   expectRefused({"ate", estimate(), write("one.txt", "1 0 0 0 0\n")}, "1 pairs do not determine the spatial alignment");
   expectRefused({"ate", estimate(), write("us.txt", "7e6 0 0 0 0\n8e6 1 0 0 0\n9e6 2 0 0 0\n")},

@@ -91,6 +91,9 @@ TEST_F(Localize, ALogIsLocalizedInItsMap) {
   EXPECT_EQ(json.at("scans"), 150);
   EXPECT_EQ(json.at("times_localized"), 1);
   EXPECT_EQ(json.at("times_lost"), 0);
+  EXPECT_TRUE(json.at("losses").empty());
+  EXPECT_EQ(json.at("wrong_map"), false);
+  EXPECT_NEAR(json.at("localized_share"), json.at("localized_scans").get<int>() / 150.0, 1e-4);
   EXPECT_EQ(json.at("state_at_end"), "localized");
   EXPECT_GE(json.at("localized_scans").get<int>(), 75);
   EXPECT_TRUE(json.at("complete").get<bool>());
@@ -113,6 +116,43 @@ TEST_F(Localize, ALogOfAnotherFloorIsNeverLocalized) {
       runSwiftlet({"localize", map, write("walk.log", walkThrough(test::hall(22), 22, 100)), "--out", path("out")});
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   EXPECT_THAT(end.out, HasSubstr("never localized"));
+}
+
+TEST_F(Localize, SaysThatTheMapIsOfAnotherPlace) {
+  const std::string map = writeMapOf(test::offices(21), "map");
+  const std::string log = walkThrough(test::offices(22), 22, 250);
+  const ProgramEnd end = runSwiftlet({"localize", map, write("walk.log", log), "--out", path("out"), "--json"});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  const auto json = nlohmann::json::parse(end.out);
+  EXPECT_EQ(json.at("wrong_map"), true);
+  EXPECT_EQ(json.at("localized_share"), 0.0);
+
+  const std::string begin = log.substr(0, log.find('\n', log.size() / 50) + 1);
+  const ProgramEnd soon = runSwiftlet({"localize", map, write("begin.log", begin), "--out", path("out"), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(soon.out).at("wrong_map"), nullptr) << describe(soon);
+}
+
+TEST_F(Localize, SaysWhereItWasLost) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map");
+  // Carried to where another walk begins, while the odometry stands still.
+  std::string log = walkThrough(building, 21, 150);
+  log += walkThrough(building, 24, 150);
+  const ProgramEnd end = runSwiftlet({"localize", map, write("walk.log", log), "--out", path("out"), "--json"});
+  const auto json = nlohmann::json::parse(end.out);
+  ASSERT_EQ(json.at("times_lost"), 1) << json.dump(2);
+  EXPECT_EQ(json.at("wrong_map"), false);
+  const auto& loss = json.at("losses").at(0);
+  EXPECT_GE(loss.at("scan").get<int>(), 150);
+  EXPECT_LT(loss.at("scan").get<int>(), 165);
+  EXPECT_GT(loss.at("scans_lost").get<int>(), 0);
+  EXPECT_FALSE(loss.at("reason").get<std::string>().empty());
+  std::istringstream trajectory(readText(path("out/trajectory.tum")));
+  double t = 0, x = 0, y = 0, nearest = 1e9;
+  for (std::string line; std::getline(trajectory, line);)
+    if (std::sscanf(line.c_str(), "%lf %lf %lf", &t, &x, &y) == 3)
+      nearest = std::min(nearest, std::hypot(x - loss.at("x_m").get<double>(), y - loss.at("y_m").get<double>()));
+  EXPECT_LT(nearest, 0.01) << "one of its poses";
 }
 
 TEST_F(Localize, ReadsTheFormatsThatMapReads) {
@@ -211,6 +251,7 @@ TEST_F(Localize, AWrongStartThatIsNotRecoveredIsAFailure) {
   const auto json = nlohmann::json::parse(end.out);
   EXPECT_EQ(json.at("times_localized"), 1) << "what was given";
   EXPECT_EQ(json.at("times_lost"), 1);
+  EXPECT_NE(json.at("wrong_map"), false);
 }
 
 TEST_F(Localize, RefusesUnusableInput) {

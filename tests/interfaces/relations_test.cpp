@@ -75,9 +75,10 @@ TEST(Poses, InAnUnknownFormatAreRefused) {
     put(folder / "x", text);
     return problemOf([&] { readPoses(folder / "x"); });
   };
-  EXPECT_THAT(problem("# t x y theta\n1 2 3 4\n"),
-              HasSubstr("x:2:7: pose: 4 numbers, expected `t x y z qx qy qz qw` or `ipc_timestamp scan_index x y "
-                        "theta`"));
+  EXPECT_THAT(problem("# t x y z yaw pitch\n1 2 3 4 5 6\n"),
+              HasSubstr("x:2:11: pose: 6 numbers, expected `t x y z qx qy qz qw`, `ipc_timestamp scan_index x y theta` "
+                        "or a matrix of 12 or 16 numbers"));
+  EXPECT_THAT(problem("1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("x: has no stamps, expected `t x y z qx qy qz qw`"));
   EXPECT_THAT(problem("# only a comment\n"), HasSubstr("holds no poses"));
   EXPECT_THAT(problem(""), HasSubstr("holds no poses"));
   EXPECT_THAT(problem("1 0 0 0 x\n"), HasSubstr("x:1:9: theta: `x` is not a finite number"));

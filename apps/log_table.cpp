@@ -1,0 +1,93 @@
+#include "apps/log_table.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "apps/markdown_page.hpp"
+#include "apps/output_file.hpp"
+#include "apps/required.hpp"
+#include "common/table.hpp"
+#include "interfaces/files/atomic_file.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr PageMarks kLogMarks{"<!-- written by `swiftlet evaluate logs --out` -->", "<!-- end of what is written -->",
+                              "--out"};
+
+std::string errorText(const std::optional<double>& error_m) { return error_m ? fmt::format("{:.4f}", *error_m) : ""; }
+
+std::string wordFor(MapVerdict verdict) {
+  if (verdict == MapVerdict::kByEye) return "by eye";
+  return verdict == MapVerdict::kRight ? "right" : "**wrong**";
+}
+
+std::vector<common::TableCell> rowOf(const LogRun& run, const LogOutcome& outcome) {
+  return {{run.log.name},
+          {run.log.part()},
+          {run.backwards ? "back" : "on"},
+          {run.wheels ? "yes" : "no"},
+          {errorText(outcome.relations_mean_m)},
+          {errorText(outcome.relations_max_m)},
+          {errorText(outcome.ate_rms_m)},
+          {fmt::format("{:.0f}", outcome.path_m)},
+          {wordFor(outcome.verdict)},
+          {outcome.trust.trusted ? "yes" : "**no**"},
+          {fmt::format("{:.4f}", outcome.violation)},
+          {fmt::format("{}", outcome.contradictions)},
+          {fmt::format("{}", outcome.track.breaks)},
+          {fmt::format("{:.0f}", outcome.processor_s)},
+          {outcome.trust.trusted ? "" : outcome.trust.reason}};
+}
+
+std::string countedAs(const std::vector<LogOutcome>& outcomes) {
+  const auto count = [&](MapVerdict verdict, bool trusted) {
+    return std::count_if(outcomes.begin(), outcomes.end(), [&](const LogOutcome& outcome) {
+      return outcome.verdict == verdict && outcome.trust.trusted == trusted;
+    });
+  };
+  double processor_s = 0.0;
+  for (const LogOutcome& outcome : outcomes) processor_s += outcome.processor_s;
+  const auto right_doubted = count(MapVerdict::kRight, false), wrong_trusted = count(MapVerdict::kWrong, true);
+  return fmt::format(
+      "{} maps in {:.0f} s of processor time: {} right, {} wrong, {} by eye. Wrong and trusted: {}. Right and doubted: "
+      "{}.\n",
+      outcomes.size(), processor_s, right_doubted + count(MapVerdict::kRight, true),
+      wrong_trusted + count(MapVerdict::kWrong, false),
+      count(MapVerdict::kByEye, true) + count(MapVerdict::kByEye, false), wrong_trusted, right_doubted);
+}
+
+bool isThere(const fs::path& page) {
+  std::error_code failure;
+  return fs::exists(page, failure);
+}
+
+}  // namespace
+
+std::string logTable(const std::vector<LogRun>& runs, const std::vector<LogOutcome>& outcomes) {
+  common::Table table{"",
+                      {"log", "part", "way", "wheels", "mean m", "greatest m", "ATE RMS m", "path m", "map", "trusted",
+                       "violation", "contradictions", "lost", "s", "doubted because"},
+                      {}};
+  for (std::size_t i = 0; i < runs.size(); ++i) table.rows.push_back(rowOf(runs[i], outcomes[i]));
+  return markdownOf(table) + "\n" + countedAs(outcomes);
+}
+
+void checkLogPage(const fs::path& page) {
+  if (isThere(page))
+    checkPage(page, kLogMarks);
+  else
+    requireWritable(page, std::string(kLogMarks.option));
+}
+
+void writeLogPage(const fs::path& page, const std::string& table) {
+  if (!isThere(page))
+    required(interfaces::writeAtomically(page, fmt::format("{}\n{}\n", kLogMarks.begin, kLogMarks.end)));
+  writeBetween(page, kLogMarks, "\n" + table + "\n");
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,124 @@
+// Poses as matrices in the layouts of the data sets: the same poses from each, and refused with the place of a mistake.
+#include "interfaces/files/pose_matrices.hpp"
+
+#include <gmock/gmock.h>
+
+#include "common/geometry.hpp"
+#include "interfaces/files/numbered_frames.hpp"
+#include "interfaces/files/trajectory_file.hpp"
+#include "support.hpp"
+#include "tests/support/datasets.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using testing::HasSubstr;
+
+/// At the origin; then at (1, 2, 3), turned by 90 deg to the left.
+constexpr const char* kFirst = "1 0 0 0 0 1 0 0 0 0 1 0";
+constexpr const char* kSecond = "0 -1 0 1 1 0 0 2 0 0 1 3";
+constexpr const char* kFirstBlock = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+constexpr const char* kSecondBlock = "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n";
+
+void expectBoth(const RecordedPoses& found, PoseOrder order, double first_s, double second_s) {
+  EXPECT_EQ(found.order, order);
+  ASSERT_EQ(found.poses.size(), 2u);
+  EXPECT_EQ(found.poses[0].stamp, common::Time::fromSeconds(first_s));
+  EXPECT_EQ(found.poses[1].stamp, common::Time::fromSeconds(second_s));
+  EXPECT_EQ(found.poses[0].pose.position_m, Eigen::Vector3d::Zero());
+  EXPECT_EQ(found.poses[1].pose.position_m, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR(common::yawOf(found.poses[1].pose.rotation), 90 * common::kRadPerDeg, 1e-12);
+}
+
+TEST(PoseMatrices, OfEveryLayoutAreTheSamePoses) {
+  const std::string first = kFirst, second = kSecond, first_block = kFirstBlock, second_block = kSecondBlock;
+  const auto read = [](const std::string& text) { return parsePoseMatrices(text, "x"); };
+  expectBoth(read(first + "\n" + second), PoseOrder::kLines, 0, 1);
+  expectBoth(read("# KITTI\n" + first + "\r\n\n" + second + "\n"), PoseOrder::kLines, 0, 1);
+  expectBoth(read(first + " 0 0 0 1\n" + second + " 0 0 0 1\n"), PoseOrder::kLines, 0, 1);
+  expectBoth(read("7 " + first + "\n12 " + second + "\n"), PoseOrder::kNumbers, 7, 12);
+  expectBoth(read("7 " + first + " 0 0 0 1\n12 " + second + " 0 0 0 1\n"), PoseOrder::kNumbers, 7, 12);
+  expectBoth(read(first_block + second_block), PoseOrder::kLines, 0, 1);
+  expectBoth(read("3 3 4\n" + first_block + "8 8 9\n" + second_block), PoseOrder::kNumbers, 3, 8);
+}
+
+TEST(PoseMatrices, WithoutAFiniteNumberAreCountedAndLeftOut) {
+  const std::string none = "-inf -inf -inf -inf\n", first = kFirstBlock, second = kSecondBlock;
+  const RecordedPoses found = parsePoseMatrices(first + none + none + none + none + second, "x");
+  EXPECT_EQ(found.without_pose, 1u);
+  expectBoth(found, PoseOrder::kLines, 0, 2);
+}
+
+TEST(PoseMatrices, ReportThePlaceOfMistakes) {
+  const auto problem = [](const std::string& text) { return problemOf([&] { parsePoseMatrices(text, "x"); }); };
+  const std::string good = std::string(kFirst) + "\n";
+  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 0 0 0 1\n"), HasSubstr("x:2:21: pose: 11 numbers instead of 12"));
+  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 zero 0 0 1 0\n"), HasSubstr("x:2:15: pose: `zero` is not a number"));
+  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 nan 0 0 1 0\n"), HasSubstr("x:2:1: pose: some numbers of the matrix are"));
+  EXPECT_THAT(problem(good + "1 0 0 1e9 0 1 0 0 0 0 1 0\n"), HasSubstr("x:2:7: pose: is farther away than"));
+  EXPECT_THAT(problem("2 0 0 0 0 2 0 0 0 0 2 0\n"), HasSubstr("x:1:1: pose: its first three columns are no rotation"));
+  EXPECT_THAT(problem("-1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("are a reflection"));
+  EXPECT_THAT(problem("1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1\n"), HasSubstr("the last row of the matrix is not `0 0 0 1`"));
+  EXPECT_THAT(problem("1.5 " + good), HasSubstr("x:1:1: frame: `1.5` is not the number of a frame"));
+  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n"), HasSubstr("x:3: pose: the matrix was cut after 3 of its four"));
+  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0 0\n"), HasSubstr("x:2:9: pose: 5 numbers instead of 4"));
+  EXPECT_THAT(problem("0 1 20\n" + std::string(kFirstBlock)), HasSubstr("x:1:3: frame: is not the first number again"));
+  EXPECT_THAT(problem("0 0 1\n" + std::string(kFirstBlock) + "1 0 0 0\n"), HasSubstr("x:6:7: frame: 4 numbers"));
+  EXPECT_THAT(problem("0 0 1\n"), HasSubstr("cut after 0 of its four rows"));
+  EXPECT_THAT(problem("1 2\n"), HasSubstr("x:1:3: pose: 2 numbers, expected a matrix"));
+}
+
+TEST(NumberedFrames, AreReadInTheOrderOfTheirNumbers) {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch / "frames";
+  fs::create_directories(folder);
+  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("holds no poses of a known format"));
+  put(folder / "camera-intrinsics.txt", "585 0 320\n");
+  put(folder / "frame-000010.pose.txt", kSecondBlock);
+  put(folder / "frame-000002.pose.txt", kFirstBlock);
+  put(folder / "frame-000002.color.txt", "no pose");
+  expectBoth(readNumberedFrames(folder), PoseOrder::kNumbers, 2, 10);
+  put(folder / "11.txt", "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n");
+  EXPECT_EQ(readRecordedPoses(folder).without_pose, 1u);
+  put(folder / "12.txt", std::string(kFirstBlock) + kSecondBlock);
+  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }),
+              HasSubstr("12.txt: holds 2 poses, where one of frame 12"));
+  put(folder / "12.txt", "1 0 0 0\n0 1 0 x\n");
+  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("12.txt:2:7: pose: `x` is not a number"));
+  put(folder / "12.txt", kFirstBlock);
+  put(folder / "0012.txt", kFirstBlock);
+  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("is of frame 12 as"));
+}
+
+TEST(RecordedPoses, OfAFolderAreThoseOfItsTrajectory) {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch / "run";
+  fs::create_directories(folder);
+  put(folder / "frame-000002.pose.txt", kFirstBlock);
+  put(folder / "groundtruth.txt", "# time\n1.5 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(readRecordedPoses(folder).order, PoseOrder::kStamps);
+  put(folder / "groundtruth.txt", "nan nan nan nan\nnan nan nan nan\nnan nan nan nan\nnan nan nan nan\n");
+  EXPECT_THAT(problemOf([&] { readRecordedPoses(folder); }), HasSubstr("not one of its matrices is finite"));
+}
+
+TEST(RecordedPoses, OfTheDataSetsAreRead) {
+  const auto open3d = test_support::dataSet("03-rgbd/open3d-rgbd/open3d_RGBD_testdata.tar");
+  const auto seven = test_support::dataSet("03-rgbd/7scenes-redkitchen-a/redkitchen_000-598_step2.tar");
+  if (!open3d || !seven) return;
+  const ScratchFolder scratch;
+  const auto unpacked = [&](const fs::path& archive, const std::string& name) {
+    const fs::path folder = scratch / name;
+    fs::create_directories(folder);
+    EXPECT_TRUE(outputOf("tar -C " + folder.string() + " -xf " + archive.string()));
+    return folder;
+  };
+  const RecordedPoses trajectory = readRecordedPoses(unpacked(*open3d, "open3d"));
+  EXPECT_EQ(trajectory.order, PoseOrder::kNumbers);
+  EXPECT_EQ(trajectory.poses.size(), 5u);
+  const RecordedPoses frames = readRecordedPoses(unpacked(*seven, "seven"));
+  ASSERT_EQ(frames.poses.size(), 300u);
+  EXPECT_EQ(frames.poses.back().stamp, common::Time::fromSeconds(598));
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces
