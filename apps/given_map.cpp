@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/mission_limits.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"
@@ -50,6 +51,7 @@ std::string whyEmpty(const std::vector<common::Problem>& notes) {
 }  // namespace
 
 interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
+  refuseOtherKind(yaml_file.string(), "a map");
   interfaces::StoredMap stored = interfaces::readMap(yaml_file);
   if (const double resolution_m = stored.grid.resolution_m(); resolution_m > kCoarsest_m)
     throw common::InputError(

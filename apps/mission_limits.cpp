@@ -1,8 +1,11 @@
 #include "apps/mission_limits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -72,12 +75,21 @@ Use useOfYaml(const std::string& name, const fs::path& file) {
   return {"", ""};
 }
 
+/// Whether a text is among the first bytes of a file.
+bool saysAtTop(const fs::path& file, const char* text) {
+  constexpr std::size_t kTopBytes = std::size_t{1} << 16;
+  std::string top(kTopBytes, '\0');
+  std::ifstream(file, std::ios::binary).read(top.data(), static_cast<std::streamsize>(kTopBytes));
+  return top.find(text) != std::string::npos;
+}
+
 Use useOf(const std::string& name, const fs::path& file) {
   const std::string ending = common::endingOf(file);
   if (ending == ".yaml" || ending == ".yml") return useOfYaml(name, file);
-  if (ending == ".sdf" || ending == ".world")
+  const bool is_xml = ending == ".xml";
+  if (ending == ".sdf" || ending == ".world" || (is_xml && saysAtTop(file, "<sdf")))
     return {"a world", "`swiftlet fly MISSION.xml --world " + name + "` flies in a world"};
-  if (ending == ".xml") return {"a mission", "`swiftlet fly " + name + "` flies a mission"};
+  if (is_xml) return {"a mission", "`swiftlet fly " + name + "` flies a mission"};
   return {"", ""};
 }
 
@@ -87,6 +99,15 @@ struct Kind {
 };
 constexpr Kind kMission{"a mission", "missions", ".xml", "an XML file"};
 constexpr Kind kTrial{"a trial", "trials", ".yaml", "a YAML file"};
+constexpr std::array kOtherKinds{Kind{"a world", "worlds", ".sdf", "a file of SDF"},
+                                 Kind{"a map", "", ".yaml", "a YAML file of map_server"},
+                                 Kind{"a profile", "config/systems", ".yaml", "a YAML file"}};
+
+void refuseOtherUse(const std::string& name, const Use& use, const Kind& kind) {
+  if (use.what.empty() || use.what == kind.what) return;
+  throw common::InputError(common::Problem{
+      {name}, "", fmt::format("is {}, and no {}, which is {}", use.what, kind.what + 2, kind.format), use.hint});
+}
 
 fs::path findNamed(const std::string& name, const Kind& kind) {
   try {
@@ -108,9 +129,7 @@ fs::path findNamed(const std::string& name, const Kind& kind) {
 std::string findOfKind(const std::string& name, const Kind& kind) {
   const fs::path file = findNamed(name, kind);
   const Use use = fs::is_directory(file) ? Use() : useOf(name, file);
-  if (!use.what.empty() && use.what != kind.what)
-    throw common::InputError(common::Problem{
-        {name}, "", fmt::format("is {}, and no {}, which is {}", use.what, kind.what + 2, kind.format), use.hint});
+  refuseOtherUse(name, use, kind);
   const std::string ending = common::endingOf(file);
   if (use.what.empty() && ending != kind.ending && !fs::is_directory(file) && (ending == ".yaml" || ending == ".yml"))
     throw common::InputError(
@@ -126,6 +145,14 @@ std::string findMission(const std::string& name) {
     throw common::InputError(
         common::Problem{{name}, "", "is a folder, and no mission, which is an XML file", "name a file of it"});
   return file;
+}
+
+void refuseOtherKind(const std::string& file, std::string_view what) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return;  // Who reads it says what it is.
+  const Use use = useOf(file, file);
+  for (const Kind& kind : kOtherKinds)
+    if (kind.what == what) refuseOtherUse(file, use, kind);
 }
 
 std::string findTrial(const std::string& name) { return findOfKind(name, kTrial); }

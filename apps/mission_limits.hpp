@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/system.hpp"
@@ -21,6 +22,9 @@ std::vector<std::string> missionFiles(const simulation::Scenario& scenario, cons
 std::string findMission(const std::string& name);
 /// The file of a trial, or the folder of several, found and judged likewise.
 std::string findTrial(const std::string& name);
+/// Throws common::InputError if a file shows by its name or its keys that it is not `what`: "a world", "a map" or
+/// "a profile".
+void refuseOtherKind(const std::string& file, std::string_view what);
 
 /// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.
 std::string lineOf(tree::Problem problem, bool warning);

@@ -28,9 +28,13 @@ int printNamed(const std::vector<std::string>& names, const tree::Registry& regi
       help += tree::writeNodeHelp(type->manifest);
     else if (name == tree::subTreeManifest().id)
       help += tree::writeNodeHelp(tree::subTreeManifest());
-    else
+    else {
+      const std::string similar = tree::didYouMean(name, known);
       problems +=
-          toString(tree::Problem{{}, "nodes", "unknown node `" + name + "`", tree::didYouMean(name, known)}) + "\n";
+          toString(tree::Problem{
+              {}, "nodes", "unknown node `" + name + "`", similar.empty() ? "`swiftlet nodes` lists all" : similar}) +
+          "\n";
+    }
   }
   show(help);
   showError(problems);

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/mission_limits.hpp"
 #include "autonomy/flight_sensors.hpp"
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
@@ -300,7 +301,9 @@ System loadSystem(const std::string& name) {
   System system;
   system.name = name;
   ProfilePlaces places;
-  readProfile(fileFor(name, "systems"), system.config, places, {});
+  const std::string profile = fileFor(name, "systems");
+  refuseOtherKind(profile, "a profile");
+  readProfile(profile, system.config, places, {});
   const std::map<std::string, std::string> files = findSheets(system, places);
   system.laser_place = places.of("laser");
   using common::config::readFile;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "apps/mission_limits.hpp"
 #include "apps/trial_files.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
@@ -101,7 +102,10 @@ fs::path findWorldFile(const std::string& name, const fs::path& beside) {
     for (const char* ending : {"", ".sdf", ".world"})
       for (const fs::path& data : common::dataFolders()) {
         const fs::path path = (data == "." ? fs::path(folder) : data / folder) / (name + ending);
-        if (std::error_code ignored; !name.empty() && fs::is_regular_file(path, ignored)) return path;
+        if (std::error_code ignored; !name.empty() && fs::is_regular_file(path, ignored)) {
+          refuseOtherKind(path.string(), "a world");
+          return path;
+        }
       }
   try {
     return common::findBeside(beside, name);  // For its message.

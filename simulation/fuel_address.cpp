@@ -107,6 +107,22 @@ std::optional<fs::path> findModelOfFuel(const fs::path& folder, const FuelAddres
   return std::nullopt;
 }
 
+fs::path newestIn(const fs::path& model) { return versionIn(model, "").value_or(model); }
+
+std::optional<fs::path> findNameInFuel(const fs::path& folder, const std::string& name) {
+  std::set<std::string> owners;
+  std::optional<fs::path> found;
+  std::error_code ignored;
+  for (const char* server : {"fuel.gazebosim.org", "fuel.ignitionrobotics.org"})
+    for (const fs::directory_entry& owner : fs::directory_iterator(folder / server, ignored)) {
+      const auto model = findIgnoringCase(owner.path(), fs::path("models") / name);
+      if (!model || !versionIn(*model, "")) continue;
+      owners.insert(owner.path().filename().string());
+      if (!found) found = newestIn(*model);
+    }
+  return owners.size() == 1 ? found : std::nullopt;
+}
+
 std::set<int> versionsOfFuel(const fs::path& folder, const FuelAddress& address) {
   std::set<int> versions;
   std::error_code ignored;

@@ -33,6 +33,12 @@ std::optional<std::filesystem::path> findIgnoringCase(const std::filesystem::pat
 /// The model's folder if `folder` is a cache of Fuel, a part of one, or holds a copy of the model under its name.
 std::optional<std::filesystem::path> findModelOfFuel(const std::filesystem::path& folder, const FuelAddress& address);
 
+/// The folder of the newest version, if `model` holds a folder for each version as a cache of Fuel does; else `model`.
+std::filesystem::path newestIn(const std::filesystem::path& model);
+
+/// The model of that name if `folder` is a cache of Fuel and only one owner in it has such a model.
+std::optional<std::filesystem::path> findNameInFuel(const std::filesystem::path& folder, const std::string& name);
+
 /// The versions of the model that such a folder holds.
 std::set<int> versionsOfFuel(const std::filesystem::path& folder, const FuelAddress& address);
 

@@ -101,7 +101,7 @@ std::string withoutMetres(std::string text) {
 
 /// What the text most likely means, written as SDF wants it; none if that cannot be told.
 std::optional<std::string> meant(const std::string& text, Count count) {
-  const std::string plain = withoutMetres(replaced(replaced(common::asSeen(text), "&#160;", " "), ";", " "));
+  const std::string plain = withoutMetres(replaced(common::asSeen(text), ";", " "));
   for (const std::string& guess : {plain, replaced(replaced(plain, ", ", " "), ",", "."), replaced(plain, ",", " ")})
     if (const auto found = numbersIn(guess); found && *found >= count.least && *found <= count.most) {
       std::string words;

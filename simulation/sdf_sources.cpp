@@ -85,6 +85,10 @@ bool mayInclude(const std::vector<SdfTag>& tags, int parent) {
   return true;
 }
 
+bool isIn(const std::vector<SdfTag>& tags, const SdfTag& tag, std::string_view parent) {
+  return tag.parent >= 0 && tags[static_cast<std::size_t>(tag.parent)].name == parent;
+}
+
 }  // namespace
 
 const SdfTag* SdfSources::Document::child(std::size_t parent, std::string_view name) const {
@@ -221,10 +225,36 @@ void SdfSources::followInclude(Document& document, std::size_t number) {
       document.replace(tag->begin, tag->end, "");
   if (found) {
     const std::string path = visit(found->string(), document.locationOf(*uri_tag));
+    const std::string_view merge = attributeOf(include, "merge").value_or("");
+    if ((merge == "true" || merge == "1") && isIn(document.tags, include, "world"))
+      mergeIntoWorld(document, number, path);
     return document.replace(uri_tag->content, uri_tag->content_end, common::escaped(path));
   }
   reportMissing(document, *uri_tag, uri, hint);
   standIn(document, number, uri);
+}
+
+/// libsdformat 12 merges into models alone. In a world the model is included as it is, and frames give what is in it
+/// the names that it would have.
+void SdfSources::mergeIntoWorld(Document& document, std::size_t number, const std::string& path) {
+  const SdfTag& include = document.tags[number];
+  const auto merge = *attributeOf(include, "merge");
+  const auto value = static_cast<std::size_t>(merge.data() - document.text.data());
+  document.replace(document.text.rfind("merge", value), value + merge.size() + 1, "");
+  const std::string text = common::readBytes(path);  // As prepare() left it.
+  const auto tags = readTags(path, text);
+  if (!tags) return;
+  const auto model = std::find_if(tags->begin(), tags->end(), [](const SdfTag& tag) { return tag.name == "model"; });
+  if (model == tags->end()) return;
+  const SdfTag* name_tag = document.child(number, "name");
+  const std::string scope = name_tag != nullptr ? common::escaped(textOf(*name_tag, document.text))
+                                                : std::string(attributeOf(*model, "name").value_or(""));
+  std::string frames = "</include>";
+  for (const SdfTag& part : *tags)
+    if (const auto name = attributeOf(part, "name");
+        name && part.parent == model - tags->begin() && (part.name == "model" || part.name == "frame"))
+      frames += fmt::format("<frame name=\"{0}\" attached_to=\"{1}::{0}\"/>", *name, scope);
+  document.replace(include.content_end, include.end, frames);
 }
 
 /// In place of an include that was not found: other things may be placed relative to it.

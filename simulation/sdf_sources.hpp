@@ -70,6 +70,7 @@ class SdfSources {
   void checkVersion(Document& document);
   bool isTemplate(const Document& document);
   void followInclude(Document& document, std::size_t number);
+  void mergeIntoWorld(Document& document, std::size_t number, const std::string& path);
   void standIn(Document& document, std::size_t number, const std::string& uri);
   void reportMissing(const Document& document, const SdfTag& uri_tag, const std::string& uri, const std::string& hint);
   std::string asItIs(const Document& document);

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,6 +26,55 @@ bool areQuoted(std::string_view attributes) {
     at = std::min(attributes.find(attributes[quote], quote + 1), attributes.size());
   }
   return true;
+}
+
+void appendUtf8(char32_t code, std::string& text) {
+  const auto add = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+  const auto addRest = [&](int shift) { add(0x80U | ((code >> shift) & 0x3FU)); };
+  if (code < 0x80U) return add(code);
+  if (code < 0x800U) {
+    add(0xC0U | (code >> 6U));
+  } else if (code < 0x10000U) {
+    add(0xE0U | (code >> 12U));
+    addRest(6);
+  } else {
+    add(0xF0U | (code >> 18U));
+    addRest(12);
+    addRest(6);
+  }
+  addRest(0);
+}
+
+/// What "&lt;", "&#60;" or "&#x3C;" stands for, without the `&` and the `;`; as it is written if it is none of these.
+std::string meantBy(std::string_view entity) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 5> kNamed{
+      {{"lt", "<"}, {"gt", ">"}, {"quot", "\""}, {"apos", "'"}, {"amp", "&"}}};
+  for (const auto& [name, letter] : kNamed)
+    if (entity == name) return letter;
+  const std::string as_written = fmt::format("&{};", entity);
+  if (!entity.starts_with('#')) return as_written;
+  const bool hexadecimal = entity.starts_with("#x");
+  const std::string_view digits = entity.substr(hexadecimal ? 2 : 1);
+  std::uint32_t code = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code, hexadecimal ? 16 : 10);
+  constexpr std::uint32_t kMost = 0x10FFFF;
+  if (error != std::errc() || end != digits.data() + digits.size() || code == 0 || code > kMost) return as_written;
+  std::string letter;
+  appendUtf8(code, letter);
+  return letter;
+}
+
+std::string withoutEntities(std::string_view text) {
+  std::string plain;
+  while (!text.empty()) {
+    const std::size_t begin = std::min(text.find('&'), text.size()), end = text.find(';', begin);
+    plain += text.substr(0, begin);
+    text.remove_prefix(begin);
+    if (end == std::string_view::npos) return plain.append(text);
+    if (!text.empty()) plain += meantBy(text.substr(1, end - begin - 1));
+    text.remove_prefix(text.empty() ? 0 : end - begin + 1);
+  }
+  return plain;
 }
 
 /// Follows one text; the views that it gives are into it.
@@ -173,12 +226,7 @@ std::string textOf(const SdfTag& tag, std::string_view text) {
   inside = inside.substr(0, inside.find('<'));
   const std::size_t begin = inside.find_first_not_of(kSpace);
   if (begin == std::string_view::npos) return {};
-  std::string value(inside.substr(begin, inside.find_last_not_of(kSpace) - begin + 1));
-  for (const auto& [entity, letter] :
-       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}})
-    for (std::size_t at = 0; (at = value.find(entity, at)) != std::string::npos; ++at)
-      value.replace(at, std::string_view(entity).size(), letter);
-  return value;
+  return withoutEntities(inside.substr(begin, inside.find_last_not_of(kSpace) - begin + 1));
 }
 
 }  // namespace swiftlet::simulation

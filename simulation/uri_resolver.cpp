@@ -93,8 +93,16 @@ std::optional<fs::path> UriResolver::find(const std::string& uri, const fs::path
     std::error_code error;
     // A link that leads to nothing is the file that was meant, and its reader says so.
     if (fs::exists(folder / path, error) || fs::is_symlink(folder / path, error))
-      return (folder / path).lexically_normal();
+      return newestIn((folder / path).lexically_normal());
   }
+  if (!uri.starts_with("model://")) return std::nullopt;
+  const fs::path path = percentDecoded(pathOf(uri));
+  fs::path inside;
+  for (auto part = path.begin(); part != path.end(); ++part)
+    if (part != path.begin()) inside /= *part;
+  for (const fs::path& folder : folders_)
+    if (const auto model = path.empty() ? std::nullopt : findNameInFuel(folder, path.begin()->string()))
+      return findIgnoringCase(*model, inside);
   return std::nullopt;
 }
 

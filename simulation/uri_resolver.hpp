@@ -20,6 +20,7 @@ class UriResolver {
 
   /// The file or folder of a URI in the file `used_in`; none if there is no such file or folder. An address of Fuel is
   /// found in a cache of Fuel, whatever the case of its letters, or in a folder that has a folder of the model's name.
+  /// A `model://` that is nowhere else is found in a cache of Fuel, if only one owner there has a model of that name.
   std::optional<std::filesystem::path> find(const std::string& uri, const std::filesystem::path& used_in = {}) const;
 
   /// What the user can do about a URI that was not found: a name that differs by case, or where to put the file.

@@ -300,6 +300,12 @@ bool Documents::include(const Document& document, const XmlElement& element, con
 }
 
 bool Documents::addTree(const Document& document, const XmlElement& element, bool alone) {
+  for (const XmlAttribute& attribute : element.attributes)
+    if (attribute.name != "ID" && !attribute.name.starts_with('_') && !isForEditors(attribute.name))
+      reportForeign({document.at(element, attribute.name), element.name, "unknown attribute `" + attribute.name + "`",
+                     attribute.name == "main_tree_to_execute"
+                         ? "write it in <root>"
+                         : didYouMean(attribute.name, std::vector<std::string>{"ID"})});
   const std::string* id = element.attribute("ID");
   if (id != nullptr && id->empty()) {
     problems_.add({document.at(element, "ID"), element.name, "the ID is empty", {}});

@@ -145,10 +145,24 @@ TEST_F(CheckMission, AFileOfAnotherKindIsToldInALine) {
   expectLine({"check", trial}, no_mission);
   expectLine({"fly", trial}, no_mission);
   expectLine({"migrate", trial}, no_mission);
-  expectLine(
-      {"check", "--system", mission, mission},
-      mission +
-          ":1:1: `<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"> <Behavio ...` where keys were expected");
+  const auto is = [](const std::string& file, const std::string& what, const std::string& no) {
+    return file + ": is " + what + ", and no " + no;
+  };
+  const std::string fly_mission = "`swiftlet fly " + mission + "` flies a mission";
+  const std::string fly_trial = "`swiftlet trial " + trial + "` flies a trial";
+  const std::string no_profile = is(mission, "a mission", "profile, which is a YAML file, ") + fly_mission;
+  expectLine({"check", "--system", mission, mission}, no_profile);
+  expectLine({"config", "--system", mission}, no_profile);
+  expectLine({"fly", mission, "--headless", "--world", trial},
+             is(trial, "a trial", "world, which is a file of SDF, ") + fly_trial);
+  expectLine({"fly", mission, "--headless", "--map", trial},
+             is(trial, "a trial", "map, which is a YAML file of map_server, ") + fly_trial);
+  expectLine({"localize", mission, trial},
+             is(mission, "a mission", "map, which is a YAML file of map_server, ") + fly_mission);
+  const std::string world = write("w.xml", "<?xml version='1.0'?>\n<sdf version='1.9'></sdf>\n");
+  expectLine({"check", world},
+             is(world, "a world", "mission, which is an XML file, `swiftlet fly MISSION.xml --world ") + world +
+                 "` flies in a world");
 }
 
 class Migrating : public test_support::Scratch {

@@ -70,6 +70,7 @@ TEST(Usage, SuggestsTheClosestName) {
   told({"help", "fly"}, "`help` is not a command of `swiftlet`, `swiftlet fly --help` helps");
   told({"-v"}, "`-v` is not an option of `swiftlet`, did you mean `--version`?");
   told({"hop.xml"}, "`hop.xml` is not a command of `swiftlet`, did you mean `swiftlet fly hop.xml`?");
+  told({"nodes", "goto"}, "nodes: unknown node `goto`, `swiftlet nodes` lists all\n");
   told({"evaluate", "hop.xml"}, "`hop.xml` is not a command of `swiftlet evaluate`\n");
   told({"--seed", "7", "fly", "hop.xml"}, "`--seed` is not an option of `swiftlet`, put it behind `fly`");
   told({"fly", "hop.xml", "seed=7"}, "`seed=7` is one argument too many for `swiftlet fly`, did you mean `--seed`?");

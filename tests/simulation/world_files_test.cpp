@@ -185,6 +185,39 @@ TEST_F(WorldFiles, ModelsOfFuelAreFoundInNamedFolders) {
               ElementsAre("oak"));
 }
 
+TEST_F(WorldFiles, ModelUrisAreFoundInTheCachesOfFuel) {
+  const std::string uri = "<include><uri>model://Crate</uri></include>";
+  const std::string server = "home/.gz/fuel/fuel.gazebosim.org/";
+  putModel(server + "gerkey/models/crate/1", "old");
+  putModel(server + "gerkey/models/crate/2", "crate", "<mesh><uri>model://Crate/meshes/t.obj</uri></mesh>");
+  folder_.write(server + "gerkey/models/crate/2/meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THAT(load(sdf(world(uri))).modelNames(), ElementsAre("crate"));
+  putModel(server + "other/models/crate/1", "another");  // Which of the two is meant is not known.
+  EXPECT_THAT(problemOf(sdf(world(uri))), HasSubstr("Unable to find uri[model://Crate]"));
+  environment_.set("SDF_PATH", pathOf(server + "other/models"));
+  EXPECT_THAT(problemOf(sdf(world(uri))), HasSubstr("did you mean `model://crate`?"));
+  EXPECT_THAT(load(sdf(world("<include><uri>model://crate</uri></include>"))).modelNames(), ElementsAre("another"));
+}
+
+TEST_F(WorldFiles, AModelMergedIntoTheWorldGivesItsNames) {
+  folder_.write("home/models/set/model.sdf",
+                sdf("<model name='set'><frame name='start'><pose>3 0 0 0 0 0</pose></frame>" +
+                    model("inner", kBox, "5 0 0 0 0 0") + "</model>"));
+  const std::string uri = "<uri>model://set</uri><pose>1 2 0 0 0 0</pose></include>\n";
+  const std::string beside =
+      "<model name='b'><static>1</static><pose relative_to='inner'>0 4 0 0 0 0</pose><link "
+      "name='l'><collision name='c'><geometry>" +
+      kBox + "</geometry></collision></link></model>";
+  for (const std::string& include : {"<include merge='true'>" + uri, "<include merge=\"1\"><name>n</name>" + uri}) {
+    const WorldModel w = load(sdf(world(include + beside)));
+    EXPECT_THAT(boxOf(w.shapes.at(0)).center().head<2>(), Eigen::Vector2f(6.0F, 2.0F)) << include;
+    EXPECT_THAT(boxOf(w.shapes.at(1)).center().head<2>(), Eigen::Vector2f(6.0F, 6.0F)) << include;
+    EXPECT_THAT(w.warnings, IsEmpty()) << include;
+    ASSERT_TRUE(w.T_world_start) << include;
+    EXPECT_NEAR(w.T_world_start->position_m.x(), 4.0, 1e-9) << include;
+  }
+}
+
 TEST_F(WorldFiles, IncompleteWorldsAreRefusedUnlessAllowed) {
   const std::string box = model("box", kBox);
   for (const std::string& text :

@@ -86,6 +86,8 @@ TEST_F(WorldNumbers, OfSdfAndOfPluginsAreTaken) {
   const std::string plugin = "<plugin name='p' filename='f'><model><pose>1,5</pose></model></plugin>";
   EXPECT_EQ(refusalOf(kWideFloor + plugin + model("thing", "<box><size>+1 .5\n 1e0</size></box>", "4 2. 0 0 0 -1e-2")),
             "no error");
+  EXPECT_EQ(refusalOf(kWideFloor + model("thing", "<box><size>&#49;&#x20;&#50;&#x9;3</size></box>", "4 2 0 0 0 0")),
+            "no error");
 }
 
 TEST_F(WorldNumbers, AStartUnderATableIsRefusedForOneThatWillDo) {

@@ -274,6 +274,11 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
           HasSubstr("`A` is defined twice, first at f.xml:1:49"),
           HasSubstr("BehaviourTree: unknown element, expected <BehaviorTree>, <include> or <TreeNodesModel>, did you "
                     "mean `BehaviorTree`?")));
+  EXPECT_THAT(
+      problemsOf("<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"A\" main_tree_to_execute=\"A\" _favorite=\"true\" "
+                 "id=\"a\"><AlwaysSuccess/></BehaviorTree></root>"),
+      ElementsAre("f.xml:2:22: BehaviorTree: unknown attribute `main_tree_to_execute`, write it in <root>",
+                  HasSubstr("BehaviorTree: unknown attribute `id`, did you mean `ID`?")));
   EXPECT_THAT(problemsIn("<AlwaysSuccess/>", "<BehaviorTree><AlwaysSuccess/></BehaviorTree>"),
               ElementsAre(HasSubstr("BehaviorTree: the attribute `ID` is missing")));
   EXPECT_THAT(problemsIn("<AlwaysSuccess/>", "<BehaviorTree ID=\"Fly\"><AlwaysSuccess/></BehaviorTree>"),
