@@ -98,6 +98,7 @@ Trust trustOf(const RecordedLog& log, const MapRun& run) {
   if (std::string why_not = perception::whyNotTrusted(log.scans(), run.unmatched, track, run.judgement);
       !why_not.empty())
     return {false, std::move(why_not)};
+  if (std::string why_not = log.whyBent(); !why_not.empty()) return {false, std::move(why_not)};
   if (track.breaks == 0) return {true, "the track was never lost"};
   return {true, fmt::format("the track was lost {}, and all its pieces are connected",
                             plural(track.breaks, "time", "times"))};
