@@ -57,39 +57,40 @@ std::string plural(std::uint64_t count, const std::string& one, const std::strin
 }
 
 RecordedLog::RecordedLog(const RecordedLogOptions& options)
-    : file_(options.file), uses_odometry_(options.odometry != "none"), reader_(opened(options)) {}
+    : file_(options.file), uses_odometry_(options.odometry != "none"), swept_(opened(options)) {}
 
-std::optional<interfaces::LoggedScan> RecordedLog::next() {
-  try {
-    auto logged = reader_->next();
-    if (!logged) return logged;
-    ++scans_;
-    countRanges(logged->scan);
-    countStamp(logged->scan.stamps.measured);
-    return logged;
-  } catch (const common::InputError& e) {
-    if (scans_ == 0) throw;
-    damage_ = e.what();
-    return std::nullopt;
-  }
+std::optional<SweptScan> RecordedLog::next() {
+  auto logged = swept_.next();
+  if (!logged) return logged;
+  ++scans_;
+  countRanges(logged->scan);
+  countStamp(logged->scan.stamps.measured);
+  return logged;
 }
 
-perception::LaserSlamInput RecordedLog::inputOf(const interfaces::LoggedScan& logged) const {
-  return {logged.scan, logged.T_robot_laser, uses_odometry_ ? logged.T_odom_robot : std::nullopt};
+perception::LaserSlamInput RecordedLog::inputOf(const SweptScan& logged) const {
+  perception::LaserSlamInput input{logged.scan, logged.T_robot_laser,
+                                   uses_odometry_ ? logged.T_odom_robot : std::nullopt};
+  if (!logged.motion) return input;
+  input.motion = &*logged.motion;
+  // The motion from sweep to sweep serves as odometry where there is no other.
+  if (!input.T_odom_robot) input.T_odom_robot = logged.motion->at(0.0);
+  return input;
 }
 
 std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts& found) const {
-  std::vector<std::string> warnings = reader_->notes();
-  if (!damage_.empty()) warnings.push_back("only what came before could be read: " + damage_);
-  if (const auto n = reader_->counts().skipped_records; n > 0) {
+  std::vector<std::string> warnings = reader().notes();
+  if (!damage().empty()) warnings.push_back("only what came before could be read: " + damage());
+  if (const auto n = reader().counts().skipped_records; n > 0) {
     warnings.push_back(plural(n, "record could not be read and was", "records could not be read and were") +
                        " skipped" +
                        (firstSkippedLine() ? fmt::format(", the first in line {}", *firstSkippedLine()) : ""));
-    for (const common::Problem& problem : reader_->counts().first_problems) warnings.push_back(toString(problem));
+    for (const common::Problem& problem : reader().counts().first_problems) warnings.push_back(toString(problem));
   }
-  if (const auto n = reader_->counts().invalid_ranges; n > 0)
+  if (const auto n = reader().counts().invalid_ranges; n > 0)
     warnings.push_back(plural(n, "range is", "ranges are") + " negative or not a number");
   if (const std::string note = stampNote(); !note.empty()) warnings.push_back(note);
+  if (std::string note = swept_.unknownTime(); !note.empty()) warnings.push_back(std::move(note));
   if (hasOneStamp())
     warnings.push_back(
         fmt::format("all scans have the same stamp, {:.3f} s: the order of the file is believed; the poses of the "
@@ -105,13 +106,13 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
 }
 
 std::optional<int> RecordedLog::firstSkippedLine() const {
-  const std::vector<common::Problem>& problems = reader_->counts().first_problems;
+  const std::vector<common::Problem>& problems = reader().counts().first_problems;
   if (problems.empty() || problems.front().location.line == 0) return std::nullopt;
   return problems.front().location.line;
 }
 
 std::vector<std::pair<std::string, std::string>> RecordedLog::facts() const {
-  std::vector<std::pair<std::string, std::string>> facts{{"format", reader_->format()},
+  std::vector<std::pair<std::string, std::string>> facts{{"format", reader().format()},
                                                          {"scans", fmt::format("{}", scans_)}};
   if (duration_s_ > 0.0) facts.emplace_back("duration", fmt::format("{:.1f} s", duration_s_));
   return facts;
@@ -126,7 +127,7 @@ void RecordedLog::countStamp(common::Time stamp) {
 
 std::string RecordedLog::stampNote() const {
   const double step_s = common::medianStep_s(first_stamps_, [](common::Time stamp) { return stamp; });
-  return reader_->hasMicroseconds() ? interfaces::microsecondStepNote(step_s) : interfaces::stampStepNote(step_s);
+  return reader().hasMicroseconds() ? interfaces::microsecondStepNote(step_s) : interfaces::stampStepNote(step_s);
 }
 
 void RecordedLog::countRanges(const common::LaserScan& scan) {
@@ -153,7 +154,7 @@ std::string RecordedLog::whyNoPoints() const {
 }
 
 common::InputError RecordedLog::error(const std::string& message) const {
-  const std::vector<common::Problem>& problems = reader_->counts().first_problems;
+  const std::vector<common::Problem>& problems = reader().counts().first_problems;
   return common::InputError(
       common::Problem{{file_}, "", message, problems.empty() ? "" : "first problem: " + toString(problems.front())});
 }

@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/swept_log.hpp"
 #include "common/error.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
@@ -49,16 +49,19 @@ class RecordedLog {
 
   /// None at the end, also at one that a damage makes: what came before it counts all the same. Throws InputError when
   /// not a single scan did.
-  std::optional<interfaces::LoggedScan> next();
+  std::optional<SweptScan> next();
   /// `logged` for SLAM and localization, without its odometry where that is not to be used. Refers to `logged`.
-  perception::LaserSlamInput inputOf(const interfaces::LoggedScan& logged) const;
+  perception::LaserSlamInput inputOf(const SweptScan& logged) const;
 
-  const interfaces::LaserLog& reader() const { return *reader_; }
+  const interfaces::LaserLog& reader() const { return swept_.reader(); }
   std::uint64_t scans() const { return scans_; }
   /// All scans so far have the same stamp: it tells nothing.
   bool hasOneStamp() const { return scans_ > 1 && !stamps_differ_; }
   /// Why it could not be read to its end; empty when it could.
-  const std::string& damage() const { return damage_; }
+  const std::string& damage() const { return swept_.damage(); }
+
+  /// Why a map of it cannot be trusted, whatever the map looks like; empty if it can.
+  std::string whyBent() const { return swept_.whyBent(); }
 
   /// Of the first record that could not be read; none where all could, or the format has no lines.
   std::optional<int> firstSkippedLine() const;
@@ -80,7 +83,7 @@ class RecordedLog {
 
   std::string file_;
   bool uses_odometry_;
-  std::unique_ptr<interfaces::LaserLog> reader_;
+  SweptLog swept_;
   std::uint64_t scans_ = 0;
   std::optional<common::Time> first_stamp_;
   bool stamps_differ_ = false;
@@ -88,7 +91,6 @@ class RecordedLog {
   double duration_s_ = 0.0;                              ///< From the first stamp to the last.
   std::uint64_t ranges_ = 0, invalid_ = 0, beyond_ = 0;  ///< All; those that tell nothing; those without a hit.
   double nearest_m_ = 0.0, farthest_m_ = 0.0;            ///< What the laser of the last scan measures.
-  std::string damage_;
 };
 
 }  // namespace swiftlet::apps

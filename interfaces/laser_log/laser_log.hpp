@@ -16,7 +16,8 @@ namespace swiftlet::interfaces {
 
 /// One scan of the log.
 struct LoggedScan {
-  /// `stamps` are the log's own: they may repeat and go back. The measured and the arrived stamp are equal.
+  /// `stamps` are the log's own, of the first beam in time: they may repeat and go back. The measured and the arrived
+  /// stamp are equal. The time between two beams is negative where the last beam was the first in time.
   common::LaserScan scan;
   common::Pose2 T_robot_laser;
   std::optional<common::Pose2> T_odom_robot;  ///< The robot's own odometry; none if the log has none.

@@ -20,8 +20,7 @@ common::Time timeOf(std::int64_t seconds, std::int64_t nanoseconds) {
 void turnRound(common::LaserScan& scan) {
   scan.angle_min_rad += scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0);
   scan.angle_increment_rad = -scan.angle_increment_rad;
-  // After turning, the first beam would be the last in time, and time must not go back.
-  scan.time_increment = common::Duration();
+  scan.time_increment = -scan.time_increment;
   std::reverse(scan.ranges_m.begin(), scan.ranges_m.end());
 }
 

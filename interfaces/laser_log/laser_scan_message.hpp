@@ -21,7 +21,7 @@ inline constexpr std::string_view kLaserScanType = "sensor_msgs/LaserScan";
 bool isLaserScan(const BagConnection& connection);
 
 /// The stamp is that of the header, or the time of recording if the header has none. Scans that run clockwise are
-/// reversed. The message does not contain the mount.
+/// reversed, their time with them. The message does not contain the mount.
 tl::expected<LoggedScan, RecordProblem> parseLaserScan(const BagMessage& message);
 
 }  // namespace swiftlet::interfaces

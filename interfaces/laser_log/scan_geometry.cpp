@@ -17,6 +17,14 @@ constexpr double kWidestFan_rad = 2.0 * std::numbers::pi + 0.1;
 /// No laser has a longer range. Logs that claim one mean that nothing was seen.
 constexpr double kGreatestRange_m = 1000.0;
 
+/// A laser that hangs upside down sees everything from the other side: turned about its own x axis, it is upright.
+void mirror(LaserScan& scan) {
+  scan.angle_min_rad =
+      -(scan.angle_min_rad + scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0));
+  scan.time_increment = -scan.time_increment;
+  std::reverse(scan.ranges_m.begin(), scan.ranges_m.end());
+}
+
 void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {
   LaserScan& scan = logged.scan;
   const double steps = std::max(1.0, static_cast<double>(scan.ranges_m.size()) - 1.0);
@@ -24,7 +32,9 @@ void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {
   scan.angle_increment_rad = -2.0 * scan.angle_min_rad / steps;
   scan.range_min_m = sensor.range_min_m;
   scan.range_max_m = sensor.range_max_m;
-  logged.T_robot_laser = common::planar(sensor.mount.pose());
+  const common::Pose3 T_robot_laser = sensor.mount.pose();
+  logged.T_robot_laser = common::planar(T_robot_laser);
+  if ((T_robot_laser.rotation * Eigen::Vector3d::UnitZ()).z() < 0.0) mirror(scan);
 }
 
 std::optional<std::string> geometryProblem(const LaserScan& scan) {

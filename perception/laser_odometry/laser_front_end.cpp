@@ -5,6 +5,7 @@
 #include "common/small_matrices.hpp"
 
 #include "perception/laser_odometry/scan_clock.hpp"
+#include "perception/laser_odometry/swept_projection.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -25,6 +26,16 @@ std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>&
                                            const Pose2& T_reference_robot) {
   if (!direction_robot) return std::nullopt;
   return Eigen::Vector2d(Eigen::Rotation2Dd(T_reference_robot.yaw_rad) * *direction_robot);
+}
+
+/// The scan at the time `now` of the clock, with exactly its stamp.
+ProjectedScan projected(const LaserSlamInput& input, common::Time now, const Pose2& T_odom_robot) {
+  common::LaserScan stamped = input.scan;
+  stamped.stamps = {now, now};
+  if (input.motion != nullptr) return projectSwept(stamped, input.T_robot_laser, T_odom_robot, *input.motion);
+  // All beams at one time.
+  stamped.time_increment = {};
+  return projectLevel(stamped, input.T_robot_laser, T_odom_robot);
 }
 
 }  // namespace
@@ -101,11 +112,7 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
   const Pose2 expected = self.T_odom_reference * self.motion.T_reference_robot();
 
   FollowedScan followed;
-  common::LaserScan stamped = input.scan;
-  stamped.stamps = {now, now};
-  // With all beams at one time, the projected scan has exactly the stamp of the clock.
-  stamped.time_increment = {};
-  followed.scan = projectLevel(stamped, input.T_robot_laser, expected);
+  followed.scan = projected(input, now, expected);
   const bool withheld = withhold && withhold(expected) && self.begun;
   const std::optional<RelativePose> relative = withheld ? std::nullopt : self.match(followed.scan);
   if (!self.begun && !relative) return std::nullopt;

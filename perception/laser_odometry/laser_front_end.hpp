@@ -16,6 +16,7 @@
 #include "common/sensor_event.hpp"
 #include "perception/laser_odometry/laser_odometry.hpp"
 #include "perception/laser_odometry/motion_prediction.hpp"
+#include "perception/laser_odometry/sweep_motion.hpp"
 #include "perception/projection/scan_projection.hpp"
 
 namespace swiftlet::perception {
@@ -30,6 +31,8 @@ struct LaserSlamInput {
   const common::LaserScan& scan;  ///< Stamped by the log.
   common::Pose2 T_robot_laser;
   std::optional<common::Pose2> T_odom_robot;
+  /// During the sweep, which is then undone; the pose is that at the beginning. Null: all beams have the same pose.
+  const SweepMotion* motion = nullptr;
 };
 
 struct LaserSlamCounts {
