@@ -1,5 +1,8 @@
 // `swiftlet evaluate` with trajectories of data sets that have no stamps: how their poses are paired.
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,13 +33,9 @@ class EvaluatePoses : public test_support::Scratch {
   /// The same places, as frames 0, 2 and 6.
   std::string frames() const {
     std::filesystem::create_directories(path("frames"));
-    for (const std::string& at : {"0", "1", "3"})
-      (void)write(std::string("frames/frame-00000") +
-                      (at == "0"   ? "0"
-                       : at == "1" ? "2"
-                                   : "6") +
-                      ".pose.txt",
-                  "1 0 0 " + at + "\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    const std::vector<std::pair<std::string, std::string>> poses{{"0", "0"}, {"2", "1"}, {"6", "3"}};
+    for (const auto& [frame, at] : poses)
+      (void)write("frames/frame-00000" + frame + ".pose.txt", "1 0 0 " + at + "\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     return path("frames");
   }
   nlohmann::json figures(const std::string& estimate, const std::string& reference) const {
