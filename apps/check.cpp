@@ -9,6 +9,7 @@
 
 #include "apps/command.hpp"
 #include "apps/dry_run.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/output_file.hpp"

@@ -11,6 +11,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "apps/files_of_kind.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/trial_world.hpp"
 #include "apps/vehicle_flight.hpp"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/flight.hpp"
 #include "apps/groot_link.hpp"
 #include "apps/mission_limits.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/mission_limits.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/system.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
-#include "apps/mission_limits.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"

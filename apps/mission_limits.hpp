@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "apps/system.hpp"
@@ -17,14 +16,6 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 
 /// The mission file of each vehicle of the scenario, in their order: its own, or `otherwise` where it names none.
 std::vector<std::string> missionFiles(const simulation::Scenario& scenario, const std::string& otherwise);
-
-/// The file of a mission, as common::findData finds it. Throws common::InputError also for a file of another kind.
-std::string findMission(const std::string& name);
-/// The file of a trial, or the folder of several, found and judged likewise.
-std::string findTrial(const std::string& name);
-/// Throws common::InputError if a file shows by its name or its keys that it is not `what`: "a world", "a map" or
-/// "a profile".
-void refuseOtherKind(const std::string& file, std::string_view what);
 
 /// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.
 std::string lineOf(tree::Problem problem, bool warning);

@@ -28,7 +28,8 @@ void SharedLog::describe(common::config::Fields& fields) {
   fields("log", log, "The log.");
   fields("relations", relations, "Known relations between its poses; empty if there are none.");
   fields("best_mean_m", best_mean_m, {0, 1},
-         "The least mean error of the relations that anyone has measured, in translation; the map is right up to 1.5 times "
+         "The least mean error of the relations that anyone has measured, in translation; the map is right up to 1.5 "
+         "times "
          "as much.");
   fields("poses", poses, "Reference poses by its stamps; empty if there are none.");
   fields("poses_in_log", poses_in_log, "The poses in the log are corrected: they are the reference, and no odometry.");

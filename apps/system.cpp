@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/mission_limits.hpp"
+#include "apps/files_of_kind.hpp"
 #include "autonomy/flight_sensors.hpp"
 #include "common/config.hpp"
 #include "common/data_paths.hpp"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/mission_limits.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/system.hpp"
 #include "common/data_paths.hpp"
 #include "common/file_address.hpp"

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/command_line.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/trial_files.hpp"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "apps/mission_limits.hpp"
+#include "apps/files_of_kind.hpp"
 #include "apps/trial_files.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
