@@ -121,6 +121,7 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
   const bool lost = followed.broken || (!withheld && !relative);
   followed.covariance_since_last = self.follow(relative, lost, before, covariance_before);
   followed.T_odom_robot = self.T_odom_robot;
+  followed.T_expected_robot = between(expected, self.T_odom_robot);
   self.begun = true;
   return followed;
 }

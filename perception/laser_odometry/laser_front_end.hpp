@@ -45,6 +45,7 @@ struct LaserSlamCounts {
 struct FollowedScan {
   ProjectedScan scan;  ///< Its stamp is later than that of every scan before.
   common::Pose2 T_odom_robot;
+  common::Pose2 T_expected_robot;  ///< Relative to where it was predicted, before the match.
   /// Covariance of the step since the previous scan: of the additive errors (x_m, y_m, yaw_rad), axes of the robot at
   /// the previous scan.
   Eigen::Matrix3d covariance_since_last = Eigen::Matrix3d::Zero();

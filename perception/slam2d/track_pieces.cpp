@@ -44,6 +44,10 @@ constexpr double kMostViolation = 0.05;
 constexpr int kLeastAgreeing = 3;
 constexpr int kOneContradictingOf = 5;
 
+/// A match that so many others followed is confirmed. One that surprised, soon before the track was lost, may have been
+/// the cause: the motion until then is not known better than what it took back of the prediction.
+constexpr std::size_t kConfirming = 10;
+
 std::string times(std::uint64_t count) { return count == 1 ? "once" : fmt::format("{} times", count); }
 
 /// The pairs of pieces that the map connects. `member_of`: the piece of each key scan, or a number from `pieces` on.
@@ -95,12 +99,18 @@ std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const Tr
 void TrackPieces::add(const FollowedScan& followed, std::uint64_t keys_before, std::uint64_t keys_after) {
   if (!followed.matched) gap_covariance_ += stepCovarianceOrUnknown(followed.covariance_since_last);
   if (followed.broken) {
-    const double sigma_m = std::sqrt(std::max(gap_covariance_(0, 0), gap_covariance_(1, 1)));
-    const double sigma_rad = std::sqrt(gap_covariance_(2, 2));
+    double sigma_m = std::sqrt(std::max(gap_covariance_(0, 0), gap_covariance_(1, 1)));
+    double sigma_rad = std::sqrt(gap_covariance_(2, 2));
+    for (const common::Pose2& surprise : last_matches_) {
+      sigma_m = std::max(sigma_m, surprise.position_m().norm());
+      sigma_rad = std::max(sigma_rad, std::abs(surprise.yaw_rad));
+    }
     breaks_.push_back({matched_keys_, keys_before,
                        sigma_m <= config_.max_sigma_m && sigma_rad <= config_.max_sigma_deg * common::kRadPerDeg});
   }
   if (!followed.matched && !followed.broken) return;
+  last_matches_.push_back(followed.broken ? common::Pose2{} : followed.T_expected_robot);
+  if (last_matches_.size() > kConfirming) last_matches_.pop_front();
   matched_keys_ = keys_after;
   gap_covariance_.setZero();
 }

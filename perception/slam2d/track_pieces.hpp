@@ -4,11 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "common/geometry.hpp"
 
 namespace swiftlet::perception {
 
@@ -62,6 +65,7 @@ class TrackPieces {
   std::vector<Break> breaks_;
   std::uint64_t matched_keys_ = 0;                            ///< Number of key scans at the last match.
   Eigen::Matrix3d gap_covariance_ = Eigen::Matrix3d::Zero();  ///< Of the motion since the last match.
+  std::deque<common::Pose2> last_matches_;                    ///< Each relative to its prediction; the newest last.
 };
 
 }  // namespace swiftlet::perception

@@ -18,11 +18,12 @@ enum class Seen { kMatched, kNothing, kLostAndBegunAnew };
 /// A track of which each scan is a key scan.
 class Track {
  public:
-  void scans(int count, Seen seen, double sigma_m = 0.01) {
+  void scans(int count, Seen seen, double sigma_m = 0.01, const common::Pose2& T_expected_robot = {}) {
     for (int i = 0; i < count; ++i) {
       FollowedScan followed;
       followed.matched = seen == Seen::kMatched;
       followed.broken = seen == Seen::kLostAndBegunAnew;
+      followed.T_expected_robot = T_expected_robot;
       followed.covariance_since_last = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
       pieces_.add(followed, keys_, keys_ + 1);
       ++keys_;
@@ -48,6 +49,21 @@ class Track {
   std::uint64_t keys_ = 0;
   std::vector<SlamEdge> edges_;
 };
+
+/// A corridor that fits 64 deg beside the prediction, and nothing after it: the match was the error.
+TEST(TrackPieces, AMatchThatSurprisedJustBeforeALossIsNotConfirmed) {
+  const common::Pose2 turned{0.1, 0.0, 1.1};
+  Track doubted, confirmed;
+  for (Track* track : {&doubted, &confirmed}) {
+    track->scans(20, Seen::kMatched);
+    track->scans(1, Seen::kMatched, 0.01, turned);
+    track->scans(track == &doubted ? 2 : 12, Seen::kMatched);
+    track->lose(0.01);
+    track->scans(20, Seen::kMatched);
+  }
+  EXPECT_EQ(doubted.connection().bridged, 0U);
+  EXPECT_EQ(confirmed.connection().bridged, 1U);
+}
 
 TEST(TrackPieces, ATrackThatWasNeverLostIsOnePiece) {
   Track track;
