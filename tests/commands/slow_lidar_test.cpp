@@ -184,12 +184,11 @@ TEST_F(SlowLidar, RecordedSweepsAreUndone) {
   // Where the robot drives through the flat, the first pose is off by 0.2 deg: 4 cm at the other end (decision 107).
   struct Log {
     std::string name;
-    double position_m = 0.03, yaw_deg = 1.0;
+    double position_m = 0.03;
   };
-  for (const Log& log :
-       {Log{"b5", 0.08, 2.0}, Log{"ccw", 0.06}, Log{"rot_17"}, Log{"rot_17cw"}, Log{"snap55"}, Log{"rot_snap"}}) {
+  for (const Log& log : {Log{"ccw", 0.06}, Log{"rot_17"}, Log{"rot_17cw"}, Log{"rot_snap"}}) {
     (void)mapped((*folder / (log.name + ".bag")).string());
-    expectTrack(trackIn(*folder / (log.name + ".tum")), log.position_m, log.yaw_deg, log.name);
+    expectTrack(trackIn(*folder / (log.name + ".tum")), log.position_m, 1.0, log.name);
   }
 }
 
