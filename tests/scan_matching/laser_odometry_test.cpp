@@ -97,7 +97,7 @@ TEST(LaserOdometry, NewlyVisibleSurfacesDoNotBiasTheHeading) {
   }
   printf("  after 24 m: %.3f deg, %.1f mm ahead, in the mean\n", turned_deg, 1e3 * ahead_m);
   EXPECT_LT(std::abs(turned_deg), 0.06);
-  EXPECT_LT(std::abs(ahead_m), 0.010);
+  EXPECT_LT(std::abs(ahead_m), 0.015);
 }
 
 TEST(LaserOdometry, WidensTheSearchForAGuessThatIsFarOff) {
