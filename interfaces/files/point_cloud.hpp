@@ -25,8 +25,8 @@ enum class CloudFormat { kPly, kPcd };
 /// By the ending of the name; none for any other ending, also for that of a packed file.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
-/// The bytes of a file, binary and little-endian. Normals and colours are written if any is known. Equal points give equal
-/// bytes on every machine.
+/// The bytes of a file, binary and little-endian. Normals and colours are written if any is known. Equal points give
+/// equal bytes on every machine.
 std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat format);
 
 /// Writes the file in one step, in the format of the name's ending, which must be one of the two.
