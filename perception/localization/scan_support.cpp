@@ -1,6 +1,8 @@
 #include "perception/localization/scan_support.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
 
 #include "common/config_fields.hpp"
 #include "perception/localization/evenly_spread.hpp"
@@ -9,29 +11,62 @@ namespace swiftlet::perception {
 
 void ScanSupportConfig::describe(common::config::Fields& fields) {
   fields("beams", beams, {5, 10'000}, "Beams of a scan, evenly spread, that are judged.");
-  fields("tolerance_m", tolerance_m, {0.01, 1}, "A beam is explained when a wall is this near to its end.");
+  fields("tolerance_m", tolerance_m, {0.01, 1},
+         "A beam is explained when a wall is this near to its end; beams that meet the same piece of this size count "
+         "once.");
   fields("tolerance_rad", tolerance_rad, {0, 0.5},
          "Growth of tolerance_m with the range, for the error of the heading.");
 }
 
+namespace {
+
+/// What one beam says about the piece of the map that it meets.
+struct Witness {
+  Eigen::Vector2i piece;
+  /// A wall of the map; something that the map lacks, before its walls; a wall of the map that is not there.
+  enum class Says { kWall, kObject, kNoWall } says = Says::kWall;
+
+  auto key() const { return std::tuple(says, piece.x(), piece.y()); }
+  bool operator<(const Witness& other) const { return key() < other.key(); }
+  bool operator==(const Witness& other) const { return key() == other.key(); }
+};
+
+/// None if the beam ends where the map is unknown.
+std::optional<Witness> witnessOf(const MapField& map, const Eigen::Vector2d& from_m, const Eigen::Vector2d& end_m,
+                                 const ScanSupportConfig& config) {
+  const double range_m = (end_m - from_m).norm();
+  const double tolerance_m = config.tolerance_m + config.tolerance_rad * range_m;
+  const auto pieceAt = [&](const Eigen::Vector2d& at_m) -> Eigen::Vector2i {
+    return (at_m / config.tolerance_m).array().floor().matrix().cast<int>();
+  };
+  const double free_m = map.rayLength_m(from_m, end_m);
+  if (free_m < range_m - 2.0 * tolerance_m)
+    return Witness{pieceAt(from_m + (end_m - from_m) * (free_m / range_m)), Witness::Says::kNoWall};
+  const MapField::Place place = map.at(end_m);
+  if (place.wall_distance_m <= tolerance_m) return Witness{pieceAt(end_m), Witness::Says::kWall};
+  if (!place.known) return std::nullopt;
+  return Witness{pieceAt(end_m), Witness::Says::kObject};
+}
+
+}  // namespace
+
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,
                       const common::Pose2& T_grid_body, const ScanSupportConfig& config) {
   ScanSupport support;
-  support.beams = static_cast<int>(std::min(points_body_m.size(), static_cast<std::size_t>(config.beams)));
-  int explained = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(support.beams); ++i) {
-    const Eigen::Vector2f& point =
-        points_body_m[evenlySpread(i, static_cast<std::size_t>(support.beams), points_body_m.size())];
-    const Eigen::Vector2d end_m = T_grid_body * point.cast<double>();
-    const double range_m = static_cast<double>(point.norm());
-    const double tolerance_m = config.tolerance_m + config.tolerance_rad * range_m;
-    const MapField::Place place = map.at(end_m);
-    const bool through = map.rayLength_m(T_grid_body.position_m(), end_m) < range_m - 2.0 * tolerance_m;
-    const bool on_wall = place.wall_distance_m <= tolerance_m;
-    if (!through && !on_wall && !place.known) continue;
-    ++support.evidence;
-    explained += on_wall && !through ? 1 : 0;
+  const std::size_t beams = std::min(points_body_m.size(), static_cast<std::size_t>(config.beams));
+  support.beams = static_cast<int>(beams);
+  std::vector<Witness> witnesses;
+  witnesses.reserve(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
+    const Eigen::Vector2f& point = points_body_m[evenlySpread(i, beams, points_body_m.size())];
+    if (const auto witness = witnessOf(map, T_grid_body.position_m(), T_grid_body * point.cast<double>(), config))
+      witnesses.push_back(*witness);
   }
+  std::sort(witnesses.begin(), witnesses.end());
+  witnesses.erase(std::unique(witnesses.begin(), witnesses.end()), witnesses.end());
+  support.evidence = static_cast<int>(witnesses.size());
+  const auto explained = std::count_if(witnesses.begin(), witnesses.end(),
+                                       [](const Witness& w) { return w.says == Witness::Says::kWall; });
   if (support.evidence > 0) support.explained = static_cast<double>(explained) / support.evidence;
   return support;
 }
@@ -48,7 +83,8 @@ void LostTestConfig::describe(common::config::Fields& fields) {
   fields("distrust_explained", distrust_explained, {0, 1},
          "While the map explains less than this share, the pose is also sought elsewhere.");
   fields("threshold", threshold, {0.1, 100}, "Log-odds from which the pose counts as lost.");
-  fields("least_evidence", least_evidence, {1, 10'000}, "A scan with fewer beams that tell anything is left out.");
+  fields("least_evidence", least_evidence, {1, 10'000},
+         "A scan that tells of fewer pieces of wall or free space is left out.");
 }
 
 void LostTest::reset() {

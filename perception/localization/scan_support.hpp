@@ -21,11 +21,13 @@ struct ScanSupportConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// How many beams of a scan the map explains. Beams that end on unknown cells carry no information and are left out.
+/// How much of what a scan says the map explains. Beams that meet the same piece of wall, as long as the tolerance, are
+/// one witness: a box beside the robot that is gone contradicts half of all beams, and yet only one thing has changed.
+/// Beams that end on unknown cells carry no information and are left out.
 struct ScanSupport {
   int beams = 0;           ///< Number of beams examined.
-  int evidence = 0;        ///< Number of those beams that carry information.
-  double explained = 0.0;  ///< Share of those beams that end on a wall of the map, with no wall before it.
+  int evidence = 0;        ///< Number of pieces of wall or of free space about which those beams say something.
+  double explained = 0.0;  ///< Share of those pieces that are wall where beams end, with no wall before them.
 };
 
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,

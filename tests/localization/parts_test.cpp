@@ -154,6 +154,27 @@ TEST(ScanSupport, DistinguishesExplainedContradictedAndUnknownBeams) {
   EXPECT_EQ(supportOfPoint(0.0F, 7.0F).beams, 1);
 }
 
+TEST(ScanSupport, ABoxBesideTheRobotThatIsGoneIsOneChange) {
+  // A room of 6 m by 6 m, and in the map a box of 20 cm, 15 cm before the robot: half of all beams pass where it was.
+  common::OccupancyGrid map = common::makeOccupancyGrid(0.05);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const bool wall = x == 0 || y == 0 || x == 119 || y == 119;
+      const bool box = x >= 63 && x < 67 && y >= 58 && y < 62;
+      map.set({x, y}, wall || box ? common::occupancy::kMaxSteps : -common::occupancy::kMaxSteps);
+    }
+  const MapField field(map, MapFieldConfig{});
+  const Pose2 pose{3.0, 3.0, 0.0};
+  std::vector<Eigen::Vector2f> points;
+  for (int i = 0; i < 90; ++i) {
+    const double angle_rad = common::kRadPerDeg * (i - 45);
+    points.emplace_back(Eigen::Vector2d(2.97, 2.97 * std::tan(angle_rad)).cast<float>());
+  }
+  const ScanSupport support = supportOf(field, points, pose, ScanSupportConfig{});
+  EXPECT_GT(support.explained, 0.75);
+  EXPECT_LE(LostTest{LostTestConfig{}}.logOdds(support), 0.0);
+}
+
 TEST(LostTest, DetectsAChangeSoonAfterALongGoodTime) {
   LostTest test{LostTestConfig{}};
   const ScanSupport good{90, 90, 0.95}, bad{90, 90, 0.2}, none{90, 3, 0.0};
