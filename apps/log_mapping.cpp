@@ -30,9 +30,10 @@ void LogMapping::finish() {
   connection = slam.connection(judgement);
 }
 
-Trust LogMapping::trust() const {
+Trust LogMapping::trust(const std::string& why_bent) const {
   if (std::string why_not = perception::whyNotTrusted(scans, unmatched, connection, judgement); !why_not.empty())
     return {false, std::move(why_not)};
+  if (!why_bent.empty()) return {false, why_bent};
   if (connection.breaks == 0) return {true, "the track was never lost"};
   return {true, fmt::format("the track was lost {} {}, and all its pieces are connected", connection.breaks,
                             connection.breaks == 1 ? "time" : "times")};

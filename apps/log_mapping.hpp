@@ -33,7 +33,8 @@ struct LogMapping {
   std::optional<perception::TrackedScan> add(common::Time known_as, const perception::LaserSlamInput& input);
   void finish();
 
-  Trust trust() const;
+  /// `why_bent`: why the scans themselves are bent; empty if they are not.
+  Trust trust(const std::string& why_bent) const;
   /// Length of the robot's path. A standing robot adds nothing.
   double pathLength_m() const;
   /// Of scans known by the same stamp, the last.

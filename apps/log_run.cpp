@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "apps/recorded_log.hpp"
@@ -11,6 +12,8 @@
 #include "evaluation/trajectory_metrics.hpp"
 #include "interfaces/files/relations.hpp"
 #include "interfaces/files/trajectory_file.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
+#include "perception/laser_odometry/sweep_motion.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -19,19 +22,49 @@ using common::Time;
 
 /// The scans of the part that is mapped, in the order of the log.
 std::vector<interfaces::LoggedScan> scansOf(const SharedLog& shared) {
-  RecordedLogOptions options;
-  options.file = shared.log;
-  RecordedLog log(options);
+  const auto reader = interfaces::openLaserLog(shared.log, {});
   std::vector<interfaces::LoggedScan> scans;
   const auto most = static_cast<std::size_t>(shared.scans);
   while (most == 0 || scans.size() < most) {
-    auto logged = log.next();
+    auto logged = reader->next();
     if (!logged) break;
     scans.push_back(std::move(*logged));
   }
-  if (!log.damage().empty()) throw log.error(log.damage());
   return scans;
 }
+
+/// The log as if time ran the other way: its last beam comes first.
+std::vector<interfaces::LoggedScan> reversed(std::vector<interfaces::LoggedScan> scans) {
+  const Time first = scans.front().scan.stamps.measured, last = scans.back().scan.stamps.measured;
+  for (interfaces::LoggedScan& logged : scans) {
+    common::LaserScan& scan = logged.scan;
+    const Time last_beam = scan.stamps.measured + perception::sweepTime(scan);
+    scan.stamps.measured = scan.stamps.arrived = first + (last - last_beam);
+    scan.time_increment = common::Duration() - scan.time_increment;
+  }
+  std::reverse(scans.begin(), scans.end());
+  return scans;
+}
+
+/// Gives scans that were read before as a log.
+class ScansAsLog : public interfaces::LaserLog {
+ public:
+  explicit ScansAsLog(std::vector<interfaces::LoggedScan> scans) : scans_(std::move(scans)) {}
+  std::optional<interfaces::LoggedScan> next() override {
+    if (counts_.scans == scans_.size()) return std::nullopt;
+    return scans_[counts_.scans++];
+  }
+  const interfaces::LaserLogCounts& counts() const override { return counts_; }
+  double progress() const override {
+    return static_cast<double>(counts_.scans) / static_cast<double>(std::max<std::size_t>(scans_.size(), 1));
+  }
+  std::string format() const override { return "scans"; }
+  std::vector<std::string> notes() const override { return {}; }
+
+ private:
+  std::vector<interfaces::LoggedScan> scans_;
+  interfaces::LaserLogCounts counts_;
+};
 
 /// A scan of a part by its place in the log: stamps may be useless where the reference is in the log itself.
 Time numbered(std::size_t index) { return Time::fromSeconds(static_cast<double>(index)); }
@@ -87,21 +120,16 @@ LogOutcome mapped(const LogRun& run, const std::string& system) {
   if (scans.empty()) throw common::InputError(common::Problem{{run.log.log}, "", "no scan in it could be read", ""});
   const double begin_s = 1e-3 * processorMs();
   LogMapping mapping(laserSlamOf(loadSystem(system)));
-  const Time first = scans.front().scan.stamps.measured, last = scans.back().scan.stamps.measured;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const std::size_t index = run.backwards ? scans.size() - 1 - i : i;
-    const interfaces::LoggedScan& logged = scans[index];
-    common::LaserScan scan = logged.scan;
-    const Time stamp = scan.stamps.measured;
-    if (run.backwards) scan.stamps.measured = scan.stamps.arrived = first + (last - stamp);
-    const auto T_odom_robot = run.wheels ? logged.T_odom_robot : std::nullopt;
-    (void)mapping.add(run.log.poses_in_log ? numbered(index) : stamp, {scan, logged.T_robot_laser, T_odom_robot});
+  RecordedLog log(std::make_unique<ScansAsLog>(run.backwards ? reversed(scans) : scans), run.log.log, run.wheels);
+  while (const auto logged = log.next()) {
+    const std::size_t index = run.backwards ? scans.size() - log.scans() : log.scans() - 1;
+    (void)mapping.add(run.log.poses_in_log ? numbered(index) : scans[index].scan.stamps.measured, log.inputOf(*logged));
   }
   mapping.finish();
   LogOutcome outcome;
   outcome.processor_s = 1e-3 * processorMs() - begin_s;
   outcome.path_m = mapping.pathLength_m();
-  outcome.trust = mapping.trust();
+  outcome.trust = mapping.trust(log.whyBent());
   outcome.violation = mapping.judgement.violation();
   outcome.contradictions = mapping.judgement.contradicting.size();
   outcome.track = mapping.connection;

@@ -139,8 +139,7 @@ int map(const MapOptions& options) {
 
   const common::OccupancyGrid grid = run.mapping.slam.map();
   const std::string no_map = whyNoMap(grid);
-  Trust trust = run.mapping.trust();
-  if (std::string bent = log.whyBent(); trust.trusted && !bent.empty()) trust = {false, std::move(bent)};
+  Trust trust = run.mapping.trust(log.whyBent());
   if (!no_map.empty()) trust = {false, no_map};
   MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run, trust), {}, run.milliseconds};
   if (!trust.trusted) shown.contradicting = run.mapping.judgement.contradicting;

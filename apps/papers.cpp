@@ -1,11 +1,13 @@
 // swiftlet papers: one row for each experiment, table and figure of the five papers.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -193,13 +195,46 @@ std::string flownWith(const std::vector<FlownTrial>& trials, const PaperExperime
   return text;
 }
 
-std::string rowOf(const PaperExperiment& experiment, const std::vector<FlownTrial>& trials) {
+/// The figures that a page of ours shows, by its row without them: what was not flown again keeps its cell, because all
+/// flights together take hours.
+class StandingCells {
+ public:
+  struct Cells {
+    std::string its, own;
+  };
+
+  StandingCells() = default;
+  explicit StandingCells(const std::string& page) {
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+      std::vector<std::string> cells;
+      for (std::size_t begin = 2, end = 0; line.starts_with("| ") && end != std::string::npos; begin = end + 3) {
+        end = line.find(" | ", begin);
+        cells.push_back(line.substr(begin, end - begin));
+      }
+      if (cells.size() == 7) cells_[cells[0] + cells[1] + cells[5]] = {cells[3], cells[4]};
+    }
+  }
+
+  Cells of(const PaperExperiment& experiment, const std::string& where) const {
+    const auto found = cells_.find(experiment.item + experiment.what + where);
+    return found == cells_.end() ? Cells{} : found->second;
+  }
+
+ private:
+  std::map<std::string, Cells> cells_;
+};
+
+std::string rowOf(const PaperExperiment& experiment, const std::vector<FlownTrial>& trials,
+                  const StandingCells& standing) {
   std::string its, own, where;
   if (!experiment.trial.empty()) {
     if (!experiment.profile.empty()) its = flownWith(trials, experiment, experiment.profile);
     own = flownWith(trials, experiment, experiment.own);
     if (!own.empty() && experiment.own != "swiftlet") own += fmt::format(", `{}`", experiment.own);
     where = fmt::format("`{}`, {}", experiment.trial, experiment.figure);
+    if (its.empty()) its = standing.of(experiment, where).its;
+    if (own.empty()) own = standing.of(experiment, where).own;
   } else if (!experiment.shown_by.empty()) {
     where = fmt::format("`{}`", experiment.shown_by);
   } else {
@@ -214,7 +249,7 @@ std::string rowOf(const PaperExperiment& experiment, const std::vector<FlownTria
 /// The first line of the page, which marks it as one of ours.
 constexpr const char* kTitle = "# The five papers, flown again";
 
-std::string page(const Papers& papers, const std::vector<FlownTrial>& trials) {
+std::string page(const Papers& papers, const std::vector<FlownTrial>& trials, const StandingCells& standing) {
   std::string text =
       std::string(kTitle) +
       "\n\n"
@@ -222,7 +257,7 @@ std::string page(const Papers& papers, const std::vector<FlownTrial>& trials) {
       "simulator,\nin SI units (times of the processor in ms), with the profile of the paper and with our own; those "
       "of "
       "phases are medians. Flights that\ncrashed or lack the figure have failed; where half of them did, there is no "
-      "figure. An empty cell was not flown for this page.\n";
+      "figure. An empty cell was not flown; a full one stands until its trial is flown again.\n";
   std::string paper;
   for (const PaperExperiment& experiment : papers.experiments) {
     if (experiment.paper != paper) {
@@ -232,7 +267,7 @@ std::string page(const Papers& papers, const std::vector<FlownTrial>& trials) {
           "| --- | --- | --- | --- | --- | --- | --- |\n",
           paper);
     }
-    text += rowOf(experiment, trials);
+    text += rowOf(experiment, trials, standing);
   }
   return text;
 }
@@ -255,12 +290,17 @@ void addPapers(Command& program) {
   auto options = std::make_shared<Options>();
   Command command = program.command("papers", "Print what of the five papers is flown again, as Markdown.");
   command.option("--results", options->results, "The results.json of trials, whose figures are put into the table.");
-  command.option("--write", options->write, "Page to write instead of printing it.");
+  command.option(
+      "--write", options->write,
+      "Page to write instead of printing it; one that is there keeps the figures of trials that the results lack.");
   command.footer("Example: swiftlet papers --results runs/papers/results.json --write docs/papers.md");
   command.runs([options] {
     if (!options->write.empty()) requireWritable(options->write, "--write", kTitle);
     const std::vector<FlownTrial> trials = readResults(options->results);
-    const std::string text = page(readPapers(), trials);
+    StandingCells standing;
+    if (!options->write.empty() && std::filesystem::exists(options->write))
+      standing = StandingCells(common::readBytes(options->write, std::size_t{16} << 20));
+    const std::string text = page(readPapers(), trials, standing);
     tellUnused(trials);
     if (options->write.empty())
       show(text);

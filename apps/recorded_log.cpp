@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -57,7 +58,10 @@ std::string plural(std::uint64_t count, const std::string& one, const std::strin
 }
 
 RecordedLog::RecordedLog(const RecordedLogOptions& options)
-    : file_(options.file), uses_odometry_(options.odometry != "none"), swept_(opened(options)) {}
+    : RecordedLog(opened(options), options.file, options.odometry != "none") {}
+
+RecordedLog::RecordedLog(std::unique_ptr<interfaces::LaserLog> log, std::string file, bool uses_odometry)
+    : file_(std::move(file)), uses_odometry_(uses_odometry), swept_(std::move(log)) {}
 
 std::optional<SweptScan> RecordedLog::next() {
   auto logged = swept_.next();

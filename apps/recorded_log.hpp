@@ -46,6 +46,8 @@ class RecordedLog {
  public:
   /// Throws InputError when there is no such log or sensor.
   explicit RecordedLog(const RecordedLogOptions& options);
+  /// `file` is its name in messages.
+  RecordedLog(std::unique_ptr<interfaces::LaserLog> log, std::string file, bool uses_odometry);
 
   /// None at the end, also at one that a damage makes: what came before it counts all the same. Throws InputError when
   /// not a single scan did.

@@ -87,17 +87,17 @@ TEST_F(EvaluateLogs, ThePageKeepsWhatIsNotTheTable) {
   const std::string folder = test_support::dataSetsFolder().string();
   const auto print = [&](const std::string& page) {
     return runSwiftlet(
-        {"evaluate", "logs", "--part", "short", "--log", "ccny-handheld", "--datasets", folder, "--out", page});
+        {"evaluate", "logs", "--part", "short", "--log", "edmonton", "--datasets", folder, "--out", page});
   };
   const std::string page = path("logs.md");
   ProgramEnd end = print(page);
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const std::string first = readText(page);
-  EXPECT_THAT(first, HasSubstr("| ccny-handheld | whole "));
+  EXPECT_THAT(first, HasSubstr("| edmonton | first 120 scans "));
   EXPECT_THAT(first, HasSubstr("2 maps in "));
   EXPECT_EQ(rowsOf(first).size(), 2U);
   std::string mine = first + "\nMore.\n";
-  mine.replace(mine.find("| ccny-handheld"), 15, "| old");
+  mine.replace(mine.find("| edmonton"), 10, "| old");
   end = print(write("logs.md", "Mine.\n" + mine));
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const std::string again = readText(page);

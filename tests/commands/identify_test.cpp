@@ -291,6 +291,20 @@ TEST_F(Identify, ThePageOfThePapersShowsEveryNatureAndWhatFallsShort) {
                         "paper's, why is not known | 0.010 (n = 1) |"));
 }
 
+TEST_F(Identify, ThePageOfThePapersKeepsTheFiguresOfTrialsThatWereNotFlownAgain) {
+  const auto results = [&](const std::string& system, const std::string& rms_m) {
+    return write("one.json", R"({"trials": [{"name": "mit_hover-)" + system + R"(", "system": ")" + system +
+                                 R"(", "runs": 1, "flights": [{"phases": {"hover": {"position_rms_m": )" + rms_m +
+                                 "}}}]}]}");
+  };
+  const std::string page = (fs::path(folder_) / "page.md").string();
+  for (const auto& [system, rms_m] : {std::pair("mit", "0.01"), {"swiftlet", "0.02"}, {"swiftlet", "0.03"}}) {
+    const ProgramEnd end = runSwiftlet({"papers", "--results", results(system, rms_m), "--write", page});
+    ASSERT_EQ(end.exit_code, 0) << describe(end);
+  }
+  EXPECT_THAT(readText(page), HasSubstr("| 6 cm RMS | 0.010 (n = 1) | 0.030 (n = 1) |"));
+}
+
 class PageOfThePapers : public Identify {
  protected:
   /// The page with the results of one trial with ours: `members` of the trial beside its name and system.
