@@ -1,27 +1,32 @@
 // swiftlet optimize: the poses that best satisfy any pose graph.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/optimize_report.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/results_folder.hpp"
 #include "apps/show.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/error.hpp"
-#include "common/table.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
 #include "optimization/best_start.hpp"
+#include "optimization/closure_selection.hpp"
 #include "optimization/graph_parts.hpp"
+#include "optimization/weighted_graph.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -29,12 +34,14 @@ namespace {
 namespace fs = std::filesystem;
 using interfaces::G2oGraph2D;
 using interfaces::G2oGraph3D;
+using optimization::ClosureSelection;
 
 struct OptimizeOptions {
   std::string graph;
   std::string out;
   int max_iterations = 100;
   bool ignore_cross_terms = false;
+  bool robust = false;
   bool json = false;
 };
 
@@ -42,21 +49,6 @@ struct OptimizeOptions {
 /// every program.
 const ResultsKind kOptimizeResults{
     "optimized graph", "optimized.json", "\"chi2_final\"", {"optimized.json", "graph.g2o"}};
-
-/// The report about an optimized graph.
-struct Report {
-  std::size_t vertices = 0;
-  std::size_t edges = 0;
-  std::size_t loose_parts = 0;  ///< Number of parts that no edges connect to a fixed vertex.
-  int dimension = 0;
-  double chi2_initial = 0.0;
-  double chi2_final = 0.0;
-  const char* start = "";
-  int iterations = 0;  ///< Iterations of all starts together.
-  double seconds = 0.0;
-  bool converged = false;
-  std::string written;
-};
 
 /// The file's information belongs to the error expressed in the frame where the measurement ends (g2o's), Swiftlet's to
 /// that in the frame where it starts. chi2 is the same.
@@ -88,28 +80,104 @@ optimization::PoseGraph3D poseGraph(const G2oGraph3D& file) {
   return graph;
 }
 
+/// The places of the vertices along the trajectory: the order of their ids.
+std::vector<int> placesByIds(const std::vector<std::int64_t>& ids) {
+  std::vector<std::size_t> order(ids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  std::vector<int> places(ids.size());
+  for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<int>(i);
+  return places;
+}
+
+/// The refused closures, worst first.
 template <typename Graph>
-Report optimizeInPlace(Graph& file, const OptimizeOptions& options) {
-  const auto begin = Clock::now();
-  auto graph = poseGraph(file);
-  if (file.poses.empty()) graph.poses = chainedPoses(graph);
+std::vector<ContradictedEdge> refusedEdges(const Graph& file, const ClosureSelection& selection) {
+  std::vector<ContradictedEdge> refused;
+  for (std::size_t i = 0; i < file.edges.size(); ++i)
+    if (!selection.kept[i])
+      refused.push_back({file.ids[static_cast<std::size_t>(file.edges[i].from)],
+                         file.ids[static_cast<std::size_t>(file.edges[i].to)], selection.sigmas[i]});
+  std::stable_sort(refused.begin(), refused.end(), [](const auto& a, const auto& b) { return a.sigmas > b.sigmas; });
+  return refused;
+}
+
+template <typename Edges>
+void eraseRefused(Edges& edges, const std::vector<bool>& kept) {
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) edges[left++] = edges[i];
+  edges.resize(left);
+}
+
+template <typename Graph, typename PoseGraph>
+void reportSelection(OptimizeReport& report, const Graph& file, const PoseGraph& graph,
+                     const ClosureSelection& selection) {
+  report.closures = selection.closures;
+  report.variance_factor = selection.variance_factor;
+  report.contradicted = refusedEdges(file, selection);
+  report.degrees_of_freedom =
+      Graph::kErrors * (static_cast<std::int64_t>(graph.edges.size() + anchorsOf(graph).size()) -
+                        static_cast<std::int64_t>(graph.poses.size()));
+}
+
+/// Chooses among the closures first; those that are refused are taken out of the file's edges.
+template <typename Graph, typename PoseGraph>
+void optimizeRobustly(Graph& file, PoseGraph graph, const OptimizeOptions& options, OptimizeReport& report) {
+  const auto before = squaredErrors(graph, graph.poses);
+  report.chi2_initial = std::accumulate(before.begin(), before.end(), 0.0);
+  const auto selection = selectClosures(*weighted(graph, placesByIds(file.ids)));
+  eraseRefused(graph.edges, selection.kept);
+  optimization::PoseGraphConfig config;
+  config.max_iterations = options.max_iterations;
+  config.relative_decrease = optimization::BestStartConfig{}.relative_decrease;
+  auto solution = optimize(graph, config);
+  reportSelection(report, file, graph, selection);
+  eraseRefused(file.edges, selection.kept);
+  file.poses = std::move(solution.poses);
+  report.chi2_final = std::accumulate(solution.squared_errors.begin(), solution.squared_errors.end(), 0.0);
+  report.start = "robust";
+  report.iterations = selection.iterations + solution.iterations;
+  report.verdict = !selection.sure      ? GraphVerdict::kCannotTell
+                   : solution.converged ? GraphVerdict::kConverged
+                                        : GraphVerdict::kNotConverged;
+}
+
+template <typename Graph, typename PoseGraph>
+void optimizeAll(Graph& file, PoseGraph graph, const OptimizeOptions& options, OptimizeReport& report) {
   optimization::BestStartConfig config;
   config.max_iterations = options.max_iterations;
-  const std::size_t fixed = std::set<int>(file.fixed.begin(), file.fixed.end()).size();
-  const std::size_t loose_parts = anchorsOf(graph).size() - std::max<std::size_t>(1, fixed);
-  auto solution = optimizeFromBestStart(std::move(graph), config);
-  file.poses = std::move(solution.poses);
-
-  Report report;
-  report.vertices = file.ids.size();
-  report.edges = file.edges.size();
-  report.loose_parts = loose_parts;
-  report.dimension = Graph::kErrors == 3 ? 2 : 3;
+  const auto solution = optimizeFromBestStart(graph, config);
   report.chi2_initial = solution.chi2_guess;
   report.chi2_final = solution.chi2;
   report.start = toString(solution.start);
   report.iterations = solution.iterations;
-  report.converged = solution.converged;
+  report.verdict = solution.converged ? GraphVerdict::kConverged : GraphVerdict::kNotConverged;
+  file.poses = solution.poses;
+  if (!solution.converged || !std::isfinite(solution.chi2)) return;
+  graph.poses = solution.poses;
+  const auto selection = contradictedClosures(*weighted(graph, placesByIds(file.ids)));
+  reportSelection(report, file, graph, selection);
+  if (selection.refused > 0) report.verdict = GraphVerdict::kContradictory;
+}
+
+template <typename Graph>
+OptimizeReport optimizeInPlace(Graph& file, const OptimizeOptions& options) {
+  const auto begin = Clock::now();
+  auto graph = poseGraph(file);
+  if (file.poses.empty()) graph.poses = chainedPoses(graph);
+  const std::size_t fixed = std::set<int>(file.fixed.begin(), file.fixed.end()).size();
+  OptimizeReport report;
+  report.graph = options.graph;
+  report.robust = options.robust;
+  report.vertices = file.ids.size();
+  report.edges = file.edges.size();
+  report.loose_parts = anchorsOf(graph).size() - std::max<std::size_t>(1, fixed);
+  report.dimension = Graph::kErrors == 3 ? 2 : 3;
+  if (options.robust)
+    optimizeRobustly(file, std::move(graph), options, report);
+  else
+    optimizeAll(file, std::move(graph), options, report);
   report.seconds = secondsSince(begin);
   return report;
 }
@@ -122,49 +190,11 @@ void refuseTheGraphItself(const OptimizeOptions& options) {
         common::Problem{{target.string()}, "--out", "is the graph to be optimized itself", "give another folder"});
 }
 
-std::string jsonOf(const Report& report, const interfaces::G2oFile& file, const OptimizeOptions& options) {
-  nlohmann::json json{{"graph", options.graph},
-                      {"vertices", report.vertices},
-                      {"edges", report.edges},
-                      {"dimension", report.dimension},
-                      {"chi2_initial", report.chi2_initial},
-                      {"chi2_final", report.chi2_final},
-                      {"start", report.start},
-                      {"iterations", report.iterations},
-                      {"loose_parts", report.loose_parts},
-                      {"seconds", report.seconds},
-                      {"converged", report.converged},
-                      {"warnings", file.warnings},
-                      {"indefinite_edges", file.indefinite_edges}};
-  if (!report.written.empty()) json["written"] = report.written;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-std::string textOf(const Report& report, const OptimizeOptions& options) {
-  const common::Table table{"",
-                            {"graph", "vertices", "edges", "dimension", "chi2 initial", "chi2 final", "start",
-                             "converged", "iterations in all", "seconds"},
-                            {{{fs::path(options.graph).filename().string()},
-                              {fmt::format("{}", report.vertices)},
-                              {fmt::format("{}", report.edges)},
-                              {fmt::format("{}", report.dimension)},
-                              {fmt::format("{:.6g}", report.chi2_initial)},
-                              {fmt::format("{:.8g}", report.chi2_final)},
-                              {report.start},
-                              {report.converged ? "yes" : "no"},
-                              {fmt::format("{}", report.iterations)},
-                              {fmt::format("{:.2f}", report.seconds)}}}};
-  std::string text = toText(table);
-  if (!report.converged) text += "it did not converge; more --max-iterations may help\n";
-  if (!report.written.empty()) text += fmt::format("written {}\n", report.written);
-  return text;
-}
-
-void write(ResultsFolder& folder, const interfaces::G2oFile& file, const OptimizeOptions& options, Report& report) {
+void write(ResultsFolder& folder, const interfaces::G2oFile& file, OptimizeReport& report) {
   const std::string graph = std::visit([](const auto& g) { return toG2o(g); }, file.graph);
   report.written = (folder.path() / "graph.g2o").string();
   required(interfaces::writeAtomically(folder.unfinished() / "graph.g2o", graph));
-  required(interfaces::writeAtomically(folder.unfinished() / "optimized.json", jsonOf(report, file, options) + "\n"));
+  required(interfaces::writeAtomically(folder.unfinished() / "optimized.json", jsonOf(report, file) + "\n"));
   folder.publish();
 }
 
@@ -179,7 +209,7 @@ int optimizeGraph(const OptimizeOptions& options) {
     refuseTheGraphItself(options);
     folder.emplace(options.out, kOptimizeResults);
   }
-  Report report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
+  OptimizeReport report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
   if (!std::isfinite(report.chi2_final)) {
     showError(
         fmt::format("{}: chi2 is {}: its errors or its information are too large for numbers; nothing is written\n",
@@ -189,12 +219,12 @@ int optimizeGraph(const OptimizeOptions& options) {
   if (report.loose_parts > 0)
     fmt::print(stderr, "note: {} not connected to the fixed vertex, so its place relative to that is arbitrary\n",
                plural(report.loose_parts, "part of the graph is", "parts of the graph are"));
-  if (folder) write(*folder, file, options, report);
+  if (folder) write(*folder, file, report);
   if (options.json)
-    showJson(jsonOf(report, file, options) + "\n");
+    showJson(jsonOf(report, file) + "\n");
   else
-    show(textOf(report, options));
-  return report.converged ? kDone : kFailed;
+    show(textOf(report));
+  return report.verdict == GraphVerdict::kConverged ? kDone : kFailed;
 }
 
 }  // namespace
@@ -214,10 +244,16 @@ void addOptimize(Command& program) {
       "--ignore-cross-terms", options->ignore_cross_terms,
       "Where the information of an edge is not positive definite, use its diagonal alone. Without this, such a "
       "graph is refused.");
+  command.flag("--robust", options->robust,
+               "Refuse loop closures that the others contradict, by graduated non-convexity and by their innovations. "
+               "Edges of consecutive vertices are odometry, and are kept.");
   command.flag("--json", options->json, "Print the result as JSON, nothing else.");
   command.footer(
       "chi2 is the sum of e' Omega e over the edges, with g2o's error e and no factor of 1/2; `iterations in all` are\n"
-      "those of all starts that were tried.\n\nExample: swiftlet optimize sphere2500.g2o.xz --out optimized");
+      "those of all starts that were tried. Where closures contradict the other edges by far, it says "
+      "`contradictory`;\n"
+      "--robust says `cannot tell` where those that it refuses may be the right ones. Neither counts as converged.\n\n"
+      "Example: swiftlet optimize sphere2500.g2o.xz --out optimized");
   command.runs([options] { return optimizeGraph(*options); });
 }
 

@@ -19,9 +19,6 @@ constexpr double kRounding = 1e-12;
 /// So large that the first step is that of Gauss-Newton: the starts are near.
 constexpr double kGaussNewtonRadius = 1e16;
 
-void fix(PoseGraph2D& graph, std::vector<int> poses) { graph.also_fixed = std::move(poses); }
-void fix(PoseGraph3D& graph, std::vector<int> poses) { graph.fixed = std::move(poses); }
-
 template <typename Values>
 double sum(const Values& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);

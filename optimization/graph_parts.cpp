@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <queue>
+#include <utility>
 
 #include "common/check.hpp"
 #include "optimization/edge_error_3d.hpp"
@@ -97,6 +98,12 @@ std::vector<double> squared(const Graph& graph, const Poses& poses) {
 
 std::vector<int> anchorsOf(const PoseGraph2D& graph) { return anchors(graph); }
 std::vector<int> anchorsOf(const PoseGraph3D& graph) { return anchors(graph); }
+
+void fix(PoseGraph2D& graph, std::vector<int> poses) {
+  if (!poses.empty()) graph.fixed = poses.front();
+  graph.also_fixed = std::move(poses);
+}
+void fix(PoseGraph3D& graph, std::vector<int> poses) { graph.fixed = std::move(poses); }
 
 std::vector<common::Pose2> chainedPoses(const PoseGraph2D& graph) { return chained(graph); }
 std::vector<common::Pose3> chainedPoses(const PoseGraph3D& graph) { return chained(graph); }

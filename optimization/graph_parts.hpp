@@ -17,6 +17,10 @@ inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 std::vector<int> anchorsOf(const PoseGraph2D& graph);
 std::vector<int> anchorsOf(const PoseGraph3D& graph);
 
+/// These poses do not move, whatever the graph said.
+void fix(PoseGraph2D& graph, std::vector<int> poses);
+void fix(PoseGraph3D& graph, std::vector<int> poses);
+
 /// The poses that follow from the anchors along the shortest chains of edges (breadth first, in the order of the
 /// edges). Needs no guess but that of the anchors.
 std::vector<common::Pose2> chainedPoses(const PoseGraph2D& graph);

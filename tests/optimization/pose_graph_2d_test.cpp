@@ -117,7 +117,7 @@ TEST(PoseGraph2D, PosesWithoutEdgesStay) {
   const auto solution = optimize(graph, {});
   EXPECT_NEAR(solution.poses[1].x_m, 1.0, 1e-6);
   EXPECT_NEAR(solution.poses[2].x_m, 7.0, 1e-9);
-  EXPECT_TRUE(optimize({}, {}).poses.empty());
+  EXPECT_TRUE(optimize(PoseGraph2D{}, PoseGraphConfig{}).poses.empty());
 }
 
 TEST(PoseGraph2D, StopsAfterTheIterationLimit) {
