@@ -70,12 +70,8 @@ void SweptLog::begin() {
 std::optional<SweptScan> SweptLog::next() {
   if (!sweeps_) begin();
   if (!sweeps_) return std::nullopt;
-  std::optional<perception::SweepMotion> motion;
-  const auto isReady = [&] {
-    if (*sweeps_ != Sweeps::kUndone) return !ahead_.empty();
-    motion = tracker_.take();
-    return motion.has_value();
-  };
+  const bool undone = *sweeps_ == Sweeps::kUndone;
+  const auto isReady = [&] { return undone ? tracker_.hasNext() : !ahead_.empty(); };
   while (!isReady()) {
     if (ended_) return std::nullopt;
     readAhead();
@@ -84,7 +80,7 @@ std::optional<SweptScan> SweptLog::next() {
     else
       take(ahead_.back());
   }
-  SweptScan swept{std::move(ahead_.front()), std::move(motion)};
+  SweptScan swept{std::move(ahead_.front()), undone ? tracker_.take() : std::nullopt};
   ahead_.pop_front();
   return swept;
 }

@@ -15,7 +15,8 @@
 namespace swiftlet::apps {
 
 struct SweptScan : interfaces::LoggedScan {
-  std::optional<perception::SweepMotion> motion;  ///< None where the sweep is short, or its time is not known.
+  std::optional<perception::SweepMotion>
+      motion;  ///< None where the sweep is short, or its time or motion is not known.
 };
 
 /// One thread at a time.

@@ -31,7 +31,7 @@ constexpr double kStart_m = 0.01, kStart_rad = 0.005;  ///< Error of the pose at
 /// Changes of the velocity from part to part. Where the robot moves evenly, each part of a sweep always sees the same
 /// walls, and only this keeps the parts together. The turn rate may change at once, so its larger changes count less
 /// and less; a wall ahead shows every part the turn, but only one part how far away it is.
-constexpr double kSpeed_m_s = 0.08, kTurnRate_rad_s = 0.05, kGreatTurnRate_rad_s = 1.0;
+constexpr double kSpeed_m_s = 0.08, kTurnRate_rad_s = 0.05, kGreatTurnRate_rad_s = 0.3;
 constexpr double kScored_m = 0.2;
 
 Eigen::Vector3d vectorOf(const Pose2& pose) { return {pose.x_m, pose.y_m, pose.yaw_rad}; }

@@ -24,12 +24,15 @@ void SweepTimeSurvey::add(const common::LaserScan& scan, const common::Pose2& T_
   for (;;) {
     std::array<double, 3> fits{};
     double turned_rad = 0.0;
+    bool all_found = true;
     for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
       if (!hypotheses_[i].tracker.hasNext()) return;
       fits[i] = hypotheses_[i].tracker.fitOfNext();
       const auto motion = hypotheses_[i].tracker.take();
-      turned_rad = std::max(turned_rad, std::abs(motion->at(1.0).yaw_rad - motion->at(0.0).yaw_rad));
+      all_found &= motion.has_value();
+      if (motion) turned_rad = std::max(turned_rad, std::abs(motion->at(1.0).yaw_rad - motion->at(0.0).yaw_rad));
     }
+    if (!all_found) continue;
     if (turned_rad < kTurned_rad) continue;
     ++counted_;
     for (std::size_t i = 0; i < hypotheses_.size(); ++i) hypotheses_[i].fits += fits[i];

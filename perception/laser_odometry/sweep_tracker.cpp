@@ -16,6 +16,9 @@ constexpr int kFirstRounds = 4;        ///< Rounds in which the first sweeps are
 constexpr double kRateStep_rad_s = 0.2, kRateChange_rad_s = 4.0, kFirstRate_rad_s = 3.0;
 /// What a change of the turn rate must gain in fit, per rad/s.
 constexpr double kRatePenalty_s = 0.02;
+/// A sweep that fits worse has a motion that was not found. Those of the recorded logs fit by 0.98 and more, and by 0.5
+/// and less from where it is lost.
+constexpr double kLeastFit = 0.8;
 /// A pause between two sweeps longer than this many sweeps tells nothing of the velocity after it.
 constexpr double kLongestPause = 3.0;
 
@@ -28,9 +31,10 @@ Pose2 moved(const Pose2& pose, const Eigen::Vector3d& velocity, double seconds) 
 void SweepTracker::add(std::vector<SweptPoint> points, common::Time start, double duration_s) {
   Timed timed{{std::move(points), duration_s, uniformMotion({}, Eigen::Vector3d::Zero(), duration_s)}, start};
   sweeps_.push_back(std::move(timed));
-  if (begun_)
+  if (begun_) {
     follow();
-  else if (sweeps_.size() > kAhead)
+    loseUnlessFitting(sweeps_.size() - 1);
+  } else if (sweeps_.size() > kAhead)
     begin();
 }
 
@@ -40,11 +44,14 @@ void SweepTracker::finish() {
 }
 
 bool SweepTracker::hasNext() const {
-  return begun_ && taken_ < sweeps_.size() && (finished_ || sweeps_.size() - taken_ > kAhead);
+  return lost_ > 0 || (begun_ && taken_ < sweeps_.size() && (finished_ || sweeps_.size() - taken_ > kAhead));
 }
 
 std::optional<SweepMotion> SweepTracker::take() {
-  if (!hasNext()) return std::nullopt;
+  if (lost_ > 0) {
+    --lost_;
+    return std::nullopt;
+  }
   const SweepMotion motion = sweeps_[taken_].sweep.motion;
   ++taken_;
   while (taken_ > kReference) {
@@ -55,8 +62,22 @@ std::optional<SweepMotion> SweepTracker::take() {
 }
 
 double SweepTracker::fitOfNext() const {
+  if (lost_ > 0) return 0.0;
   const Sweep& sweep = sweeps_[taken_].sweep;
   return fitOf(referenceWithout(taken_), sweep, sweep.motion);
+}
+
+/// Looks at the sweeps from `first` on.
+void SweepTracker::loseUnlessFitting(std::size_t first) {
+  for (std::size_t i = first; i < sweeps_.size(); ++i) {
+    const Sweep& sweep = sweeps_[i].sweep;
+    if (sweep.points.empty() || fitOf(referenceWithout(i), sweep, sweep.motion) >= kLeastFit) continue;
+    lost_ += sweeps_.size() - taken_;
+    sweeps_.clear();
+    taken_ = 0;
+    begun_ = false;
+    return;
+  }
 }
 
 OrientedPoints SweepTracker::referenceWithout(std::size_t index) const {
@@ -126,6 +147,7 @@ void SweepTracker::begin() {
     for (std::size_t i = 1; i < sweeps_.size(); ++i) refit(i, round > 0);
     refit(0, true);
   }
+  loseUnlessFitting(0);
 }
 
 void SweepTracker::follow() {

@@ -2,6 +2,8 @@
 // the beginning of a log shows only in what follows, and later sweeps make the end of one certain.
 //
 //   sweep --> turn rate that fits best --> fit of its motion --> fit of the sweeps before it, which now have a next one
+//
+// A sweep that does not fit those around it has a motion that was not found: then it begins anew with the next.
 #pragma once
 
 #include <deque>
@@ -21,10 +23,10 @@ class SweepTracker {
   void finish();
   /// Whether a sweep can be taken.
   bool hasNext() const;
-  /// The motion in the oldest sweep that was not taken; nullopt while it needs another sweep. In a frame that begins at
-  /// the first sweep and drifts.
+  /// The motion in the oldest sweep that was not taken; there must be one that can be. In a frame that begins anew
+  /// after each sweep whose motion was not found (nullopt), and drifts.
   std::optional<SweepMotion> take();
-  /// How well the sweep that is taken next fits those around it: see fitOf().
+  /// How well the sweep that is taken next fits those around it: see fitOf(). 0 if its motion was not found.
   double fitOfNext() const;
 
  private:
@@ -35,12 +37,14 @@ class SweepTracker {
   void begin();
   void follow();
   void refit(std::size_t index, bool with_next);
+  void loseUnlessFitting(std::size_t first);
   OrientedPoints referenceWithout(std::size_t index) const;
   std::optional<SweepEnd> before(std::size_t index) const;
   std::optional<SweepEnd> after(std::size_t index) const;
 
   std::deque<Timed> sweeps_;  ///< Those that were taken, as far as they are needed, and those that were not.
   std::size_t taken_ = 0;     ///< So many of them were taken.
+  std::size_t lost_ = 0;      ///< Sweeps before them that were not taken, and whose motion was not found.
   bool begun_ = false, finished_ = false;
 };
 
