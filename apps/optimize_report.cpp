@@ -39,7 +39,13 @@ std::string robustText(const OptimizeReport& report) {
 }
 
 std::string plainText(const OptimizeReport& report) {
-  if (report.contradicted.empty()) return "";
+  if (report.contradicted.empty()) {
+    if (report.variance_factor <= 1.0) return "";
+    return fmt::format(
+        "chi2 {:.6g}, {} degrees of freedom: closures are {:.3g} times as far off as their information says, all "
+        "alike\n",
+        report.chi2_final, report.degrees_of_freedom, std::sqrt(report.variance_factor));
+  }
   const std::string count = plural(report.contradicted.size(), "closure is", "closures are");
   return fmt::format("chi2 {:.6g}, {} degrees of freedom: {} contradicted by the other edges:\n{}{}\n",
                      report.chi2_final, report.degrees_of_freedom, count, listOf(report.contradicted),

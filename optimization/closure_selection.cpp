@@ -19,8 +19,9 @@ constexpr double kLeastTruncation = 1e-12;  ///< Of a squared innovation: closur
 constexpr double kRefusalCost = 5.0;
 /// Right closures of the usual data sets are off by up to 18 standard deviations.
 constexpr double kContradictionSigmas = 25.0;
-constexpr double kSameFactor = 4.0;      ///< Closures that agree only if their variances are greater do not agree.
-constexpr double kGreatestFactor = 9.0;  ///< Closures that are three times as far off as their information says.
+constexpr double kSameFactor = 4.0;       ///< Closures that agree only if their variances are greater do not agree.
+constexpr double kGreatestFactor = 9.0;   ///< Closures that are three times as far off as their information says.
+constexpr std::size_t kFewClosures = 40;  ///< Of fewer, those beyond 95 % are one or none.
 constexpr int kRounds = 40;
 constexpr int kIterations = 30;
 
@@ -54,6 +55,12 @@ class Selector {
   ClosureSelection look() {
     take(graph_.squaredInnovationsOfEach());
     return result(1.0);
+  }
+
+  /// Whether a kept closure is beyond what belongs to the others, even if their tail is heavy. A few have no tail that
+  /// tells.
+  bool oneMayStandOut() const {
+    return count(kept_) < kFewClosures || greatestKept() > gateOf(squaredOf(kept_), graph_.errorSize());
   }
 
   /// Optimizes once more, where others have moved the poses.
@@ -220,11 +227,12 @@ ClosureSelection selectClosures(WeightedGraph& graph) {
 }
 
 ClosureSelection contradictedClosures(WeightedGraph& graph) {
-  ClosureSelection all = Selector(graph, graph.closures()).look();
+  Selector selector(graph, graph.closures());
+  ClosureSelection all = selector.look();
   std::vector<bool> kept;
   for (const double sigmas : all.sigmas) kept.push_back(sigmas <= kContradictionSigmas);
   const bool one_is_far_off = kept != all.kept;
-  if (!one_is_far_off && all.variance_factor <= 1.0) return all;
+  if (!one_is_far_off && (all.variance_factor <= 1.0 || !selector.oneMayStandOut())) return all;
   ClosureSelection selection = selectClosures(graph);
   if (selection.refused > 0 || !one_is_far_off) return selection;
   all.kept = std::move(kept);

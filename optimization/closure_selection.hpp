@@ -40,8 +40,8 @@ struct ClosureSelection {
 ClosureSelection selectClosures(WeightedGraph& graph);
 
 /// Of a graph whose poses are the optimum for all edges: refuses those that selectClosures() does, but only where the
-/// errors are impossible: one closure is off by 25 standard deviations, or all together by more than the information
-/// says. Elsewhere it refuses none, and takes the time of one look.
+/// errors are impossible: one closure is off by 25 standard deviations, or all together are off by more than the
+/// information says, and one stands out. Elsewhere it refuses none, and takes the time of one look.
 ClosureSelection contradictedClosures(WeightedGraph& graph);
 
 }  // namespace swiftlet::optimization
