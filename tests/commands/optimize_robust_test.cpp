@@ -32,9 +32,8 @@ using testing::Not;
 class OptimizeRobust : public test_support::Scratch {};
 
 /// A square walked `laps` times in steps of 1 m, each lap closed at every corner. Ids are 10 apart.
-std::string laps(int count) {
+std::string laps(int count, const std::string& information = " 100 0 0 100 0 400\n") {
   std::string text;
-  const std::string information = " 100 0 0 100 0 400\n";
   for (int i = 1; i < 16 * count; ++i) {
     const std::string from = std::to_string(10 * (i - 1)), to = std::to_string(10 * i);
     text += "EDGE_SE2 " + from + " " + to + (i % 4 == 0 ? " 1.01 0 1.5707963" : " 0.99 0.01 0") + information;
@@ -71,6 +70,17 @@ TEST_F(OptimizeRobust, NamesTheEdgeThatContradictsTheOthersAndRefusesIt) {
   EXPECT_NEAR(json.at("chi2_final").get<double>(), clean.at("chi2_final").get<double>(), 1e-6);
   EXPECT_EQ(json.at("degrees_of_freedom"), clean.at("degrees_of_freedom"));
   EXPECT_THAT(readText(path("out/graph.g2o")), Not(HasSubstr("EDGE_SE2 80 400")));
+}
+
+TEST_F(OptimizeRobust, ImpossibleErrorsAreSaidWhereNoClosureAloneIsFarOff) {
+  const std::string weak = " 4 0 0 4 0 16\n", far_too_great = " 1e6 0 0 1e6 0 4e6\n";
+  const ProgramEnd one = runSwiftlet({"optimize", write("one.g2o", laps(4, weak) + "EDGE_SE2 80 400 9 -3 1" + weak)});
+  EXPECT_EQ(one.exit_code, 1) << describe(one);
+  EXPECT_THAT(one.out, HasSubstr("chi2 149.527, 39 degrees of freedom: 1 closure is contradicted by the other edges:"));
+  EXPECT_THAT(one.out, HasSubstr("\n  80 -> 400: "));
+  const ProgramEnd all = runSwiftlet({"optimize", write("all.g2o", laps(4, far_too_great))});
+  EXPECT_EQ(all.exit_code, 0) << describe(all);
+  EXPECT_THAT(all.out, HasSubstr("closures are 9.77 times as far off as their information says, all alike"));
 }
 
 TEST_F(OptimizeRobust, CannotTellWhereTheFalseOnesOutnumberTheRightOnes) {
