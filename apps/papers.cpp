@@ -257,7 +257,7 @@ std::string page(const Papers& papers, const std::vector<FlownTrial>& trials, co
       "simulator,\nin SI units (times of the processor in ms), with the profile of the paper and with our own; those "
       "of "
       "phases are medians. Flights that\ncrashed or lack the figure have failed; where half of them did, there is no "
-      "figure. An empty cell was not flown; a full one stands until its trial is flown again.\n";
+      "figure. An empty cell was not flown; a full one stands until its trial is\nflown again.\n";
   std::string paper;
   for (const PaperExperiment& experiment : papers.experiments) {
     if (experiment.paper != paper) {
