@@ -233,6 +233,7 @@ int trial(const TrialOptions& options) {
   checkRunFolders(trials, options, out);
   clearOfOlderResults(out, kTrialResults);
   TrialResults results;
+  results.version = buildVersion();
   int flights = 0;
   for (const TrialConfig& trial : trials) flights += seedsOf(trial, options).count;
   TrialProgress progress(flights, options.json);

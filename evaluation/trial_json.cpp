@@ -177,7 +177,13 @@ ordered_json trialJson(const TrialResult& trial) {
 std::string toJson(const TrialResults& results) {
   ordered_json trials = ordered_json::array();
   for (const TrialResult& trial : results.trials) trials.push_back(trialJson(trial));
-  return ordered_json{{"trials", trials}}.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  const common::BuildVersion& version = results.version;
+  return ordered_json{{"version", version.number},
+                      {"commit", version.commit},
+                      {"dirty", version.dirty ? ordered_json(*version.dirty) : ordered_json()},
+                      {"trials", trials}}
+             .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+         "\n";
 }
 
 }  // namespace swiftlet::evaluation

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/build_version.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
@@ -41,6 +42,7 @@ struct TrialResult {
 
 struct TrialResults {
   std::vector<TrialResult> trials;
+  common::BuildVersion version = {};  ///< Of the program that flew them.
 
   /// Every trial passed, and there is at least one.
   bool passed() const;

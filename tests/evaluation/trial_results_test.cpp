@@ -45,6 +45,15 @@ TrialResults results() {
   return {{trial}};
 }
 
+TEST(TrialResultsJson, NamesTheProgramThatFlewThem) {
+  TrialResults flown = results();
+  flown.version = {"0.2.0", "5e2b3b0f1c4d", true};
+  const json parsed = json::parse(toJson(flown));
+  EXPECT_EQ(parsed["version"], "0.2.0");
+  EXPECT_EQ(parsed["commit"], "5e2b3b0f1c4d");
+  EXPECT_EQ(parsed["dirty"], true);
+}
+
 TEST(TrialResultsJson, ContainsTheFiguresOfAllFlights) {
   const json parsed = json::parse(toJson(results()));
   ASSERT_EQ(parsed["trials"].size(), 1u);
