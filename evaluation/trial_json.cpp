@@ -178,10 +178,11 @@ std::string toJson(const TrialResults& results) {
   ordered_json trials = ordered_json::array();
   for (const TrialResult& trial : results.trials) trials.push_back(trialJson(trial));
   const common::BuildVersion& version = results.version;
-  return ordered_json{{"version", version.number},
+  // The trials are first: by them the file is recognized.
+  return ordered_json{{"trials", trials},
+                      {"version", version.number},
                       {"commit", version.commit},
-                      {"dirty", version.dirty ? ordered_json(*version.dirty) : ordered_json()},
-                      {"trials", trials}}
+                      {"dirty", version.dirty ? ordered_json(*version.dirty) : ordered_json()}}
              .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
          "\n";
 }
