@@ -124,8 +124,7 @@ void reportSelection(OptimizeReport& report, const Graph& file, const PoseGraph&
 /// Chooses among the closures first; those that are refused are taken out of the file's edges.
 template <typename Graph, typename PoseGraph>
 void optimizeRobustly(Graph& file, PoseGraph graph, const OptimizeOptions& options, OptimizeReport& report) {
-  const auto before = squaredErrors(graph, graph.poses);
-  report.chi2_initial = std::accumulate(before.begin(), before.end(), 0.0);
+  report.chi2_initial = optimization::chi2Of(squaredErrors(graph, graph.poses));
   const auto selection = selectClosures(*weighted(graph, placesByIds(file.ids)));
   eraseRefused(graph.edges, selection.kept);
   optimization::PoseGraphConfig config;
@@ -135,7 +134,7 @@ void optimizeRobustly(Graph& file, PoseGraph graph, const OptimizeOptions& optio
   reportSelection(report, file, graph, selection);
   eraseRefused(file.edges, selection.kept);
   file.poses = std::move(solution.poses);
-  report.chi2_final = std::accumulate(solution.squared_errors.begin(), solution.squared_errors.end(), 0.0);
+  report.chi2_final = optimization::chi2Of(solution.squared_errors);
   report.start = "robust";
   report.iterations = selection.iterations + solution.iterations;
   report.verdict = !selection.sure      ? GraphVerdict::kCannotTell

@@ -1,7 +1,6 @@
 #include "optimization/best_start.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "optimization/chordal_start.hpp"
@@ -19,11 +18,6 @@ constexpr double kRounding = 1e-12;
 /// So large that the first step is that of Gauss-Newton: the starts are near.
 constexpr double kGaussNewtonRadius = 1e16;
 
-template <typename Values>
-double sum(const Values& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
 template <typename Graph>
 class Search {
  public:
@@ -37,10 +31,10 @@ class Search {
 
   Solution run() {
     best_.poses = guess_;
-    best_.chi2_guess = best_.chi2 = chi2Of(guess_);
+    best_.chi2_guess = best_.chi2 = chi2At(guess_);
     best_.start = Start::kGuess;
     const Poses chordal = chordalStart(graph_);
-    const double chi2_chordal = chi2Of(chordal);
+    const double chi2_chordal = chi2At(chordal);
     attempt(Start::kChordal, chordal);
     const bool sure = best_.start == Start::kChordal && best_.converged && best_.chi2 * kSureDecrease > chi2_chordal &&
                       chi2_chordal <= best_.chi2_guess;
@@ -52,7 +46,7 @@ class Search {
   }
 
  private:
-  double chi2Of(const Poses& poses) const { return sum(squaredErrors(graph_, poses)); }
+  double chi2At(const Poses& poses) const { return chi2Of(squaredErrors(graph_, poses)); }
 
   void setRobust(bool robust) {
     for (auto& edge : graph_.edges) edge.robust = robust;
@@ -65,7 +59,7 @@ class Search {
     config.relative_decrease = config_.relative_decrease;
     config.trust_radius = kGaussNewtonRadius;
     auto solution = optimize(graph_, config);
-    const double chi2 = sum(solution.squared_errors);
+    const double chi2 = chi2Of(solution.squared_errors);
     ++best_.starts;
     best_.iterations += solution.iterations;
     const bool better = best_.starts == 1 ? chi2 <= best_.chi2 : chi2 < best_.chi2;

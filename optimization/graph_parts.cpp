@@ -115,4 +115,8 @@ std::vector<double> squaredErrors(const PoseGraph3D& graph, const std::vector<co
   return squared(graph, poses);
 }
 
+double chi2Of(const std::vector<double>& squared_errors) {
+  return std::accumulate(squared_errors.begin(), squared_errors.end(), 0.0);
+}
+
 }  // namespace swiftlet::optimization

@@ -29,5 +29,7 @@ std::vector<common::Pose3> chainedPoses(const PoseGraph3D& graph);
 /// e' * information * e of each edge at `poses`.
 std::vector<double> squaredErrors(const PoseGraph2D& graph, const std::vector<common::Pose2>& poses);
 std::vector<double> squaredErrors(const PoseGraph3D& graph, const std::vector<common::Pose3>& poses);
+/// Their sum.
+double chi2Of(const std::vector<double>& squared_errors);
 
 }  // namespace swiftlet::optimization

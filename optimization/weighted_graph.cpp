@@ -78,7 +78,7 @@ class Weighted final : public WeightedGraph {
         part.edges.back().information *= weights[i];
       }
     auto chordal = chordalStart(part);
-    if (chi2Of(part, chordal) < chi2Of(part, part.poses)) part.poses = std::move(chordal);
+    if (chi2Of(squaredErrors(part, chordal)) < chi2Of(squaredErrors(part, part.poses))) part.poses = std::move(chordal);
     PoseGraphConfig config;
     config.max_iterations = max_iterations;
     config.relative_decrease = 1e-8;
@@ -98,11 +98,6 @@ class Weighted final : public WeightedGraph {
   }
 
  private:
-  static double chi2Of(const Graph& graph, const decltype(Graph::poses)& poses) {
-    const auto squares = optimization::squaredErrors(graph, poses);
-    return std::accumulate(squares.begin(), squares.end(), 0.0);
-  }
-
   Graph& graph_;
   std::vector<bool> closures_;
   EdgeInnovations innovations_;

@@ -32,8 +32,7 @@ void SweepTimeSurvey::add(const common::LaserScan& scan, const common::Pose2& T_
       all_found &= motion.has_value();
       if (motion) turned_rad = std::max(turned_rad, std::abs(motion->at(1.0).yaw_rad - motion->at(0.0).yaw_rad));
     }
-    if (!all_found) continue;
-    if (turned_rad < kTurned_rad) continue;
+    if (!all_found || turned_rad < kTurned_rad) continue;
     ++counted_;
     for (std::size_t i = 0; i < hypotheses_.size(); ++i) hypotheses_[i].fits += fits[i];
   }

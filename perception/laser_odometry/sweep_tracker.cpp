@@ -16,7 +16,7 @@ constexpr int kFirstRounds = 4;        ///< Rounds in which the first sweeps are
 constexpr double kRateStep_rad_s = 0.2, kRateChange_rad_s = 4.0, kFirstRate_rad_s = 3.0;
 /// What a change of the turn rate must gain in fit, per rad/s.
 constexpr double kRatePenalty_s = 0.02;
-/// A sweep that fits worse has a motion that was not found. Those of the recorded logs fit by 0.98 and more, and by 0.5
+/// The track is lost at a sweep that fits worse. Those of the recorded logs fit by 0.98 and more, and by 0.5
 /// and less from where it is lost.
 constexpr double kLeastFit = 0.8;
 /// A pause between two sweeps longer than this many sweeps tells nothing of the velocity after it.

@@ -3,7 +3,7 @@
 //
 //   sweep --> turn rate that fits best --> fit of its motion --> fit of the sweeps before it, which now have a next one
 //
-// A sweep that does not fit those around it has a motion that was not found: then it begins anew with the next.
+// Where a sweep does not fit those around it, the track is lost: it is initialized again from the sweeps that follow.
 #pragma once
 
 #include <deque>
@@ -23,10 +23,10 @@ class SweepTracker {
   void finish();
   /// Whether a sweep can be taken.
   bool hasNext() const;
-  /// The motion in the oldest sweep that was not taken; there must be one that can be. In a frame that begins anew
-  /// after each sweep whose motion was not found (nullopt), and drifts.
+  /// The motion in the oldest sweep that was not taken; there must be one that can be. nullopt where the track
+  /// was lost. In a frame that drifts, and is another one after each loss.
   std::optional<SweepMotion> take();
-  /// How well the sweep that is taken next fits those around it: see fitOf(). 0 if its motion was not found.
+  /// How well the sweep that is taken next fits those around it: see fitOf(). 0 if the track was lost.
   double fitOfNext() const;
 
  private:
@@ -44,7 +44,7 @@ class SweepTracker {
 
   std::deque<Timed> sweeps_;  ///< Those that were taken, as far as they are needed, and those that were not.
   std::size_t taken_ = 0;     ///< So many of them were taken.
-  std::size_t lost_ = 0;      ///< Sweeps before them that were not taken, and whose motion was not found.
+  std::size_t lost_ = 0;      ///< Sweeps before them that were not taken, and at which the track was lost.
   bool begun_ = false, finished_ = false;
 };
 
