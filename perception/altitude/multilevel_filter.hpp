@@ -2,7 +2,7 @@
 // (Grzonka 2012, section IV-C, Algorithm 1; Grzonka 2009, section V-E).
 //
 // Stage 1 is a Kalman filter over (z, v_z). It starts each scan from the fusion filter's estimate, where the paper
-// predicts with the vertical acceleration alone (docs/decisions/097). The known levels nearby that explain a beam give
+// predicts with the vertical acceleration alone (docs/decisions/altitude.md#097). The known levels nearby that explain a beam give
 // one virtual measurement of the height above the take-off floor, as if nothing else were below.
 // Stage 2 is one Kalman filter per level. Surfaces that no level explains become new levels. A level is re-estimated
 // only when the vehicle enters or leaves it; otherwise the errors of level and height would drift together. A level
@@ -18,7 +18,7 @@
 // is not used for a while after its innovations add up, and a measurement is published only if no slope was detected
 // soon after it. A surface that rises or falls evenly for longer is flat, and the vertical speed was wrong; the speed
 // is then corrected, too. If the height has become uncertain, a known level is entered only if it is likelier than an
-// unknown surface (docs/decisions/008).
+// unknown surface (docs/decisions/altitude.md#008).
 //
 // Heights are those of the body origin above the take-off floor, which is level 0, at height 0 without error. The state
 // is that of the time of the last scan. The vehicle's present height comes from the fusion filter, which uses the
