@@ -96,7 +96,7 @@ tl::expected<Relief, std::string> readRelief(const std::string& bytes) {
     });
   }
   const auto grey = common::decodeColor(bytes);
-  if (!grey) return tl::unexpected(fmt::format("{}; heights are read from PNG and JPEG", grey.error()));
+  if (!grey) return tl::unexpected(fmt::format("{}; heights are read from PNG and JPEG", grey.error().reason));
   if (tooSmall(*grey)) return small;
   return thinned(grey->width_px, grey->height_px, 255.0, [&grey](int row, int column) {
     return static_cast<double>(grey->rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(grey->width_px) +
