@@ -11,7 +11,8 @@
 
 #include "apps/show.hpp"
 #include "common/error.hpp"
-#include "common/yaml_problem.hpp"
+#include "common/number_hint.hpp"
+#include "common/text_parts.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -28,7 +29,8 @@ CLI::Validator numberWithin(Within bounds) {
   const auto check = [bounds, description](std::string& text) -> std::string {
     if (isNextOption(text)) return std::string(kValueMissing);
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const std::string_view digits = common::withoutPlus(text);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool number = error == std::errc{} && end == text.data() + text.size();
     if (number && value >= bounds.low && value <= bounds.high) return "";
     const std::string hint = common::numberHint("", text, std::is_integral_v<Number>);

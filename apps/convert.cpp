@@ -217,7 +217,7 @@ void checkOptions(const ConvertOptions& options, Kind from, Kind to) {
   if (from != Kind::kCloud && (options.scale || !options.origin.empty()))
     refuse(options.scale ? "--scale" : "--origin", "only the coordinates of a cloud can be changed", "");
   if (to != Kind::kFloorPlan && (options.low_m || options.high_m))
-    refuse("--low", "heights are those of a floor plan", "name it .yaml");
+    refuse(options.low_m ? "--low" : "--high", "heights are those of a floor plan", "name it .yaml");
   if (to == Kind::kFloorPlan && (!options.low_m || !options.high_m))
     refuse("convert", "a floor plan needs the heights that it shows", "for instance --low 0.8 --high 1.2");
   if (to == Kind::kFloorPlan && *options.low_m > *options.high_m)

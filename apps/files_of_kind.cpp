@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
 #include "common/yaml_problem.hpp"
+#include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::apps {
 namespace fs = std::filesystem;
@@ -27,8 +27,7 @@ struct Use {
 
 /// Of a YAML file by the keys at its top: trials, maps and profiles end alike.
 Use useOfYaml(const std::string& name, const fs::path& file) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
-  const std::string text = common::readBytes(file.string(), kMostBytes);
+  const std::string text = common::yamlText(common::readBytes(file, common::kMostYamlBytes));
   const std::vector<std::string_view> lines = common::linesOf(text);
   const auto has = [&](std::string_view key) {
     return std::any_of(lines.begin(), lines.end(), [&](std::string_view line) { return line.starts_with(key); });
@@ -42,19 +41,12 @@ Use useOfYaml(const std::string& name, const fs::path& file) {
   return {"", ""};
 }
 
-/// Whether a text is among the first bytes of a file.
-bool saysAtTop(const fs::path& file, const char* text) {
-  constexpr std::size_t kTopBytes = std::size_t{1} << 16;
-  std::string top(kTopBytes, '\0');
-  std::ifstream(file, std::ios::binary).read(top.data(), static_cast<std::streamsize>(kTopBytes));
-  return top.find(text) != std::string::npos;
-}
-
 Use useOf(const std::string& name, const fs::path& file) {
   const std::string ending = common::endingOf(file);
   if (ending == ".yaml" || ending == ".yml") return useOfYaml(name, file);
+  constexpr std::size_t kTopBytes = std::size_t{1} << 16;
   const bool is_xml = ending == ".xml";
-  if (ending == ".sdf" || ending == ".world" || (is_xml && saysAtTop(file, "<sdf")))
+  if (ending == ".sdf" || ending == ".world" || (is_xml && interfaces::saysAtStart(file, "<sdf", kTopBytes)))
     return {"a world", "`swiftlet fly MISSION.xml --world " + name + "` flies in a world"};
   if (is_xml) return {"a mission", "`swiftlet fly " + name + "` flies a mission"};
   return {"", ""};

@@ -251,10 +251,6 @@ int fly(const FlyOptions& options) {
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
   showWarnings(missions, options.headless);
   if (!options.map.empty()) {
-    const std::string ending = std::filesystem::path(options.map).extension().string();
-    if (ending == ".sdf" || ending == ".world")
-      throw common::InputError(common::Problem{
-          {options.map}, "--map", "is a world, and no map", "did you mean `--world " + options.map + "`?"});
     setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
     showNotes(setup.map->notes);
   }

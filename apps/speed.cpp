@@ -6,14 +6,15 @@
 
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
-#include "common/yaml_problem.hpp"
+#include "common/number_hint.hpp"
+#include "common/text_parts.hpp"
 
 namespace swiftlet::apps {
 
 double parseSpeed(const std::string& text) {
   if (text == "max") return 0.0;
   double speed = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  const auto [end, error] = std::from_chars(common::withoutPlus(text).data(), text.data() + text.size(), speed);
   const std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
   if (error != std::errc{} || end != text.data() + text.size() || !(speed >= 0.01 && speed <= 1000.0))
     throw common::InputError(common::Problem{{},

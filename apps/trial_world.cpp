@@ -1,7 +1,6 @@
 #include "apps/trial_world.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 
@@ -9,6 +8,7 @@
 #include "apps/trial_files.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
 #include "common/misleading.hpp"
 #include "interfaces/files/archive.hpp"
 
@@ -31,10 +31,6 @@ bool isThere(const fs::path& path) {
 /// The world of the shipped folders, or of `beside`, whose name is most like this one, in whatever case; empty if none
 /// is.
 std::string similarWorld(const std::string& name, const fs::path& beside) {
-  const auto small = [](std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-  };
   std::vector<std::string> files, stems;
   const auto addFolder = [&](const fs::path& folder, const fs::path& shown) {
     std::error_code ignored;
@@ -42,13 +38,13 @@ std::string similarWorld(const std::string& name, const fs::path& beside) {
       const fs::path file = entry.path().filename();
       if (file.extension() != ".sdf" && file.extension() != ".world") continue;
       files.push_back((shown / file).string());
-      stems.push_back(small(file.stem().string()));
+      stems.push_back(common::lowerCase(file.stem().string()));
     }
   };
   if (!beside.empty()) addFolder(beside, {});
   for (const char* folder : {"worlds", "trials/worlds"})
     for (const fs::path& data : common::dataFolders()) addFolder(data / folder, folder);
-  const auto near = common::nearestWord(small(fs::path(name).stem().string()), stems);
+  const auto near = common::nearestWord(common::lowerCase(fs::path(name).stem().string()), stems);
   if (!near) return {};
   return files[static_cast<std::size_t>(std::find(stems.begin(), stems.end(), *near) - stems.begin())];
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "common/config.hpp"
 #include "common/config_text.hpp"
 #include "common/error.hpp"
+#include "common/number_hint.hpp"
 #include "common/number_list.hpp"
 #include "common/read_bytes.hpp"
 #include "common/yaml_problem.hpp"
@@ -33,7 +35,9 @@ struct YamlReader::Impl {
   std::vector<Level> levels;
   std::vector<YAML::Node> lists;
   std::vector<std::string> list_names;
-  std::vector<Problem> problems;
+  static constexpr std::size_t kMostProblems = 100;
+  std::vector<Problem> problems;   ///< The first of them.
+  std::set<std::string> reported;  ///< All, as texts without hints.
   bool keeps_unknown_keys = false;
   std::vector<Problem> kept_keys;
   std::vector<UnknownKey> unknown;
@@ -63,15 +67,12 @@ struct YamlReader::Impl {
   }
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
-    const SourceLocation place = placeOf(name, node);
-    const auto isSame = [&](const Problem& told) {
-      return told.element == pathOf(name) && told.message == message && toString(told.location) == toString(place);
-    };
-    // A key that is read twice, as `based_on`.
-    if (std::any_of(problems.begin(), problems.end(), isSame)) return;
-    std::string lookalike = lookalikeHint(lines, place.line);
-    problems.push_back(
-        {place, pathOf(name), std::move(message), lookalike.empty() ? std::move(hint) : std::move(lookalike)});
+    Problem problem{placeOf(name, node), pathOf(name), std::move(message), {}};
+    // A key that is read twice, as `based_on`, has its problem once.
+    if (!reported.insert(toString(problem)).second || problems.size() == kMostProblems) return;
+    std::string lookalike = lookalikeHint(lines, problem.location.line);
+    problem.hint = lookalike.empty() ? std::move(hint) : std::move(lookalike);
+    problems.push_back(std::move(problem));
   }
 
   /// What to write in place of a value that is not `expected`.
@@ -211,10 +212,11 @@ struct YamlReader::Impl {
         kept_keys.push_back({at(entry.first), "", fmt::format("unknown key `{}`, not used", key), ""});
         continue;
       }
-      unknown.push_back({problems.size(), level.path, key});
       const std::string similar = didYouMean(key, known_keys);
+      const std::size_t before = problems.size();
       report(entry.first, "", fmt::format("unknown key `{}`", key),
              similar.empty() ? "known are: " + listed(known_keys) : similar);
+      if (problems.size() > before) unknown.push_back({before, level.path, key});
     }
   }
 
@@ -295,17 +297,14 @@ YamlReader::YamlReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 YamlReader::~YamlReader() = default;
 YamlReader::YamlReader(YamlReader&&) noexcept = default;
 
-YamlReader YamlReader::fromFile(const std::string& file) {
-  constexpr std::size_t kMostBytes = std::size_t{8} << 20;
-  return fromText(readText(file, kMostBytes), file);
-}
+YamlReader YamlReader::fromFile(const std::string& file) { return fromText(readText(file, kMostYamlBytes), file); }
 
 YamlReader YamlReader::fromText(const std::string& text, const std::string& name) {
   auto impl = std::make_unique<Impl>();
   impl->file = name;
-  impl->whole_text = text;
+  impl->whole_text = yamlText(text);
   impl->lines = linesOf(impl->whole_text);
-  impl->levels.push_back({loadYaml(text, name), "", {}});
+  impl->levels.push_back({loadYaml(impl->whole_text, name), "", {}});
   return YamlReader(std::move(impl));
 }
 
@@ -387,7 +386,10 @@ std::vector<Problem> YamlReader::unknownKeys() const { return impl_->kept_keys; 
 void YamlReader::finish(const std::vector<std::string>& problems) {
   impl_->closeLevel(problems);
   impl_->hintAtUnknownKeys();
-  if (!impl_->problems.empty()) throw InputError(std::move(impl_->problems));
+  if (impl_->problems.empty()) return;
+  if (const std::size_t more = impl_->reported.size() - impl_->problems.size(); more > 0)
+    impl_->problems.push_back({{impl_->file}, "", fmt::format("has {} more problems", more), ""});
+  throw InputError(std::move(impl_->problems));
 }
 
 }  // namespace swiftlet::common::config

@@ -4,10 +4,14 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
+#include <array>
 #include <csetjmp>
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace swiftlet::common {
 namespace {
@@ -21,16 +25,29 @@ std::size_t samples(int width_px, int height_px) {
   return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
 }
 
-bool isSizeAllowed(int width_px, int height_px) {
-  return width_px > 0 && height_px > 0 && width_px <= kMostImageSide_px && height_px <= kMostImageSide_px;
+/// None if it is at most that large.
+std::optional<ImageFault> tooLarge(int width_px, int height_px, int most_px) {
+  if (std::max(width_px, height_px) <= most_px) return std::nullopt;
+  return ImageFault{fmt::format("is {}x{} pixels large, 1 to {} can be read", width_px, height_px, most_px)};
 }
+
+/// What libpng and libjpeg say of bytes that are missing or changed, and of images that are whole: of 12 bits, or with
+/// the colours of printers.
+ImageFault faultOf(std::string said) {
+  constexpr std::array<std::string_view, 6> kWholes{"upported", "implemented", "determine",
+                                                    "limit",    "memory",      "is not a"};
+  const bool is_whole = std::any_of(kWholes.begin(), kWholes.end(),
+                                    [&](std::string_view text) { return said.find(text) != std::string::npos; });
+  return {std::move(said), !is_whole};
+}
+
+/// Deflate packs at most so many bytes into one, and JPEG fewer. A header that promises more pixels must not allocate
+/// them.
+constexpr std::size_t kMostUnpacked = 1032;
 
 // --- PNG ------------------------------------------------------------------------------------------------------------
 
 enum class Wanted { kRgb, kGray16, kGrey };
-
-/// Deflate packs at most so many bytes into one. A header that promises more pixels must not allocate them.
-constexpr std::size_t kMostUnpacked = 1032;
 
 /// A PNG while it is read. libpng leaves by longjmp to `readPng`, which has no objects with destructors.
 struct PngRead {
@@ -41,7 +58,7 @@ struct PngRead {
   int width_px = 0, height_px = 0, channels = 0;
   std::vector<std::uint8_t> pixels;
   std::vector<png_bytep> rows;
-  std::string problem;
+  ImageFault fault;
 
   explicit PngRead(std::string_view all) : bytes(all) {}
   PngRead(const PngRead&) = delete;
@@ -50,7 +67,7 @@ struct PngRead {
 };
 
 void onError(png_structp png, png_const_charp message) {
-  static_cast<PngRead*>(png_get_error_ptr(png))->problem = message;
+  static_cast<PngRead*>(png_get_error_ptr(png))->fault = faultOf(message);
   png_longjmp(png, 1);
 }
 void onWarning(png_structp, png_const_charp) {}
@@ -83,27 +100,33 @@ void placeRows(PngRead& read) {
     read.rows.push_back(read.pixels.data() + i * row_bytes);
 }
 
-/// False with `read.problem`.
+bool isTooLarge(PngRead& read, int most_px) {
+  auto fault = tooLarge(read.width_px, read.height_px, most_px);
+  if (fault) read.fault = *std::move(fault);
+  return fault.has_value();
+}
+
+/// False with `read.fault`.
 bool readPng(PngRead& read, Wanted wanted) {
   read.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &read, onError, onWarning);
   if (read.png == nullptr) {
-    read.problem = "cannot be read for lack of memory";
+    read.fault = {"cannot be read for lack of memory"};
     return false;
   }
   if (setjmp(png_jmpbuf(read.png)) != 0) return false;
   read.info = png_create_info_struct(read.png);
-  const int most_px = wanted == Wanted::kGrey ? kMostGreySide_px : kMostImageSide_px;
-  png_set_user_limits(read.png, static_cast<png_uint_32>(most_px), static_cast<png_uint_32>(most_px));
+  png_set_user_limits(read.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_set_read_fn(read.png, &read, onRead);
   png_read_info(read.png, read.info);
+  read.width_px = static_cast<int>(png_get_image_width(read.png, read.info));
   read.height_px = static_cast<int>(png_get_image_height(read.png, read.info));
+  if (isTooLarge(read, wanted == Wanted::kGrey ? kMostGreySide_px : kMostImageSide_px)) return false;
   if (png_get_rowbytes(read.png, read.info) * static_cast<std::size_t>(read.height_px) / kMostUnpacked >
       read.bytes.size())
     png_error(read.png, "is cut off");
   convertTo(read, wanted);
   png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
-  read.width_px = static_cast<int>(png_get_image_width(read.png, read.info));
   read.channels = png_get_channels(read.png, read.info);
   placeRows(read);
   png_read_image(read.png, read.rows.data());
@@ -111,11 +134,11 @@ bool readPng(PngRead& read, Wanted wanted) {
   return true;
 }
 
-tl::expected<Image, std::string> colorFromPng(std::string_view bytes) {
+tl::expected<Image, ImageFault> colorFromPng(std::string_view bytes) {
   PngRead read(bytes);
-  if (!readPng(read, Wanted::kRgb)) return unexpected(read.problem);
+  if (!readPng(read, Wanted::kRgb)) return unexpected(std::move(read.fault));
   if (read.pixels.size() != 3 * samples(read.width_px, read.height_px))
-    return unexpected(std::string("is not an 8-bit RGB image"));
+    return unexpected(ImageFault{"is not an 8-bit RGB image"});
   return Image{read.width_px, read.height_px, std::move(read.pixels)};
 }
 
@@ -140,47 +163,50 @@ struct DestroyJpeg {
   void operator()(void* handle) const { tjDestroy(handle); }
 };
 
-tl::expected<Image, std::string> colorFromJpeg(std::string_view bytes) {
+tl::expected<Image, ImageFault> colorFromJpeg(std::string_view bytes, int most_px) {
   const std::unique_ptr<void, DestroyJpeg> handle(tjInitDecompress());
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   int width_px = 0, height_px = 0, subsampling = 0, color_space = 0;
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width_px, &height_px, &subsampling, &color_space) != 0)
-    return unexpected(std::string(tjGetErrorStr2(handle.get())));
-  if (width_px <= 0 || height_px <= 0) return unexpected(std::string("is cut off"));
-  if (!isSizeAllowed(width_px, height_px)) return unexpected(std::string("is larger than an image may be"));
+    return unexpected(faultOf(tjGetErrorStr2(handle.get())));
+  if (auto fault = tooLarge(width_px, height_px, most_px)) return unexpected(*std::move(fault));
+  if (width_px <= 0 || height_px <= 0 || samples(width_px, height_px) / kMostUnpacked > bytes.size())
+    return unexpected(ImageFault{"is cut off", true});
   Image image{width_px, height_px, std::vector<std::uint8_t>(3 * samples(width_px, height_px))};
   // The accurate transform gives the same bytes with and without the CPU's vector instructions. A warning, such as a
   // premature end, counts as an error: what is missing would be grey.
   if (tjDecompress2(handle.get(), data, bytes.size(), image.rgb.data(), width_px, 0, height_px, TJPF_RGB,
                     TJFLAG_ACCURATEDCT) != 0)
-    return unexpected(std::string(tjGetErrorStr2(handle.get())));
+    return unexpected(faultOf(tjGetErrorStr2(handle.get())));
   return image;
 }
 
 }  // namespace
 
-tl::expected<Image, std::string> decodeColor(std::string_view bytes) {
+tl::expected<Image, ImageFault> decodeColor(std::string_view bytes) {
   if (isPng(bytes)) return colorFromPng(bytes);
-  if (isJpeg(bytes)) return colorFromJpeg(bytes);
-  return unexpected(std::string("is neither PNG nor JPEG"));
+  if (isJpeg(bytes)) return colorFromJpeg(bytes, kMostImageSide_px);
+  return unexpected(ImageFault{"is neither PNG nor JPEG"});
 }
 
-tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes) {
-  if (!isPng(bytes)) return unexpected(std::string("is not a PNG"));
+tl::expected<DepthCodes, ImageFault> decodeDepth(std::string_view bytes) {
+  if (!isPng(bytes)) return unexpected(ImageFault{"is not a PNG"});
   PngRead read(bytes);
-  if (!readPng(read, Wanted::kGray16)) return unexpected(read.problem);
+  if (!readPng(read, Wanted::kGray16)) return unexpected(std::move(read.fault));
   DepthCodes depth{read.width_px, read.height_px, {}};
   depth.codes.resize(samples(read.width_px, read.height_px));
   std::memcpy(depth.codes.data(), read.pixels.data(), read.pixels.size());
   return depth;
 }
 
-tl::expected<GreyImage, std::string> decodeGrey(std::string_view bytes) {
-  if (!isPng(bytes))
-    return decodeColor(bytes).map(
-        [](const Image& image) { return greyOf(image.width_px, image.height_px, image.rgb, 3); });
+tl::expected<GreyImage, ImageFault> decodeGrey(std::string_view bytes) {
+  if (isJpeg(bytes))
+    return colorFromJpeg(bytes, kMostGreySide_px).map([](const Image& image) {
+      return greyOf(image.width_px, image.height_px, image.rgb, 3);
+    });
+  if (!isPng(bytes)) return unexpected(ImageFault{"is neither PNG nor JPEG"});
   PngRead read(bytes);
-  if (!readPng(read, Wanted::kGrey)) return unexpected(read.problem);
+  if (!readPng(read, Wanted::kGrey)) return unexpected(std::move(read.fault));
   return greyOf(read.width_px, read.height_px, read.pixels, read.channels);
 }
 

@@ -30,13 +30,18 @@ struct GreyImage {
 
 /// Images wider or higher than this are refused.
 inline constexpr int kMostImageSide_px = 8192;
-/// The same for PNG of which only the brightness is read.
+/// The same for images of which only the brightness is read.
 inline constexpr int kMostGreySide_px = 1 << 15;
 
-/// The reason of an error is for people: "is cut off".
-tl::expected<Image, std::string> decodeColor(std::string_view bytes);
-tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes);
+/// Why bytes are not an image that is read.
+struct ImageFault {
+  std::string reason;       ///< For people: "is cut off".
+  bool is_damaged = false;  ///< Bytes are missing or changed, which no other program can mend.
+};
+
+tl::expected<Image, ImageFault> decodeColor(std::string_view bytes);
+tl::expected<DepthCodes, ImageFault> decodeDepth(std::string_view bytes);
 /// PNG of any colour type and depth, or JPEG.
-tl::expected<GreyImage, std::string> decodeGrey(std::string_view bytes);
+tl::expected<GreyImage, ImageFault> decodeGrey(std::string_view bytes);
 
 }  // namespace swiftlet::common

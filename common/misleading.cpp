@@ -56,7 +56,7 @@ constexpr std::array kRanges = std::to_array<Range>(
 /// Full-width forms: each stands this far behind the character of ASCII that it looks like.
 constexpr std::uint32_t kFirstFullWidth = 0xFF01, kLastFullWidth = 0xFF5E, kFullWidthShift = 0xFEE0;
 
-/// Of those that are met most.
+/// The name of a frequent one; others have none.
 const char* nameOf(std::uint32_t code) {
   switch (code) {
     case 0x00A0:

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <charconv>
 
+#include "common/text_parts.hpp"
+
 namespace swiftlet::common {
 namespace {
 
 constexpr std::string_view kSpaces = " \t\r\n";
 
-std::string_view strippedOf(std::string_view text, std::string_view marks) {
-  const std::size_t begin = std::min(text.find_first_not_of(marks), text.size());
-  return text.substr(begin, text.find_last_not_of(marks) + 1 - begin);
-}
-
-/// In a number as `10 000` the second part is none of its own.
+/// The second part of `10 000` is not a number of its own.
 bool isWrittenNumber(std::string_view text) {
   if (text.size() > 1 && text.starts_with('0') && text[1] != '.') return false;
   double value = 0.0;
@@ -27,11 +24,10 @@ std::string splitAt(std::string_view text, std::string_view separators) {
   std::string list;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-    std::string item(strippedOf(text.substr(begin, end - begin), kSpaces));
+    std::string item(withoutPlus(trimmed(text.substr(begin, end - begin), kSpaces)));
     begin = end + 1;
     if (separators == kSpaces && item.empty()) continue;
     if (separators == kSpaces && item.ends_with(',')) item.pop_back();
-    if (item.starts_with('+')) item.erase(0, 1);
     std::replace(item.begin(), item.end(), ',', '.');
     if (!isWrittenNumber(item)) return "";
     list += (list.empty() ? "[" : ", ") + item;
@@ -42,7 +38,7 @@ std::string splitAt(std::string_view text, std::string_view separators) {
 }  // namespace
 
 std::string numberListOf(std::string_view written) {
-  const std::string_view text = strippedOf(written, " \t\r\n()[]{}");
+  const std::string_view text = trimmed(written, " \t\r\n()[]{}");
   for (const std::string_view separators : {std::string_view(";"), std::string_view(","), kSpaces})
     if (std::string list = splitAt(text, separators); !list.empty()) return list;
   return "";

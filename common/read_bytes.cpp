@@ -47,7 +47,7 @@ struct Packer {
   const char* name;
   const char* remedy;
 };
-constexpr std::array kPackers{Packer{"\x1f\x8b", "gzip", "gunzip"}, Packer{"BZh9", "bzip2", "bunzip2"},
+constexpr std::array kPackers{Packer{"\x1f\x8b", "gzip", "gunzip"}, Packer{"BZh", "bzip2", "bunzip2"},
                               Packer{"\xfd"
                                      "7zXZ",
                                      "xz", "unxz"},

@@ -1,35 +1,51 @@
 #include "common/yaml_problem.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include "common/misleading.hpp"
+#include "common/text_parts.hpp"
+#include "common/utf16.hpp"
 
 namespace swiftlet::common {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
+/// Whether a value or a key may follow on that character.
+bool isBeforeValue(char c) { return std::string_view(":-[{,").find(c) != std::string_view::npos; }
 
-/// The text before a comment. A `#` within a word or quotes begins none.
+/// The text before a comment, which a `#` within a word or quotes does not begin. Quotes are where a value or a key
+/// begins.
 std::string_view withoutComment(std::string_view line) {
   char quote = 0;
+  bool begins = true;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool begins = i == 0 || kBlanks.find(line[i - 1]) != std::string_view::npos;
-    if (quote != 0 ? line[i] == quote : (line[i] == '"' || line[i] == '\'')) quote = quote != 0 ? 0 : line[i];
-    if (quote == 0 && line[i] == '#' && begins) return line.substr(0, i);
+    const char c = line[i];
+    const bool is_blank = kBlanks.find(c) != std::string_view::npos;
+    if (quote != 0) {
+      begins = c == quote;  // In single quotes two are one: the second opens them again.
+      if (c == quote) quote = 0;
+      continue;
+    }
+    if (c == '#' && (i == 0 || kBlanks.find(line[i - 1]) != std::string_view::npos)) return line.substr(0, i);
+    if (begins && (c == '"' || c == '\'')) quote = c;
+    if (!is_blank) begins = isBeforeValue(c);
   }
   return line;
+}
+
+/// The value in quotes, as YAML reads it.
+std::string quoted(std::string_view value) {
+  if (value.find('\'') != std::string_view::npos && value.find_first_of("\\\"") == std::string_view::npos)
+    return fmt::format("\"{}\"", value);
+  std::string text;
+  for (const char c : value) text += c == '\'' ? "''" : std::string(1, c);
+  return "'" + text + "'";
 }
 
 bool isNothing(std::string_view line) { return trimmed(withoutComment(line)).empty(); }
@@ -121,16 +137,14 @@ class Diagnosis {
     if (colon == std::string_view::npos) return std::nullopt;
     const std::string_view written = trimmed(line.substr(colon + 2));
     if (written.starts_with('\'') && std::count(written.begin(), written.end(), '\'') > 2)
-      return with(
-          fmt::format("within single quotes an apostrophe is written twice; double quotes need none of that: "
-                      "`{}: \"{}\"`",
-                      line.substr(0, colon), written.substr(1, written.size() - 2)));
+      return with(fmt::format("within single quotes an apostrophe is written twice: write `{}: {}`",
+                              line.substr(0, colon), quoted(written.substr(1, written.size() - 2))));
     if (written.starts_with('"') && written.find('\\') != std::string_view::npos)
       return with("in double quotes a backslash begins a special character: use single quotes");
     if (noticed_.message == "illegal flow end") return with("leave out that bracket: none is open there");
     const bool special = !written.empty() && std::string_view("@`%*&!|>").find(written[0]) != std::string_view::npos;
     if (special || written.find(": ") != std::string_view::npos)
-      return with(fmt::format("put quotes around the value: `{}: '{}'`", line.substr(0, colon), written));
+      return with(fmt::format("put quotes around the value: `{}: {}`", line.substr(0, colon), quoted(written)));
     return std::nullopt;
   }
 
@@ -164,7 +178,7 @@ std::optional<Cause> Diagnosis::unclosed() const {
         open.push_back({c, line, static_cast<int>(i) + 1});
       else if (in_flow && (c == ']' || c == '}'))
         open.pop_back();
-      if (c != ' ') begins = c == ':' || c == '-' || c == '[' || c == '{' || c == ',';
+      if (c != ' ') begins = isBeforeValue(c);
     }
     begins = true;
   }
@@ -238,7 +252,7 @@ Problem secondDocument(const std::string& text, const std::string& file, int lin
     else if (!isNothing(one))
       first = above;
   }
-  if (first == 0) return {{file, line, 1}, "", "not YAML: this line follows on nothing", ""};
+  if (first == 0) return {{file, line, 1}, "", "not YAML: the line goes on behind a value that is complete", ""};
   const std::string_view head = lines[static_cast<std::size_t>(first) - 1];
   const std::string_view key = trimmed(withoutComment(head));
   if (const std::size_t indent = indentOf(head); indent > 0)
@@ -258,21 +272,10 @@ Problem secondDocument(const std::string& text, const std::string& file, int lin
           keyHint(trimmed(withoutComment(lines[static_cast<std::size_t>(line) - 1])))};
 }
 
-/// "m_s" of "m/s" and "m_s", "deg" of "°".
-std::string unitOf(std::string_view written) {
-  std::string unit;
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    const std::string_view rest = written.substr(i);
-    if (rest.starts_with("\xC2\xB0") || rest.starts_with("\xC2\xB2")) {
-      unit += rest.starts_with("\xC2\xB0") ? "deg" : "2";
-      ++i;
-    } else if (rest.starts_with("\xB0")) {  // In Latin-1.
-      unit += "deg";
-    } else if (written[i] != '^') {
-      unit += written[i] == '/' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(written[i])));
-    }
-  }
-  return unit;
+/// The library decodes it.
+bool isUtf32(std::string_view text) {
+  using namespace std::string_view_literals;
+  return text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv);
 }
 
 }  // namespace
@@ -287,14 +290,26 @@ std::vector<std::string_view> linesOf(std::string_view text) {
   return lines;
 }
 
+std::string yamlText(std::string bytes) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (isUtf32(bytes)) return bytes;
+  if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
+  if (const auto order = utf16OrderOf(bytes)) {
+    const std::string utf16 = std::exchange(bytes, "");
+    Utf16Decoder decoder(*order);
+    decoder.decode(utf16, bytes);
+    decoder.finish(bytes);
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i)  // Lines that end as on old Macs.
+    if (bytes[i] == '\r' && !std::string_view(bytes).substr(i + 1).starts_with('\n')) bytes[i] = '\n';
+  return bytes;
+}
+
 YAML::Node loadYaml(const std::string& given, const std::string& file) {
-  std::string text = given;
-  // Lines that end as on old Macs.
-  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
-  const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  const std::string text = yamlText(given);
   try {
     // The mark for the end of a document makes the library notice a quote that is open there.
-    const std::vector<YAML::Node> documents = YAML::LoadAll(is_utf16 ? text : text + "\n...\n");
+    const std::vector<YAML::Node> documents = YAML::LoadAll(isUtf32(text) ? text : text + "\n...\n");
     for (std::size_t i = 1; i < documents.size(); ++i)
       if (!documents[i].IsNull()) throw InputError(secondDocument(text, file, documents[i].Mark().line + 1));
     return documents.empty() ? YAML::Node() : documents.front();
@@ -303,59 +318,12 @@ YAML::Node loadYaml(const std::string& given, const std::string& file) {
   }
 }
 
-std::string numberHint(std::string_view key, std::string_view written, bool whole) {
-  if (std::string hint = misleadingHint(written); !hint.empty()) return hint;
-  const std::string_view text = trimmed(written);
-  std::size_t end = 0;
-  std::string number;
-  int marks = 0;
-  for (; end < text.size(); ++end) {
-    const char c = text[end];
-    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
-    const bool digit_next = end + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[end + 1])) != 0;
-    const bool sign = end == 0 && (c == '-' || c == '+');
-    if (c == ',' || c == '.') ++marks;
-    if (digit || sign)
-      number += c;
-    else if (c == ',' || c == '.')
-      number += '.';
-    else if (!(end > 0 && digit_next && (c == ' ' || c == '_' || c == '\'')))
-      break;
-  }
-  if (number.find_first_of("0123456789") == std::string::npos) return "";
-  // "1,081" may be a thousand or one; "0,081" is one.
-  const std::size_t comma = text.find(',');
-  const bool ambiguous = comma != std::string_view::npos && end == comma + 4 && text.find_first_of("123456789") < comma;
-  if (!whole && (marks > 1 || ambiguous)) return "write decimals with a point, and no other marks";
-  if (whole && marks > 0)
-    return comma == std::string_view::npos ? "" : "write a whole number, without points or commas";
-  const std::string_view rest = trimmed(text.substr(end));
-  if (rest.empty()) return number == text ? "" : fmt::format("write `{}`", number);
-  if (rest.starts_with('#')) return fmt::format("put a blank before the comment: `{} {}`", number, rest);
-  if (rest.find_first_of("]}") == 0) return fmt::format("leave out the `{}`: no bracket is open there", rest[0]);
-  constexpr std::array<std::string_view, 12> kUnits{"m",  "s", "s2", "deg", "rad", "hz",
-                                                    "kg", "v", "n",  "ah",  "px",  "m2"};
-  const bool has_unit = std::find(kUnits.begin(), kUnits.end(), key.substr(key.rfind('_') + 1)) != kUnits.end();
-  if (rest == "%" && !has_unit)
-    return fmt::format("write `{}`: shares are of 1", std::strtod(number.c_str(), nullptr) / 100.0);
-  const std::string unit = unitOf(rest);
-  if (key.ends_with("_" + unit)) return fmt::format("write `{}`: the key's name has the unit", number);
-  if (has_unit) return "write the number alone, in the unit that the key's name ends with";
-  const bool has_exponent = std::tolower(static_cast<unsigned char>(rest[0])) == 'e' && rest.size() > 1;
-  if (has_exponent) return "";
-  return key.empty() ? "write the number alone, in the unit that --help names"
-                     : "write the number alone, in the unit in which it is described";
-}
-
 std::string lookalikeHint(const std::vector<std::string_view>& lines, int line) {
   if (line < 1 || line > static_cast<int>(lines.size())) return "";
   const std::string_view content = withoutComment(lines[static_cast<std::size_t>(line) - 1]);
-  // At the beginning of a file it is read as intended.
-  const std::size_t mark = line == 1 && content.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  const auto found = misleadingIn(content.substr(mark));
+  const auto found = misleadingIn(content);
   if (!found) return "";
-  return fmt::format("line {} has {} in column {}: write {}", line, found->what, mark + found->offset + 1,
-                     found->instead);
+  return fmt::format("line {} has {} in column {}: write {}", line, found->what, found->offset + 1, found->instead);
 }
 
 std::string keyHint(std::string_view written) {

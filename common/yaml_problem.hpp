@@ -1,6 +1,7 @@
 // Reading YAML, and what people who wrote it by hand are told when it cannot be read.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,14 +14,16 @@ class Node;
 
 namespace swiftlet::common {
 
+/// A file is refused above that.
+inline constexpr std::size_t kMostYamlBytes = std::size_t{8} << 20;
+
+/// The text of a file without a byte order mark, as UTF-8 if it was UTF-16, with lines that end with "\n" or "\r\n".
+/// The places that loadYaml() and others tell are places in it.
+std::string yamlText(std::string bytes);
+
 /// The only document of a text; null for an empty one. Throws InputError with place, cause and remedy for a text that
 /// is not YAML, and for what the library would take in silence: a quote that is never closed, a second document.
 YAML::Node loadYaml(const std::string& text, const std::string& file);
-
-/// How to write a number that was written as `0,5`, `0.5 m`, `90°`, `1'000` or `1#comment`; empty if that is unknown.
-/// The unit is compared with the end of the key's name, `range_m`; a key may have none, and an option of the command
-/// line is no key: "". Another unit is never dropped, because the number would mean another value.
-std::string numberHint(std::string_view key, std::string_view written, bool whole = false);
 
 /// "line 3 has a no-break space (U+00A0) in column 5: write a plain blank": of the first character of a line, outside
 /// of comments, that looks like another or like nothing; empty without one. Lines and columns (in bytes) count from 1.

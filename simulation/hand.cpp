@@ -43,14 +43,14 @@ HandPull Hand::pull(common::Time now, const QuadrotorState& state) {
   const Reach reach = reachAt(time_s / config_.lasts_s);
   const double rate = reach.rate / config_.lasts_s,
                acceleration = reach.acceleration / config_.lasts_s / config_.lasts_s;
-  const Eigen::Vector2d way_m(config_.x_m, config_.y_m);
+  const Eigen::Vector2d displacement_m(config_.x_m, config_.y_m);
   const double turn_rad = config_.yaw_deg * common::kRadPerDeg;
-  const Eigen::Vector2d off_m = grip_->position_world_m + reach.share * way_m - position_m;
-  const Eigen::Vector2d rate_off_m_s = rate * way_m - state.velocity_world_m_s.head<2>();
+  const Eigen::Vector2d off_m = grip_->position_world_m + reach.share * displacement_m - position_m;
+  const Eigen::Vector2d rate_off_m_s = rate * displacement_m - state.velocity_world_m_s.head<2>();
   HandPull pull;
   for (int axis = 0; axis < 2; ++axis)
     pull.acceleration_world_m_s2[axis] =
-        acceleration * way_m[axis] + springAcceleration(off_m[axis], rate_off_m_s[axis], kGrip_rad_s);
+        acceleration * displacement_m[axis] + springAcceleration(off_m[axis], rate_off_m_s[axis], kGrip_rad_s);
   pull.yaw_acceleration_rad_s2 =
       acceleration * turn_rad + springAcceleration(common::wrapAngle(grip_->yaw_rad + reach.share * turn_rad - yaw_rad),
                                                    rate * turn_rad - state.angular_velocity_body_rad_s.z(),

@@ -40,13 +40,6 @@ std::set<std::string> wholeNumberKeys() {
   return keys;
 }
 
-/// The text without the mark with which some editors begin a file.
-std::string_view withoutMark(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  return text;
-}
-
 /// The `]` of the range that begins at `from`, and none in a comment.
 std::size_t closeOf(std::string_view text, std::size_t from) {
   for (std::size_t i = from; i < text.size(); ++i) {
@@ -143,7 +136,7 @@ std::string NatureRanges::Entry::drawn(const Choose& choose) const {
 }
 
 NatureRanges::NatureRanges(const std::string& given, const std::string& file) : file_(file) {
-  const std::string text(withoutMark(given));
+  const std::string text = common::yamlText(given);
   entries_ = Reader(text, file).entries;
   // The file is read with the lower and with the upper end of each range in its place, so that everything that is wrong
   // is told now, with its line, and not in some draw.

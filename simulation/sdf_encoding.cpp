@@ -71,7 +71,8 @@ std::string declaredEncoding(std::string_view bytes) {
 std::string utf8Text(const std::string& file, std::string_view bytes) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   std::string encoding = wideEncoding(bytes);
-  if (encoding.empty()) {
+  const bool is_wide = !encoding.empty();
+  if (!is_wide) {
     if (bytes.starts_with(kMark)) bytes.remove_prefix(kMark.size());
     if (converted(bytes, "UTF-8")) return std::string(bytes);
     encoding = declaredEncoding(bytes);
@@ -81,7 +82,8 @@ std::string utf8Text(const std::string& file, std::string_view bytes) {
   if (text) return text->starts_with(kMark) ? text->substr(kMark.size()) : *std::move(text);
   const std::string fault = text.error() == Failure::kUnknownEncoding
                                 ? fmt::format("the encoding `{}`, which the file declares, is not known", encoding)
-                                : fmt::format("the file is not in `{}`, the encoding that it declares", encoding);
+                                : fmt::format("the file is not in `{}`, the encoding that {}", encoding,
+                                              is_wide ? "its first bytes say" : "it declares");
   throw common::InputError(common::Problem{{file, 1}, "", fault, "save it as UTF-8 in an editor"});
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/misleading.hpp"
 #include "common/printable.hpp"
+#include "common/text_parts.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -63,7 +64,7 @@ std::optional<Count> countOf(const SdfTag& tag, std::string_view parent) {
 }
 
 bool isNumber(std::string_view word) {
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  word = common::withoutPlus(word);
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size();

@@ -170,7 +170,7 @@ void SdfSources::checkVersion(Document& document) {
     std::string hint = common::misleadingHint(document.tags.front().attributes);
     if (hint.empty()) hint = "expected is version=\"1.9\" or another from 1.0 on";
     throw InputError(
-        Problem{{document.file, 1}, "sdf", fmt::format("the version `{}` is none of SDF", version.value_or("")), hint});
+        Problem{{document.file, 1}, "sdf", fmt::format("`{}` is not a version of SDF", version.value_or("")), hint});
   }
   if (*minor <= kNewestMinorVersion) return;
   warnings_.push_back(toString(Problem{document.locationOf(document.tags.front()), "sdf",
@@ -298,10 +298,13 @@ std::string SdfSources::asItIs(const Document& document) {
 }
 
 std::string SdfSources::copy(const Document& document) {
+  const auto refuse = [](const fs::path& folder, const char* message) {
+    throw InputError(Problem{{folder.string()}, "", message, "set TMPDIR to another folder"});
+  };
   if (folder_.path.empty()) {
-    std::string name = (fs::temp_directory_path() / "swiftlet-sdf-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw InputError(Problem{{name}, "", "the folder for the world's files cannot be made", "set TMPDIR to another"});
+    std::error_code failure;
+    std::string name = (fs::temp_directory_path(failure) / "swiftlet-sdf-XXXXXX").string();
+    if (failure || ::mkdtemp(name.data()) == nullptr) refuse(name, "the folder for the world's files cannot be made");
     folder_.path = name;
   }
   std::string text;
@@ -313,7 +316,9 @@ std::string SdfSources::copy(const Document& document) {
   }
   text.append(document.text, at);
   const std::string path = (folder_.path / fmt::format("{}.sdf", originals_.size())).string();
-  std::ofstream(path, std::ios::binary) << text;
+  std::ofstream stream(path, std::ios::binary);
+  stream << text << std::flush;
+  if (!stream) refuse(folder_.path, "the copy of a world's file cannot be written there");
   originals_[path] = document.file;
   return path;
 }

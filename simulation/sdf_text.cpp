@@ -12,6 +12,8 @@
 
 #include "common/misleading.hpp"
 #include "common/printable.hpp"
+#include "common/text_parts.hpp"
+#include "common/utf16.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -26,23 +28,6 @@ bool areQuoted(std::string_view attributes) {
     at = std::min(attributes.find(attributes[quote], quote + 1), attributes.size());
   }
   return true;
-}
-
-void appendUtf8(char32_t code, std::string& text) {
-  const auto add = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
-  const auto addRest = [&](int shift) { add(0x80U | ((code >> shift) & 0x3FU)); };
-  if (code < 0x80U) return add(code);
-  if (code < 0x800U) {
-    add(0xC0U | (code >> 6U));
-  } else if (code < 0x10000U) {
-    add(0xE0U | (code >> 12U));
-    addRest(6);
-  } else {
-    add(0xF0U | (code >> 18U));
-    addRest(12);
-    addRest(6);
-  }
-  addRest(0);
 }
 
 /// What "&lt;", "&#60;" or "&#x3C;" stands for, without the `&` and the `;`; as it is written if it is none of these.
@@ -60,7 +45,7 @@ std::string meantBy(std::string_view entity) {
   constexpr std::uint32_t kMost = 0x10FFFF;
   if (error != std::errc() || end != digits.data() + digits.size() || code == 0 || code > kMost) return as_written;
   std::string letter;
-  appendUtf8(code, letter);
+  common::appendUtf8(letter, code);
   return letter;
 }
 
@@ -222,11 +207,14 @@ std::optional<std::string_view> attributeOf(const SdfTag& tag, std::string_view 
 }
 
 std::string textOf(const SdfTag& tag, std::string_view text) {
-  std::string_view inside = text.substr(tag.content, tag.content_end - tag.content);
-  inside = inside.substr(0, inside.find('<'));
-  const std::size_t begin = inside.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return withoutEntities(inside.substr(begin, inside.find_last_not_of(kSpace) - begin + 1));
+  constexpr std::string_view kComment = "<!--", kCommentEnd = "-->", kVerbatim = "<![CDATA[";
+  std::string_view inside = common::trimmed(text.substr(tag.content, tag.content_end - tag.content), kSpace);
+  while (inside.starts_with(kComment))
+    inside = common::trimmed(inside.substr(inside.find(kCommentEnd, kComment.size()) + kCommentEnd.size()), kSpace);
+  if (!inside.starts_with(kVerbatim))
+    return withoutEntities(common::trimmed(inside.substr(0, inside.find('<')), kSpace));
+  inside.remove_prefix(kVerbatim.size());
+  return std::string(common::trimmed(inside.substr(0, inside.find("]]>")), kSpace));
 }
 
 }  // namespace swiftlet::simulation

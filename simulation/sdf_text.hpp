@@ -36,7 +36,9 @@ tl::expected<std::vector<SdfTag>, common::Problem> readTags(const std::string& f
 /// The value of an attribute, without quotes, as it stands in the text.
 std::optional<std::string_view> attributeOf(const SdfTag& tag, std::string_view name);
 
-/// The text directly in an element, without white space around it and with the five entities of XML replaced.
+/// The text that libsdformat takes for that of an element: up to the first element or comment behind its beginning,
+/// where comments are left out. Without white space around it; the five entities of XML are replaced, and
+/// `<![CDATA[...]]>` is its content.
 std::string textOf(const SdfTag& tag, std::string_view text);
 
 }  // namespace swiftlet::simulation

@@ -48,12 +48,15 @@ Triangles planeOf(const sdf::Plane& plane, double least_plane_m) {
 
 /// Gazebo takes the height of the first polyline for all.
 Result prismOf(sdf::Element& geometry) {
+  constexpr std::size_t kMostPoints = 1000;  // The triangles of a zigzag are as many as the square of its points.
+  std::size_t points = 0;
   std::vector<std::vector<Eigen::Vector2d>> outlines_m;
   const double height_m = geometry.GetElement("polyline")->Get<double>("height");
   double extent_m = 0.0;
   for (auto line = geometry.GetElement("polyline"); line; line = line->GetNextElement("polyline")) {
     std::vector<Eigen::Vector2d>& outline_m = outlines_m.emplace_back();
     for (auto point = line->GetElement("point"); point; point = point->GetNextElement("point")) {
+      if (++points > kMostPoints) continue;
       const auto at = point->Get<ignition::math::Vector2d>();
       outline_m.emplace_back(at.X(), at.Y());
       if (!outline_m.back().allFinite()) return tl::unexpected(std::string("a point of it is not finite"));
@@ -61,6 +64,11 @@ Result prismOf(sdf::Element& geometry) {
     }
     if (outline_m.size() < 3) return tl::unexpected(std::string("it has an outline of less than 3 points"));
   }
+  if (points > kMostPoints)
+    return tl::unexpected(
+        fmt::format("the outlines of its <polyline> have {} points, {} at most are read, leave out "
+                    "points where the outline is straight",
+                    points, kMostPoints));
   return ofSize({height_m, extent_m}, [&] { return prismTriangles(outlines_m, height_m); });
 }
 
@@ -96,7 +104,7 @@ tl::expected<Relief, std::string> readRelief(const std::string& bytes) {
     });
   }
   const auto grey = common::decodeColor(bytes);
-  if (!grey) return tl::unexpected(fmt::format("{}; heights are read from PNG and JPEG", grey.error()));
+  if (!grey) return tl::unexpected(fmt::format("{}; heights are read from PNG and JPEG", grey.error().reason));
   if (tooSmall(*grey)) return small;
   return thinned(grey->width_px, grey->height_px, 255.0, [&grey](int row, int column) {
     return static_cast<double>(grey->rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(grey->width_px) +

@@ -35,11 +35,11 @@ int StartSurroundings::drawbacksOf(const Eigen::Vector3d& place_world_m) const {
 
 /// The start itself may be in a wall, which both of its sides see.
 bool StartSurroundings::seesStart(const Eigen::Vector3d& flying_world_m) const {
-  Eigen::Vector3d way = start_world_m_ - flying_world_m;
-  way.z() = 0.0;
-  const double length_m = way.norm();
+  Eigen::Vector3d to_start_m = start_world_m_ - flying_world_m;
+  to_start_m.z() = 0.0;
+  const double length_m = to_start_m.norm();
   if (length_m <= hull_.radius_m) return true;
-  const Hit hit = rays_.cast(flying_world_m, way / length_m, length_m - hull_.radius_m);
+  const Hit hit = rays_.cast(flying_world_m, to_start_m / length_m, length_m - hull_.radius_m);
   return !hit || hit.shape == blocking_;
 }
 

@@ -1,7 +1,6 @@
 #include "simulation/uri_resolver.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/lower_case.hpp"
 #include "common/misleading.hpp"
 
 namespace swiftlet::simulation {
@@ -24,8 +24,7 @@ void addFolders(const char* variable, std::vector<fs::path>& folders) {
 }
 
 bool isOnTheWeb(const std::string& uri) {
-  std::string scheme = uri.substr(0, uri.find("://"));
-  std::transform(scheme.begin(), scheme.end(), scheme.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string scheme = common::lowerCase(uri.substr(0, uri.find("://")));
   return scheme == "http" || scheme == "https";
 }
 

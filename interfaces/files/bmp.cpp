@@ -124,16 +124,18 @@ void addRow(std::string_view row, const Header& header, const std::vector<std::u
 
 }  // namespace
 
-tl::expected<common::GreyImage, std::string> decodeBmp(std::string_view bytes) {
+tl::expected<common::GreyImage, common::ImageFault> decodeBmp(std::string_view bytes) {
   const Header header = headerOf(bytes);
-  if (std::string problem = problemOf(header); !problem.empty()) return unexpected(std::move(problem));
+  if (std::string problem = problemOf(header); !problem.empty())
+    return unexpected(common::ImageFault{std::move(problem)});
   const auto width = static_cast<std::size_t>(header.width_px), height = static_cast<std::size_t>(header.height_px);
   const std::size_t begin = std::min<std::size_t>(number(bytes, 10, 4), bytes.size());
   // Each row takes whole words; some programs leave out the padding of the last.
   const std::size_t stride = (width * header.bits + 31) / 32 * 4;
   const std::size_t needed = stride * (height - 1) + (width * header.bits + 7) / 8;
   if (bytes.size() - begin < needed)
-    return unexpected(fmt::format("ends after {} of {} bytes of its pixels", bytes.size() - begin, needed));
+    return unexpected(
+        common::ImageFault{fmt::format("ends after {} of {} bytes of its pixels", bytes.size() - begin, needed), true});
   common::GreyImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   image.brightness.reserve(width * height);
   const std::vector<std::uint8_t> palette =

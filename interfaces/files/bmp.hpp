@@ -2,7 +2,6 @@
 // BITMAPCOREHEADER to BITMAPV5HEADER.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include <tl/expected.hpp>
@@ -11,8 +10,7 @@
 
 namespace swiftlet::interfaces {
 
-/// Pictures of 1, 4, 8, 16, 24 or 32 bits a pixel that are not compressed, from the bottom up or the top down. The
-/// reason of an error is for people: "is compressed by run lengths (RLE8)".
-tl::expected<common::GreyImage, std::string> decodeBmp(std::string_view bytes);
+/// Pictures of 1, 4, 8, 16, 24 or 32 bits a pixel that are not compressed, from the bottom up or the top down.
+tl::expected<common::GreyImage, common::ImageFault> decodeBmp(std::string_view bytes);
 
 }  // namespace swiftlet::interfaces

@@ -137,7 +137,7 @@ class G2oCollector {
   common::InputError indefiniteError() const {
     common::Problem problem = *first_problem_;
     problem.message +=
-        fmt::format("{}; so it is for {} of {} edges", options_.ignore_cross_terms ? ", not even its diagonal" : "",
+        fmt::format("{}; this holds for {} of {} edges", options_.ignore_cross_terms ? ", not even its diagonal" : "",
                     refused_edges_, graph_.edges.size());
     if (!options_.ignore_cross_terms) problem.hint = "--ignore-cross-terms uses the diagonals of these alone";
     return common::InputError(std::move(problem));

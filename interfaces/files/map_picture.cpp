@@ -32,15 +32,6 @@ bool isWebPage(std::string_view bytes) {
   return start.starts_with("<!doctype") || start.starts_with("<html") || start.starts_with("<head");
 }
 
-/// Whether a decoder says that something is missing or changed, which no other program can mend. The texts of what is
-/// whole, and cannot be read here, are those of this repository.
-bool isDamage(std::string_view message) {
-  constexpr std::array<std::string_view, 8> kWholes = {"is compressed", "is larger",  "bits a pixel", "pixels large",
-                                                       "is not",        "no BMP has", "limit",        "memory"};
-  return std::none_of(kWholes.begin(), kWholes.end(),
-                      [&](std::string_view text) { return message.find(text) != std::string_view::npos; });
-}
-
 bool isNetpbm(std::string_view bytes) {
   constexpr std::array<std::string_view, 4> kMagics = {"P2", "P3", "P5", "P6"};
   return std::find(kMagics.begin(), kMagics.end(), bytes.substr(0, 2)) != kMagics.end();
@@ -200,9 +191,9 @@ MapPicture parsePicture(std::string_view bytes, const std::string& name) {
         Problem{{name}, "", "is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG", kConvert});
   auto image = isBmp(bytes) ? decodeBmp(bytes) : common::decodeGrey(bytes);
   if (!image) {
-    const bool damaged = isDamage(image.error());
+    const auto& [reason, is_damaged] = image.error();
     throw InputError(
-        Problem{{name}, "", (damaged ? "is damaged: " : "") + image.error(), damaged ? kGetAgain : kConvert});
+        Problem{{name}, "", (is_damaged ? "is damaged: " : "") + reason, is_damaged ? kGetAgain : kConvert});
   }
   return {std::move(*image), bytes.starts_with(kPngMagic) ? bytesBehindPng(bytes) : 0};
 }

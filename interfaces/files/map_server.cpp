@@ -155,7 +155,7 @@ class PixelRule {
 
   occupancy::Cell cellOf(std::uint8_t pixel, std::uint8_t opacity) const {
     if (mode_ == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
-    // map_saver writes unknown cells of mode scale transparent; who draws a map leaves them so in mode trinary too.
+    // map_saver writes unknown cells of mode scale transparent; maps drawn by hand have them so in mode trinary too.
     if (opacity < (mode_ == Mode::kScale ? kOpaque : kHalfOpaque)) return occupancy::kUnknown;
     if (saysUnknown(pixel)) return occupancy::kUnknown;
     const double occupied = (255 - brightnessOf(pixel)) / 255.0;

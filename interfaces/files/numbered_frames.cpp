@@ -45,10 +45,11 @@ RecordedPoses readNumberedFrames(const fs::path& folder) {
     const auto number = poseFrame(entry.path().filename().string());
     if (!number) continue;
     if (const auto [other, is_new] = files.emplace(*number, entry.path()); !is_new)
-      throw InputError(Problem{{entry.path().string()},
-                               "",
-                               fmt::format("is of frame {} as `{}` is", *number, other->second.filename().string()),
-                               "keep one of them"});
+      throw InputError(
+          Problem{{entry.path().string()},
+                  "",
+                  fmt::format("has the frame number {}, and so has `{}`", *number, other->second.filename().string()),
+                  "keep one of them"});
   }
   if (files.empty())
     throw InputError(Problem{{folder.string()},

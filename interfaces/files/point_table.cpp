@@ -15,6 +15,7 @@
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "common/printable.hpp"
+#include "common/text_parts.hpp"
 #include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces::point_table {
@@ -65,6 +66,15 @@ std::string listOf(const std::vector<std::string_view>& names) {
   for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
     text += (i == 0 ? "" : ", ") + common::printable(names[i].substr(0, 40));
   return names.size() <= kMostNames ? text : fmt::format("{} and {} more", text, names.size() - kMostNames);
+}
+
+/// Whether a number goes on so from its point on that it is what programs on Windows write for one that is not finite:
+/// `1.#QNAN`, `-1.#IND000`, and `1.#J` where two decimals are wanted, to which the letters are rounded.
+bool isNotFinite(std::string_view from_point) {
+  constexpr std::array<std::string_view, 9> kWords{"QNAN", "SNAN", "IND", "INF", "QNB", "QO", "IO", "R", "J"};
+  if (!from_point.starts_with(".#")) return false;
+  const std::string_view word = from_point.substr(2, from_point.find_last_not_of('0') - 1);
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
 ColorType colorTypeOf(Scalar type) {
@@ -152,11 +162,11 @@ double Cursor::number() {
   if (begin == end) fail("the file is cut: a number is missing");
   if (*begin == '\n') fail("the line has fewer numbers than the header names", "each point has a line of its own");
   double value = 0.0;
-  auto [stop, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, value);
-  if (stop != end && *stop == '#') {
-    // 1.#QNAN, -1.#IND and 1.#INF are what programs on Windows wrote where a number is not finite.
+  auto [stop, error] = std::from_chars(common::withoutPlus(bytes_.substr(place_)).data(), end, value);
+  if (const char* const word_end = std::find_if(stop, end, isBlank);
+      error == std::errc() && isNotFinite({stop - 1, word_end})) {
     value = std::numeric_limits<double>::quiet_NaN();
-    stop = std::find_if(stop, end, isBlank);
+    stop = word_end;
   }
   if (error == std::errc::invalid_argument || (stop != end && !isBlank(*stop)))
     fail(fmt::format("`{}` is not a number", word()), decimalCommaHint(word()));

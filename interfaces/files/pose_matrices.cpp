@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include "common/lower_case.hpp"
 #include "interfaces/files/line_fields.hpp"
 
 namespace swiftlet::interfaces {
@@ -55,7 +56,10 @@ class Matrix {
     for (int i = 0; i < 12; ++i) T(i / 4, i % 4) = rows_[static_cast<std::size_t>(i)];
     if (size_ == 16) {
       const Eigen::Vector4d last(rows_[12], rows_[13], rows_[14], rows_[15]);
-      if ((last - Eigen::Vector4d::UnitW()).cwiseAbs().maxCoeff() > kLastRowWithin)
+      const bool is_pose = (last - Eigen::Vector4d::UnitW()).cwiseAbs().maxCoeff() <= kLastRowWithin;
+      if (!is_pose && areStampedPositions())
+        refuse("this looks like lines `t x y z`, without orientations", "expected `t x y z qx qy qz qw` (TUM)");
+      if (!is_pose)
         refuse("the last row of the matrix is not `0 0 0 1`", "is it transposed? The position is the last column");
     }
     const Eigen::Matrix3d R = T.leftCols<3>();
@@ -66,10 +70,16 @@ class Matrix {
   }
 
  private:
+  /// Whether the four rows are positions behind stamps, which increase. The last column of a matrix that is transposed
+  /// is that of the identity.
+  bool areStampedPositions() const {
+    const bool is_transposed = rows_[3] == 0.0 && rows_[7] == 0.0 && rows_[11] == 0.0 && rows_[15] == 1.0;
+    return column_ == 0 && !is_transposed && rows_[0] < rows_[4] && rows_[4] < rows_[8] && rows_[8] < rows_[12];
+  }
+
   static bool isNotFinite(std::string_view word) {
     if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
-    std::string text(word);
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+    const std::string text = common::lowerCase(word);
     return text == "inf" || text == "infinity" || text == "nan";
   }
 

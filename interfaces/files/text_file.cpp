@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "common/text_parts.hpp"
+
 namespace swiftlet::interfaces {
 
 std::vector<Word> wordsOf(std::string_view line) {
@@ -31,7 +33,7 @@ bool saysAtStart(const std::filesystem::path& file, std::string_view text, std::
 }
 
 bool parseNumber(std::string_view word, double& value) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  word = common::withoutPlus(word);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
 }

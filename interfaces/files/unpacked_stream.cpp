@@ -13,8 +13,8 @@
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
+#include "common/utf16.hpp"
 #include "interfaces/files/gunzip.hpp"
-#include "interfaces/files/utf16.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -67,6 +67,24 @@ ByteSource joined(std::string first, ByteSource rest) {
   };
 }
 
+/// The text of `utf16` as UTF-8.
+ByteSource utf8From(ByteSource utf16, common::ByteOrder order) {
+  return [utf16 = std::move(utf16), decoder = common::Utf16Decoder(order), text = std::string(), at_end = false](
+             char* to, std::size_t bytes) mutable -> BytesRead {
+    while (text.empty() && !at_end && bytes > 0) {
+      std::array<char, 4096> block{};
+      const BytesRead count = utf16(block.data(), block.size());
+      if (!count) return count;
+      at_end = *count == 0;
+      decoder.decode({block.data(), *count}, text);
+      if (at_end) decoder.finish(text);
+    }
+    const std::size_t taken = text.copy(to, bytes);
+    text.erase(0, taken);
+    return taken;
+  };
+}
+
 /// Unpacks gzip, also if it is packed several times, and makes UTF-8 of UTF-16 where `text_is_likely`; everything else
 /// is left unchanged.
 tl::expected<ByteSource, std::string> withoutGzip(ByteSource source, bool text_is_likely) {
@@ -74,7 +92,7 @@ tl::expected<ByteSource, std::string> withoutGzip(ByteSource source, bool text_i
     auto first = firstBytes(source, kGzipMagic.size());
     if (!first) return tl::unexpected(first.error());
     const bool packed = *first == kGzipMagic;
-    const auto utf16_order = text_is_likely ? utf16OrderOf(*first) : std::nullopt;
+    const auto utf16_order = text_is_likely ? common::utf16OrderOf(*first) : std::nullopt;
     source = joined(std::move(*first), std::move(source));
     if (utf16_order) return utf8From(std::move(source), *utf16_order);
     if (!packed) return source;

@@ -260,6 +260,17 @@ TEST(ForeignText, OfWindowsHasNumbersOfItsOwnThatAreNotFinite) {
   EXPECT_EQ(cloud.points.size(), 1U);
 }
 
+TEST(ForeignText, HasNumbersOfOneSignAndNothingBehindThem) {
+  const auto x = [](const std::string& word) {
+    return pcd("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n" + word + " 0 0\n");
+  };
+  for (const std::string word : {"1.#INF00", "-1.#IND", "1.#SNAN", "1.#J", "-1.#IO"})
+    EXPECT_EQ(x(word).not_finite, 1U) << word;
+  EXPECT_EQ(x("+1.5").points.at(0).position_m.x(), 1.5F);
+  for (const std::string word : {"1.5#", "7#comment", "1.#", "1.#5", "1#INF", "1.5#QNAN", "+-1.5", "++1", "+"})
+    EXPECT_THROW(x(word), common::InputError) << word;
+}
+
 TEST(ForeignUnits, AreScaledAroundTheOriginBeforeTheyAreRounded) {
   const std::string text =
       "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS 1\nDATA ascii\n512345678.5 5412345678.25 1500\n";

@@ -38,6 +38,18 @@ TEST_F(BadTrial, ABadTrialOfAFolderIsRefusedBeforeTheFirstFlight) {
   }
 }
 
+/// The kind of a file is told by its keys, wherever they are in it and however it is encoded.
+TEST_F(BadTrial, ALargeFileOrOneInUtf16IsToldByItsKeys) {
+  const std::string text = std::string(1 << 21, '#') + "\nmission: missions/explore_and_return.xml\nsystem: swiftled\n";
+  std::string utf16 = "\xff\xfe";
+  for (const char letter : std::string("mission: missions/explore_and_return.xml\r\nsystem: swiftled\r\n"))
+    utf16 += {letter, '\0'};
+  expectRefused(runSwiftlet({"trial", write("t.yaml", text), "--out", path("run")}), "t\\.yaml:3:9: system: ");
+  const std::string narrow = write("u.yaml", utf16);
+  expectRefused(runSwiftlet({"trial", narrow, "--out", path("run")}), "u\\.yaml:2:9: system: ");
+  expectRefused(runSwiftlet({"fly", narrow, "--headless", "--out", path("run")}), "is a trial, and no mission");
+}
+
 TEST_F(BadTrial, ATrialWithAMissingMapIsRefusedBeforeAnyFlight) {
   const std::string trial = write("t.yaml",
                                   "mission: missions/find_yourself.xml\nmap: {file: lost.yaml}\n"

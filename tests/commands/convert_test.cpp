@@ -52,7 +52,7 @@ TEST_F(Convert, AnOctreeToTheOtherFormatAndBackIsTheSameFile) {
 }
 
 TEST_F(Convert, ABandOfHeightsIsAFloorPlan) {
-  const ProgramEnd end = runSwiftlet({"convert", room("room.bt"), path("plan.yaml"), "--low", "0.8", "--high", "1.2"});
+  const ProgramEnd end = runSwiftlet({"convert", room("room.bt"), path("plan.yaml"), "--low", "+0.8", "--high", "1.2"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const interfaces::StoredMap plan = interfaces::readMap(path("plan.yaml"));
   const auto at = [&](double x_m, double y_m) {
@@ -99,6 +99,7 @@ TEST_F(Convert, WhatCannotBeConvertedIsSaid) {
   refused({"convert", from, path("plan.yaml"), "--low", "2", "--high", "1"}, "is above --high");
   refused({"convert", from, path("plan.yaml"), "--low", "5", "--high", "6"}, "nothing is known");
   refused({"convert", from, path("room.ot"), "--low", "1"}, "name it .yaml");
+  refused({"convert", from, path("room.ot"), "--high", "1"}, "--high: heights are those of a floor plan");
   refused({"convert", from, path("PLAN.YAML"), "--low", "0", "--high", "2"}, "or .yaml for a floor plan");
   refused({"convert", from, path("room.ot"), "--resolution", "0.1"}, "only a cloud");
   refused({"convert", write("room.dae", "<COLLADA/>\n"), path("room.ot")}, "it must be .bt, .ot, .ply or .pcd");

@@ -114,8 +114,9 @@ TEST_F(Optimize, CountsAndRepairsIndefiniteInformationMatrices) {
                                                    "EDGE_SE2 6 8 1 1 3.1415926 100 50 0 100 0 100\n");
   const ProgramEnd refused = runSwiftlet({"optimize", graph});
   EXPECT_EQ(refused.exit_code, 2) << describe(refused);
-  EXPECT_THAT(refused.err, HasSubstr("cross.g2o:9:28: EDGE_SE2: the information is not positive definite; so it is for "
-                                     "2 of 7 edges, --ignore-cross-terms uses the diagonals of these alone\n"));
+  EXPECT_THAT(refused.err,
+              HasSubstr("cross.g2o:9:28: EDGE_SE2: the information is not positive definite; this holds for "
+                        "2 of 7 edges, --ignore-cross-terms uses the diagonals of these alone\n"));
   const ProgramEnd mended = runSwiftlet({"optimize", graph, "--ignore-cross-terms", "--json"});
   EXPECT_EQ(mended.exit_code, 0) << describe(mended);
   EXPECT_EQ(nlohmann::json::parse(mended.out).at("indefinite_edges"), 2);
@@ -124,7 +125,7 @@ TEST_F(Optimize, CountsAndRepairsIndefiniteInformationMatrices) {
   const std::string diagonal = write("diagonal.g2o", kSquare + "EDGE_SE2 5 7 1 1 3.1415926 100 0 0 -1 0 100\n");
   const ProgramEnd hopeless = runSwiftlet({"optimize", diagonal, "--ignore-cross-terms"});
   EXPECT_EQ(hopeless.exit_code, 2) << describe(hopeless);
-  EXPECT_THAT(hopeless.err, HasSubstr("not even its diagonal; so it is for 1 of 5 edges\n"));
+  EXPECT_THAT(hopeless.err, HasSubstr("not even its diagonal; this holds for 1 of 5 edges\n"));
 }
 
 TEST_F(Optimize, DoesNotOverwriteItsInputAndRefusesABadFolder) {

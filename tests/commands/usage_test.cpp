@@ -87,7 +87,8 @@ TEST(Usage, SuggestsTheClosestName) {
   told({"fly", "worlds/unb_case1.sdf"}, "--world worlds/unb_case1.sdf` flies in a world");
   told({"check", "config/systems/swiftlet.yaml"}, "`swiftlet config --system config/systems/swiftlet.yaml` shows it");
   told({"fly", "missions/explore_and_return.xml", "--map", "worlds/unb_case1.sdf"},
-       "did you mean `--world worlds/unb_case1.sdf`?");
+       "is a world, and no map, which is a YAML file of map_server, `swiftlet fly MISSION.xml --world "
+       "worlds/unb_case1.sdf` flies in a world");
   told({"qqqqqqqqqq"}, "`qqqqqqqqqq` is not a command of `swiftlet`\n");
 }
 
@@ -99,6 +100,7 @@ TEST(Usage, AValueThatCannotBeUsedIsToldInPlainWords) {
     EXPECT_THAT(end.err, HasSubstr(message));
   };
   told({"--seed", "-1"}, "--seed: `-1` is not a whole number from 0 to 1000000000");
+  told({"--battery", "+-1"}, "--battery: `+-1` is not a number from 0.01 to 1");
   told({"--seed", "1.5"}, "--seed: `1.5` is not a whole number from 0");
   told({"--seed"}, "--seed: a value is missing behind it");
   told({"--seed", "--out", "x"}, "--seed: a value is missing behind it");

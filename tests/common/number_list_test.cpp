@@ -14,7 +14,7 @@ TEST(NumberList, IsUnderstoodWithAnyMarks) {
 }
 
 TEST(NumberList, IsNotMadeOfOtherTexts) {
-  for (const char* text : {"", " ", "()", "a b", "1 2 m", "1, , 2", "45°", "1;2,3;x", "10 000", "0x10"})
+  for (const char* text : {"", " ", "()", "a b", "1 2 m", "1, , 2", "45°", "1;2,3;x", "1, +-2", "10 000", "0x10"})
     EXPECT_EQ(numberListOf(text), "") << text;
   EXPECT_EQ(numberListHint("a b"), "write the numbers in brackets, with commas between them");
 }

@@ -65,7 +65,7 @@ TEST_F(ReadBytes, APackedFileIsNoText) {
   };
   EXPECT_THAT(problem("\x1f\x8b\x08 and more"),
               HasSubstr("f: is packed by gzip, a text was expected, unpack it by `gunzip`"));
-  EXPECT_THAT(problem("BZh91AY"), HasSubstr("is packed by bzip2"));
+  for (const char* bzip2 : {"BZh91AY", "BZh11AY"}) EXPECT_THAT(problem(bzip2), HasSubstr("is packed by bzip2"));
   EXPECT_THAT(problem("\xfd"
                       "7zXZ"),
               HasSubstr("is packed by xz"));

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
 #include <string>
 
@@ -93,6 +94,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "f.yaml:1:8: beams: ", "leave out the `]`: no bracket is open there"},
         Mistake{"path of Windows", "name: \"C:\\xq\"\n",
                 "f.yaml:1:14: name: ", "in double quotes a backslash begins a special character: use single quotes"},
+        Mistake{"apostrophe", "name: it's: b # don't\n",
+                "f.yaml:1:11: name: ", "put quotes around the value: `name: \"it's: b\"`"},
+        Mistake{"apostrophe and quotes", "name: @it's \"b\"\n",
+                "f.yaml:1:7: name: ", "put quotes around the value: `name: '@it''s \"b\"'`"},
+        Mistake{"apostrophe in quotes", "name: 'it's'\n",
+                "f.yaml:1:11: name: ", "within single quotes an apostrophe is written twice: write `name: \"it's\"`"},
         Mistake{"special sign", "name: @x\n", "f.yaml:1:7: name: ", "put quotes around the value: `name: '@x'`"}),
     [](const auto& mistake) { return std::to_string(mistake.index); });
 
@@ -210,6 +217,36 @@ TEST(Yaml, WhatEditorsOfOtherSystemsSaveIsRead) {
             "")
       << "UTF-16";
   EXPECT_EQ(said("---\nbeams: 4\n...\n"), "") << "with the marks of a document";
+}
+
+/// As PowerShell 5 saves it.
+std::string utf16(const std::string& ascii) {
+  std::string text = "\xff\xfe";
+  for (const char letter : ascii) text += {letter, '\0'};
+  return text;
+}
+
+TEST(Yaml, MistakesInUtf16AreToldAsThoseInUtf8) {
+  for (const std::string text : {"beams: x\nmount: 4\n", "beams:4\nrate_hz: 3\n", "name: \"x\nbeams: 4\n",
+                                 "[laser]\nbeams = 4\n", "beams: 4\n{a: 1} b: 2\n", "{a: 1} b: 2\n"}) {
+    EXPECT_NE(said(text), "");
+    EXPECT_EQ(said(utf16(text)), said(text));
+    EXPECT_EQ(said("\xef\xbb\xbf" + text), said(text)) << "a byte order mark";
+  }
+  EXPECT_EQ(said(utf16("beams: 4\r\nrate_hz: x\r\n")), "f.yaml:2:10: rate_hz: `x` is not a number");
+}
+
+TEST(Yaml, LinesThatEndAsOnOldMacsAreLines) {
+  EXPECT_EQ(said("name: x\rbeams: 4\nrate_hz: y\n"), "f.yaml:3:10: rate_hz: `y` is not a number");
+}
+
+TEST(Yaml, OfVeryManyMistakesTheFirstAreTold) {
+  std::string text;
+  for (int i = 0; i < 16'000; ++i) text += "unknown_" + std::to_string(i) + ": 1\n";
+  const std::string problems = said(text);
+  EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 100);
+  EXPECT_THAT(problems, HasSubstr("f.yaml:100:1: unknown key `unknown_99`"));
+  EXPECT_THAT(problems, EndsWith("\nf.yaml: has 15900 more problems"));
 }
 
 TEST(Yaml, WhatIsRightIsNotDoubted) {

@@ -111,6 +111,7 @@ const tests = {
     page.tell(kTurnBack);
     await page.locator('#alarms').getByText('turned back').waitFor();
     await eventually('a second call', async () => (await counts(page)).vibrations >= 2);
+    assert.equal((await counts(page)).sounds, 0, 'a page that was never touched queues no tones');
     await page.reload();
     await page.locator('#alarms').getByText('turned back').waitFor();
     await page.waitForTimeout(kSettle_ms);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/jpeg_encoder.hpp"
 #include "png_bytes.hpp"
 #include "support.hpp"
 #include "tests/support/datasets.hpp"
@@ -155,6 +156,34 @@ TEST(MapPicture, ReportsWhatCannotBeRead) {
   std::string vast = pngOf(1, 1, "a", {});
   vast.replace(8, 25, pngChunk("IHDR", bigEndian(32768) + bigEndian(32768) + bytes({8, 6, 0, 0, 0})));
   EXPECT_THAT(refusalOf(vast), HasSubstr("is cut off"));
+}
+
+/// A black picture.
+std::string jpeg(int width, int height) {
+  const std::vector<std::uint8_t> bytes = common::JpegEncoder().encode(
+      {width, height,
+       std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))},
+      90);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(MapPicture, TellsAWholeJpegThatIsNotReadFromADamagedOne) {
+  const std::string good = jpeg(8200, 8);
+  EXPECT_EQ(image(good).width_px, 8200) << "as large as a PNG may be";
+  EXPECT_THAT(refusalOf(good.substr(0, good.size() - 9)), HasSubstr("m.pgm: is damaged: "));
+  const std::size_t frame = good.find("\xff\xc0") + 4;  // The bits of a sample, the height, the width.
+  std::string deep = good, wide = good, vast = good;
+  deep[frame] = 12;
+  EXPECT_EQ(refusalOf(deep),
+            "m.pgm: Unsupported JPEG data precision 12, convert it, for instance by ImageMagick's "
+            "`convert FILE map.png`");
+  wide.replace(frame + 3, 2, "\x9c\x40");
+  EXPECT_THAT(refusalOf(wide), HasSubstr("m.pgm: is 40000x8 pixels large, 1 to 32768 can be read, convert it"));
+  vast.replace(frame + 1, 4, "\x7f\xff\x7f\xff");
+  EXPECT_THAT(refusalOf(vast), HasSubstr("m.pgm: is damaged: is cut off"));
+  std::string png = pngOf(1, 1, "a", {});
+  png.replace(8, 25, pngChunk("IHDR", bigEndian(2) + bigEndian(40000) + bytes({8, 0, 0, 0, 0})));
+  EXPECT_THAT(refusalOf(png), HasSubstr("m.pgm: is 2x40000 pixels large, 1 to 32768 can be read, convert it"));
 }
 
 TEST(MapPicture, ReportsThePlaceOfMistakes) {

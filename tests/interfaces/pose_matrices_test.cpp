@@ -59,6 +59,13 @@ TEST(PoseMatrices, ReportThePlaceOfMistakes) {
   EXPECT_THAT(problem("2 0 0 0 0 2 0 0 0 0 2 0\n"), HasSubstr("x:1:1: pose: its first three columns are no rotation"));
   EXPECT_THAT(problem("-1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("are a reflection"));
   EXPECT_THAT(problem("1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1\n"), HasSubstr("the last row of the matrix is not `0 0 0 1`"));
+  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n9 2 3 1\n"), HasSubstr("is it transposed?"));
+  for (const double first_s : {0.0, 1.5e9}) {
+    std::string stamped;
+    for (int i = 0; i < 5; ++i) stamped += std::to_string(first_s + 0.1 * i) + " 1.5 0.1 0\n";
+    EXPECT_THAT(problem(stamped), HasSubstr("x:4: pose: this looks like lines `t x y z`, without orientations, "
+                                            "expected `t x y z qx qy qz qw`"));
+  }
   EXPECT_THAT(problem("1.5 " + good), HasSubstr("x:1:1: frame: `1.5` is not the number of a frame"));
   EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n"), HasSubstr("x:3: pose: the matrix was cut after 3 of its four"));
   EXPECT_THAT(problem("1 0 0 0\n0 1 0 0 0\n"), HasSubstr("x:2:9: pose: 5 numbers instead of 4"));
@@ -87,7 +94,7 @@ TEST(NumberedFrames, AreReadInTheOrderOfTheirNumbers) {
   EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("12.txt:2:7: pose: `x` is not a number"));
   put(folder / "12.txt", kFirstBlock);
   put(folder / "0012.txt", kFirstBlock);
-  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("is of frame 12 as"));
+  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("has the frame number 12, and so has"));
 }
 
 TEST(RecordedPoses, OfAFolderAreThoseOfItsTrajectory) {

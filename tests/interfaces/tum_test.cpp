@@ -83,6 +83,8 @@ TEST(Tum, ReportsThePlaceOfMistakes) {
   const std::string good = "1 0 0 0 0 0 0 1\n";
   EXPECT_THAT(problem(good + "2 0 0 0 0 0 1\n"), HasSubstr("x.tum:2:13: pose: 7 numbers instead of 8"));
   EXPECT_THAT(problem("# c\n2 0 zero 0 0 0 0 1\n"), HasSubstr("x.tum:2:5: y: `zero` is not a finite number"));
+  EXPECT_EQ(problem("+2 0 +1.5 0 0 0 0 1\n"), "");
+  EXPECT_THAT(problem("2 0 +-1.5 0 0 0 0 1\n"), HasSubstr("x.tum:1:5: y: `+-1.5` is not a finite number"));
   EXPECT_THAT(problem("2 0 0,25 0 0 0 0 1\n"),
               HasSubstr("x.tum:1:5: y: `0,25` is not a finite number, write decimals with a point"));
   EXPECT_THAT(problem("1700000001,5 0 0 0 0 0 0 1\n"), HasSubstr("not a time in seconds, write decimals with a point"));

@@ -237,8 +237,10 @@ TEST(Nature, MistakesAreToldWithFileLineAndKey) {
 }
 
 TEST(Nature, AMarkOfTheByteOrderAndCommentsInRangesAreNoMistakes) {
-  for (const char* text : {"\xEF\xBB\xBFquadrotor:\n  mass_share: [0.9, 1.1]\n",
-                           "quadrotor:\n  mass_share: [0.9, # [low]\n    1.1] # high ]\n"}) {
+  std::string utf16 = "\xFF\xFE";
+  for (const char letter : std::string("quadrotor:\r\n  mass_share: [0.9, 1.1]\r\n")) utf16 += {letter, '\0'};
+  for (const std::string& text : {std::string("\xEF\xBB\xBFquadrotor:\n  mass_share: [0.9, 1.1]\n"), utf16,
+                                  std::string("quadrotor:\n  mass_share: [0.9, # [low]\n    1.1] # high ]\n")}) {
     const auto range = Nature::fromText(text, "odd.yaml").rangeOf("quadrotor.mass_share");
     ASSERT_TRUE(range) << text;
     EXPECT_EQ(range->low, 0.9);

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <optional>
@@ -276,6 +278,45 @@ TEST_F(WorldFiles, PolylinesAreExtruded) {
   EXPECT_THAT(
       problemOf(sdf(world(model("a", "<polyline><point>0 0</point><point>1 0</point><height>1</height></polyline>")))),
       AllOf(HasSubstr("world.sdf:3"), HasSubstr("less than 3 points")));
+}
+
+// The triangles of 1500 points took 600 MB.
+TEST_F(WorldFiles, PolylinesOfVeryManyPointsAreRefused) {
+  std::string zigzag;
+  for (int i = 0; i < 501; ++i) zigzag += "<point>" + std::to_string(i) + (i % 2 == 0 ? " 0" : " 9") + "</point>";
+  const std::string line = "<polyline>" + zigzag + "<height>1</height></polyline>";
+  EXPECT_THAT(problemOf(sdf(world(model("a", line + line)))),
+              AllOf(HasSubstr("world.sdf:3"), HasSubstr("<polyline> have 1002 points, 1000 at most")));
+}
+
+TEST_F(WorldFiles, TextsMayHaveCommentsAndCdata) {
+  putModel("home/models/crate", "crate");
+  for (const std::string uri : {"<![CDATA[model://crate]]>", "<!-- wood --> model://crate ",
+                                "\n<!-- a --><!-- <b> -->\n<![CDATA[ model://crate ]]>"})
+    EXPECT_THAT(load(sdf(world("<include><uri>" + uri + "</uri></include>"))).modelNames(), ElementsAre("crate"))
+        << uri;
+  const std::string uri = "<uri>model://crate</uri></include>";
+  EXPECT_THAT(load(sdf(world("<include><name><!-- n -->box</name>" + uri))).modelNames(), ElementsAre("box"));
+  EXPECT_THAT(load(sdf(world("<include><name><![CDATA[a<b]]></name>" + uri))).modelNames(), ElementsAre("a<b"));
+  EXPECT_THAT(load(sdf(world("<include><name><!-- none --></name>" + uri))).modelNames(), ElementsAre("crate"));
+}
+
+TEST_F(WorldFiles, AFullFolderForCopiesIsNamed) {
+  putModel("home/models/crate", "crate");
+  const std::string text = sdf(world("<include><uri>model://crate</uri></include>"));
+  const std::string file = folder_.write("home/world.sdf", text);
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit full{16, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+  const std::string problem = said([&] { loadWorld(file); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_THAT(problem, AllOf(HasSubstr("swiftlet-sdf-"), HasSubstr("cannot be written"), HasSubstr("set TMPDIR to")));
+  environment_.set("TMPDIR", pathOf("nowhere"));
+  EXPECT_THAT(problemOf(text), AllOf(HasSubstr("cannot be made"), HasSubstr("set TMPDIR to")));
+  ::unsetenv("TMPDIR");
 }
 
 TEST_F(WorldFiles, HeightmapsAreTerrain) {

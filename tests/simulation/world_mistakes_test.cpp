@@ -108,6 +108,7 @@ TEST_F(WorldMistakes, CharactersThatAreNotSeenAreNamed) {
   EXPECT_THAT(refusalOf(box + model("thing", "<bxo><size>1 2 3</size></bxo>")), HasSubstr("did you mean `box`?"));
   EXPECT_THAT(refusalOf(box + "<include><uri>model://she\u200Blf</uri></include>"), HasSubstr(named));
   EXPECT_THAT(refusalOfText("<sdf version='1.9\u200B'/>"), HasSubstr(named));
+  EXPECT_THAT(refusalOfText("<sdf version='x'/>"), HasSubstr("sdf: `x` is not a version of SDF, expected is version="));
 }
 
 TEST_F(WorldMistakes, EncodingsThatAreDeclaredAreRead) {
@@ -124,7 +125,10 @@ TEST_F(WorldMistakes, EncodingsThatAreDeclaredAreRead) {
   EXPECT_THAT(refusalOfText(text("KOI9-R", "\xD3\xD4")),
               AllOf(HasSubstr("world.sdf:1"), HasSubstr("`KOI9-R`"), HasSubstr("save it as UTF-8")));
   EXPECT_THAT(refusalOfText(text("ASCII", "M\xFCller")),
-              AllOf(HasSubstr("world.sdf:1"), HasSubstr("`ASCII`"), HasSubstr("save it as UTF-8")));
+              AllOf(HasSubstr("world.sdf:1"), HasSubstr("`ASCII`, the encoding that it declares"),
+                    HasSubstr("save it as UTF-8")));
+  EXPECT_THAT(refusalOfText(std::string("\xFF\xFE<\0s", 5)),
+              HasSubstr("the file is not in `UTF-16LE`, the encoding that its first bytes say"));
 }
 
 TEST_F(WorldMistakes, FilesThatHoldNoMeshAreNamedByTheirKind) {

@@ -28,7 +28,7 @@ class Siren {
 
   sound() {
     const context = this.wake();
-    if (!context) return;
+    if (context?.state !== 'running') return; // Tones of a context that is suspended sound all at once at the first touch.
     const volume = context.createGain();
     volume.gain.value = 0.5;
     volume.connect(context.destination);

@@ -41,7 +41,7 @@ std::string howToAllow(const std::optional<Origin>& origin) {
 /// Where a page that was opened by the Host comes from, if no proxy has changed anything.
 std::optional<Origin> originOfHost(const Request& request) { return parseOrigin("http://" + request.host); }
 
-/// A name that others could let stand for this machine's address is none of the page (DNS rebinding).
+/// Refuses a name that others could let stand for this machine's address (DNS rebinding).
 void checkHost(const Request& request, const Policy& policy) {
   const auto origin = originOfHost(request);
   const auto isHost = [&](const PublicUrl& url) { return url.origin.host == origin->host; };
