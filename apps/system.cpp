@@ -17,6 +17,7 @@
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/former_settings.hpp"
 #include "common/misleading.hpp"
 #include "control/controllers/lqr.hpp"
 #include "perception/slam2d/laser_slam.hpp"
@@ -122,6 +123,11 @@ void readProfile(const std::string& file, SystemConfig& config, ProfilePlaces& p
                                                "name another one, or leave based_on out"});
     readProfile(base_file, config, places, std::move(chain));
   }
+  std::optional<common::FormerSettings> former;
+  reader.explainFormerKeys([&](const std::string& path) {
+    if (!former) former.emplace(common::findData("config/former_settings.yaml").string());
+    return former->whatBecameOf(path);
+  });
   reader.read(config);
   if (reader.writtenKeys().empty())
     throw common::InputError(

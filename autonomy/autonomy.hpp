@@ -48,7 +48,7 @@ struct AutonomyConfig {
   control::FlightController::Config control;
   SupervisorConfig supervisor;
   EnergyConfig energy;
-  double behavior_rate_hz = 20.0;
+  static constexpr double behavior_rate_hz = 20.0;  ///< Ticks of the mission's tree a second.
   ScanQueueConfig scans;
   InertialInputConfig inertial;  ///< Its sections are on the level of these.
   PilotAssistConfig assist;

@@ -13,9 +13,7 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
   fields.section("control", control, "State machine, trajectories and controllers.");
   fields.section("supervisor", supervisor, "Hold and landing above the mission.");
   fields.section("energy", energy, "Consumption, and the charge for the flight home.");
-  fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
   fields.section("scans", scans, "Scans that arrive late or out of order.");
-  inertial.describe(fields);
   fields.section("assist", assist, "Assistance for a pilot who flies by hand.");
 }
 

@@ -32,7 +32,6 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   laser.describe(fields);
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
   fields.section("fusion", fusion, "Error-state filter.");
-  fields.section("people", people, "People and other things that move.");
   fields.section("slam", slam, "SLAM and the map.");
   fields.section("localization", localization, "Localization in a map that the flight was given.");
   fields.section("rgbd", rgbd, "The 3D map from the frames of an RGB-D camera.");

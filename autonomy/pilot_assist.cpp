@@ -41,11 +41,6 @@ void PilotAssistConfig::describe(common::config::Fields& fields) {
   fields("speed_m_s", speed_m_s, {0.1, 10}, "Horizontal speed that a stick at its end wishes.");
   fields("climb_m_s", climb_m_s, {0.05, 5}, "Climb that the stick of the thrust at its end wishes.");
   fields("yaw_rate_deg_s", yaw_rate_deg_s, {1, 360}, "Yaw rate that the stick of the yaw at its end wishes.");
-  fields("acceleration_m_s2", acceleration_m_s2, {0.1, 10}, "Acceleration with which the pilot's wish is followed.");
-  fields("dead_band", dead_band, {0, 0.5}, "Share of a stick's range within which it counts as centred.");
-  fields("climb_dead_band", climb_dead_band, {0, 0.9},
-         "Share of the range of the thrust's stick within which it counts as centred: where it hovers differs with "
-         "vehicle and battery.");
 }
 
 PilotAssist::PilotAssist(const PilotAssistConfig& config, double max_tilt_deg,

@@ -25,9 +25,10 @@ struct PilotAssistConfig {
   double speed_m_s = 2.5;
   double climb_m_s = 0.5;
   double yaw_rate_deg_s = 60.0;
-  double acceleration_m_s2 = 1.0;
-  double dead_band = 0.03;
-  double climb_dead_band = 0.2;
+  static constexpr double acceleration_m_s2 = 1.0;  ///< Acceleration with which the pilot's wish is followed.
+  double dead_band = 0.03;                          ///< Share of a stick's range within which it counts as centred.
+  static constexpr double climb_dead_band = 0.2;    ///< Share of the range of the thrust's stick within which it counts
+                                                    ///< as centred: where it hovers differs with vehicle and battery.
 
   void describe(common::config::Fields& fields);
 };

@@ -1,7 +1,9 @@
 // Configs as files: reads YAML over their defaults, and prints them. common/config_fields.hpp defines a Config.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +41,10 @@ class YamlReader final : public Fields {
     read(config);
     return unknownKeys();
   }
+
+  /// Asked for what became of a key that is not known, by its path; nothing if it never was one. Call it before `read`.
+  using WhatBecameOf = std::function<std::optional<std::string>(const std::string& path)>;
+  void explainFormerKeys(WhatBecameOf what_became_of);
 
   /// Paths of the values that the file gives, in the order they were read: "limits.speed_m_s", "walkers[0].mode".
   const std::vector<std::string>& writtenKeys() const;

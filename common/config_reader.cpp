@@ -41,6 +41,7 @@ struct YamlReader::Impl {
   bool keeps_unknown_keys = false;
   std::vector<Problem> kept_keys;
   std::vector<UnknownKey> unknown;
+  WhatBecameOf what_became_of;
   std::map<std::string, std::vector<std::string>> known;  ///< The keys of each section of the file, by its path.
   std::vector<std::string> written;
   std::map<std::string, SourceLocation> places;
@@ -207,6 +208,11 @@ struct YamlReader::Impl {
                fmt::format("it is in line {} too: leave out one of the two", first->second));
       const auto& known_keys = level.known_keys;
       if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) continue;
+      const std::string path = level.path.empty() ? key : level.path + "." + key;
+      if (const auto former = what_became_of ? what_became_of(path) : std::nullopt) {
+        report(entry.first, "", fmt::format("`{}` {}", key, *former), "leave it out");
+        continue;
+      }
       const auto nearest = nearestWord(key, known_keys);
       if (keeps_unknown_keys && levels.size() == 1 && !(nearest && !level.node[*nearest].IsDefined())) {
         kept_keys.push_back({at(entry.first), "", fmt::format("unknown key `{}`, not used", key), ""});
@@ -379,6 +385,8 @@ void YamlReader::endList() {
   impl_->lists.pop_back();
   impl_->list_names.pop_back();
 }
+
+void YamlReader::explainFormerKeys(WhatBecameOf what_became_of) { impl_->what_became_of = std::move(what_became_of); }
 
 void YamlReader::keepUnknownKeys() { impl_->keeps_unknown_keys = true; }
 std::vector<Problem> YamlReader::unknownKeys() const { return impl_->kept_keys; }

@@ -44,11 +44,4 @@ double yawRate_rad_s(const ControlInput& input, double error_rad, double gain_1_
   return std::clamp(input.reference.yaw_rate_rad_s + gain_1_s * error_rad, -most_rad_s, most_rad_s);
 }
 
-void ControlLimits::describe(common::config::Fields& fields) {
-  fields("max_position_error_m", max_position_error_m, kPositive, "Greatest error of the position that is acted on.");
-  fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, {0.1, 9}, "Greatest vertical acceleration.");
-  fields("max_integral_m_s2", max_integral_m_s2, {0, 9}, "Greatest integral part of the acceleration.");
-  fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, kPositive, "Greatest yaw rate.");
-}
-
 }  // namespace swiftlet::control

@@ -13,12 +13,10 @@ namespace swiftlet::control {
 
 /// What the controllers of the papers have in common.
 struct ControlLimits {
-  double max_position_error_m = 0.6;
-  double max_acceleration_up_m_s2 = 4.0;
-  double max_integral_m_s2 = 2.0;
-  double max_yaw_rate_deg_s = 90.0;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double max_position_error_m = 0.6;      ///< Greatest error of the position that is acted on.
+  static constexpr double max_acceleration_up_m_s2 = 4.0;  ///< Greatest vertical acceleration.
+  double max_integral_m_s2 = 2.0;                          ///< Greatest integral part of the acceleration.
+  static constexpr double max_yaw_rate_deg_s = 90.0;       ///< Greatest yaw rate.
 };
 
 struct ControlErrors {

@@ -23,9 +23,6 @@ std::optional<ControllerKind> controllerNamed(std::string_view word) {
 void ControllerChoiceConfig::describe(common::config::Fields& fields) {
   fields.choice("kind", kind, controllerWords(),
                 "Which controller flies; lqr needs a vehicle_model of `swiftlet identify`.");
-  fields("blend_s", blend_s, {0.01, 10},
-         "Time constant with which the step between two controllers fades when they are switched in flight.");
-  fields.section("limits", limits, "Limits of every kind but swiftlet, whose own are in `position`.");
   fields.section("cascaded_pid", cascaded_pid, "Settings of the kind cascaded_pid.");
   fields.section("voltage_pid", voltage_pid, "Settings of the kind voltage_pid.");
   fields.section("lqr", lqr, "Settings of the kind lqr.");

@@ -19,7 +19,8 @@ namespace swiftlet::control {
 /// fly have an effect.
 struct ControllerChoiceConfig {
   ControllerKind kind = ControllerKind::kSwiftlet;
-  double blend_s = 0.3;
+  static constexpr double blend_s =
+      0.3;  ///< Time constant with which the step between two controllers fades when they are switched in flight.
   ControlLimits limits;
   CascadedPid::Config cascaded_pid;
   VoltagePid::Config voltage_pid;

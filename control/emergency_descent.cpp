@@ -155,25 +155,4 @@ double EmergencyDescent::blindAcceleration_m_s2(common::Time now, double dt_s,
   return accelerationFor(wanted_m_s, dt_s) - pushed_m_s2_;
 }
 
-void EmergencyDescent::Config::describe(common::config::Fields& fields) {
-  fields("descent_m_s", descent_m_s, {0.05, 2}, "Speed of descent.");
-  fields("touchdown_descent_m_s", touchdown_descent_m_s, {0.05, 2}, "Speed of descent near the ground.");
-  fields("touchdown_height_m", touchdown_height_m, {0, 5},
-         "Height above where the vehicle stood at which the ground counts as near.");
-  fields("gain_1_s", gain_1_s, {0, 20}, "Vertical acceleration per error of the vertical speed.");
-  fields("integral_1_s2", integral_1_s2, {0, 20}, "Vertical acceleration per integrated error of the vertical speed.");
-  fields("filter_time_s", filter_time_s, {0.01, 2},
-         "Time constant of the alpha-beta filter of raw heights (Tomic 2012).");
-  fields("jump_m", jump_m, kPositive, "A residual larger than this is a step of the ground.");
-  fields("blind_after_s", blind_after_s, kPositive,
-         "Without a raw height for this long the last height and speed are carried on.");
-  fields("blind_push_m_s3", blind_push_m_s3, kPositive,
-         "Rate at which thrust is taken away while a descent without a height does not sink.");
-  fields("rest_margin_m", rest_margin_m, {0, 1},
-         "Less than this above where it stood before its flight the vehicle may be standing.");
-  fields("rest_s", rest_s, kPositive, "Low and still for this long the vehicle is on the ground.");
-  fields("blind_rest_s", blind_rest_s, kPositive, "After a descent without a height for this long the motors stop.");
-  fields("brake_1_s", brake_1_s, {0, 10}, "Deceleration per last known velocity when no horizontal estimate is left.");
-}
-
 }  // namespace swiftlet::control

@@ -57,21 +57,25 @@ struct VerticalMotion {
 class EmergencyDescent {
  public:
   struct Config {
-    double descent_m_s = 0.6;
-    double touchdown_descent_m_s = 0.45;
-    double touchdown_height_m = 0.25;
-    double gain_1_s = 2.5;
-    double integral_1_s2 = 0.8;
-    double filter_time_s = 0.09;
-    double jump_m = 0.15;
-    double blind_after_s = 0.5;
-    double blind_push_m_s3 = 1.0;
-    double rest_margin_m = 0.08;
-    double rest_s = 0.5;
-    double blind_rest_s = 12.0;
-    double brake_1_s = 2.0;
-
-    void describe(common::config::Fields& fields);
+    static constexpr double descent_m_s = 0.6;             ///< Speed of descent.
+    static constexpr double touchdown_descent_m_s = 0.45;  ///< Speed of descent near the ground.
+    static constexpr double touchdown_height_m =
+        0.25;  ///< Height above where the vehicle stood at which the ground counts as near.
+    static constexpr double gain_1_s = 2.5;       ///< Vertical acceleration per error of the vertical speed.
+    static constexpr double integral_1_s2 = 0.8;  ///< Vertical acceleration per integrated error of the vertical speed.
+    static constexpr double filter_time_s =
+        0.09;                               ///< Time constant of the alpha-beta filter of raw heights (Tomic 2012).
+    static constexpr double jump_m = 0.15;  ///< A residual larger than this is a step of the ground.
+    static constexpr double blind_after_s =
+        0.5;  ///< Without a raw height for this long the last height and speed are carried on.
+    static constexpr double blind_push_m_s3 =
+        1.0;  ///< Rate at which thrust is taken away while a descent without a height does not sink.
+    static constexpr double rest_margin_m =
+        0.08;  ///< Less than this above where it stood before its flight the vehicle may be standing.
+    static constexpr double rest_s = 0.5;         ///< Low and still for this long the vehicle is on the ground.
+    static constexpr double blind_rest_s = 12.0;  ///< After a descent without a height for this long the motors stop.
+    static constexpr double brake_1_s =
+        2.0;  ///< Deceleration per last known velocity when no horizontal estimate is left.
   };
 
   EmergencyDescent(const Config& config);

@@ -74,26 +74,37 @@ struct FlightTick {
 class FlightController {
  public:
   struct Config {
-    double spool_up_s = 0.8;
+    static constexpr double spool_up_s = 0.8;  ///< Time from starting the motors to lifting.
     double climb_m_s = 0.5;
     double descent_m_s = 0.4;
-    double touchdown_descent_m_s = 0.2;
-    double touchdown_height_m = 0.4;
-    double take_off_timeout_s = 15.0;
-    double climb_acceleration_m_s2 = 0.8;
-    double hover_tolerance_m = 0.10;
-    double hover_speed_m_s = 0.15;
-    double hover_s = 0.4;
-    double touchdown_thrust = 0.7;
-    double touchdown_s = 0.3;
-    double stopped_speed_m_s = 0.10;
-    double horizontal_loss_s = 1.0;
-    double blind_speed_m_s = 0.3;
-    double blind_acceleration_m_s2 = 0.6;
-    double blind_s = 2.0;
-    double vertical_loss_s = 0.3;
-    double inertial_age_s = 0.1;
-    double inertial_loss_s = 0.2;
+    static constexpr double touchdown_descent_m_s = 0.2;  ///< Descent speed near the ground.
+    static constexpr double touchdown_height_m =
+        0.4;  ///< Height over what is below at which the ground counts as near.
+    static constexpr double take_off_timeout_s =
+        15.0;  ///< Without hovering this long after the climb should have ended the vehicle lands again.
+    static constexpr double climb_acceleration_m_s2 = 0.8;  ///< Vertical acceleration of taking off and landing.
+    static constexpr double hover_tolerance_m = 0.10;       ///< Taking off ends this close to the height.
+    static constexpr double hover_speed_m_s = 0.15;  ///< Taking off ends only when the vehicle is slower than this.
+    static constexpr double hover_s = 0.4;  ///< Taking off ends when the vehicle has been close and slow for this long.
+    static constexpr double touchdown_thrust =
+        0.7;  ///< Below this share of the hover command the ground carries the vehicle.
+    static constexpr double touchdown_s =
+        0.3;  ///< The vehicle has landed when the ground has carried it for this long.
+    static constexpr double stopped_speed_m_s = 0.10;  ///< Slower than this the vehicle has stopped.
+    static constexpr double horizontal_loss_s =
+        1.0;  ///< Without a horizontal estimate for this long the vehicle lands level.
+    static constexpr double blind_speed_m_s = 0.3;  ///< Speed at which a vehicle that has lost its horizontal estimate
+                                                    ///< leaves the walls, by its velocity alone.
+    static constexpr double blind_acceleration_m_s2 = 0.6;  ///< Acceleration to blind_speed_m_s.
+    static constexpr double blind_s =
+        2.0;  ///< Longest flight by the velocity alone after the horizontal estimate was lost: a carried velocity that
+              ///< is off by 0.1 m/s leads 0.2 m astray in 2 s.
+    static constexpr double vertical_loss_s =
+        0.3;  ///< Without a vertical estimate for this long the emergency descent begins.
+    static constexpr double inertial_age_s =
+        0.1;  ///< An estimate whose newest inertial sample is older than this cannot be used.
+    static constexpr double inertial_loss_s = 0.2;  ///< The emergency descent begins when inertial samples that cannot
+                                                    ///< be used have been noticed for this long.
     MarginLimits::Config margin;
     PathFollower::Config path;
     PositionController::Config position;

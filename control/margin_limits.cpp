@@ -25,18 +25,4 @@ void MarginLimits::observe(double margin, double dt_s) {
 
 double MarginLimits::speed() const { return std::sqrt(share_); }
 
-void MarginLimits::Config::describe(common::config::Fields& fields) {
-  fields("full_margin", full_margin, {1, 5},
-         "Greatest thrust over the weight from which on it does not limit speeds and accelerations.");
-  fields("least_margin", least_margin, {1, 5},
-         "Greatest thrust over the weight at which, and below which, least_share of the accelerations is flown.");
-  fields("least_share", least_share, {0.05, 1},
-         "Share of the accelerations that is flown at least_margin; the share of the speeds is its root.");
-  fields("filter_s", filter_s, kPositive, "Time constant by which the limits follow the margin.");
-}
-
-std::vector<std::string> MarginLimits::Config::validate() const {
-  return common::Validation().atMost("least_margin", least_margin, "full_margin", full_margin).problems();
-}
-
 }  // namespace swiftlet::control

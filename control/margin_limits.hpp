@@ -12,13 +12,13 @@ namespace swiftlet::control {
 class MarginLimits {
  public:
   struct Config {
-    double full_margin = 1.20;
-    double least_margin = 1.05;
-    double least_share = 0.35;
-    double filter_s = 2.0;
-
-    void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
+    static constexpr double full_margin =
+        1.20;  ///< Greatest thrust over the weight from which on it does not limit speeds and accelerations.
+    static constexpr double least_margin = 1.05;  ///< Greatest thrust over the weight at which, and below which,
+                                                  ///< least_share of the accelerations is flown.
+    static constexpr double least_share =
+        0.35;  ///< Share of the accelerations that is flown at least_margin; the share of the speeds is its root.
+    static constexpr double filter_s = 2.0;  ///< Time constant by which the limits follow the margin.
   };
 
   explicit MarginLimits(const Config& config) : config_(config) {}

@@ -31,13 +31,4 @@ void OscillationGuard::observe(const Eigen::Quaterniond& rotation_odom_body, dou
 
 double OscillationGuard::swing_rad() const { return std::sqrt(square_rad2_); }
 
-void OscillationGuard::Config::describe(common::config::Fields& fields) {
-  fields("mean_s", mean_s, kPositive, "Time constant of the mean that roll and pitch swing around.");
-  fields("rms_s", rms_s, kPositive, "Time constant of the RMS of the swing of roll and pitch.");
-  fields("calm_deg", calm_deg, {0.5, 45},
-         "RMS of the swing of roll and pitch up to which the horizontal gains are used in full (decision 063).");
-  fields("least_share", least_share, {0.05, 1}, "Least share of the horizontal gains.");
-  fields("recovery_s", recovery_s, kPositive, "Time constant with which the horizontal gains return.");
-}
-
 }  // namespace swiftlet::control

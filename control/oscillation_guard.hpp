@@ -16,13 +16,12 @@ namespace swiftlet::control {
 class OscillationGuard {
  public:
   struct Config {
-    double mean_s = 0.2;
-    double rms_s = 0.6;
-    double calm_deg = 5.0;
-    double least_share = 0.35;
-    double recovery_s = 4.0;
-
-    void describe(common::config::Fields& fields);
+    static constexpr double mean_s = 0.2;  ///< Time constant of the mean that roll and pitch swing around.
+    static constexpr double rms_s = 0.6;   ///< Time constant of the RMS of the swing of roll and pitch.
+    static constexpr double calm_deg =
+        5.0;  ///< RMS of the swing of roll and pitch up to which the horizontal gains are used in full (decision 063).
+    static constexpr double least_share = 0.35;  ///< Least share of the horizontal gains.
+    static constexpr double recovery_s = 4.0;    ///< Time constant with which the horizontal gains return.
   };
 
   explicit OscillationGuard(const Config& config) : config_(config) {}

@@ -309,8 +309,6 @@ const PathFollower::Limits& PathFollower::Config::limits(FlightMode mode) const 
 void PathFollower::Limits::describe(common::config::Fields& fields) {
   fields("speed_m_s", speed_m_s, {0.01, 20}, "Greatest speed.");
   fields("acceleration_m_s2", acceleration_m_s2, {0.05, 10}, "Greatest acceleration along the path and across it.");
-  fields("corner_deviation_m", corner_deviation_m, {0.001, 5},
-         "Greatest distance of the reference from the path's lines at a corner.");
 }
 
 void PathFollower::Config::describe(common::config::Fields& fields) {
@@ -318,18 +316,7 @@ void PathFollower::Config::describe(common::config::Fields& fields) {
   fields.section("careful", careful, "Limits of flight mode careful.");
   fields.section("accurate", accurate, "Limits of flight mode accurate.");
   fields.section("brisk", brisk, "Limits of flight mode brisk, which no behaviour uses unless the mission names it.");
-  fields("climb_speed_m_s", climb_speed_m_s, {0.05, 5}, "Greatest vertical part of the speed, in every mode.");
-  fields("filter_rad_s", filter_rad_s, {0.5, 50}, "Bandwidth of the reference filter.");
-  fields("simplify_tolerance_m", simplify_tolerance_m, {0, 1},
-         "Points this close to the line between their neighbours are left out.");
-  fields("turn_distance_m", turn_distance_m, {0, 100},
-         "Goals farther than this are faced; nearer ones are flown to sideways.");
   fields("yaw_rate_deg_s", yaw_rate_deg_s, {1, 360}, "Greatest yaw rate.");
-  fields("yaw_acceleration_deg_s2", yaw_acceleration_deg_s2, {1, 3600}, "Greatest yaw acceleration.");
-  fields("look_ahead_m", look_ahead_m, {0.05, 10}, "The yaw faces the path this far ahead.");
-  fields("turn_first_angle_deg", turn_first_angle_deg, {0, 180},
-         "Where the path leads this far off the nose, which the laser does not see, the vehicle turns first.");
-  fields("turn_first_speed_m_s", turn_first_speed_m_s, {0.01, 5}, "Greatest speed while turning first.");
 }
 
 }  // namespace swiftlet::control

@@ -24,7 +24,7 @@ class PathFollower {
   struct Limits {
     double speed_m_s = 1.0;
     double acceleration_m_s2 = 1.0;
-    double corner_deviation_m = 0.05;
+    double corner_deviation_m = 0.05;  ///< Greatest distance of the reference from the path's lines at a corner.
 
     void describe(common::config::Fields& fields);
   };
@@ -34,15 +34,18 @@ class PathFollower {
     Limits careful{0.6, 0.8, 0.05};
     Limits accurate{0.3, 0.3, 0.02};  ///< Tilts by 2 deg at most, so that a camera stays on its point.
     Limits brisk{1.2, 1.0, 0.08};
-    double climb_speed_m_s = 0.5;
-    double filter_rad_s = 5.0;
-    double simplify_tolerance_m = 0.01;
-    double turn_distance_m = 0.6;
+    static constexpr double climb_speed_m_s = 0.5;  ///< Greatest vertical part of the speed, in every mode.
+    static constexpr double filter_rad_s = 5.0;     ///< Bandwidth of the reference filter.
+    static constexpr double simplify_tolerance_m =
+        0.01;  ///< Points this close to the line between their neighbours are left out.
+    static constexpr double turn_distance_m =
+        0.6;  ///< Goals farther than this are faced; nearer ones are flown to sideways.
     double yaw_rate_deg_s = 60.0;
-    double yaw_acceleration_deg_s2 = 180.0;
-    double look_ahead_m = 0.5;
-    double turn_first_angle_deg = 100.0;
-    double turn_first_speed_m_s = 0.15;
+    static constexpr double yaw_acceleration_deg_s2 = 180.0;  ///< Greatest yaw acceleration.
+    static constexpr double look_ahead_m = 0.5;               ///< The yaw faces the path this far ahead.
+    static constexpr double turn_first_angle_deg =
+        100.0;  ///< Where the path leads this far off the nose, which the laser does not see, the vehicle turns first.
+    static constexpr double turn_first_speed_m_s = 0.15;  ///< Greatest speed while turning first.
 
     void describe(common::config::Fields& fields);
     const Limits& limits(common::FlightMode mode) const;

@@ -91,17 +91,9 @@ void PositionController::Config::describe(common::config::Fields& fields) {
   fields("vertical_v_1_s", vertical_v_1_s, {0, 20}, "Vertical acceleration per climb speed error.");
   fields("vertical_i_1_s2", vertical_i_1_s2, {0, 20}, "Vertical acceleration per integrated climb speed error.");
   fields("yaw_p_1_s", yaw_p_1_s, {0, 10}, "Yaw rate per yaw error.");
-  fields("max_correction_m_s", max_correction_m_s, kPositive,
-         "Greatest velocity that a position error adds to the reference's.");
   fields("max_speed_m_s", max_speed_m_s, kPositive,
          "Greatest horizontal speed of reference and correction together, where the reference alone is not faster.");
-  fields("max_climb_m_s", max_climb_m_s, kPositive,
-         "Greatest climb speed that a height error adds to the reference's.");
-  fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, {0.1, 9}, "Greatest vertical acceleration.");
-  fields("max_integral_m_s2", max_integral_m_s2, {0, 9}, "Greatest integral part of the acceleration.");
   fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, kPositive, "Greatest yaw rate.");
-  fields("latency_s", latency_s, {0, 0.5},
-         "Time from measurement to command, by which the vertical state is predicted.");
   fields(
       "attitude_lag_s", attitude_lag_s, {0, 0.5},
       "Time the attitude takes to follow a command, by which the reference is delayed before the vehicle is compared "

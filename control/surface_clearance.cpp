@@ -12,9 +12,6 @@ using common::config::kPositive;
 void SurfaceClearance::Config::describe(common::config::Fields& fields) {
   fields("least_m", least_m, {0.2, 5},
          "Least height of the body over what is below; a path that is nearer to the floor itself stays so.");
-  fields("climb_m_s", climb_m_s, {0.05, 3}, "Climb speed over an edge.");
-  fields("sink_m_s", sink_m_s, {0.05, 3}, "Descent speed behind an edge.");
-  fields("behind_s", behind_s, kPositive, "Time for which the hull is still over what its middle has passed.");
 }
 
 void SurfaceClearance::observe(const RawHeight& below, double height_m) {

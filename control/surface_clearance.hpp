@@ -15,9 +15,9 @@ class SurfaceClearance {
  public:
   struct Config {
     double least_m = 0.40;
-    double climb_m_s = 0.4;
-    double sink_m_s = 0.2;
-    double behind_s = 1.0;
+    static constexpr double climb_m_s = 0.4;  ///< Climb speed over an edge.
+    static constexpr double sink_m_s = 0.2;   ///< Descent speed behind an edge.
+    static constexpr double behind_s = 1.0;   ///< Time for which the hull is still over what its middle has passed.
 
     void describe(common::config::Fields& fields);
   };

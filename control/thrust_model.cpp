@@ -43,11 +43,8 @@ double ThrustModel::clamped(double command) const {
 double ThrustModel::hoverCommand() const { return commandFor(0.0, 1.0); }
 
 void ThrustModel::Config::describe(common::config::Fields& fields) {
-  fields("voltage_filter_s", voltage_filter_s, kPositive, "Time constant that smooths the measured voltage.");
-  fields("learning_time_s", learning_time_s, kPositive, "Time constant by which the hover command is learned.");
   fields("min_thrust", min_thrust, {0, 1}, "Least thrust in flight, so that the attitude stays controlled.");
   fields("max_thrust", max_thrust, {0, 1}, "Greatest thrust commanded.");
-  fields.section("table", table, "The hover command by voltage.");
 }
 
 std::vector<std::string> ThrustModel::Config::validate() const {

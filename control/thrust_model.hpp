@@ -16,8 +16,8 @@ namespace swiftlet::control {
 class ThrustModel {
  public:
   struct Config {
-    double voltage_filter_s = 0.5;
-    double learning_time_s = 2.0;
+    static constexpr double voltage_filter_s = 0.5;  ///< Time constant that smooths the measured voltage.
+    static constexpr double learning_time_s = 2.0;   ///< Time constant by which the hover command is learned.
     double min_thrust = 0.10;
     double max_thrust = 0.95;
     ThrustTable::Config table;

@@ -168,14 +168,4 @@ void ThrustPoint::describe(common::config::Fields& fields) {
   fields("seen_s", seen_s, {0, 1e6}, "Time of flight near this voltage, less what has been forgotten.");
 }
 
-void ThrustTable::Config::describe(common::config::Fields& fields) {
-  fields("voltage_exponent", voltage_exponent, {0, 4},
-         "The thrust of a command goes with (voltage / full voltage) to this power where nothing has been learned.");
-  fields("max_correction", max_correction, {0, 0.9},
-         "The learned hover command stays within 1 plus or minus this, times that of the data sheet.");
-  fields("familiar_s", familiar_s, kPositive,
-         "After this time near a voltage its hover command follows only half of what is learned at another voltage.");
-  fields("forget_s", forget_s, kPositive, "Time constant of flight by which what was learned loses its weight.");
-}
-
 }  // namespace swiftlet::control

@@ -36,12 +36,13 @@ std::optional<common::Problem> otherBatteryProblem(const ThrustPoints& points, c
 class ThrustTable {
  public:
   struct Config {
-    double voltage_exponent = 2.0;
-    double max_correction = 0.6;
-    double familiar_s = 10.0;
-    double forget_s = 900.0;
-
-    void describe(common::config::Fields& fields);
+    static constexpr double voltage_exponent = 2.0;  ///< The thrust of a command goes with (voltage / full voltage) to
+                                                     ///< this power where nothing has been learned.
+    static constexpr double max_correction =
+        0.6;  ///< The learned hover command stays within 1 plus or minus this, times that of the data sheet.
+    static constexpr double familiar_s = 10.0;  ///< After this time near a voltage its hover command follows only half
+                                                ///< of what is learned at another voltage.
+    static constexpr double forget_s = 900.0;   ///< Time constant of flight by which what was learned loses its weight.
   };
 
   ThrustTable(const Config& config, const common::VehicleConfig& vehicle);

@@ -120,13 +120,6 @@ std::vector<Candidate> localMaxima(const std::vector<float>& contrast, const Gra
 
 }  // namespace
 
-void CornerConfig::describe(common::config::Fields& fields) {
-  fields("greatest_number", greatest_number, {10, 5000}, "Corners of a picture, at most.");
-  fields("cell_px", cell_px, {4, 200}, "Side of the cells over which corners are spread.");
-  fields("least_contrast", least_contrast, {0.5, 100},
-         "Gradient along a corner's weakest direction, in grey levels per pixel, at least.");
-}
-
 std::vector<float> cornerContrast(const GrayImage& image) {
   std::vector<float> contrast(image.values.size(), 0.0F);
   if (image.width_px <= 2 * kBorder_px || image.height_px <= 2 * kBorder_px) return contrast;

@@ -15,11 +15,10 @@
 namespace swiftlet::vision {
 
 struct CornerConfig {
-  int greatest_number = 400;
-  int cell_px = 16;
-  double least_contrast = 4.0;
-
-  void describe(common::config::Fields& fields);
+  int greatest_number = 400;  ///< Corners of a picture, at most.
+  int cell_px = 16;           ///< Side of the cells over which corners are spread.
+  static constexpr double least_contrast =
+      4.0;  ///< Gradient along a corner's weakest direction, in grey levels per pixel, at least.
 };
 
 struct Corner {

@@ -20,11 +20,7 @@ void DepthNoiseConfig::describe(common::config::Fields& fields) {
 }
 
 void FeatureConfig::describe(common::config::Fields& fields) {
-  fields.section("corners", corners, "Corners of the picture.");
   fields.section("depth_noise", depth_noise, "Errors of the depth camera.");
-  fields("pixel_sigma_px", pixel_sigma_px, {0.05, 10}, "Standard deviation of a corner's pixel, in each direction.");
-  fields("greatest_sigma_m", greatest_sigma_m, {0.001, 1},
-         "A feature whose depth is less certain, as at the edge of a surface, is left out.");
 }
 
 std::optional<DepthDistribution> depthMixture(const common::DepthImage& depth, int u_px, int v_px,

@@ -53,8 +53,9 @@ GaussianPoint gaussianPoint(const common::PinholeCamera& camera, const Eigen::Ve
 struct FeatureConfig {
   CornerConfig corners;
   DepthNoiseConfig depth_noise;
-  double pixel_sigma_px = 0.7;
-  double greatest_sigma_m = 0.08;
+  static constexpr double pixel_sigma_px = 0.7;  ///< Standard deviation of a corner's pixel, in each direction.
+  static constexpr double greatest_sigma_m =
+      0.08;  ///< A feature whose depth is less certain, as at the edge of a surface, is left out.
 
   void describe(common::config::Fields& fields);
 };

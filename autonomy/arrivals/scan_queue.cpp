@@ -12,8 +12,6 @@ using common::Time;
 
 void ScanQueueConfig::describe(common::config::Fields& fields) {
   fields("latency_s", latency_s, {0, 0.2}, "Declared time for projecting and matching one scan.");
-  fields("reorder_wait_s", reorder_wait_s, {0, 0.5},
-         "Greatest wait of a scan for one that was measured before it and has not arrived.");
 }
 
 bool ScanQueue::add(std::shared_ptr<const common::LaserScan> scan) {

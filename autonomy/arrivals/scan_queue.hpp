@@ -14,7 +14,7 @@ namespace swiftlet::autonomy {
 
 struct ScanQueueConfig {
   double latency_s = 0.004;
-  double reorder_wait_s = 0.03;
+  double reorder_wait_s = 0.03;  ///< Greatest wait of a scan for one that was measured before it and has not arrived.
 
   void describe(common::config::Fields& fields);
 };

@@ -35,11 +35,7 @@ double smoothed(double value, double next, double dt_s, double filter_s) {
 }  // namespace
 
 void EnergyConfig::describe(common::config::Fields& fields) {
-  fields("power_filter_s", power_filter_s, kPositive, "Time constant that smooths current and power.");
   fields("home_speed_m_s", home_speed_m_s, {0.05, 10}, "Speed along paths before one has been flown.");
-  fields("home_speed_filter_s", home_speed_filter_s, kPositive, "Time constant of the speed along paths.");
-  fields("home_stops_s", home_stops_s, {0, 120},
-         "Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.");
 }
 
 EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent)

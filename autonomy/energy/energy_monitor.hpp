@@ -14,10 +14,11 @@
 namespace swiftlet::autonomy {
 
 struct EnergyConfig {
-  double power_filter_s = 20.0;
+  static constexpr double power_filter_s = 20.0;  ///< Time constant that smooths current and power.
   double home_speed_m_s = 0.75;
-  double home_speed_filter_s = 30.0;
-  double home_stops_s = 2.0;
+  static constexpr double home_speed_filter_s = 30.0;  ///< Time constant of the speed along paths.
+  static constexpr double home_stops_s =
+      2.0;  ///< Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.
 
   void describe(common::config::Fields& fields);
 };

@@ -15,16 +15,6 @@ using common::Pose2;
 void LaserPipelineConfig::describe(common::config::Fields& fields) {
   fields.section("projection", projection, "Scans corrected for motion and tilt.");
   fields.section("odometry", odometry, "Scans matched to the last ones.");
-  fields("match_floor_m", match_floor_m, {0, 1}, "Least standard deviation of a match's position.");
-  fields("match_floor_deg", match_floor_deg, {0, 10}, "Least standard deviation of a match's yaw.");
-  fields("drift_floor_m", drift_floor_m, {0, 1},
-         "Least position error that a new reference of the odometry adds to its drift.");
-  fields("drift_floor_deg", drift_floor_deg, {0, 10},
-         "Least yaw error that a new reference of the odometry adds to its drift.");
-  fields("match_per_tilt_m_rad", match_per_tilt_m_rad, {0, 10},
-         "Position error of a match for each radian of tilt, since the attitude is not exact.");
-  fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, {0, 100},
-         "Yaw error of a match for each radian of tilt, since the attitude is not exact.");
   fields("match_rate_hz", match_rate_hz, {0, 1000},
          "Scans that are matched in a second, at most; the others only measure heights, and what is near. 0: all.");
 }

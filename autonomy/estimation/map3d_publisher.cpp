@@ -21,10 +21,6 @@ constexpr double kLatePeriods = 2.0;
 }  // namespace
 
 void Map3dPublisherConfig::describe(common::config::Fields& fields) {
-  fields("publish_period_s", publish_period_s, {0, 10},
-         "Time between copies of the growing submap for those who show the map.");
-  fields("fusion_period_s", fusion_period_s, {0.5, 1000},
-         "Time between fusions of all submaps to one map; after a loop closure they are fused at once.");
   fields("fusion_latency_s", fusion_latency_s, {0.01, 60}, "Declared time for fusing all submaps.");
 }
 

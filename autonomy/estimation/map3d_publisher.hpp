@@ -15,8 +15,10 @@
 namespace swiftlet::autonomy {
 
 struct Map3dPublisherConfig {
-  double publish_period_s = 0.4;
-  double fusion_period_s = 10.0;
+  static constexpr double publish_period_s =
+      0.4;  ///< Time between copies of the growing submap for those who show the map.
+  static constexpr double fusion_period_s =
+      10.0;  ///< Time between fusions of all submaps to one map; after a loop closure they are fused at once.
   double fusion_latency_s = 2.0;
 
   void describe(common::config::Fields& fields);

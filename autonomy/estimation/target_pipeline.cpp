@@ -21,10 +21,6 @@ constexpr double kWait_s = 0.05;
 
 void TargetPipelineConfig::describe(common::config::Fields& fields) {
   fields.list("classes", classes, "Classes of targets that are looked for; without any, no frame is looked at.");
-  fields.section("detector", detector, "What counts as a target in a frame.");
-  fields.section("tracker", tracker, "How targets are placed in the map.");
-  fields("period_s", period_s, {0, 10}, "Least time from one frame that is looked at to the next.");
-  fields("latency_s", latency_s, {0.001, 2}, "Declared time for looking at one frame.");
 }
 
 std::vector<std::string> TargetPipelineConfig::validate() const {

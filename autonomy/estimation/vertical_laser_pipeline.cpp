@@ -36,9 +36,6 @@ void VerticalLaserPipelineConfig::describe(common::config::Fields& fields) {
   publisher.describe(fields);
   fields("body_radius_m", body_radius_m, {0, 2},
          "Returns nearer to the body's origin come from the vehicle itself and are left out.");
-  fields("latency_s", latency_s, {0.001, 2}, "Declared time for drawing the sweeps that have come since the last job.");
-  fields("wait_s", wait_s, {0, 1}, "Greatest wait of a sweep for a scan of the first laser that is not older.");
-  fields("silent_s", silent_s, {0.1, 60}, "A laser that sends no usable sweep for so long is silent.");
 }
 
 VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& config,

@@ -22,13 +22,6 @@ bool isFinite(const ImuSample& sample) {
          sample.rotation_ahrs_body.coeffs().allFinite();
 }
 
-void ImuWatchConfig::describe(common::config::Fields& fields) {
-  fields("silent_s", silent_s, kPositive, "Without a finite inertial sample for this long the sensor is silent.");
-  fields("late_s", late_s, kPositive, "Greatest age of the newest inertial sample, by its time of measurement.");
-  fields("repeats_s", repeats_s, kPositive,
-         "Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones.");
-}
-
 void ImuWatch::add(const ImuSample& sample) {
   finite_ = isFinite(sample);
   if (!finite_) return;

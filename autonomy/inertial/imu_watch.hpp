@@ -11,11 +11,10 @@
 namespace swiftlet::autonomy {
 
 struct ImuWatchConfig {
-  double silent_s = 0.08;
-  double late_s = 0.1;
-  double repeats_s = 0.06;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double silent_s = 0.08;  ///< Without a finite inertial sample for this long the sensor is silent.
+  static constexpr double late_s = 0.1;     ///< Greatest age of the newest inertial sample, by its time of measurement.
+  static constexpr double repeats_s =
+      0.06;  ///< Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones.
 };
 
 /// Whether all its numbers are.

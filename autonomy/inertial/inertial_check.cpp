@@ -44,34 +44,9 @@ auto meanOver(const Window& window, double span_s, Value value) -> std::optional
 
 }  // namespace
 
-void InertialCheckConfig::describe(common::config::Fields& fields) {
-  fields("rate_deg_s", rate_deg_s, kPositive,
-         "Mean difference between the gyroscopes and the change of the AHRS' attitude from which they are not used.");
-  fields("rate_window_s", rate_window_s, {0.02, 1}, "Time over which rates are compared.");
-  fields("vertical_m_s2", vertical_m_s2, kPositive,
-         "Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is "
-         "not used; less force than that is a vehicle that sinks.");
-  fields("vertical_window_s", vertical_window_s, {0.02, 1}, "Time over which forces along the axis are compared.");
-  fields("horizontal_m_s2", horizontal_m_s2, kPositive,
-         "Median specific force across the rotors' axis from which the accelerometer is not used.");
-  fields("horizontal_window_s", horizontal_window_s, {0.02, 1},
-         "Time over which the median of forces across the axis is taken: more than twice that of a push of a hand.");
-  fields("implied_spread_m_s2", implied_spread_m_s2, {0, 20},
-         "What takes the place of a specific force alternates by this much from sample to sample, so that the filter "
-         "trusts laser and height more.");
-  fields("thrust_lag_s", thrust_lag_s, {0.0, 0.5}, "Lag of the thrust behind its command.");
-  fields("trusted_again_s", trusted_again_s, kPositive,
-         "Samples are used again once nothing has contradicted them for this long.");
-  fields("land_after_s", land_after_s, kPositive, "A contradiction that has lasted this long ends in a landing.");
-}
-
 InertialCheck::InertialCheck(const InertialCheckConfig& config) : config_(config) {
   window_.reserve(kUsualSamples);
   sorted_m_s2_.reserve(kUsualSamples);
-}
-
-std::vector<std::string> InertialCheckConfig::validate() const {
-  return common::Validation().atMost("trusted_again_s", trusted_again_s, "land_after_s", land_after_s).problems();
 }
 
 ImuSample InertialCheck::checked(const ImuSample& sample) {

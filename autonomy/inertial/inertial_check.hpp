@@ -16,19 +16,24 @@
 namespace swiftlet::autonomy {
 
 struct InertialCheckConfig {
-  double rate_deg_s = 25.0;
-  double rate_window_s = 0.1;
-  double vertical_m_s2 = 3.5;
-  double vertical_window_s = 0.05;
-  double horizontal_m_s2 = 2.5;
-  double horizontal_window_s = 0.3;
-  double implied_spread_m_s2 = 4.0;
-  double thrust_lag_s = 0.05;
-  double trusted_again_s = 1.0;
-  double land_after_s = 1.5;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  static constexpr double rate_deg_s = 25.0;    ///< Mean difference between the gyroscopes and the change of the AHRS'
+                                                ///< attitude from which they are not used.
+  static constexpr double rate_window_s = 0.1;  ///< Time over which rates are compared.
+  static constexpr double vertical_m_s2 =
+      3.5;  ///< Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer
+            ///< is not used; less force than that is a vehicle that sinks.
+  static constexpr double vertical_window_s = 0.05;  ///< Time over which forces along the axis are compared.
+  static constexpr double horizontal_m_s2 =
+      2.5;  ///< Median specific force across the rotors' axis from which the accelerometer is not used.
+  static constexpr double horizontal_window_s = 0.3;  ///< Time over which the median of forces across the axis is
+                                                      ///< taken: more than twice that of a push of a hand.
+  static constexpr double implied_spread_m_s2 =
+      4.0;  ///< What takes the place of a specific force alternates by this much from sample to sample, so that the
+            ///< filter trusts laser and height more.
+  static constexpr double thrust_lag_s = 0.05;  ///< Lag of the thrust behind its command.
+  static constexpr double trusted_again_s =
+      1.0;  ///< Samples are used again once nothing has contradicted them for this long.
+  static constexpr double land_after_s = 1.5;  ///< A contradiction that has lasted this long ends in a landing.
 };
 
 /// What the vehicle does, as far as it decides what a sample must be.

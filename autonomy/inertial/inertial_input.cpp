@@ -10,12 +10,6 @@ using common::ImuSample;
 using common::Severity;
 using common::Time;
 
-void InertialInputConfig::describe(common::config::Fields& fields) {
-  fields.section("imu", imu, "Inertial samples that cannot be used.");
-  fields.section("inertial_check", inertial_check,
-                 "Inertial samples that contradict the attitude or the thrust, and what takes their place.");
-}
-
 /// On the ground a faulty sample goes to the filter as it is, which starts only if it makes sense.
 std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
   watch_.add(sample);

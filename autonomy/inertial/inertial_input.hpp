@@ -21,8 +21,6 @@ namespace swiftlet::autonomy {
 struct InertialInputConfig {
   ImuWatchConfig imu;
   InertialCheckConfig inertial_check;
-
-  void describe(common::config::Fields& fields);
 };
 
 /// One thread.

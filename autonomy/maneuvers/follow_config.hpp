@@ -8,85 +8,94 @@ namespace swiftlet::autonomy {
 
 /// How people walk indoors.
 struct WalkingConfig {
-  double stands_m_s = 0.25;
-  double slow_m_s = 0.3;
-  double fast_m_s = 1.1;
-  double sets_off_m_s = 0.5;
-  double turns_1_s = 0.4;
-  double stop_share = 0.3;
-  double goes_on_share = 0.5;
-  double half_width_m = 0.25;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double stands_m_s = 0.25;   ///< A person who is slower than this stands.
+  static constexpr double slow_m_s = 0.3;      ///< Least speed of a person who has turned where nobody saw it.
+  static constexpr double fast_m_s = 1.1;      ///< Greatest speed of a person who has turned where nobody saw it.
+  static constexpr double sets_off_m_s = 0.5;  ///< Speed at which a person who stands is expected to set off.
+  static constexpr double turns_1_s =
+      0.4;  ///< Turns and stops of a walking person, per second, where nothing forces them.
+  static constexpr double stop_share = 0.3;  ///< Share of stops among the turns and stops of a walking person.
+  static constexpr double goes_on_share =
+      0.5;  ///< Probability that a person in sight goes on as before in the next seconds: straight on, or standing.
+  static constexpr double half_width_m = 0.25;  ///< Half the breadth of a person's shoulders.
 };
 
 struct HiddenPersonConfig {
-  int particles = 200;
-  double place_sigma_m = 0.1;
-  double velocity_sigma_m_s = 0.15;
-  double outline_m = 0.35;
-  double seen_s = 0.4;
-  double explained_within_m = 0.12;
-  double other_within_m = 0.5;
-  double spread_m = 0.03;
-  double spread_m_s = 0.05;
-  double one_place_m = 0.6;
-
-  void describe(common::config::Fields& fields);
+  static constexpr int particles = 200;         ///< Places where a person who is not seen may be.
+  static constexpr double place_sigma_m = 0.1;  ///< Standard deviation of the place at the end of a track, per axis.
+  static constexpr double velocity_sigma_m_s =
+      0.15;  ///< Standard deviation of the velocity at the end of a track, per axis.
+  static constexpr double outline_m =
+      0.35;  ///< A beam that ends this near to the middle of a person may end on that person.
+  static constexpr double seen_s = 0.4;  ///< The probability of a place falls by 1/e in this time while beams pass it,
+                                         ///< and rises as fast while they end on something new there.
+  static constexpr double explained_within_m = 0.12;  ///< An end point this near to something that the map showed
+                                                      ///< before the person stood there is explained by it.
+  static constexpr double other_within_m = 0.5;  ///< What beams end on this near to another tracked person is that one.
+  static constexpr double spread_m = 0.03;       ///< Spread of the places of particles that are drawn from one.
+  static constexpr double spread_m_s = 0.05;     ///< Spread of the velocities of particles that are drawn from one.
+  static constexpr double one_place_m = 0.6;     ///< Particles within this distance count as one place.
 };
 
 struct PersonWatchConfig {
-  double tracked_m = 6.0;
-  double fresh_s = 0.3;
-  double gate_m = 0.6;
-  double least_share = 0.03;
-  double least_share_in_sight = 0.3;
-  double remembered_gate_m = 3.0;
-  double per_speed_s = 0.5;
+  double tracked_m = 6.0;                 ///< The person to be followed is at most this far away at first.
+  static constexpr double fresh_s = 0.3;  ///< A track that was not seen for longer has ended.
+  static constexpr double gate_m = 0.6;   ///< A track this near to a place where the person may be can be the person's.
+  static constexpr double least_share =
+      0.03;  ///< Least probability that a hidden person is near a track that is taken for the person's.
+  static constexpr double least_share_in_sight =
+      0.3;  ///< Least probability that a hidden person is near a track that is taken for the person's, while the
+            ///< vehicle sees something new where the person probably stands.
+  static constexpr double remembered_gate_m =
+      3.0;  ///< Distance that a person who was followed earlier may have walked meanwhile.
+  static constexpr double per_speed_s = 0.5;  ///< Metres of distance that a difference of 1 m/s between the velocities
+                                              ///< of a track and of the person counts as.
   WalkingConfig walking;
   HiddenPersonConfig hidden;
-
-  void describe(common::config::Fields& fields);
 };
 
 /// Losses: a step at whose end the person is not seen, or is at a wrong distance, counts 1.
 struct PursuitConfig {
-  double nearer_m = 0.5;
-  double farther_m = 0.7;
-  double per_metre = 1.0;
-  double per_square_metre = 0.3;
-  double per_move = 0.03;
-  double per_cost = 0.02;
-  double mapped_within_m = 0.45;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double nearer_m = 0.5;   ///< Nearer than the wanted distance by more than this is wrong.
+  static constexpr double farther_m = 0.7;  ///< Farther than the wanted distance by more than this is wrong.
+  static constexpr double per_metre =
+      1.0;  ///< Loss of a wrong distance by the metre; twice as much where it is too small. A step with a wrong
+            ///< distance, or with the person out of sight, counts 1.
+  static constexpr double per_square_metre = 0.3;  ///< Loss of a right distance by its squared error.
+  static constexpr double per_move =
+      0.03;  ///< Loss of flying for one step, so that the vehicle waits where that is as good.
+  static constexpr double per_cost = 0.02;  ///< Loss by the cost of a step in the cost map above that of open space.
+  static constexpr double mapped_within_m =
+      0.45;  ///< What the map shows this near to where the person walked is the person.
 };
 
 /// The law of the speed along the person's trail.
 struct PaceConfig {
-  double stands_nearer_m = 0.3;
-  double headway_s = 0.6;
-  double gain_1_s = 1.8;
-  double ends_at_m = 1.0;
-  double aside_m = 0.5;
-  double gives_way_s = 1.0;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double stands_nearer_m =
+      0.3;  ///< Behind a person who stands the distance is smaller than the wanted one by this, as the person may set
+            ///< off faster than the vehicle.
+  static constexpr double headway_s =
+      0.6;  ///< Behind a person who walks the distance is larger by the path that the person walks in this time.
+  static constexpr double gain_1_s = 1.8;   ///< Speed over that of the person by the error of the distance.
+  static constexpr double ends_at_m = 1.0;  ///< The path along the trail ends at this distance from the person.
+  static constexpr double aside_m =
+      0.5;  ///< A place where the person walked too near to a wall is passed at most this far beside it.
+  static constexpr double gives_way_s =
+      1.0;  ///< The vehicle gives way to a person who comes too near within this time.
 };
 
 struct FollowConfig {
-  double replan_s = 0.2;
-  double replan_m = 0.4;
-  double lost_s = 3.0;
-  double tolerance_m = 0.5;
-  double near_s = 1.0;
-  double looks_ahead_s = 8.0;
-  double looks_around_deg_s = 25.0;
+  static constexpr double replan_s = 0.2;     ///< Time between two paths.
+  static constexpr double replan_m = 0.4;     ///< A place to fly to that moved by less is the same.
+  static constexpr double lost_s = 3.0;       ///< A person who was not seen for longer is said to be out of sight.
+  static constexpr double tolerance_m = 0.5;  ///< Tolerance of the place where a person is expected.
+  static constexpr double near_s = 1.0;       ///< The vehicle has returned to a person when it was near for this long.
+  static constexpr double looks_ahead_s =
+      8.0;  ///< Somebody to be followed is waited for ahead for this long; then the vehicle turns around.
+  static constexpr double looks_around_deg_s = 25.0;  ///< Yaw rate of turning around to look for the person.
   PersonWatchConfig watch;
   PaceConfig pace;
   PursuitConfig pursuit;
-
-  void describe(common::config::Fields& fields);
 };
 
 }  // namespace swiftlet::autonomy

@@ -61,16 +61,6 @@ TwoGrids gridsOf(const OccupancyGrid& grid, const VoxelColumns& upper_columns, c
 void LowerFlightConfig::describe(common::config::Fields& fields) {
   using common::config::kPositive;
   fields("enabled", enabled, "Whether paths may lead below things that the camera sees at the height of flight.");
-  fields("least_height_m", least_height_m, {common::kLeastFlightHeight_m, 10},
-         "Least height of a path that leads below what the camera sees.");
-  fields("air_below_m", air_below_m, {0.2, 5},
-         "Below the middle of the hull so much must be free; more than what lifts the path over a surface "
-         "(control.clearance.least_m).");
-  fields("air_around_m", air_around_m, {0.05, 1},
-         "Free height that the hull needs above itself, as it rises and sinks.");
-  fields("step_m", step_m, {0.02, 1}, "Heights are tried in such steps, from the height of flight down.");
-  fields("change_cost_m", change_cost_m, kPositive, "Metres of path that a change of height is worth.");
-  fields("detour_m", detour_m, kPositive, "Greatest detour that is flown instead of flying lower.");
 }
 
 LowerPlanner::LowerPlanner(const LowerFlightConfig& config, const planning::CostMap::Config& costs, double resolution_m,

@@ -17,7 +17,8 @@ struct PlanningConfig {
   planning::PlannerConfig planner;
   LowerFlightConfig lower;
   double latency_s = 0.06;
-  double period_s = 0.25;
+  static constexpr double period_s =
+      0.25;  ///< Time between updates of the cost map, which is never older than this plus the latency.
 
   void describe(common::config::Fields& fields);
 };

@@ -9,22 +9,32 @@
 namespace swiftlet::autonomy {
 
 struct SupervisorConfig {
-  double unseen_hold_s = 0.3;
-  double unseen_land_s = 1.0;
-  double unseen_known_land_s = 10.0;
+  static constexpr double unseen_hold_s =
+      0.3;  ///< When no sensor has seen the surroundings for this long the vehicle holds.
+  static constexpr double unseen_land_s =
+      1.0;  ///< When no sensor has seen the surroundings for this long the vehicle lands.
+  static constexpr double unseen_known_land_s =
+      10.0;  ///< When no sensor has seen the surroundings for this long while other sensors measure the position, the
+             ///< vehicle lands: what comes near is not seen.
   double battery_land_share = 0.12;
   double home_reserve_share = 0.02;
-  double home_need_factor = 1.15;
+  static constexpr double home_need_factor = 1.15;  ///< Safety factor of the charge that the flight home takes.
   double least_thrust_margin = 1.01;
-  double thrust_margin_s = 1.0;
-  double height_back_s = 0.5;
-  double drift_back_m = 1.0;
-  double drift_land_m = 2.0;
-  double back_known_s = 1.0;
-  double pilot_silent_s = 1.0;
+  static constexpr double thrust_margin_s =
+      1.0;  ///< Time for which the thrust margin must have been less than least_thrust_margin before the vehicle lands.
+  static constexpr double height_back_s =
+      0.5;  ///< When the surface below has not been measured for this long the vehicle flies back along its trail.
+  static constexpr double drift_back_m = 1.0;  ///< Standard deviation of the position, gathered where the laser did not
+                                               ///< fix it, at which the vehicle flies back.
+  static constexpr double drift_land_m =
+      2.0;  ///< Standard deviation of the position, gathered where the laser did not fix it, at which the vehicle
+            ///< lands; where there are no walls around it flies back up to twice as much.
+  static constexpr double back_known_s =
+      1.0;  ///< Flying back ends when height and position have been known again for this long.
+  static constexpr double pilot_silent_s = 1.0;  ///< When a pilot who flies has not been heard of for this long the
+                                                 ///< program has the vehicle again, and holds.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 }  // namespace swiftlet::autonomy

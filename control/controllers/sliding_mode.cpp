@@ -112,7 +112,6 @@ void SlidingMode::Config::describe(common::config::Fields& fields) {
   fields("disturbance_filter_s", disturbance_filter_s, {0.02, 100}, "Time constant of the estimated disturbance.");
   fields("attitude_lag_s", attitude_lag_s, {0.01, 0.5}, "Time the attitude takes to follow a command.");
   fields("thrust_lag_s", thrust_lag_s, {0.01, 0.5}, "Time the thrust takes to follow a command.");
-  fields("max_disturbance_m_s2", max_disturbance_m_s2, {0, 9}, "Greatest disturbance that is compensated.");
   fields("yaw_p_1_s", yaw_p_1_s, {0, 10}, "Yaw rate per yaw error.");
 }
 

@@ -23,7 +23,7 @@ class SlidingMode final : public Controller {
     double disturbance_filter_s = 0.5;
     double attitude_lag_s = 0.2;
     double thrust_lag_s = 0.05;
-    double max_disturbance_m_s2 = 2.0;
+    static constexpr double max_disturbance_m_s2 = 2.0;  ///< Greatest disturbance that is compensated.
     double yaw_p_1_s = 2.0;
 
     void describe(common::config::Fields& fields);

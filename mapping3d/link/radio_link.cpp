@@ -26,8 +26,6 @@ void RadioLinkConfig::describe(common::config::Fields& fields) {
   fields(
       "link_kB_s", link_kB_s, {0, 1e6},
       "Kilobytes a second that the radio between camera and computer carries; 0: no radio, frames come as they are.");
-  fields("jpeg_quality", jpeg_quality, {1, 100}, "Quality of the colours that go over the radio; depths lose nothing.");
-  fields("oldest_s", oldest_s, {0.01, 10}, "Frames that were measured longer ago when they come through are dropped.");
 }
 
 void RadioLink::offer(std::shared_ptr<const RgbdFrame> frame) {

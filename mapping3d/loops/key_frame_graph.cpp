@@ -30,31 +30,6 @@ struct Neighbour {
 
 }  // namespace
 
-void KeyFrameGraphConfig::describe(common::config::Fields& fields) {
-  fields("edge_sigma_m", edge_sigma_m, {0.0001, 1},
-         "Error of the position of an alignment between two key frames that its points do not show, at least.");
-  fields("edge_sigma_rad", edge_sigma_rad, {0.0001, 1},
-         "Error of the attitude of an alignment between two key frames that its points do not show, at least.");
-  fields("walk_m", walk_m, {0.0, 10},
-         "Error of the position that alignments gather over a metre of steps; it grows with the root of the length.");
-  fields("walk_rad", walk_rad, {0.0, 10},
-         "Error of the attitude that alignments gather over a radian of turns; it grows with the root of the turns.");
-  fields("drift_m", drift_m, {0.0, 100},
-         "Difference of a loop closure's position from the path that is accepted however short the path is.");
-  fields("drift_share", drift_share, {0.0, 1.0},
-         "Further difference of a loop closure's position from the path that is accepted, as a share of the path's "
-         "length.");
-  fields("drift_rad", drift_rad, {0.0, 3.2},
-         "Difference of a loop closure's attitude from the path that is accepted however little the path turns.");
-  fields("drift_turn_share", drift_turn_share, {0.0, 1.0},
-         "Further difference of a loop closure's attitude from the path that is accepted, as a share of all turns "
-         "along the path.");
-  fields("greatest_error", greatest_error, {1, 1e6},
-         "A loop closure whose squared error in the optimized graph is greater is taken out; that of a right one is "
-         "chi-squared with 6 degrees of freedom.");
-  fields.section("optimization", optimization, "Optimization of the graph of key frames.");
-}
-
 KeyFrameGraph::KeyFrameGraph(const KeyFrameGraphConfig& config)
     : config_(config), poses_(std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {common::KeyPose{}}})) {}
 

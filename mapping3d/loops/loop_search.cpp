@@ -26,13 +26,6 @@ std::optional<KeyFrameEdge> aligned(const FramePyramid& pyramid, const RgbdPose&
 
 }  // namespace
 
-void LoopSearchConfig::describe(common::config::Fields& fields) {
-  fields("candidates", candidates, {0, 50},
-         "Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.");
-  fields("apart", apart, {1, 1000}, "The last so many key frames are no candidates: the track connects them.");
-  fields("least_overlap", least_overlap, {0.1, 1.0}, "Part of a candidate's points that must lie in the picture.");
-}
-
 bool isOld(int scan, int newest, const LoopSearchConfig& config) { return newest - scan > config.apart; }
 
 std::vector<KeyFrameEdge> trackEdges(const RgbdPose& pose, int number, const KeyFrameMap& keys,

@@ -11,11 +11,9 @@
 namespace swiftlet::mapping3d {
 
 struct LoopSearchConfig {
-  int candidates = 5;
-  int apart = 5;
-  double least_overlap = 0.4;
-
-  void describe(common::config::Fields& fields);
+  int candidates = 5;  ///< Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.
+  static constexpr int apart = 5;  ///< The last so many key frames are no candidates: the track connects them.
+  static constexpr double least_overlap = 0.4;  ///< Part of a candidate's points that must lie in the picture.
 };
 
 /// Whether a key frame is so old that an alignment of the newest one to it closes a loop.

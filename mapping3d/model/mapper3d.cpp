@@ -37,8 +37,6 @@ void Mapper3dConfig::describe(common::config::Fields& fields) {
   fields.section("odometry", odometry, "The pose of a frame.");
   fields.section("voxels", voxels, "Occupancy.");
   fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
-  fields.section("loops", loops, "Loop closures by appearance, where there is no 2D map.");
-  fields.section("graph", graph, "The pose graph of key frames, where there is no 2D map.");
 }
 
 Mapper3dConfig configOfRecordings() {

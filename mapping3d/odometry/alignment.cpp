@@ -220,15 +220,9 @@ double spreadOf(const Sums& sums, double least) {
 }  // namespace
 
 void AlignmentConfig::describe(common::config::Fields& fields) {
-  fields("iterations", iterations, {1, 50}, "Gauss-Newton steps at a level of the pyramid, at most.");
-  fields("gray_sigma", gray_sigma, {0.5, 50},
-         "Least standard deviation of a grey value; the actual one is measured in every picture.");
-  fields("surface_sigma_factor", surface_sigma_factor, {0.1, 20},
-         "Standard deviation of a point's distance from the surface, in those of the depth.");
   fields("surface_floor_m", surface_floor_m, {0.0, 1},
          "Least standard deviation of a point's distance from the surface: key frames do not fit each other better "
          "than this, however near the surface is.");
-  fields("surface_gate_m", surface_gate_m, {0.01, 1}, "Points whose depths differ by more are on different surfaces.");
 }
 
 Alignment judgePose(const FramePyramid& frame, std::span<const ReferenceView> views, const common::Pose3& T_map_camera,

@@ -32,28 +32,6 @@ Pose3 correctionOf(const MovingBody& body, double clock_offset_s) {
 
 }  // namespace
 
-void CameraCalibrationConfig::describe(common::config::Fields& fields) {
-  fields("enabled", enabled,
-         "Whether mount and clock of the camera are estimated; otherwise they are those of the data sheet.");
-  fields("mount_sigma_m", mount_sigma_m, {0.0001, 0.2}, "Standard deviation of the mount's position, along each axis.");
-  fields("mount_sigma_rad", mount_sigma_rad, {0.0001, 0.2},
-         "Standard deviation of the mount's attitude, about each axis.");
-  fields("clock_sigma_s", clock_sigma_s, {0.00001, 0.1}, "Standard deviation of the clock's offset.");
-  fields("clock_walk_s_rts", clock_walk_s_rts, {0, 0.01},
-         "Random walk of the clock's offset, as two clocks drift apart.");
-  fields("step_sigma_m", step_sigma_m, {0.0001, 1},
-         "Standard deviation of the body's motion between two key frames as the other sensors measure it.");
-  fields("step_sigma_rad", step_sigma_rad, {0.0001, 1},
-         "Standard deviation of the body's rotation between two key frames as the other sensors measure it, about each "
-         "axis.");
-  fields("gate_sigma", gate_sigma, {1, 100},
-         "Motions farther off than this many standard deviations, for each degree of freedom, are left out.");
-  fields("known_share", known_share, {0.01, 1},
-         "A component is used once its standard deviation has shrunk to this part of that of the start.");
-  fields("limit_sigma", limit_sigma, {1, 100},
-         "Greatest correction that is used, in standard deviations of the start.");
-}
-
 CameraCalibration::CameraCalibration(const CameraCalibrationConfig& config, const Pose3& T_body_camera_sheet)
     : config_(config), T_body_camera_sheet_(T_body_camera_sheet) {
   prior_sigma_ << Vector3d::Constant(config.mount_sigma_m), Vector3d::Constant(config.mount_sigma_rad),

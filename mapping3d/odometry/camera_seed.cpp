@@ -29,23 +29,6 @@ constexpr double kStepGate = 25.0;
 
 }  // namespace
 
-void CameraSeedConfig::describe(common::config::Fields& fields) {
-  fields("sigma_m", sigma_m, {0.001, 10}, "Standard deviation of the position of a seed.");
-  fields("sigma_rad", sigma_rad, {0.0001, 1}, "Standard deviation of the attitude of a seed, about each axis.");
-  fields("gate_m", gate_m, {0.01, 100}, "An alignment that ends farther from its seed is rejected.");
-  fields("gate_rad", gate_rad, {0.01, 3.2}, "An alignment that is turned by more against its seed is rejected.");
-  fields("speed_sigma_m_s", speed_sigma_m_s, {0.0001, 10},
-         "Standard deviation of the speed that a step from seed to seed has.");
-  fields("rate_sigma_rad_s", rate_sigma_rad_s, {0.0001, 10},
-         "Standard deviation of the angular rate that a step from seed to seed has.");
-  fields("step_sigma_m", step_sigma_m, {0.0001, 1},
-         "Error of the position that an alignment adds from key frame to key frame, at least.");
-  fields("step_sigma_rad", step_sigma_rad, {0.00001, 1},
-         "Error of the attitude that an alignment adds from key frame to key frame, at least.");
-  fields("unfit_frames", unfit_frames, {1, 1000},
-         "After so many frames that do not fit, the key frames begin anew at the seed.");
-}
-
 bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const CameraSeedConfig& config) {
   return (T_map_camera.position_m - seed.T_map_camera.position_m).norm() <= config.gate_m &&
          T_map_camera.rotation.angularDistance(seed.T_map_camera.rotation) <= config.gate_rad;

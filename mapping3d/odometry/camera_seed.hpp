@@ -29,17 +29,20 @@ struct CameraSeed {
 };
 
 struct CameraSeedConfig {
-  double sigma_m = 0.03;
-  double sigma_rad = 0.0175;
-  double gate_m = 0.3;
-  double gate_rad = 0.2;
-  double speed_sigma_m_s = 0.03;
-  double rate_sigma_rad_s = 0.02;
-  double step_sigma_m = 0.005;
-  double step_sigma_rad = 0.002;
-  int unfit_frames = 5;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double sigma_m = 0.03;      ///< Standard deviation of the position of a seed.
+  static constexpr double sigma_rad = 0.0175;  ///< Standard deviation of the attitude of a seed, about each axis.
+  static constexpr double gate_m = 0.3;        ///< An alignment that ends farther from its seed is rejected.
+  static constexpr double gate_rad = 0.2;      ///< An alignment that is turned by more against its seed is rejected.
+  static constexpr double speed_sigma_m_s =
+      0.03;  ///< Standard deviation of the speed that a step from seed to seed has.
+  static constexpr double rate_sigma_rad_s =
+      0.02;  ///< Standard deviation of the angular rate that a step from seed to seed has.
+  static constexpr double step_sigma_m =
+      0.005;  ///< Error of the position that an alignment adds from key frame to key frame, at least.
+  static constexpr double step_sigma_rad =
+      0.002;  ///< Error of the attitude that an alignment adds from key frame to key frame, at least.
+  static constexpr int unfit_frames =
+      5;  ///< After so many frames that do not fit, the key frames begin anew at the seed.
 };
 
 /// Whether an aligned pose is as near to the seed as the gate demands.

@@ -34,17 +34,6 @@ double turnBetween_rad(const common::Pose3& a, const common::Pose3& b) {
 
 }  // namespace
 
-void KeyFrameConfig::describe(common::config::Fields& fields) {
-  fields("greatest_number", greatest_number, {2, 10'000}, "Key frames that are kept, at most.");
-  fields("views", views, {1, 10}, "Key frames that a frame is aligned to, at most.");
-  fields("least_overlap", least_overlap, {0.1, 0.95},
-         "A key frame is added where less than this part of the nearest one's points is in the picture.");
-  fields("greatest_turn_rad", greatest_turn_rad, {0.02, 2},
-         "A key frame is added where the nearest one is turned by more than this against the picture.");
-  fields("greatest_step", greatest_step, {0.01, 2},
-         "A key frame is added where the nearest one is farther away than this part of its median depth.");
-}
-
 void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& place) {
   if (static_cast<int>(keys_.size()) >= config_.greatest_number) {
     const auto oldest =

@@ -18,13 +18,14 @@
 namespace swiftlet::mapping3d {
 
 struct KeyFrameConfig {
-  int greatest_number = 400;
-  int views = 3;
-  double least_overlap = 0.6;
-  double greatest_turn_rad = 0.35;
-  double greatest_step = 0.2;
-
-  void describe(common::config::Fields& fields);
+  int greatest_number = 400;       ///< Key frames that are kept, at most.
+  static constexpr int views = 3;  ///< Key frames that a frame is aligned to, at most.
+  static constexpr double least_overlap =
+      0.6;  ///< A key frame is added where less than this part of the nearest one's points is in the picture.
+  static constexpr double greatest_turn_rad =
+      0.35;  ///< A key frame is added where the nearest one is turned by more than this against the picture.
+  static constexpr double greatest_step =
+      0.2;  ///< A key frame is added where the nearest one is farther away than this part of its median depth.
 };
 
 /// Where a key frame was seen from.

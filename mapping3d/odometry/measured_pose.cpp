@@ -27,18 +27,6 @@ Matrix6d withoutNoise(const Matrix6d& information, const Matrix6d& noise, double
 
 }  // namespace
 
-void MeasuredPoseConfig::describe(common::config::Fields& fields) {
-  fields("least_share", least_share, {0.0, 1.0},
-         "A direction counts as seen with this share of the information of the one seen best. On a wall the noise of "
-         "normals seems to tell 0.3 % of it along the wall.");
-  fields("most_noise", most_noise, {0.0, 1.0},
-         "A direction of whose information more than this share may be the noise of grey values counts as not seen.");
-  fields("sigma_factor", sigma_factor, {0.1, 100},
-         "Standard deviation of a measured pose, in those that follow from independent points.");
-  fields("floor_m", floor_m, {0, 1}, "Least standard deviation of a measured position.");
-  fields("floor_rad", floor_rad, {0, 1}, "Least standard deviation of a measured attitude, about each axis.");
-}
-
 MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const PosePrior& prior, double depth_m,
                           const MeasuredPoseConfig& config) {
   // In these units the six unknowns move points equally far.

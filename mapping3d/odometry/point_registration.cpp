@@ -79,21 +79,6 @@ bool isUsableTriple(const std::array<const PointPair*, 3>& triple, const PointRe
 
 }  // namespace
 
-void PointRegistrationConfig::describe(common::config::Fields& fields) {
-  fields("greatest_distance", greatest_distance, {1, 256},
-         "Bits, of the 256 that describe a patch, in which two similar patches may differ.");
-  fields("greatest_ratio", greatest_ratio, {0.1, 1.0},
-         "The most similar patch must differ by at most this part of what the second most similar differs by.");
-  fields("trials", trials, {10, 100'000},
-         "Triples of paired corners that are drawn to find a pose on which many pairs agree.");
-  fields(
-      "agreeing_m", agreeing_m, {0.001, 1},
-      "Pairs agree on a pose when it maps their corners to within this distance, and agreeing_slope, of each other.");
-  fields("agreeing_slope", agreeing_slope, {0.0, 1.0},
-         "Growth of agreeing_m, in metres, with the square of the corner's depth in metres.");
-  fields("least_pairs", least_pairs, {4, 1000}, "Least number of pairs that agree on a pose.");
-}
-
 common::Pose3 rigidTransform(const PointPairs& a_and_b) {
   Eigen::Vector3d mean_a = Eigen::Vector3d::Zero(), mean_b = Eigen::Vector3d::Zero();
   for (const auto& [a, b] : a_and_b) {

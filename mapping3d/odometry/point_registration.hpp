@@ -14,14 +14,17 @@
 namespace swiftlet::mapping3d {
 
 struct PointRegistrationConfig {
-  int greatest_distance = 64;
-  double greatest_ratio = 0.9;
-  int trials = 200;
-  double agreeing_m = 0.02;
-  double agreeing_slope = 0.015;
-  int least_pairs = 15;
-
-  void describe(common::config::Fields& fields);
+  static constexpr int greatest_distance =
+      64;  ///< Bits, of the 256 that describe a patch, in which two similar patches may differ.
+  static constexpr double greatest_ratio =
+      0.9;  ///< The most similar patch must differ by at most this part of what the second most similar differs by.
+  static constexpr int trials =
+      200;  ///< Triples of paired corners that are drawn to find a pose on which many pairs agree.
+  static constexpr double agreeing_m = 0.02;  ///< Pairs agree on a pose when it maps their corners to within this
+                                              ///< distance, and agreeing_slope, of each other.
+  static constexpr double agreeing_slope =
+      0.015;  ///< Growth of agreeing_m, in metres, with the square of the corner's depth in metres.
+  static constexpr int least_pairs = 15;  ///< Least number of pairs that agree on a pose.
 };
 
 struct PointRegistration {

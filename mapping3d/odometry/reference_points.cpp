@@ -63,14 +63,6 @@ ReferencePoint pointAt(const PyramidLevel& level, const Pixel& pixel, const std:
 
 }  // namespace
 
-void ReferenceConfig::describe(common::config::Fields& fields) {
-  fields("points_across", points_across, {8, 320},
-         "Cells in a row of the picture, each of which gives up to two points to align later frames to.");
-  fields("least_gradient", least_gradient, {0.5, 100}, "Gradient of a textured point, in grey levels per pixel.");
-  fields("plane_reach_m", plane_reach_m, {0.001, 0.5},
-         "A surface's plane is fitted to points so near, in each direction.");
-}
-
 std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vision::DepthNoiseConfig& noise,
                                             const ReferenceConfig& config) {
   const int width_px = level.camera.width_px, height_px = level.camera.height_px;

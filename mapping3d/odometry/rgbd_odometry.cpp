@@ -51,25 +51,8 @@ std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const visio
 }  // namespace
 
 void RgbdOdometryConfig::describe(common::config::Fields& fields) {
-  fields("greatest_width_px", greatest_width_px, {80, 2000}, "Wider pictures are halved until they are not.");
-  fields("levels", levels, {1, 8}, "Levels of the pyramid.");
-  fields("least_agreement", least_agreement, {0.1, 1.0},
-         "Least part of the points whose depth agrees with the key frames in a frame that is tracked.");
-  fields("least_points", least_points, {10, 100'000},
-         "Least number of points whose depth agrees with the key frames in a frame that is tracked.");
-  fields("least_correlation", least_correlation, {-1, 1},
-         "Least correlation of a frame's grey values with those of the key frames, where there is texture.");
-  fields("acceleration_m_s2", acceleration_m_s2, {0.1, 1000},
-         "Standard deviation of the acceleration; it bounds the steps where little is seen.");
-  fields("angular_acceleration_rad_s2", angular_acceleration_rad_s2, {0.1, 1000},
-         "Standard deviation of the angular acceleration; it bounds the turns where little is seen.");
   fields.section("features", features, "Features of a picture.");
-  fields.section("reference", reference, "Points of a key frame that later frames are aligned to.");
   fields.section("alignment", alignment, "Alignment of a frame to key frames.");
-  fields.section("key_frames", key_frames, "Choice of key frames.");
-  fields.section("recognition", recognition, "Finding the place again after the track was lost.");
-  fields.section("seed", seed, "Poses of the camera by other sensors.");
-  fields.section("measured", measured, "What a frame alone tells of its pose.");
 }
 
 bool isGoodFit(const Alignment& fit, const RgbdOdometryConfig& config) {

@@ -33,13 +33,18 @@
 namespace swiftlet::mapping3d {
 
 struct RgbdOdometryConfig {
-  int greatest_width_px = 320;
-  int levels = 4;
-  double least_agreement = 0.6;
-  int least_points = 150;
-  double least_correlation = 0.4;
-  double acceleration_m_s2 = 5.0;
-  double angular_acceleration_rad_s2 = 10.0;
+  static constexpr int greatest_width_px = 320;  ///< Wider pictures are halved until they are not.
+  static constexpr int levels = 4;               ///< Levels of the pyramid.
+  static constexpr double least_agreement =
+      0.6;  ///< Least part of the points whose depth agrees with the key frames in a frame that is tracked.
+  static constexpr int least_points =
+      150;  ///< Least number of points whose depth agrees with the key frames in a frame that is tracked.
+  static constexpr double least_correlation =
+      0.4;  ///< Least correlation of a frame's grey values with those of the key frames, where there is texture.
+  static constexpr double acceleration_m_s2 =
+      5.0;  ///< Standard deviation of the acceleration; it bounds the steps where little is seen.
+  static constexpr double angular_acceleration_rad_s2 =
+      10.0;  ///< Standard deviation of the angular acceleration; it bounds the turns where little is seen.
   vision::FeatureConfig features;
   ReferenceConfig reference;
   AlignmentConfig alignment;

@@ -48,13 +48,6 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("matcher", matcher, "Matching of a scan to the local map.");
   fields("max_acceleration_m_s2", max_acceleration_m_s2, {0, 100},
          "Acceleration that widens the search with the time since the last match (Bachrach 2009, 5.1).");
-  fields("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, {0, 1000},
-         "Angular acceleration that widens the search with the time since the last match.");
-  fields("unseen_drift_m_s", unseen_drift_m_s, {0, 10},
-         "Speed that widens the search with the time since all directions were seen, as the guess drifts.");
-  fields("guess_error_m", guess_error_m, {0.001, 5}, "Half the least search window; at most max_window_m.");
-  fields("guess_error_deg", guess_error_deg, {0.01, 180},
-         "Half the least search window of the rotation; at most max_window_deg.");
   fields("max_window_m", max_window_m, {0.01, 5}, "Half the greatest search window.");
   fields("max_window_deg", max_window_deg, {0.1, 180}, "Half the greatest search window of the rotation.");
   fields("min_widened_quality", min_widened_quality, {0, 1},
@@ -66,25 +59,9 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields(
       "widened_must_hold", widened_must_hold,
       "Whether a match beyond the first window must fix the position in all directions, as the guess no longer does.");
-  fields("min_overlap", min_overlap, {0, 1}, "A scan with a smaller share of supported points joins the local map.");
   fields("min_fit", min_fit, {0, 1},
          "A scan that fits worse than this joins the local map, which has become wrong about the place; it is sought "
          "farther off before.");
-  fields("min_weak_overlap", min_weak_overlap, {0, 1},
-         "Value of min_overlap where the position is weakly fixed in one direction.");
-  fields("weak_sigma_m", weak_sigma_m, {0.001, 10},
-         "A position less certain than this in one direction is weakly fixed.");
-  fields("max_reference_distance_m", max_reference_distance_m, {0.05, 100},
-         "A scan this far from the reference joins the local map.");
-  fields("max_reference_rotation_deg", max_reference_rotation_deg, {1, 360},
-         "A scan turned this much against the reference joins the local map.");
-  fields("level_tilt_deg", level_tilt_deg, {0, 90},
-         "A scan tilted more than this is drawn with the error of its attitude, so that it joins the local map only "
-         "when it must.");
-  fields(
-      "tilted_overlap_margin", tilted_overlap_margin, {0, 1},
-      "A tilted scan joins the local map when its overlap is this much smaller than a level one's would have to be.");
-  fields("local_map_scans", local_map_scans, {1, 100}, "Key scans kept in the local map.");
   fields("max_failures", max_failures, {1, 100'000},
          "After this many scans without a match the odometry starts anew from the present one.");
 }

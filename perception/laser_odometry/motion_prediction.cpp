@@ -27,16 +27,6 @@ constexpr double kLongestCoast_s = 2.0;
 }  // namespace
 
 void MotionPredictionConfig::describe(common::config::Fields& fields) {
-  fields("memory_steps", memory_steps, {1, 10'000}, "Over about so many steps the error of a prediction is averaged.");
-  fields("first_error_m", first_error_m, {0.001, 10}, "Error of position that is expected of the first predictions.");
-  fields("first_error_deg", first_error_deg, {0.01, 180},
-         "Error of heading that is expected of the first predictions.");
-  fields("least_error_m", least_error_m, {0.0001, 10},
-         "Least error of position that is expected of a prediction, however good the last ones were.");
-  fields("least_error_deg", least_error_deg, {0.001, 180},
-         "Least error of heading that is expected of a prediction, however good the last ones were.");
-  fields("acceleration_m_s2", acceleration_m_s2, {0.01, 100},
-         "Acceleration of a robot that starts or stops: no speed is more certain than this lets it be.");
   fields("max_speed_m_s", max_speed_m_s, {0.1, 100},
          "Odometry that claims a greater speed is not believed in that step.");
 }

@@ -25,25 +25,6 @@ std::size_t indexOf(int x, int y, int width) {
 
 }  // namespace
 
-void GlobalSearchConfig::describe(common::config::Fields& fields) {
-  fields("cell_m", cell_m, {0.01, 1}, "Side of a cell of the positions searched, not finer than the map's.");
-  fields("sigma_m", sigma_m, {0.01, 2},
-         "Width of the search's likelihood field, which covers what lies between the poses searched.");
-  fields("lever_m", lever_m, {0.5, 100},
-         "From one direction searched to the next, points at this distance move by twice sigma_m.");
-  fields("least_fit", least_fit, {0, 1},
-         "Mean value of the likelihood field, relative to that on a wall, below which a place does not fit: two thirds "
-         "of the points within sigma_m of a wall give 0.55.");
-  fields("distinct_m", distinct_m, {0.05, 10},
-         "Places nearer than this are one, if they are also turned less than distinct_deg.");
-  fields("distinct_deg", distinct_deg, {1, 180},
-         "Places turned less than this are one, if they are also nearer than distinct_m.");
-  fields("max_places", max_places, {1, 1000},
-         "More places than this are not told apart, as the pose is ambiguous anyway.");
-  fields("max_blocks", max_blocks, {1000, 1e9},
-         "Blocks of poses after which the search is given up; it keeps twice as many.");
-}
-
 GlobalSearch::GlobalSearch(std::shared_ptr<const MapField> map, const GlobalSearchConfig& config,
                            Instructions instructions)
     : map_(std::move(map)), config_(config), instructions_(instructions) {

@@ -23,16 +23,21 @@
 namespace swiftlet::perception {
 
 struct GlobalSearchConfig {
-  double cell_m = 0.10;
-  double sigma_m = 0.20;
-  double lever_m = 8.0;
-  double least_fit = 0.55;
-  double distinct_m = 0.5;
-  double distinct_deg = 15.0;
-  int max_places = 400;
-  int max_blocks = 1'000'000;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double cell_m = 0.10;  ///< Side of a cell of the positions searched, not finer than the map's.
+  static constexpr double sigma_m =
+      0.20;  ///< Width of the search's likelihood field, which covers what lies between the poses searched.
+  static constexpr double lever_m =
+      8.0;  ///< From one direction searched to the next, points at this distance move by twice sigma_m.
+  static constexpr double least_fit =
+      0.55;  ///< Mean value of the likelihood field, relative to that on a wall, below which a place does not fit: two
+             ///< thirds of the points within sigma_m of a wall give 0.55.
+  static constexpr double distinct_m =
+      0.5;  ///< Places nearer than this are one, if they are also turned less than distinct_deg.
+  static constexpr double distinct_deg =
+      15.0;  ///< Places turned less than this are one, if they are also nearer than distinct_m.
+  static constexpr int max_places =
+      400;                     ///< More places than this are not told apart, as the pose is ambiguous anyway.
+  int max_blocks = 1'000'000;  ///< Blocks of poses after which the search is given up; it keeps twice as many.
 };
 
 struct FittingPlace {

@@ -71,14 +71,6 @@ double beamValue(double distance_m, double sigma_m, double random_share) {
   return std::log1p(on_wall * std::exp(-0.5 * ratio * ratio)) / std::log1p(on_wall);
 }
 
-void MapFieldConfig::describe(common::config::Fields& fields) {
-  fields("sigma_m", sigma_m, {0.01, 2},
-         "Standard deviation of a beam's end about the wall: noise, the map's cells, the pose between particles.");
-  fields("random_share", random_share, {0.001, 0.999},
-         "Density of beams that end anywhere, relative to that on a wall.");
-  fields("unknown_value", unknown_value, {0, 1}, "Value of an unknown cell, relative to that on a wall.");
-}
-
 MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config)
     : config_(config), resolution_m_(map.resolution_m()) {
   readMap(map);

@@ -21,11 +21,10 @@
 namespace swiftlet::perception {
 
 struct MapFieldConfig {
-  double sigma_m = 0.10;
-  double random_share = 0.10;
-  double unknown_value = 0.20;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double sigma_m =
+      0.10;  ///< Standard deviation of a beam's end about the wall: noise, the map's cells, the pose between particles.
+  static constexpr double random_share = 0.10;   ///< Density of beams that end anywhere, relative to that on a wall.
+  static constexpr double unknown_value = 0.20;  ///< Value of an unknown cell, relative to that on a wall.
 };
 
 /// Bytes row by row, with a border on all sides, so that a clamped look-up falls on the border.

@@ -42,21 +42,6 @@ Eigen::Matrix3f rootOf(const Eigen::Matrix3d& covariance) {
 
 void ParticleFilterConfig::describe(common::config::Fields& fields) {
   fields("max_particles", max_particles, {10, 1'000'000}, "Greatest number of particles (5,000: Grzonka 2009, VI-A).");
-  fields("min_particles", min_particles, {10, 1'000'000},
-         "Least number of particles, however narrow the belief is; at most max_particles.");
-  fields("adaptive", adaptive,
-         "Whether there are as many particles as the belief needs (KLD sampling); otherwise always max_particles.");
-  fields("kld_error", kld_error, {0.001, 1},
-         "Greatest distance between the belief and its samples (Fox 2003, section 4).");
-  fields("kld_quantile", kld_quantile, {0, 6},
-         "Standard normal quantile of the probability that kld_error is kept; 2.33 for 99 %.");
-  fields("kld_bin_m", kld_bin_m, {0.01, 10}, "Width of the bins in which belief and samples are compared.");
-  fields("kld_bin_deg", kld_bin_deg, {0.1, 180},
-         "Width in the heading of the bins in which belief and samples are compared.");
-  fields("beams", beams, {5, 10'000}, "Beams of a scan, evenly spread, that weigh the particles.");
-  fields("beam_weight", beam_weight, {0.001, 1},
-         "Weight of one beam in the likelihood; 1 if all were independent, but neighbours are wrong about the map "
-         "together.");
 }
 
 std::vector<std::string> ParticleFilterConfig::validate() const {

@@ -23,14 +23,20 @@ namespace swiftlet::perception {
 
 struct ParticleFilterConfig {
   int max_particles = 5000;
-  int min_particles = 500;
-  bool adaptive = true;
-  double kld_error = 0.05;
-  double kld_quantile = 2.33;
-  double kld_bin_m = 0.25;
-  double kld_bin_deg = 10.0;
-  int beams = 60;
-  double beam_weight = 0.2;
+  static constexpr int min_particles =
+      500;               ///< Least number of particles, however narrow the belief is; at most max_particles.
+  bool adaptive = true;  ///< Whether there are as many particles as the belief needs (KLD sampling); otherwise always
+                         ///< max_particles.
+  static constexpr double kld_error =
+      0.05;  ///< Greatest distance between the belief and its samples (Fox 2003, section 4).
+  static constexpr double kld_quantile =
+      2.33;  ///< Standard normal quantile of the probability that kld_error is kept; 2.33 for 99 %.
+  static constexpr double kld_bin_m = 0.25;  ///< Width of the bins in which belief and samples are compared.
+  static constexpr double kld_bin_deg =
+      10.0;                         ///< Width in the heading of the bins in which belief and samples are compared.
+  static constexpr int beams = 60;  ///< Beams of a scan, evenly spread, that weigh the particles.
+  double beam_weight = 0.2;  ///< Weight of one beam in the likelihood; 1 if all were independent, but neighbours are
+                             ///< wrong about the map together.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

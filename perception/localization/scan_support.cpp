@@ -9,15 +9,6 @@
 
 namespace swiftlet::perception {
 
-void ScanSupportConfig::describe(common::config::Fields& fields) {
-  fields("beams", beams, {5, 10'000}, "Beams of a scan, evenly spread, that are judged.");
-  fields("tolerance_m", tolerance_m, {0.01, 1},
-         "A beam is explained when a wall is this near to its end; beams that meet the same piece of this size count "
-         "once.");
-  fields("tolerance_rad", tolerance_rad, {0, 0.5},
-         "Growth of tolerance_m with the range, for the error of the heading.");
-}
-
 namespace {
 
 /// What one beam says about the piece of the map that it meets.
@@ -69,22 +60,6 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
                                        [](const Witness& w) { return w.says == Witness::Says::kWall; });
   if (support.evidence > 0) support.explained = static_cast<double>(explained) / support.evidence;
   return support;
-}
-
-void LostTestConfig::describe(common::config::Fields& fields) {
-  fields("at_none", at_none, {-100, 100},
-         "Log-odds of being lost when nothing of a scan is explained (logistic regression on simulated walks, "
-         "docs/localization.md).");
-  fields("by_explained", by_explained, {-100, 0},
-         "Change of the log-odds with the share explained (from the same regression as at_none).");
-  fields("most", most, {0.1, 100}, "Greatest log-odds that one scan adds, for or against.");
-  fields("scans_per_s", scans_per_s, {0.1, 100},
-         "Rate of scans that count as independent: nearer ones see the same person in front.");
-  fields("distrust_explained", distrust_explained, {0, 1},
-         "While the map explains less than this share, the pose is also sought elsewhere.");
-  fields("threshold", threshold, {0.1, 100}, "Log-odds from which the pose counts as lost.");
-  fields("least_evidence", least_evidence, {1, 10'000},
-         "A scan that tells of fewer pieces of wall or free space is left out.");
 }
 
 void LostTest::reset() {

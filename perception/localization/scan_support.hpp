@@ -14,11 +14,11 @@
 namespace swiftlet::perception {
 
 struct ScanSupportConfig {
-  int beams = 90;
-  double tolerance_m = 0.20;
-  double tolerance_rad = 0.015;
-
-  void describe(common::config::Fields& fields);
+  static constexpr int beams = 90;             ///< Beams of a scan, evenly spread, that are judged.
+  static constexpr double tolerance_m = 0.20;  ///< A beam is explained when a wall is this near to its end; beams that
+                                               ///< meet the same piece of this size count once.
+  static constexpr double tolerance_rad =
+      0.015;  ///< Growth of tolerance_m with the range, for the error of the heading.
 };
 
 /// How much of what a scan says the map explains. Beams that meet the same piece of wall, as long as the tolerance, are
@@ -34,15 +34,17 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
                       const common::Pose2& T_grid_body, const ScanSupportConfig& config);
 
 struct LostTestConfig {
-  double at_none = 9.4;
-  double by_explained = -17.6;
-  double most = 3.0;
-  double scans_per_s = 2.0;
-  double distrust_explained = 0.75;
-  double threshold = 5.0;
-  int least_evidence = 15;
-
-  void describe(common::config::Fields& fields);
+  static constexpr double at_none = 9.4;  ///< Log-odds of being lost when nothing of a scan is explained (logistic
+                                          ///< regression on simulated walks, docs/localization.md).
+  static constexpr double by_explained =
+      -17.6;  ///< Change of the log-odds with the share explained (from the same regression as at_none).
+  static constexpr double most = 3.0;  ///< Greatest log-odds that one scan adds, for or against.
+  static constexpr double scans_per_s =
+      2.0;  ///< Rate of scans that count as independent: nearer ones see the same person in front.
+  static constexpr double distrust_explained =
+      0.75;  ///< While the map explains less than this share, the pose is also sought elsewhere.
+  static constexpr double threshold = 5.0;   ///< Log-odds from which the pose counts as lost.
+  static constexpr int least_evidence = 15;  ///< A scan that tells of fewer pieces of wall or free space is left out.
 };
 
 /// Page's cumulative sum test (1954): adds up the log-odds of the scans, never below zero. It detects a wrong pose

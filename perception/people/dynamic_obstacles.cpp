@@ -89,37 +89,6 @@ bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<
 
 }  // namespace
 
-void DynamicObstacles::Config::describe(common::config::Fields& fields) {
-  fields("explained_within_m", explained_within_m, {0, 2},
-         "An end point this near to something mapped or unknown is explained.");
-  fields("cluster_gap_m", cluster_gap_m, {0.01, 2},
-         "Unexplained end points nearer to each other than this belong together.");
-  fields("min_points", min_points, {1, 1000}, "A cluster of fewer points is taken for noise.");
-  fields("max_radius_m", max_radius_m, {0.05, 5},
-         "A larger cluster is a part of the building that was not in view before.");
-  fields("assumed_depth_m", assumed_depth_m, {0, 2},
-         "The laser sees the near side of a body, whose centre is assumed this much behind it.");
-  fields("time_to_live_s", time_to_live_s, {0, 60}, "An obstacle that is no longer seen is kept for this long.");
-  fields("refuted_after_s", refuted_after_s, {0, 60},
-         "An obstacle that is not seen for this long where beams pass is gone.");
-  fields("max_speed_m_s", max_speed_m_s, {0.1, 20}, "Nothing is assumed to move faster than this.");
-  fields("moved_m", moved_m, {0.01, 5}, "An obstacle that has come this far is moving.");
-  fields("moved_within_s", moved_within_s, {0.1, 60},
-         "An obstacle that has not come as far as moved_m in this time is standing.");
-  fields("followed_s", followed_s, {0, 5}, "An obstacle that was followed for a shorter time is not said to move.");
-  fields("followed_share", followed_share, {0, 1},
-         "An obstacle that was in a smaller share of the scans is not said to move: furniture that a tilting laser "
-         "meets comes and goes.");
-  fields("reaches_m", reaches_m, {-5, 5},
-         "An obstacle of which nothing so high above the body was seen while it is kept is not said to move: a dipping "
-         "laser meets the top of a table now nearer, now farther.");
-  fields("smoothing_s", smoothing_s, {0.01, 5}, "Time constant of the filter on position and velocity.");
-  fields("keep_out_m", keep_out_m, {0, 2},
-         "Added to the radius for the planner, so that it does not plan what makes the vehicle retreat.");
-  fields("max_range_m", max_range_m, {0.5, 100}, "End points farther away are left out.");
-  fields("background_age_s", background_age_s, {0, 60}, "Age of the map that explains end points.");
-}
-
 DynamicObstacles::DynamicObstacles(const Config& config) : config_(config) {}
 
 std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoints& scan,

@@ -28,25 +28,34 @@ struct SeenPoints {
 class DynamicObstacles {
  public:
   struct Config {
-    double explained_within_m = 0.20;
-    double cluster_gap_m = 0.25;
-    int min_points = 3;
-    double max_radius_m = 0.6;
-    double assumed_depth_m = 0.10;
-    double time_to_live_s = 2.0;
-    double refuted_after_s = 0.2;
-    double max_speed_m_s = 2.5;
-    double moved_m = 0.25;
-    double moved_within_s = 1.0;
-    double followed_s = 0.15;
-    double followed_share = 0.5;
-    double reaches_m = -0.02;
-    double smoothing_s = 0.15;
-    double keep_out_m = 0.25;
-    double max_range_m = 6.0;
-    double background_age_s = 2.0;
-
-    void describe(common::config::Fields& fields);
+    static constexpr double explained_within_m =
+        0.20;  ///< An end point this near to something mapped or unknown is explained.
+    static constexpr double cluster_gap_m =
+        0.25;                             ///< Unexplained end points nearer to each other than this belong together.
+    static constexpr int min_points = 3;  ///< A cluster of fewer points is taken for noise.
+    static constexpr double max_radius_m =
+        0.6;  ///< A larger cluster is a part of the building that was not in view before.
+    static constexpr double assumed_depth_m =
+        0.10;  ///< The laser sees the near side of a body, whose centre is assumed this much behind it.
+    static constexpr double time_to_live_s = 2.0;  ///< An obstacle that is no longer seen is kept for this long.
+    static constexpr double refuted_after_s =
+        0.2;  ///< An obstacle that is not seen for this long where beams pass is gone.
+    static constexpr double max_speed_m_s = 2.5;  ///< Nothing is assumed to move faster than this.
+    static constexpr double moved_m = 0.25;       ///< An obstacle that has come this far is moving.
+    static constexpr double moved_within_s =
+        1.0;  ///< An obstacle that has not come as far as moved_m in this time is standing.
+    static constexpr double followed_s =
+        0.15;  ///< An obstacle that was followed for a shorter time is not said to move.
+    static constexpr double followed_share = 0.5;  ///< An obstacle that was in a smaller share of the scans is not said
+                                                   ///< to move: furniture that a tilting laser meets comes and goes.
+    static constexpr double reaches_m =
+        -0.02;  ///< An obstacle of which nothing so high above the body was seen while it is kept is not said to move:
+                ///< a dipping laser meets the top of a table now nearer, now farther.
+    static constexpr double smoothing_s = 0.15;  ///< Time constant of the filter on position and velocity.
+    static constexpr double keep_out_m =
+        0.25;  ///< Added to the radius for the planner, so that it does not plan what makes the vehicle retreat.
+    static constexpr double max_range_m = 6.0;       ///< End points farther away are left out.
+    static constexpr double background_age_s = 2.0;  ///< Age of the map that explains end points.
   };
 
   explicit DynamicObstacles(const Config& config);

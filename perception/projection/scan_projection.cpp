@@ -206,21 +206,10 @@ std::vector<Pose3> bodyDuringSweep(const common::LaserScan& scan, const PoseAt& 
 }  // namespace
 
 void ScanProjectionConfig::describe(common::config::Fields& fields) {
-  fields("floor_height_odom_m", floor_height_odom_m, {-10, 10},
-         "Height of the take-off floor; the origin of odom is on it.");
   fields("ceiling_height_odom_m", ceiling_height_odom_m, {0, 100},
          "Height of the ceiling over the take-off floor; 0 when unknown.");
-  fields("max_rise_m", max_rise_m, {0.1, 100},
-         "Under an unknown ceiling, an end point this far above the laser counts as one on the ceiling.");
-  fields("surface_margin_m", surface_margin_m, {0, 1}, "End points this near to floor or ceiling are left out.");
-  fields("attitude_error_deg", attitude_error_deg, {0, 20},
-         "Error of roll and pitch, which widens surface_margin_m with the range (up to 1 deg: Grzonka 2009).");
-  fields("free_band_m", free_band_m, {0.01, 10},
-         "A beam that hit no wall clears cells while within this of the body's height.");
   fields("body_radius_m", body_radius_m, {0, 2},
          "Returns nearer than this to the body's axis are the vehicle itself and invalid.");
-  fields("min_no_return_run", min_no_return_run, {1, 1000},
-         "Fewer neighbouring beams without return are dropouts, not free space.");
 }
 
 ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& laser, const PoseAt& pose_at,

@@ -25,22 +25,6 @@ constexpr int kHalvings = 3;
 
 }  // namespace
 
-void GaussNewtonMatcherConfig::describe(common::config::Fields& fields) {
-  LeastSquaresMatcherConfig::describe(fields);
-  fields("resolution_m", resolution_m, {0.001, 1},
-         "Side of a cell of the finest map; support_m is two to seven times this.");
-  fields("levels", levels, {1, 4},
-         "Maps, each four times as coarse as the one before, as is the support of a point in it.");
-  fields("iterations", iterations, {1, 100}, "Greatest number of steps at each level but the finest.");
-  fields("finest_iterations", finest_iterations, {1, 100}, "Greatest number of steps at the finest level.");
-}
-
-std::vector<std::string> GaussNewtonMatcherConfig::validate() const {
-  const bool held =
-      support_m >= 2.0 * resolution_m && support_m <= LikelihoodField::kMaxKernelCells * resolution_m + 1e-9;
-  return common::Validation().require(held, "support_m", "is not two to seven times resolution_m").problems();
-}
-
 struct GaussNewtonMatcher::Impl {
   explicit Impl(const GaussNewtonMatcherConfig& config_in) : config(config_in) {
     double scale = 1.0;

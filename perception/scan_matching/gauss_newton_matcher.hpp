@@ -21,13 +21,12 @@
 namespace swiftlet::perception {
 
 struct GaussNewtonMatcherConfig : LeastSquaresMatcherConfig {
-  double resolution_m = 0.01;
-  int levels = 3;
-  int iterations = 4;
-  int finest_iterations = 8;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  static constexpr double resolution_m =
+      0.01;  ///< Side of a cell of the finest map; support_m is two to seven times this.
+  static constexpr int levels =
+      3;  ///< Maps, each four times as coarse as the one before, as is the support of a point in it.
+  static constexpr int iterations = 4;         ///< Greatest number of steps at each level but the finest.
+  static constexpr int finest_iterations = 8;  ///< Greatest number of steps at the finest level.
 };
 
 /// The result is `failed` also if the steps did not become small, or led more than a centimetre or a tenth of a degree

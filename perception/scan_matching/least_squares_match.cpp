@@ -27,26 +27,6 @@ constexpr double kScorePerPoint = 255.0;  ///< LikelihoodField::kTopValue, so th
 
 }  // namespace
 
-void LeastSquaresMatcherConfig::describe(common::config::Fields& fields) {
-  fields("points", points, {10, 100'000}, "Points of a scan that are matched, spread evenly along its contour.");
-  fields("max_range_m", max_range_m, {0.5, 100}, "Points farther than this are not used.");
-  fields("max_gap_m", max_gap_m, {0, 10}, "Neighbouring end points nearer than this are joined to a contour.");
-  fields("support_m", support_m, {0.005, 1}, "A point farther than this from the reference has no support.");
-  fields("min_quality", min_quality, {0, 1}, "Below this mean score the match failed.");
-  fields("min_direction_support", min_direction_support, {0, 1},
-         "The match failed when a smaller share of the contour facing some direction has support: the other walls fit, "
-         "and these were taken for outliers.");
-  fields("min_points", min_points, {3, 256}, "With fewer points the match failed.");
-  fields("covariance_scale", covariance_scale, {0.01, 1000},
-         "Factor on the covariance of independent points, calibrated by the tests of the covariance.");
-  fields("attitude_error_deg", attitude_error_deg, {0, 20},
-         "Error of roll and pitch, which moves each end point by its height over the body times this.");
-  fields("unobservable_sigma_m", unobservable_sigma_m, {0.001, 0.9},
-         "A direction less certain than this is not observed: the pose keeps the guess there.");
-  fields("min_normal_spread", min_normal_spread, {0, 0.5},
-         "A direction that a smaller share of the contour faces is not observed, as a corridor's axis.");
-}
-
 void NormalEquations::addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, double height_m,
                               double inverse_lever) {
   const double turn = (arm_m.x() * normal.y() - arm_m.y() * normal.x()) * inverse_lever;

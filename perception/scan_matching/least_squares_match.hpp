@@ -17,19 +17,23 @@
 namespace swiftlet::perception {
 
 struct LeastSquaresMatcherConfig {
-  int points = 400;
-  double max_range_m = 20.0;
-  double max_gap_m = 0.3;
-  double support_m = 0.06;
-  double min_quality = 0.35;
-  double min_direction_support = 0.25;
-  int min_points = 30;
-  double covariance_scale = 2.0;
-  double attitude_error_deg = 1.0;
-  double unobservable_sigma_m = 0.1;
-  double min_normal_spread = 0.01;
-
-  void describe(common::config::Fields& fields);
+  static constexpr int points = 400;                            ///< Points of a scan that are matched, spread evenly along its contour.
+  static constexpr double max_range_m = 20.0;  ///< Points farther than this are not used.
+  static constexpr double max_gap_m = 0.3;     ///< Neighbouring end points nearer than this are joined to a contour.
+  static constexpr double support_m = 0.06;                     ///< A point farther than this from the reference has no support.
+  static constexpr double min_quality = 0.35;  ///< Below this mean score the match failed.
+  static constexpr double min_direction_support =
+      0.25;  ///< The match failed when a smaller share of the contour facing some direction has support: the other
+             ///< walls fit, and these were taken for outliers.
+  static constexpr int min_points = 30;  ///< With fewer points the match failed.
+  static constexpr double covariance_scale =
+      2.0;  ///< Factor on the covariance of independent points, calibrated by the tests of the covariance.
+  static constexpr double attitude_error_deg =
+      1.0;  ///< Error of roll and pitch, which moves each end point by its height over the body times this.
+  static constexpr double unobservable_sigma_m =
+      0.1;  ///< A direction less certain than this is not observed: the pose keeps the guess there.
+  static constexpr double min_normal_spread =
+      0.01;  ///< A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
 };
 
 /// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:

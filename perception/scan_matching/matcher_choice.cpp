@@ -7,8 +7,6 @@ namespace swiftlet::perception {
 void MatcherChoiceConfig::describe(common::config::Fields& fields) {
   fields.choice("kind", kind, {"correlative", "gauss_newton", "point_to_line"}, "Which matcher does the work.");
   CorrelativeMatcherConfig::describe(fields);
-  fields.section("gauss_newton", gauss_newton, "Settings of the kind gauss_newton.");
-  fields.section("point_to_line", point_to_line, "Settings of the kind point_to_line.");
 }
 
 double MatcherChoiceConfig::minQuality() const {

@@ -29,18 +29,6 @@ struct Pair {
 
 }  // namespace
 
-void PointToLineMatcherConfig::describe(common::config::Fields& fields) {
-  LeastSquaresMatcherConfig::describe(fields);
-  fields("max_distance_m", max_distance_m, {0.005, 5},
-         "Points are paired no farther than this, and less far when the window is small; at least support_m.");
-  fields("trim_sigmas", trim_sigmas, {1, 100}, "Pairs with more than this many times the usual distance are left out.");
-  fields("iterations", iterations, {1, 1000}, "Greatest number of times that pairs are made.");
-}
-
-std::vector<std::string> PointToLineMatcherConfig::validate() const {
-  return common::Validation().atMost("support_m", support_m, "max_distance_m", max_distance_m).problems();
-}
-
 struct PointToLineMatcher::Impl {
   explicit Impl(const PointToLineMatcherConfig& config_in) : config(config_in) {}
 

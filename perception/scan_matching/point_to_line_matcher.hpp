@@ -15,12 +15,10 @@
 namespace swiftlet::perception {
 
 struct PointToLineMatcherConfig : LeastSquaresMatcherConfig {
-  double max_distance_m = 0.5;
-  double trim_sigmas = 3.0;
-  int iterations = 20;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  double max_distance_m =
+      0.5;  ///< Points are paired no farther than this, and less far when the window is small; at least support_m.
+  static constexpr double trim_sigmas = 3.0;  ///< Pairs with more than this many times the usual distance are left out.
+  static constexpr int iterations = 20;       ///< Greatest number of times that pairs are made.
 };
 
 /// The result is `failed` also if the steps did not become small, or led more than a centimetre or a tenth of a degree

@@ -11,22 +11,27 @@ namespace swiftlet::perception {
 /// How scans are drawn into the grid. Meaning and bounds of the fields are in describe().
 struct GridDrawingConfig {
   double resolution_m = 0.05;
-  int hit_steps = 18;
-  int free_steps = 6;
-  int max_steps = 70;
-  double max_hit_range_m = 20.0;
-  double max_free_range_m = 10.0;
-  double max_height_above_m = 0.25;
-  double max_height_below_m = 0.25;
-  double slice_height_m = 0.05;
-  int fade_steps = 1;
-  double fade_height_m = 0.10;
-  double slow_fade_height_m = 0.25;
-  int slow_fade_scans = 4;
+  static constexpr int hit_steps =
+      18;  ///< Log-odds steps that a cell gains when a beam ends in it; at most one change a scan, and a hit wins.
+  static constexpr int free_steps = 6;  ///< Log-odds steps that a cell loses when beams only pass.
+  static constexpr int max_steps = 70;  ///< Cap of a cell's confidence (Bachrach 2009, 5.3).
+  static constexpr double max_hit_range_m =
+      20.0;  ///< End points farther than this are not drawn; the view to there still clears.
+  static constexpr double max_free_range_m = 10.0;  ///< Range up to which beams without return clear.
+  static constexpr double max_height_above_m =
+      0.25;  ///< What is higher than this over the body does not touch the hull.
+  static constexpr double max_height_below_m =
+      0.25;                                       ///< What is deeper than this below the body does not touch the hull.
+  static constexpr double slice_height_m = 0.05;  ///< Height of the horizontal slices in which the map is kept.
+  static constexpr int fade_steps = 1;            ///< Log-odds steps that a slice loses where one near it is seen free.
+  static constexpr double fade_height_m =
+      0.10;  ///< Height difference up to which a slice that is seen free makes another one fade.
+  static constexpr double slow_fade_height_m = 0.25;  ///< Height difference up to which a slice that is seen free makes
+                                                      ///< another one fade slowly; at least fade_height_m.
+  static constexpr int slow_fade_scans = 4;  ///< Scans of which one lets slices up to slow_fade_height_m away fade.
   int glass_fade_scans = 1;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 }  // namespace swiftlet::perception

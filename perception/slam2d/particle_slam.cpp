@@ -38,27 +38,6 @@ Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream&
 
 }  // namespace
 
-void ParticleSlamConfig::describe(common::config::Fields& fields) {
-  fields.section("map", map, "The map of each particle.");
-  fields.section("match", match, "Matching a scan to a particle's map.");
-  fields("count", count, {1, 1000}, "Particles.");
-  fields("seed", seed, {0, 1e9}, "Seed of the random numbers.");
-  fields("update_distance_m", update_distance_m, {0.01, 10}, "A scan is taken in after this distance.");
-  fields("update_rotation_deg", update_rotation_deg, {0.5, 180}, "A scan is taken in after this rotation.");
-  fields("update_time_s", update_time_s, {0.01, 1e6}, "A scan is taken in after this time.");
-  fields(
-      "motion_sigma_m", motion_sigma_m, {1e-5, 1},
-      "Least standard deviation of the motion between two scans that are taken in: what the matcher cannot know (tilt, "
-      "clutter).");
-  fields("motion_sigma_deg", motion_sigma_deg, {1e-4, 10},
-         "Least standard deviation of the rotation between two scans that are taken in.");
-  fields("news_share", news_share, {0, 1},
-         "Share of what a scan says of a map that counts: the scans before it said the rest already.");
-  fields("min_effective_share", min_effective_share, {0, 1},
-         "The particles are resampled when the effective ones are a smaller share of all.");
-  fields("min_points", min_points, {1, 10'000}, "The map does not begin with a scan of fewer points.");
-}
-
 struct ParticleSlam::Impl {
   explicit Impl(const ParticleSlamConfig& config_in)
       : config(config_in), published(common::makeOccupancyGrid(config_in.map.grid.resolution_m)) {}

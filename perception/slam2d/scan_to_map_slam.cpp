@@ -23,35 +23,6 @@ constexpr double kWindowSigmas = 3.0;
 
 }  // namespace
 
-void ScanToMapConfig::describe(common::config::Fields& fields) {
-  fields.section("matcher", matcher, "Matching a scan to the surfaces in the map.");
-  fields.section("surfaces", surfaces, "The surfaces that scans are matched to.");
-  fields("match_distance_m", match_distance_m, {0.01, 10}, "A scan is matched to the map after this distance.");
-  fields("match_rotation_deg", match_rotation_deg, {0.1, 180}, "A scan is matched to the map after this rotation.");
-  fields("match_time_s", match_time_s, {0.001, 1e6}, "A scan is matched to the map after this time.");
-  fields("key_distance_m", key_distance_m, {0.01, 10},
-         "A scan becomes a key scan, which is drawn into the surfaces, after this distance.");
-  fields("key_rotation_deg", key_rotation_deg, {0.1, 180}, "A scan becomes a key scan after this rotation.");
-  fields("key_time_s", key_time_s, {0.001, 1e6}, "A scan becomes a key scan after this time.");
-  fields("window_m", window_m, {0.01, 5}, "Half the least search window.");
-  fields("window_deg", window_deg, {0.1, 90}, "Half the least search window of the rotation.");
-  fields("max_window_m", max_window_m, {0.01, 5}, "Half the greatest search window; at least window_m.");
-  fields("max_window_deg", max_window_deg, {0.1, 90},
-         "Half the greatest search window of the rotation; at least window_deg.");
-  fields(
-      "map_sigma_m", map_sigma_m, {1e-5, 1},
-      "Standard deviation of the map about the pose: however often a scan matches the same map, no pose in it is more "
-      "certain.");
-  fields("map_sigma_deg", map_sigma_deg, {1e-4, 10}, "Standard deviation of the map's rotation about the pose.");
-}
-
-std::vector<std::string> ScanToMapConfig::validate() const {
-  return common::Validation()
-      .atMost("window_m", window_m, "max_window_m", max_window_m)
-      .atMost("window_deg", window_deg, "max_window_deg", max_window_deg)
-      .problems();
-}
-
 struct ScanToMapSlam::Impl {
   explicit Impl(const ScanToMapConfig& config_in)
       : config(config_in), matcher(config_in.matcher), surfaces(config_in.surfaces), map(config_in.surfaces.grid) {}

@@ -33,21 +33,21 @@ namespace swiftlet::perception {
 struct ScanToMapConfig {
   GaussNewtonMatcherConfig matcher;
   SurfaceMapConfig surfaces;
-  double match_distance_m = 0.10;
-  double match_rotation_deg = 5.0;
-  double match_time_s = 0.25;
-  double key_distance_m = 0.4;
-  double key_rotation_deg = 20.0;
-  double key_time_s = 2.0;
-  double window_m = 0.15;
-  double window_deg = 3.0;
-  double max_window_m = 0.5;
-  double max_window_deg = 10.0;
-  double map_sigma_m = 0.005;
-  double map_sigma_deg = 0.1;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  static constexpr double match_distance_m = 0.10;   ///< A scan is matched to the map after this distance.
+  static constexpr double match_rotation_deg = 5.0;  ///< A scan is matched to the map after this rotation.
+  static constexpr double match_time_s = 0.25;       ///< A scan is matched to the map after this time.
+  static constexpr double key_distance_m =
+      0.4;  ///< A scan becomes a key scan, which is drawn into the surfaces, after this distance.
+  static constexpr double key_rotation_deg = 20.0;  ///< A scan becomes a key scan after this rotation.
+  static constexpr double key_time_s = 2.0;         ///< A scan becomes a key scan after this time.
+  static constexpr double window_m = 0.15;          ///< Half the least search window.
+  static constexpr double window_deg = 3.0;         ///< Half the least search window of the rotation.
+  static constexpr double max_window_m = 0.5;       ///< Half the greatest search window; at least window_m.
+  static constexpr double max_window_deg =
+      10.0;  ///< Half the greatest search window of the rotation; at least window_deg.
+  static constexpr double map_sigma_m = 0.005;  ///< Standard deviation of the map about the pose: however often a scan
+                                                ///< matches the same map, no pose in it is more certain.
+  static constexpr double map_sigma_deg = 0.1;  ///< Standard deviation of the map's rotation about the pose.
 };
 
 /// Key scans are drawn into the surfaces that other scans are matched to. The published map is a SlicedMap, into which

@@ -49,8 +49,6 @@ SlamMethod slamMethodOf(const std::string& name) {
 void SlamMethodConfig::describe(common::config::Fields& fields) {
   fields.choice("method", method, slamMethodNames(), "Which method does the work.");
   Slam2dConfig::describe(fields);
-  fields.section("particles", particles, "Settings of the method particles.");
-  fields.section("scan_to_map", scan_to_map, "Settings of the method scan_to_map.");
 }
 
 std::unique_ptr<PlanarSlam> makeSlam(const SlamMethodConfig& config) {

@@ -38,11 +38,6 @@ double withinBand(const DrawnHeights& band, double body_m, double height_m) {
 
 }  // namespace
 
-void SurfaceMapConfig::describe(common::config::Fields& fields) {
-  fields("max_hits", max_hits, {1, 255}, "The surface in a cell is the mean of about so many of its last hits.");
-  fields("max_gap_m", max_gap_m, {0, 10}, "Neighbouring end points nearer than this are of one surface.");
-}
-
 DrawnHeights heightsAround(double flight_height_m, const GridDrawingConfig& config) {
   return {flight_height_m - config.max_height_below_m, flight_height_m + config.max_height_above_m};
 }

@@ -26,10 +26,8 @@ namespace swiftlet::perception {
 struct SurfaceMapConfig {
   /// Size and confidence of the cells. makeSlam() sets it to that of the published map.
   GridDrawingConfig grid;
-  int max_hits = 10;
-  double max_gap_m = 0.3;
-
-  void describe(common::config::Fields& fields);
+  static constexpr int max_hits = 10;       ///< The surface in a cell is the mean of about so many of its last hits.
+  static constexpr double max_gap_m = 0.3;  ///< Neighbouring end points nearer than this are of one surface.
 };
 
 /// A band of heights above the take-off floor; by default all heights.

@@ -56,15 +56,8 @@ struct CostMap::Changes {
 };
 
 void CostMap::Config::describe(common::config::Fields& fields) {
-  fields("comfort_distance_m", comfort_distance_m, {0, 3},
-         "Distance beyond the clearance at which an obstacle no longer raises the cost.");
   fields("comfort_weight", comfort_weight, {0, 50},
          "A metre at the clearance costs (1 + this) times as much as a metre in the open.");
-  fields("pass_unknown", pass_unknown, "Whether paths may lead where nothing is known.");
-  fields("unknown_gap_m", unknown_gap_m, {0, 0.5},
-         "Unknown slivers up to this width between free cells count as free.");
-  fields("height_step_weight", height_step_weight, {0, 50},
-         "Metres of detour that one metre of step of the surface is worth.");
 }
 
 CostMap::CostMap(const Config& config, double resolution_m)

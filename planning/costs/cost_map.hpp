@@ -50,11 +50,13 @@ struct CostLayers {
 class CostMap {
  public:
   struct Config {
-    double comfort_distance_m = 0.60;
+    static constexpr double comfort_distance_m =
+        0.60;  ///< Distance beyond the clearance at which an obstacle no longer raises the cost.
     double comfort_weight = 4.0;
-    bool pass_unknown = false;
-    double unknown_gap_m = 0.10;
-    double height_step_weight = 2.0;
+    bool pass_unknown = false;  ///< Whether paths may lead where nothing is known.
+    static constexpr double unknown_gap_m =
+        0.10;                         ///< Unknown slivers up to this width between free cells count as free.
+    double height_step_weight = 2.0;  ///< Metres of detour that one metre of step of the surface is worth.
 
     void describe(common::config::Fields& fields);
   };

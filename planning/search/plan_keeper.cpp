@@ -18,13 +18,6 @@ using Point = Eigen::Vector2d;
 
 }  // namespace
 
-void PlanKeeper::Config::describe(common::config::Fields& fields) {
-  fields("max_age_s", max_age_s, kPositive, "An older plan is compared with a new one.");
-  fields("better_by", better_by, {0, 1}, "A new plan replaces a valid one when it is cheaper by this share.");
-  fields("max_deviation_m", max_deviation_m, {0.01, 10},
-         "A plan does not hold any longer when the vehicle is farther from it than this and its braking distance.");
-}
-
 void PlanKeeper::clear() {
   path_.reset();
   valid_ = false;

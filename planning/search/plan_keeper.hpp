@@ -30,11 +30,10 @@ struct PlanMaps {
 class PlanKeeper {
  public:
   struct Config {
-    double max_age_s = 0.5;
-    double better_by = 0.10;
-    double max_deviation_m = 0.30;
-
-    void describe(common::config::Fields& fields);
+    static constexpr double max_age_s = 0.5;   ///< An older plan is compared with a new one.
+    static constexpr double better_by = 0.10;  ///< A new plan replaces a valid one when it is cheaper by this share.
+    static constexpr double max_deviation_m = 0.30;  ///< A plan does not hold any longer when the vehicle is farther
+                                                     ///< from it than this and its braking distance.
   };
 
   struct Check {

@@ -1,8 +1,13 @@
 // Data sheets of the user: where a profile finds them, and that what is made of them can be used without the profile.
 #include <csignal>
 #include <filesystem>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,6 +42,44 @@ TEST_F(ProfileSheets, DataSheetsAreFoundBesideTheProfileThatNamesThemNotTheOneBa
   (void)write("lib/base.yaml", "autonomy:\n  control:\n    controller: {kind: lqr}\n");
   expectRefused(runSwiftlet({"config", "--system", child}),
                 "base\\.yaml:3:24: autonomy\\.control\\.controller\\.kind: lqr needs a vehicle_model");
+}
+
+TEST_F(ProfileSheets, FormerSettingsAreRefusedWithWhatTheyAreNow) {
+  const std::string one = write("one.yaml", "based_on: swiftlet\nautonomy: {estimator: {altitude: {gate_sigma: 4}}}\n");
+  expectRefused(
+      runSwiftlet({"config", "--system", one}),
+      "one\\.yaml:2:37: autonomy\\.estimator\\.altitude: `gate_sigma` is no longer a setting: it is 3\\.5: Half "
+      "width of all confidence regions, in standard deviations\\., leave it out");
+  const std::string all = write("all.yaml", "based_on: swiftlet\nautonomy:\n  inertial_check: {rate_deg_s: 30}\n");
+  expectRefused(
+      runSwiftlet({"config", "--system", all}),
+      "all\\.yaml:3:3: autonomy: `inertial_check` is no longer a section: what it set is fixed, leave it out");
+}
+
+/// The paths of what a YAML with two blanks a level sets: "autonomy.scans.latency_s".
+std::set<std::string> pathsOf(const std::string& yaml) {
+  std::set<std::string> paths;
+  std::vector<std::string> above;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(' '), colon = line.find(':');
+    if (begin == std::string::npos || colon == std::string::npos) continue;
+    above.resize(begin / 2);
+    above.push_back(line.substr(begin, colon - begin));
+    if (colon + 1 < line.size()) paths.insert(fmt::format("{}", fmt::join(above, ".")));
+  }
+  return paths;
+}
+
+TEST_F(ProfileSheets, NoFormerSettingIsOneAgain) {
+  const std::set<std::string> settings = pathsOf(runSwiftlet({"config", "--plain"}).out);
+  EXPECT_TRUE(settings.contains("autonomy.scans.latency_s"));
+  EXPECT_LE(settings.size(), 150u);
+  int former = 0;
+  std::istringstream lines(readText(SWIFTLET_SOURCE_DIR "/config/former_settings.yaml"));
+  for (std::string line; std::getline(lines, line); ++former)
+    EXPECT_FALSE(settings.contains(line.substr(0, line.find(':')))) << line;
+  EXPECT_GT(former, 500);
 }
 
 /// The sheet and the folder of the profile are gone; the run has all that it needs.

@@ -108,7 +108,7 @@ TEST(CostMap, DiscsAreInflatedAndLeaveNoTrace) {
 
 TEST(CostMap, ReportsConfigProblems) {
   CostMap::Config config;
-  config.comfort_distance_m = -1;
+  config.comfort_weight = -1;
   EXPECT_EQ(common::config::problemsOf(config).size(), 1u);
   EXPECT_TRUE(common::config::problemsOf(CostMap::Config()).empty());
 }

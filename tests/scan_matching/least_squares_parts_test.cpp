@@ -134,17 +134,5 @@ TEST(OrientedPoints, FindTheNearestPoint) {
     EXPECT_EQ(points.nearest({x, 0.0}, {1.0, 0.0}, 0.5), OrientedPoints::kNone);
 }
 
-TEST(LeastSquaresConfigs, DefaultsAreValidAndMistakesAreReported) {
-  EXPECT_TRUE(problemsOf(GaussNewtonMatcherConfig{}).empty());
-  EXPECT_TRUE(problemsOf(PointToLineMatcherConfig{}).empty());
-  GaussNewtonMatcherConfig gauss_newton;
-  gauss_newton.support_m = 0.5;  // Wider than the kernels of its map.
-  EXPECT_EQ(problemsOf(gauss_newton).size(), 1U);
-  PointToLineMatcherConfig point_to_line;
-  point_to_line.max_distance_m = 0.01;
-  point_to_line.points = 0;
-  EXPECT_EQ(problemsOf(point_to_line).size(), 2U);
-}
-
 }  // namespace
 }  // namespace swiftlet::perception

@@ -205,39 +205,6 @@ MapMatch Matching::run() const {
 
 }  // namespace
 
-void MapMatchConfig::describe(common::config::Fields& fields) {
-  fields("points", points, {10, 100'000}, "Points of a scan that are matched, spread evenly along its contour.");
-  fields("coarse_points", coarse_points, {3, 100'000},
-         "Points that are matched while they are still far from the surfaces they belong to.");
-  fields("max_range_m", max_range_m, {0.5, 100}, "Points farther than this are not used.");
-  fields("reach_m", reach_m, {0.01, 10},
-         "Where the motion may have slipped, a surface is looked for so far along the normal of a point.");
-  fields("support_m", support_m, {0.005, 10},
-         "Where the motion has not slipped, a surface is looked for so near a point.");
-  fields("enough_support", enough_support, {0, 1},
-         "With a greater share of points on a surface the motion has not slipped.");
-  fields("iterations", iterations, {1, 100}, "Greatest number of steps.");
-  fields("residual_m", residual_m, {0.001, 1},
-         "Distances of the points from the surfaces are taken for at least so large.");
-  fields("covariance_scale", covariance_scale, {0.01, 1000},
-         "Factor on the covariance of independent points, which neighbouring ones are not.");
-  fields("motion_freedom", motion_freedom, {0.1, 1000},
-         "Degrees of freedom of the Student t distribution of the motion: the motion's covariance does not know of "
-         "slips.");
-  fields("beam_sigma_m", beam_sigma_m, {0.001, 1},
-         "Spread, in the likelihood, of end points about the surfaces of a good map.");
-  fields("outlier_share", outlier_share, {1e-6, 0.99}, "Share of end points on what is not in the map.");
-  fields("independent_beams", independent_beams, {0.1, 10'000},
-         "A scan says as much as so many beams that know nothing of each other.");
-}
-
-std::vector<std::string> MapMatchConfig::validate() const {
-  return common::Validation()
-      .atMost("support_m", support_m, "reach_m", reach_m)
-      .atMost("coarse_points", coarse_points, "points", points)
-      .problems();
-}
-
 std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan, const MapMatchConfig& config, double max_gap_m) {
   return orientedPoints(scan, config.points, max_gap_m, config.max_range_m);
 }

@@ -17,22 +17,28 @@
 namespace swiftlet::perception {
 
 struct MapMatchConfig {
-  int points = 180;
-  int coarse_points = 60;
-  double max_range_m = 20.0;
-  double reach_m = 0.30;
-  double support_m = 0.08;
-  double enough_support = 0.7;
-  int iterations = 10;
-  double residual_m = 0.02;
-  double covariance_scale = 2.0;
-  double motion_freedom = 3.0;
-  double beam_sigma_m = 0.05;
-  double outlier_share = 0.1;
-  double independent_beams = 20.0;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  static constexpr int points = 180;  ///< Points of a scan that are matched, spread evenly along its contour.
+  static constexpr int coarse_points =
+      60;  ///< Points that are matched while they are still far from the surfaces they belong to.
+  static constexpr double max_range_m = 20.0;  ///< Points farther than this are not used.
+  static constexpr double reach_m =
+      0.30;  ///< Where the motion may have slipped, a surface is looked for so far along the normal of a point.
+  static constexpr double support_m =
+      0.08;  ///< Where the motion has not slipped, a surface is looked for so near a point.
+  static constexpr double enough_support =
+      0.7;                               ///< With a greater share of points on a surface the motion has not slipped.
+  static constexpr int iterations = 10;  ///< Greatest number of steps.
+  static constexpr double residual_m =
+      0.02;  ///< Distances of the points from the surfaces are taken for at least so large.
+  static constexpr double covariance_scale =
+      2.0;  ///< Factor on the covariance of independent points, which neighbouring ones are not.
+  static constexpr double motion_freedom = 3.0;  ///< Degrees of freedom of the Student t distribution of the motion:
+                                                 ///< the motion's covariance does not know of slips.
+  static constexpr double beam_sigma_m =
+      0.05;  ///< Spread, in the likelihood, of end points about the surfaces of a good map.
+  static constexpr double outlier_share = 0.1;  ///< Share of end points on what is not in the map.
+  static constexpr double independent_beams =
+      20.0;  ///< A scan says as much as so many beams that know nothing of each other.
 };
 
 /// The predicted pose of a scan, and the covariance of its additive errors (x_m, y_m, yaw_rad), axes of the map.
