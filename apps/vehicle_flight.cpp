@@ -58,17 +58,18 @@ void addCameraFigures(const common::CameraEstimate& camera, std::vector<interfac
 }
 
 /// What became of the camera's frames.
-void addFrameFigures(const autonomy::Autonomy& autonomy, common::Time now, std::vector<interfaces::Figure>& figures) {
+void addFrameFigures(const autonomy::AutonomyCounts& counts, common::Time now,
+                     std::vector<interfaces::Figure>& figures) {
   const auto add = [&](const char* name, std::uint64_t count) {
     figures.push_back({name, static_cast<double>(count)});
   };
-  if (const auto camera = autonomy.cameraCounts()) {
+  if (const auto& camera = counts.estimator.camera) {
     add("camera_frames", camera->frames);
     add("camera_frames_skipped", camera->skipped);
     add("camera_frames_blank", camera->blank);
     add("camera_frames_lost", camera->lost);
   }
-  if (const auto radio = autonomy.radioCounts()) {
+  if (const auto& radio = counts.estimator.radio) {
     const double kB_s = 1e-3 / now.seconds();
     figures.push_back({"radio_kB_s", kB_s * static_cast<double>(radio->bytes)});
     figures.push_back({"radio_raw_kB_s", kB_s * static_cast<double>(radio->raw_bytes)});
@@ -250,8 +251,8 @@ void VehicleFlight::finish(double wall_s, MemoryWatch& memory) {
   record.operator_answers = script_.answers();
   if (visual_odometry_) record.visual_odometry = visual_odometry_->record();
   if (hooks_.score) hooks_.score(record, *vehicle_, end);
-  end.figures.push_back({"late_scans", static_cast<double>(autonomy_.lateScans())});
-  addFrameFigures(autonomy_, loop_.now(), end.figures);
+  end.figures.push_back({"late_scans", static_cast<double>(autonomy_.counts().late_scans)});
+  addFrameFigures(autonomy_.counts(), loop_.now(), end.figures);
   if (rgbd_ && rgbd_->leftOut() > 0)
     end.figures.push_back({"rgbd_frames_not_recorded", static_cast<double>(rgbd_->leftOut())});
   if (const auto& map3d = autonomy_.world()->map3d; map3d && map3d->frame) addCameraFigures(map3d->camera, end.figures);
@@ -267,7 +268,7 @@ common::MachineUse VehicleFlight::machineUse(MemoryWatch& memory) const {
     use.plan_median_ms = evaluation::quantile(plans_ms, 0.5);
     use.plan_max_ms = evaluation::quantile(plans_ms, 1.0);
   }
-  if (!autonomy_.cameraCounts()) return use;
+  if (!autonomy_.counts().estimator.camera) return use;
   if (const auto ends = job_meter_->ends("mapping3d")) {
     use.frame_first_ms = ends->first_ms;
     use.frame_last_ms = ends->last_ms;

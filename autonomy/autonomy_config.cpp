@@ -1,7 +1,7 @@
-// The configuration of the autonomy.
+#include "autonomy/autonomy_config.hpp"
+
 #include <algorithm>
 
-#include "autonomy/autonomy.hpp"
 #include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {

@@ -1,10 +1,8 @@
 #include "autonomy/map_shelf.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
-
-#include "autonomy/estimator.hpp"
-#include "autonomy/given_map/given_map_overlay.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -24,18 +22,16 @@ std::string MapShelf::problemOf(const std::string& file) const {
   return find(file) != nullptr ? std::string() : "the map `" + file + "` was not read before the mission";
 }
 
-std::optional<common::MissionAnswer> MapShelf::take(const common::MissionRequest& request, Estimator& estimator,
-                                                    GivenMapOverlay& overlay) const {
+std::optional<MapShelf::Answer> MapShelf::take(const common::MissionRequest& request, bool given) const {
   if (const auto* load = std::get_if<common::LoadMapRequest>(&request.kind)) {
     const OfferedMap* offered = find(load->file);
-    if (offered == nullptr) return common::MissionAnswer{request.id, false, problemOf(load->file)};
-    estimator.loadMap(offered->map);
-    overlay.load(offered->map);
-    return common::MissionAnswer{request.id, true, "map " + load->file + " is the given one"};
+    if (offered == nullptr) return Answer{{request.id, false, problemOf(load->file)}, std::nullopt};
+    return Answer{{request.id, true, "map " + load->file + " is the given one"},
+                  GivenMapOrder{std::make_shared<const common::GivenMap>(offered->map)}};
   }
   if (std::holds_alternative<common::RelocalizeRequest>(request.kind)) {
-    if (!estimator.forgetPlace()) return common::MissionAnswer{request.id, false, "the flight was given no map"};
-    return common::MissionAnswer{request.id, true, "the place in the given map is looked for anew"};
+    if (!given) return Answer{{request.id, false, "the flight was given no map"}, std::nullopt};
+    return Answer{{request.id, true, "the place in the given map is looked for anew"}, GivenMapOrder{}};
   }
   return std::nullopt;
 }

@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/feedback.hpp"
 #include "common/given_map.hpp"
 #include "common/mission_request.hpp"
 
 namespace swiftlet::autonomy {
-
-class Estimator;
-class GivenMapOverlay;
 
 using common::OfferedMap;
 
@@ -24,9 +22,13 @@ class MapShelf {
   /// Why a mission cannot load that map; empty if it can.
   std::string problemOf(const std::string& file) const;
 
-  /// Carries out a request about the given map and answers it; every other one is for somebody else.
-  std::optional<common::MissionAnswer> take(const common::MissionRequest& request, Estimator& estimator,
-                                            GivenMapOverlay& overlay) const;
+  /// The answer to a request, and what the senses are to do for it.
+  struct Answer {
+    common::MissionAnswer answer;
+    std::optional<GivenMapOrder> order;  ///< None if the request cannot be met.
+  };
+  /// Answers a request about the given map; every other one is for somebody else. `given`: there is a given map.
+  std::optional<Answer> take(const common::MissionRequest& request, bool given) const;
 
  private:
   const OfferedMap* find(const std::string& file) const;

@@ -101,16 +101,6 @@ void Supervisor::watchPilot(Time now) {
       common::Concern::kPilot);
 }
 
-bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
-  std::string problem = battery_check_.problemWith(sample);
-  const bool plausible = problem.empty();
-  if (plausible != battery_plausible_)
-    say(now, plausible ? Severity::kInfo : Severity::kWarning,
-        plausible ? "the battery is measured again" : "the battery's last good values are kept", std::move(problem));
-  battery_plausible_ = plausible;
-  return plausible;
-}
-
 const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition) {
   flight_ = condition.flight;
   watchPilot(now);

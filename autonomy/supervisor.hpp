@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "autonomy/energy/battery_check.hpp"
 #include "autonomy/watches/energy_watch.hpp"
 #include "autonomy/watches/position_watch.hpp"
 #include "autonomy/watches/sight_watch.hpp"
@@ -76,8 +75,6 @@ class Supervisor {
   /// A sensor of obstacles saw the surroundings: today a usable scan of the laser.
   void surroundingsSeen(common::Time now) { sight_.surroundingsSeen(now); }
   void pilotArrived(common::Time now, bool takes_over);
-  /// False if the sample is not plausible.
-  bool batteryArrived(common::Time now, const common::BatterySample& sample);
   bool pilotFlies() const { return pilot_flies_; }
   /// No sensor of obstacles sees the surroundings, as of the last tick.
   bool seesNothing() const { return supervision_.unseen; }
@@ -121,8 +118,6 @@ class Supervisor {
   unsigned back_ = 0;  ///< The flight back that the PositionWatch asks for.
   std::string blind_;  ///< Why the SightWatch holds; empty if it does not.
   bool landed_by_operator_ = false;
-  BatteryCheck battery_check_;
-  bool battery_plausible_ = true;
   Supervision supervision_;
   std::vector<common::Event> events_;
 };

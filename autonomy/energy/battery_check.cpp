@@ -1,6 +1,7 @@
 #include "autonomy/energy/battery_check.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,17 @@ constexpr double kBeyond = 0.05;
 constexpr double kJump = 0.1;
 
 }  // namespace
+
+bool BatteryCheck::accepts(const common::BatterySample& sample) {
+  std::string problem = problemWith(sample);
+  const bool refused = !problem.empty();
+  if (refused != refused_)
+    events_.push_back(
+        {sample.stamps.arrived, refused ? common::Severity::kWarning : common::Severity::kInfo, "supervisor",
+         refused ? "the battery's last good values are kept" : "the battery is measured again", std::move(problem)});
+  refused_ = refused;
+  return !refused;
+}
 
 std::string BatteryCheck::problemWith(const common::BatterySample& sample) {
   if (!std::isfinite(sample.voltage_v) || !std::isfinite(sample.remaining))

@@ -3,7 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "common/event.hpp"
 #include "common/sensor_event.hpp"
 
 namespace swiftlet::autonomy {
@@ -11,11 +14,17 @@ namespace swiftlet::autonomy {
 /// One thread. The current may be missing, see EnergyMonitor.
 class BatteryCheck {
  public:
-  /// Why the sample is not used; empty if it is. A charge that jumps is used once the next sample confirms it.
-  std::string problemWith(const common::BatterySample& sample);
+  /// Whether the sample is used. A charge that jumps is used once the next sample confirms it. The first sample that is
+  /// not used leaves an event, and so does the first good one after it.
+  bool accepts(const common::BatterySample& sample);
+  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
 
  private:
+  std::string problemWith(const common::BatterySample& sample);
+
   std::optional<double> used_, jumped_to_;  ///< Charges, in [0, 1].
+  bool refused_ = false;                    ///< The last sample.
+  std::vector<common::Event> events_;
 };
 
 }  // namespace swiftlet::autonomy

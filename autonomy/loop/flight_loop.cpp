@@ -37,11 +37,11 @@ bool FlightLoop::step(common::Time now) {
 }
 
 void FlightLoop::deliverDue(common::Time now) {
-  while (const auto delivery = autonomy_.dueDelivery(now)) feed_.give(*delivery);
+  while (const auto delivery = autonomy_.jobs().nextDue(now)) feed_.give(*delivery);
 }
 
 void FlightLoop::finish() {
-  for (const common::JobTimes& times : autonomy_.jobTimes()) {
+  for (const common::JobTimes& times : autonomy_.jobs().times()) {
     if (!times.tooSlow()) continue;
     feed_.tell(
         {now_, common::Severity::kWarning, "jobs", fmt::format("{} is slower than declared", times.kind),

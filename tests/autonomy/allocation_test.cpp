@@ -77,14 +77,14 @@ class CountedFlight {
     return made;
   }
   void deliverDue(common::Time now) {
-    while (const auto delivery = autonomy_.dueDelivery(now)) (void)give(*delivery);
+    while (const auto delivery = autonomy_.jobs().nextDue(now)) (void)give(*delivery);
   }
   /// The behaviours, which make a snapshot, and the scans run inside some of the ticks.
   void tick(common::Time now) {
     const common::World* const world = autonomy_.world().get();
-    const std::uint64_t scans = autonomy_.odometryCounts().scans;
+    const std::uint64_t scans = autonomy_.counts().estimator.odometry.scans;
     const long made = give(Tick{now});
-    if (autonomy_.world().get() != world || autonomy_.odometryCounts().scans != scans) return;
+    if (autonomy_.world().get() != world || autonomy_.counts().estimator.odometry.scans != scans) return;
     by_ticks += made;
     ++ticks;
   }

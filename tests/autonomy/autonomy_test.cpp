@@ -224,7 +224,7 @@ TEST(Autonomy, TheFirstScanThatComesTooLateIsAnEventAndAllAreCounted) {
   };
   ASSERT_TRUE(story.until([&] { return late == 3; }, 1.0));
   ASSERT_TRUE(story.until([&] { return story.event("laser", "a scan came too late") != story.events.end(); }, 0.5));
-  EXPECT_EQ(story.autonomy().lateScans(), 3u);
+  EXPECT_EQ(story.autonomy().counts().late_scans, 3u);
   EXPECT_EQ(std::count_if(story.events.begin(), story.events.end(),
                           [](const auto& e) { return e.text.starts_with("a scan came too late"); }),
             1);

@@ -54,7 +54,8 @@ class EstimatorStory {
     for (; next_ < imu_.size() && imu_[next_].stamps.measured.seconds() <= until_s; ++next_) {
       const common::Time now = imu_[next_].stamps.measured;
       jobs_->deliverDue(now);
-      estimator.setAtRest(now.seconds() < flight_.rest_until_s - 0.05);
+      feedback.airborne = now.seconds() >= flight_.rest_until_s - 0.05;
+      estimator.hear(feedback);
       estimator.addImu(imu_[next_]);
       if (next_ % kImuPerScan != kImuPerScan - 1) continue;
       // The sweep that has just arrived began four samples ago.
@@ -102,6 +103,7 @@ class EstimatorStory {
   std::uint64_t frame_ = 0;
 
  public:
+  Feedback feedback;  ///< Of every tick; `run` says whether the vehicle is airborne.
   Estimator estimator;
 };
 

@@ -40,10 +40,10 @@ TEST(Estimator, MatchedScansCorrectTheStateAndDrawTheMap) {
   EXPECT_GT(matched, scans * 95 / 100);
   EXPECT_LT(worst_m, 0.08);
   EXPECT_EQ(story.estimator.health().status, perception::FusionStatus::kOk);
-  const auto grid = story.estimator.grid();
+  const auto grid = story.estimator.maps().grid;
   EXPECT_TRUE(common::occupancy::isFree(grid->at(grid->cellAt({0.0, 0.0}))));
   EXPECT_FALSE(common::occupancy::isFree(grid->at(grid->cellAt({3.5, -1.0})))) << "a wall of the flat";
-  EXPECT_EQ(story.estimator.grid(), grid) << "the same object until the map changes";
+  EXPECT_EQ(story.estimator.maps().grid, grid) << "the same object until the map changes";
 }
 
 TEST(Estimator, BeamsThatPassBelowSomethingDoNotClearIt) {
@@ -56,9 +56,9 @@ TEST(Estimator, BeamsThatPassBelowSomethingDoNotClearIt) {
     story.world.addBox(post_m.x(), post_m.y(), 0.2, 0.2);
     story.run(1.2);
     story.world = empty;
-    story.estimator.setBelowMap(below_map_m);
+    story.feedback.below_map_m = below_map_m;
     story.run(1.95);
-    const auto grid = story.estimator.grid();
+    const auto grid = story.estimator.maps().grid;
     int occupied = 0;
     for (double x = -0.2; x <= 0.2; x += 0.05)
       for (double y = -0.2; y <= 0.2; y += 0.05)
@@ -83,7 +83,7 @@ TEST(Estimator, MirrorBeamsCorrectTheHeight) {
   ASSERT_TRUE(raw);
   EXPECT_NEAR(raw->height_m, story.truthAt(raw->stamp).position_m.z(), 0.05);
   EXPECT_NEAR(story.estimator.state().height_above_ground_m, story.estimator.state().T_odom_body.position_m.z(), 0.1);
-  EXPECT_FALSE(story.estimator.levels()->levels.empty());
+  EXPECT_FALSE(story.estimator.maps().levels->levels.empty());
 }
 
 TEST(Estimator, ScansThatAreNotMatchedStillMeasureTheHeight) {
@@ -140,7 +140,7 @@ TEST(Estimator, EveryScanInTheMapHasAPoseRelativeToAKeyScan) {
   story.run(9.5, [&](const std::optional<ScanOutcome>& outcome) {
     if (!outcome || !outcome->at_key) return;
     ++placed;
-    const auto keys = story.estimator.keyPoses();
+    const auto keys = story.estimator.maps().key_poses;
     ASSERT_LT(outcome->at_key->key, static_cast<int>(keys->keys.size()));
     const common::Pose3 T_map_body = keys->inMap(*outcome->at_key);
     EXPECT_LT((planar(T_map_body).position_m() - outcome->T_map_body.position_m()).norm(), 0.005);
@@ -149,26 +149,26 @@ TEST(Estimator, EveryScanInTheMapHasAPoseRelativeToAKeyScan) {
                 0.02);
   });
   EXPECT_GT(placed, 300);
-  EXPECT_GT(story.estimator.keyPoses()->keys.size(), 2u);
+  EXPECT_GT(story.estimator.maps().key_poses->keys.size(), 2u);
 }
 
 /// The map of one flight is given to the next.
 TEST(Estimator, LocalizesInAGivenMapWithScansThatItDoesNotMatch) {
   EstimatorStory before(16.0);
   before.run(15.5);
-  const GivenMap given{before.estimator.grid(), {}, 1};
+  const GivenMap given{before.estimator.maps().grid, {}, 1};
   EstimatorStory story(30.0, &given);
   int withheld = 0;
   story.run(3.0);
-  ASSERT_TRUE(story.estimator.localization());
-  EXPECT_EQ(story.estimator.localization()->explained, 0.0) << "it is too low to compare";
-  story.estimator.setAtFlightHeight(true);
+  ASSERT_TRUE(story.estimator.maps().localization);
+  EXPECT_EQ(story.estimator.maps().localization->explained, 0.0) << "it is too low to compare";
+  story.feedback.at_flight_height = true;
   story.run(29.5, [&](const std::optional<ScanOutcome>& outcome) {
-    if (outcome && story.estimator.localization()->localized() && !outcome->matched) ++withheld;
+    if (outcome && story.estimator.maps().localization->localized() && !outcome->matched) ++withheld;
   });
-  ASSERT_TRUE(story.estimator.localization()->localized());
-  EXPECT_LT((story.estimator.localization()->T_given_body.position_m() -
-             planar(story.truthAt(story.estimator.localization()->stamp)).position_m())
+  ASSERT_TRUE(story.estimator.maps().localization->localized());
+  EXPECT_LT((story.estimator.maps().localization->T_given_body.position_m() -
+             planar(story.truthAt(story.estimator.maps().localization->stamp)).position_m())
                 .norm(),
             0.3);
   EXPECT_EQ(story.eventsThatBegin("localized at"), 1);

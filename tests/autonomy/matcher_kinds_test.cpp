@@ -27,7 +27,7 @@ Flown fly(const std::string& kind) {
     flown.matched += outcome->matched ? 1 : 0;
     flown.worst_m = std::max(flown.worst_m, story.positionError_m());
   });
-  flown.counts = story.estimator.odometryCounts();
+  flown.counts = story.estimator.counts().odometry;
   std::printf("  %-13s %d of %d scans matched, worst %.3f m, restarts %d\n", kind.c_str(), flown.matched, flown.scans,
               flown.worst_m, static_cast<int>(flown.counts.restarts));
   return flown;

@@ -1,6 +1,4 @@
 // The supervisor above the mission, tick by tick.
-#include <cmath>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,29 +62,6 @@ TEST_F(SupervisorStory, APilotWhoIsSilentNoLongerFliesAndTheVehicleHolds) {
   EXPECT_THAT(supervisor_.takeEvents().back().reason, HasSubstr("the pilot has not been heard of for 1.0 s"));
   ASSERT_TRUE(supervisor_.take({1, common::ResumeCommand{}}, Time::fromSeconds(5))->accepted);
   EXPECT_FALSE(at(5.0).hold);
-}
-
-TEST_F(SupervisorStory, ReportsInvalidBatteryValuesOnce) {
-  const auto sample = [](double remaining) { return common::BatterySample{{}, 11.1, remaining}; };
-  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(1), sample(0.5)));
-  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(2), sample(std::nan(""))));
-  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(3), sample(std::nan(""))));
-  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(4), sample(0.45)));
-  EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
-}
-
-TEST_F(SupervisorStory, AChargeThatJumpsIsUsedOnceItIsConfirmed) {
-  const auto sample = [](double remaining, double voltage_v = 11.1) {
-    return common::BatterySample{{}, voltage_v, remaining};
-  };
-  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(1), sample(0.6)));
-  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(2), sample(0.0)));
-  EXPECT_EQ(supervisor_.takeEvents().back().reason, "its charge jumps from 60 to 0 %");
-  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(3), sample(0.6)));
-  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(4), sample(0.11)));
-  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(5), sample(0.1)));
-  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(6), sample(-0.2)));
-  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(7), sample(0.1, 0.0)));
 }
 
 TEST_F(SupervisorStory, SaysThatTheChargeIsCountedOn) {

@@ -83,13 +83,15 @@ struct Loop {
     tick.now = vehicle.now();
     tick.state = estimator.state();
     const bool airborne = control::isAirborne(controller.state());
-    estimator.setAtRest(!airborne);
-    if (airborne) estimator.setFlightHeight(tick.state.T_odom_body.position_m.z());
+    autonomy::Feedback feedback;
+    feedback.airborne = airborne;
+    if (airborne) feedback.flight_height_m = tick.state.T_odom_body.position_m.z();
+    estimator.hear(feedback);
     if (!prepared && tick.state.horizontal_valid && tick.state.vertical_valid)
       prepared = controller.command(control::Prepared{}).has_value();
     tick.raw_height = std::exchange(raw_height, std::nullopt);
     tick.battery_v = battery_v;
-    tick.acceleration_odom_m_s2 = estimator.accelerationOdom_m_s2();
+    tick.acceleration_odom_m_s2 = estimator.motion().acceleration_odom_m_s2;
     tick.fusion_diverged = estimator.health().status == perception::FusionStatus::kDiverged;
     const common::Setpoint setpoint = controller.tick(tick);
     inertial.flown(setpoint, {airborne, !airborne || tick.state.height_above_ground_m < 0.5, true,
@@ -278,7 +280,7 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
   ASSERT_TRUE(loop.controller.command(control::Land{}));
   EXPECT_TRUE(loop.until([&] { return loop.controller.state() == FlightState::kLanded; }, 12.0))
       << loop.vehicle.stopReason();
-  const common::LevelMap levels = *loop.estimator.levels();
+  const common::LevelMap levels = *loop.estimator.maps().levels;
   std::printf(
       "path: %.3f m worst off the reference, %.3f m in height; home within %.3f m; estimate %.3f m, %.3f m/s RMS\n",
       worst_m, worst_height_m, home.head<2>().norm(), std::sqrt(loop.estimate2_m2 / loop.ticks),

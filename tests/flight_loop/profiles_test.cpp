@@ -46,9 +46,9 @@ Flown fly(const std::string& name, int seed = 11) {
     flown.worst_m = std::max(flown.worst_m, (estimate.position_m() - truth.position_m()).norm());
   }
   flown.finished = autonomy.finished() && !vehicle->truth().crashed;
-  flown.odometry = autonomy.odometryCounts();
-  flown.slam = autonomy.slamCounts();
-  flown.planning = autonomy.planningUse();
+  flown.odometry = autonomy.counts().estimator.odometry;
+  flown.slam = autonomy.counts().estimator.slam;
+  flown.planning = autonomy.counts().planning;
   const auto walls =
       evaluation::wallError(*flown.witness.last_world->map->grid, planar(vehicle->T_world_map()), vehicle->rays(), 1.0);
   if (walls) flown.walls = *walls;

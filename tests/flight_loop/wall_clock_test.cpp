@@ -86,7 +86,7 @@ TEST(WallClock, FliesTwentySecondsThroughTheSameLoop) {
 
   // At the end the loop reports which jobs took longer than declared.
   loop.finish();
-  const auto all = autonomy.jobTimes();
+  const auto all = autonomy.jobs().times();
   ASSERT_FALSE(all.empty());
   for (const common::JobTimes& times : all) {
     EXPECT_GT(times.count, 0) << times.kind;

@@ -1,0 +1,67 @@
+// What an autonomy is made of: its settings, data sheets, mission and clock.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "autonomy/arrivals/scan_queue.hpp"
+#include "autonomy/energy/energy_monitor.hpp"
+#include "autonomy/estimator.hpp"
+#include "autonomy/inertial/inertial_input.hpp"
+#include "autonomy/maneuvers/executor_config.hpp"
+#include "autonomy/pilot_assist.hpp"
+#include "autonomy/reactive.hpp"
+#include "autonomy/vehicle_memory.hpp"
+#include "autonomy/watches/supervisor_config.hpp"
+#include "behaviors/mission.hpp"
+#include "common/config_fwd.hpp"
+#include "common/given_map.hpp"
+#include "common/jobs.hpp"
+#include "common/rgbd_camera_config.hpp"
+#include "common/vehicle_config.hpp"
+#include "control/flight_controller.hpp"
+
+namespace swiftlet::autonomy {
+
+/// All settings of the autonomy, read from a system profile (config/systems).
+struct AutonomyConfig {
+  EstimatorConfig estimator;
+  ReactiveConfig reactive;
+  ExecutorConfig execution;
+  control::FlightController::Config control;
+  SupervisorConfig supervisor;
+  EnergyConfig energy;
+  static constexpr double behavior_rate_hz = 20.0;  ///< Ticks of the mission's tree a second.
+  ScanQueueConfig scans;
+  InertialInputConfig inertial;  ///< Its sections are on the level of these.
+  PilotAssistConfig assist;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+  /// Lowers the fields of view and ranges that avoidance and exploration use to those of the laser.
+  void limitTo(const common::LaserConfig& laser);
+  /// Why the reactive layer would stop the vehicle, or make it retreat, on a path planned at this clearance; empty if
+  /// it would not.
+  std::vector<std::string> problemsWith(double clearance_m) const;
+};
+
+/// What an autonomy is made of. Whatever the pointers name is read only while the autonomy is made, and may go then.
+struct AutonomySetup {
+  AutonomyConfig config = {};
+  common::VehicleConfig vehicle;  ///< Data sheet of the vehicle, as its owner believes it to be.
+  common::LaserConfig laser;      ///< Data sheet of the level laser.
+  behaviors::Mission mission;     ///< The first one; the operator may start others in its place.
+  /// Never null. Who runs the jobs, and with that the clock by which they are delivered (common/jobs.hpp).
+  std::unique_ptr<common::JobRunner> jobs;
+  const common::GivenMap* given = nullptr;  ///< A map to localize in; null: none is given.
+  /// Appears in the snapshots and in the events of the loop; empty if there is only one vehicle.
+  std::string vehicle_name = {};
+  const VehicleMemory* memory = nullptr;  ///< What earlier flights of the vehicle have learned; null: nothing.
+  const common::RgbdCameraConfig* camera = nullptr;  ///< Data sheet of an RGB-D camera; null without one.
+  const control::VehicleModel* model = nullptr;      ///< What was identified of the vehicle; null: nothing was.
+  /// Data sheet of a second laser, whose scan plane stands upright; null without one.
+  const common::LaserConfig* vertical_laser = nullptr;
+};
+
+}  // namespace swiftlet::autonomy

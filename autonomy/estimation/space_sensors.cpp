@@ -1,0 +1,98 @@
+#include "autonomy/estimation/space_sensors.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "autonomy/estimator.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::Time;
+
+SpaceSensors::SpaceSensors(const EstimatorConfig& config, const common::RgbdCameraConfig* camera,
+                           const common::LaserConfig* vertical_laser, common::JobRunner& jobs)
+    : rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr),
+      vertical_laser_(vertical_laser && !camera
+                          ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs)
+                          : nullptr),
+      targets_(camera && !config.targets.classes.empty()
+                   ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m)
+                   : nullptr) {}
+
+bool SpaceSensors::add(std::shared_ptr<const common::RgbdFrame> frame) {
+  if (!rgbd_ || !rgbd_->add(frame)) return false;
+  if (targets_) targets_->add(std::move(frame));
+  return true;
+}
+
+void SpaceSensors::add(std::shared_ptr<const common::VerticalScan> sweep) {
+  if (vertical_laser_) vertical_laser_->add(std::move(sweep));
+}
+
+std::optional<CameraStep> SpaceSensors::takeStep(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
+  if (!rgbd_) return std::nullopt;
+  rgbd_->watch(keys, now);
+  return rgbd_->takeStep();
+}
+
+void SpaceSensors::map(const MapSituation& situation, Time now) {
+  if (rgbd_) mapFrame(situation, now);
+  if (targets_) lookForTargets(situation, now);
+  if (vertical_laser_) mapSweeps(situation, now);
+}
+
+FrameSituation SpaceSensors::situationAt(Time time, const MapSituation& situation, Time now) {
+  FrameSituation at;
+  at.at_key = situation.poses.atKey(time);
+  at.body = situation.poses.bodyAt(time);
+  at.supported = situation.poses.isSupported(now);
+  at.keys = situation.keys;
+  at.people = situation.people.expectedAt(time);
+  return at;
+}
+
+void SpaceSensors::mapFrame(const MapSituation& situation, Time now) {
+  const auto time = rgbd_->next();
+  if (time && situation.poses.isKnown(*time, now, rgbd_->waitUntil()))
+    rgbd_->map(situationAt(*time, situation, now), now);
+}
+
+void SpaceSensors::lookForTargets(const MapSituation& situation, Time now) {
+  const common::CameraEstimate camera = rgbd_->camera();
+  const auto time = targets_->next(camera.clock_offset_s);
+  if (time && situation.poses.isKnown(*time, now, targets_->waitUntil()))
+    targets_->look(situationAt(*time, situation, now), camera, situation.drift_m, now);
+}
+
+void SpaceSensors::mapSweeps(const MapSituation& situation, Time now) {
+  for (auto times = vertical_laser_->next();
+       times && situation.poses.isKnown(times->end, now, vertical_laser_->waitUntil());
+       times = vertical_laser_->next()) {
+    auto sweep = situation.poses.during(*times, now);
+    if (sweep) sweep->people = situation.people.expectedAt(times->begin);
+    vertical_laser_->place(sweep);
+  }
+  vertical_laser_->draw(situation.keys, now);
+}
+
+std::shared_ptr<const common::Map3dLayer> SpaceSensors::layer(const std::shared_ptr<const common::KeyPoses>& keys) {
+  if (vertical_laser_) return vertical_laser_->layer(keys);
+  return rgbd_ ? rgbd_->layer(keys) : nullptr;
+}
+
+std::vector<common::Target> SpaceSensors::targets(const common::KeyPoses& keys) const {
+  return targets_ ? targets_->targets(keys) : std::vector<common::Target>();
+}
+
+std::vector<common::Event> SpaceSensors::takeEvents(const common::PlaceNames& names) {
+  std::vector<common::Event> events;
+  const auto append = [&](std::vector<common::Event> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(events));
+  };
+  if (rgbd_) append(rgbd_->takeEvents());
+  if (vertical_laser_) append(vertical_laser_->takeEvents());
+  if (targets_) append(targets_->takeEvents(names));
+  return events;
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,80 @@
+// The sensors of the third dimension, an RGB-D camera or else an upright laser: each frame and sweep waits until the
+// pose of its own time is known, then makes the 3D map; in frames coloured targets are looked for too.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "autonomy/estimation/odometry_step.hpp"
+#include "autonomy/estimation/pose_track.hpp"
+#include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/target_pipeline.hpp"
+#include "autonomy/estimation/vertical_laser_pipeline.hpp"
+#include "common/event.hpp"
+#include "common/jobs.hpp"
+#include "common/key_pose.hpp"
+#include "common/rgbd_camera_config.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "common/world/targets_layer.hpp"
+#include "perception/people/people_tracker.hpp"
+
+namespace swiftlet::autonomy {
+
+struct EstimatorConfig;
+
+/// What else the estimator knows at a tick.
+struct MapSituation {
+  const PoseTrack& poses;
+  std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
+  const perception::PeopleTracker& people;
+  double drift_m = 0.0;  ///< See DriftMonitor.
+};
+
+/// One thread. Its jobs refer to it.
+class SpaceSensors {
+ public:
+  /// Data sheets; null without that sensor. With a camera an upright laser is not used.
+  SpaceSensors(const EstimatorConfig& config, const common::RgbdCameraConfig* camera,
+               const common::LaserConfig* vertical_laser, common::JobRunner& jobs);
+
+  /// Whether the frame can be used; false without a camera.
+  [[nodiscard]] bool add(std::shared_ptr<const common::RgbdFrame> frame);
+  /// Without an upright laser the sweep is ignored.
+  void add(std::shared_ptr<const common::VerticalScan> sweep);
+
+  bool hasCamera() const { return rgbd_ != nullptr; }
+  /// Mount and clock; only with a camera.
+  common::CameraEstimate camera() const { return rgbd_->camera(); }
+  /// What the camera tells the filter, at every tick before `map`; none without news.
+  std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
+  /// See RgbdPipeline::forgetClone.
+  void forgetClone() { rgbd_->forgetClone(); }
+  /// Maps what has waited long enough, at every tick.
+  void map(const MapSituation& situation, common::Time now);
+
+  /// Null before the first frame or sweep.
+  std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
+  std::vector<common::Target> targets(const common::KeyPoses& keys) const;
+  /// None without a camera.
+  std::optional<RgbdCounts> counts() const { return rgbd_ ? std::optional(rgbd_->counts()) : std::nullopt; }
+  /// None without a camera whose frames come over a radio.
+  std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
+  std::vector<common::Event> takeEvents(const common::PlaceNames& names);
+
+ private:
+  static FrameSituation situationAt(common::Time time, const MapSituation& situation, common::Time now);
+  void mapFrame(const MapSituation& situation, common::Time now);
+  void lookForTargets(const MapSituation& situation, common::Time now);
+  void mapSweeps(const MapSituation& situation, common::Time now);
+
+  std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera.
+  std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
+  std::unique_ptr<TargetPipeline> targets_;                ///< Null without a camera, and without targets to look for.
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,153 @@
+#include "autonomy/senses.hpp"
+
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "autonomy/autonomy_config.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::Time;
+
+namespace {
+
+void append(std::vector<common::Event>& events, std::vector<common::Event> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(events));
+}
+
+}  // namespace
+
+Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup)
+    : behavior_period_s_(1.0 / config.behavior_rate_hz),
+      estimator_(config.estimator, setup.laser, setup.vehicle, setup.given, *setup.jobs, setup.camera,
+                 setup.vertical_laser),
+      scans_(config.scans, 1.0 / setup.laser.rate_hz),
+      inertial_(config.inertial, config.control.position.attitude_lag_s),
+      given_map_(setup.given),
+      consumption_(config.energy, setup.vehicle, config.control.position.thrust.table.voltage_exponent) {}
+
+bool Senses::sense(const common::SensorEvent& event) {
+  if (!stamps_.accepts(event)) return false;
+  if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
+    if (const auto sample = inertial_.take(estimator_.withAttitude(*imu))) estimator_.addImu(*sample);
+  } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
+    take(*scan);
+  } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
+    if (estimator_.addFrame(*frame)) frames_.push_back({*frame, estimator_.state()});
+  } else if (const auto* sweep = std::get_if<std::shared_ptr<const common::VerticalScan>>(&event)) {
+    estimator_.addSweep(*sweep);
+  } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
+    take(*battery);
+  }
+  return true;
+}
+
+/// The first scan that is left out leaves an event, all of them a figure of the run.
+void Senses::take(const std::shared_ptr<const common::LaserScan>& scan) {
+  if (scans_.add(scan) || scans_.lateScans() > 1) return;
+  const common::Stamps& stamps = scan->stamps;
+  events_.push_back(
+      {stamps.arrived, common::Severity::kWarning, "laser", "a scan came too late to be used",
+       fmt::format("{:.0f} ms after it was measured, {:.0f} ms behind a later one; further ones are only counted",
+                   1e3 * (stamps.arrived - stamps.measured).seconds(),
+                   1e3 * (scans_.lastMeasured() - stamps.measured).seconds())});
+}
+
+void Senses::take(const common::BatterySample& sample) {
+  if (!battery_check_.accepts(sample)) return;
+  battery_v_ = sample.voltage_v;
+  consumption_.add(sample, airborne_, thrust_margin_, estimator_.state().velocity_odom_m_s.head<2>().norm());
+}
+
+void Senses::hear(const Feedback& feedback) {
+  airborne_ = feedback.airborne;
+  thrust_margin_ = feedback.thrust_margin;
+  inertial_.flown(feedback.setpoint, feedback.inertial);
+  if (feedback.path_speed_m_s) consumption_.followed(*feedback.path_speed_m_s, common::kControlPeriod.seconds());
+  estimator_.hear(feedback);
+  for (const GivenMapOrder& order : feedback.given_map)
+    if (order.load != nullptr) given_map_.load(*order.load);
+}
+
+Percept Senses::sense(Time now) {
+  while (const auto sample = inertial_.predicted(now)) estimator_.addImu(*sample, true);
+  std::vector<SeenScan> scans = processScans(now);
+  estimator_.updateMap3d(now);
+  Percept percept = this->percept(now);
+  percept.scans = std::move(scans);
+  percept.frames = std::exchange(frames_, {});
+  for (const SeenScan& seen : percept.scans)
+    if (seen.outcome.raw_height) percept.raw_height = seen.outcome.raw_height;
+  if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= behavior_period_s_ - 1e-6) {
+    last_behaviors_ = now;
+    percept.must_land = inertial_.mustLandFor(now);
+    percept.around = surroundings(now, percept.state);
+  }
+  return percept;
+}
+
+Percept Senses::start(const Feedback& standing) {
+  thrust_margin_ = standing.thrust_margin;
+  Percept percept = this->percept(Time{});
+  percept.around = surroundings(percept.now, percept.state);
+  return percept;
+}
+
+std::vector<SeenScan> Senses::processScans(Time now) {
+  std::vector<SeenScan> seen;
+  while (const auto scan = scans_.take(now)) {
+    if (scan_watch_.repeats(*scan)) continue;
+    if (auto outcome = estimator_.addScan(*scan, now))
+      seen.push_back({std::move(*outcome), estimator_.state(), estimator_.people().obstacles()});
+  }
+  return seen;
+}
+
+Percept Senses::percept(Time now) {
+  Percept percept;
+  percept.now = now;
+  percept.state = estimator_.state();
+  percept.drift_m = estimator_.drift_m();
+  percept.battery_v = battery_v_;
+  percept.ready = estimator_.ready();
+  percept.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
+  percept.inertial_fault = inertial_.fault(now);
+  percept.inertial_contradicted = inertial_.contradicted();
+  const BodyMotion motion = estimator_.motion();
+  percept.acceleration_odom_m_s2 = motion.acceleration_odom_m_s2;
+  percept.horizon_offset_rad = motion.horizon_offset_rad;
+  percept.estimator = &estimator_;
+  percept.consumption = &consumption_;
+  return percept;
+}
+
+Surroundings Senses::surroundings(Time now, const common::VehicleState& state) {
+  Surroundings around;
+  EstimatedMaps maps = estimator_.maps();
+  given_map_.update(now, state.T_map_body_planar(), state.T_map_odom, maps.localization, maps.grid);
+  around.grid = given_map_.grid();
+  around.grid_for_paths = given_map_.gridForPaths();
+  around.flown = given_map_.flown();
+  around.given = given_map_.given();
+  around.T_map_given = given_map_.T_map_given();
+  around.localization = std::move(maps.localization);
+  around.levels = std::move(maps.levels);
+  around.map3d = std::move(maps.map3d);
+  around.targets = std::move(maps.targets);
+  return around;
+}
+
+std::vector<common::Event> Senses::takeEvents() {
+  std::vector<common::Event> events = std::exchange(events_, {});
+  append(events, stamps_.takeEvents());
+  append(events, inertial_.takeEvents());
+  append(events, scan_watch_.takeEvents());
+  append(events, estimator_.takeEvents(common::PlaceNames::in(given_map_.T_map_given())));
+  append(events, given_map_.takeEvents());
+  append(events, battery_check_.takeEvents());
+  return events;
+}
+
+}  // namespace swiftlet::autonomy
