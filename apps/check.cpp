@@ -38,7 +38,7 @@ struct CheckOptions {
   bool json = false;
 };
 
-/// A mission that was named, and its file, or why there is none.
+/// A mission that was named, and its file, or why it has no file.
 struct NamedMission {
   std::string name;
   std::string file = {};
@@ -108,10 +108,10 @@ nlohmann::json jsonOf(const std::vector<tree::Problem>& problems) {
 struct CheckReport {
   std::vector<tree::Problem> problems;
   std::vector<tree::Problem> warnings;
-  std::map<std::string, std::vector<std::string>> nodes;  ///< By mission: whose they are.
+  std::map<std::string, std::vector<std::string>> nodes;  ///< By mission: the owners of its nodes.
 };
 
-/// A file that several missions use is told of once.
+/// A file that several missions use is reported once.
 void add(std::vector<tree::Problem>& all, const std::vector<tree::Problem>& found) {
   for (const tree::Problem& problem : found) {
     const auto isSame = [&](const tree::Problem& known) {

@@ -1,4 +1,4 @@
-// What people are told where the coordinates of a cloud are probably no metres.
+// Notes for people where the coordinates of a cloud are probably not in metres.
 #pragma once
 
 #include <string>

@@ -151,7 +151,7 @@ std::optional<std::string> unknownWord(const CLI::App& app) {
   return unknown(fmt::format("`{}` is not a command of `{}`", word, fullName(app)), commandHint(app, word));
 }
 
-/// CLI11 speaks of an option with too few or too many values in its own words.
+/// Replaces CLI11's words for an option with too few or too many values.
 std::string plainly(const CLI::ParseError& error) {
   const std::string text = error.what(), option = text.substr(0, text.find(':'));
   if (error.get_name() != "ArgumentMismatch" || !isOption(option)) return text;
@@ -163,7 +163,7 @@ std::string plainly(const CLI::ParseError& error) {
 std::string usageProblem(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App* app = &program;
   std::optional<std::string> problem;
-  // What follows an option without its value has not been looked at.
+  // The words behind an option without its value have not been checked.
   if (const std::string plain = plainly(error); plain.ends_with(kValueMissing)) problem = plain;
   for (;;) {
     if (!problem) problem = unknownWord(*app);
@@ -180,7 +180,7 @@ Command Command::command(const std::string& name, const std::string& description
   return {*app_->add_subcommand(name, description), *chosen_};
 }
 
-/// CLI11 would name a missing command before an unknown one; so none is required while it parses.
+/// CLI11 would name a missing command before an unknown one; so no command is required while it parses.
 void Command::requireCommand(const std::string& what) {
   app_->require_subcommand(0, 1);
   app_->callback([app = app_, what] {

@@ -25,7 +25,7 @@ namespace swiftlet::apps {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,    ///< The command ran, but not to the wished end; docs/conventions.md says for each what that means.
+  kFailed = 1,    ///< The command ran without the wanted result; docs/conventions.md says for each what that means.
   kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
@@ -40,8 +40,8 @@ struct Within {
 /// Seeds are bounded, so that counting on from them does not overflow.
 constexpr double kGreatestSeed = 1e9;
 
-/// A handle: copies are the same command. The variables named must live until what the command runs has run. What they
-/// hold at first is the default, which --help shows; that of an empty text or optional is for the description to say.
+/// A handle: copies are the same command. The variables named must live until the command has run. Their
+/// initial value is the default, which --help shows; the description gives that of an empty text or optional.
 class Command {
  public:
   /// A command below this one.
@@ -52,7 +52,7 @@ class Command {
   /// Arguments have no dashes and are required.
   void argument(const std::string& name, std::string& value, const std::string& description);
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& description);
-  /// Arguments of which there may be none.
+  /// Arguments that may be left out.
   void optionalArguments(const std::string& name, std::vector<std::string>& values, const std::string& description);
 
   void option(const std::string& name, std::string& value, const std::string& description);
@@ -74,7 +74,7 @@ class Command {
   }
   void flag(const std::string& name, bool& value, const std::string& description);
 
-  /// What --help says at its end, for instance an example.
+  /// The end of --help, for instance an example.
   void footer(const std::string& text);
 
   void runs(Run run);
@@ -97,7 +97,7 @@ class Program {
 
   Command& top() { return top_; }
 
-  /// The chosen command, or none. Without one, help, the version or the mistake in the arguments has been printed, and
+  /// The chosen command, if any. Without one, help, the version or the mistake in the arguments has been printed, and
   /// the program ends with `exit_code`. A command or an option that does not exist is the first mistake to be printed,
   /// with the most similar one.
   struct Parsed {

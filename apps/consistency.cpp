@@ -89,7 +89,7 @@ std::vector<std::string> missed(const Consistency& consistency) {
   return missed;
 }
 
-/// Fig. 3a of Bachrach 2009, of the first flight: what nothing but the accelerometer knows of the velocity.
+/// Fig. 3a of Bachrach 2009, of the first flight: the velocity by the accelerometer alone.
 void plotDrift(const TapedFlight& flight, const System& system, const ConsistencyOptions& options) {
   rendering::Plot plot;
   plot.title = "Forward velocity";

@@ -27,7 +27,7 @@ class ControlLogSink final : public autonomy::FlightSink, public perception::Fil
 
   /// Writes what is left.
   void finish();
-  /// Why something could not be written; none if nothing failed. Nothing is written after that.
+  /// Why something could not be written; nullopt without a failure. Nothing is written after that.
   const std::optional<std::string>& failure() const { return failure_; }
 
  private:

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A voxel's side where a cloud becomes an octree, the one of the maps that flights leave.
+/// A voxel's side where a cloud becomes an octree: that of the maps that flights leave.
 constexpr double kUsualResolution_m = 0.05;
 /// By how much a point may be moved where its coordinates are rounded to single precision.
 constexpr double kMostRounding_m = 0.001;

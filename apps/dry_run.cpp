@@ -17,7 +17,7 @@ namespace {
 
 double secondsOf(const tree::DryRunTick& tick) { return 1e-9 * static_cast<double>(tick.now_ns); }
 
-/// In one line each, whatever the names in them hold.
+/// Shows the text in one line, whatever the names in it contain.
 void showLine(const std::string& line) { show(common::printable(line) + "\n"); }
 
 /// The answer of the last tick.

@@ -40,7 +40,7 @@ using evaluation::EnvelopeFlight;
 using evaluation::EnvelopeStep;
 using evaluation::TrialConfig;
 
-/// Keeps the quantities with one of the keys. A key of none is a mistake.
+/// Keeps the quantities with one of the keys. An unknown key is a mistake.
 void keepOnly(const std::string& keys, evaluation::EnvelopeConfig& config) {
   std::vector<std::string> known, wanted;
   for (const auto& quantity : config.quantities) known.push_back(quantity.key);
@@ -59,7 +59,7 @@ void keepOnly(const std::string& keys, evaluation::EnvelopeConfig& config) {
   });
 }
 
-/// The one condition of the trial that is flown. The envelope's base takes the place of its natures.
+/// The one condition of the trial that is flown. The envelope's base replaces its natures.
 TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, const fs::path& file) {
   const auto refused = [&](const char* element, const std::string& message, const char* hint) {
     return common::InputError(common::Problem{{file.string()}, element, message, hint});
@@ -160,7 +160,7 @@ class EnvelopeRun {
 
   EnvelopeStep at(double value) const { return {value, results_.base.flights}; }
 
-  /// None if it was stopped from outside.
+  /// nullopt if it was stopped from outside.
   std::optional<EnvelopeFlight> fly(const TrialConfig& trial, int seed, const fs::path& folder) const {
     EnvelopeFlight flight = envelopeFlight(flyOne(trial, map_, seed, folder, stop_));
     const bool stopped = stop_, kept = !stopped && !flight.acceptable;

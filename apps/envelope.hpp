@@ -8,14 +8,14 @@ namespace swiftlet::apps {
 
 struct EnvelopeOptions {
   std::string trial;                                ///< One file.
-  std::string quantities = "config/envelope.yaml";  ///< What is turned up.
+  std::string quantities = "config/envelope.yaml";  ///< The quantities to vary.
   std::string only;                                 ///< Keys of these quantities alone, by commas; empty: all.
-  std::optional<int> repeat;                        ///< Flights at each value; none: what the quantities' file says.
-  std::optional<int> seed;                          ///< Of the first flight at each value; none: that of the trial.
+  std::optional<int> repeat;                        ///< Flights at each value; nullopt: from the quantities' file.
+  std::optional<int> seed;                          ///< Of the first flight at each value; nullopt: from the trial.
   int jobs = 1;                                     ///< Quantities at the same time.
   std::string system;                               ///< Empty: that of the trial.
   std::string out;
-  std::string write;  ///< Page that gets picture and table; empty: none.
+  std::string write;  ///< Page that gets picture and table; empty: no page.
   bool json = false;
 };
 

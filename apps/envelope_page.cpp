@@ -81,7 +81,7 @@ std::string envelopeReport(const EnvelopeResults& results, const std::string& st
 
 void writePage(const fs::path& page, const EnvelopeResults& results) {
   const fs::path picture = fs::path("images") / page.stem().concat(".svg");
-  std::error_code failure;  // Told by the write below.
+  std::error_code failure;  // The write below reports it.
   fs::create_directories(page.parent_path() / "images", failure);
   required(interfaces::writeAtomically(page.parent_path() / picture, envelopePicture(results)));
   writeBetween(page, kEnvelopeMarks, blockOf(results, picture.string()));

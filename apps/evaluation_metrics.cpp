@@ -43,7 +43,7 @@ std::string textOf(common::Time stamp) {
 
 Ordered read(const std::string& file) { return common::ordered(interfaces::readPoses(file)); }
 
-/// What is odd about the steps of the stamps; empty if nothing is.
+/// What is odd about the steps of the stamps; empty if they are regular.
 std::string stepNote(const Ordered& poses) {
   return interfaces::stampStepNote(
       common::medianStep_s(poses.trajectory, [](const common::StampedPose& pose) { return pose.stamp; }));
@@ -77,7 +77,7 @@ std::vector<ErrorFigures> figuresOf(const evaluation::RelationErrors& errors) {
 struct Compared {
   Ordered estimate, reference;
   PoseOrder order = PoseOrder::kStamps;
-  std::size_t without_pose = 0;  ///< Frames of both files that have none.
+  std::size_t without_pose = 0;  ///< Frames of both files without a pose.
   std::vector<PosePair> pairs;   ///< Not empty.
 };
 

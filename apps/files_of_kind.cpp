@@ -108,7 +108,7 @@ std::string findMission(const std::string& name) {
 
 void refuseOtherKind(const std::string& file, std::string_view what) {
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return;  // Who reads it says what it is.
+  if (!fs::is_regular_file(file, ignored)) return;  // Its reader reports it.
   const Use use = useOf(file, file);
   for (const Kind& kind : kOtherKinds)
     if (kind.what == what) refuseOtherUse(file, use, kind);

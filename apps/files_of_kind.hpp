@@ -1,4 +1,4 @@
-// The files that a command line names, told apart by what they are for: a mission is no trial, and a world no map.
+// The files that a command line names, distinguished by their use: a mission is no trial, and a world no map.
 #pragma once
 
 #include <string>

@@ -26,9 +26,9 @@ class WebLink;
 
 struct FlightSetup {
   System system;
-  std::string mission_file;              ///< Of every vehicle that names none of its own.
+  std::string mission_file;              ///< Of every vehicle without a mission file of its own.
   simulation::Scenario scenario;         ///< World, starts, weather, seed; vehicle and laser are taken from the system.
-  std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
+  std::shared_ptr<const FlightMap> map;  ///< The map to localize in; null: no given map.
   std::vector<evaluation::OperatorStep> operator_steps = {};
   std::vector<evaluation::PhaseConfig> phases = {};
   VehicleMemorySetup memory;

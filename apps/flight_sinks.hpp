@@ -34,7 +34,7 @@ class FolderSink final : public autonomy::FlightSink {
   interfaces::RunFolder& folder_;
 };
 
-/// Records the truth together with the estimates, and tells the simulation what the vehicle does.
+/// Records the truth together with the estimates, and reports the flight's phase to the simulation.
 class TruthSink final : public autonomy::FlightSink {
  public:
   TruthSink(simulation::SimulatedVehicle& vehicle, evaluation::FlightRecorder& recorder)

@@ -7,7 +7,7 @@
 namespace swiftlet::apps {
 
 /// Calls fly(i) for each i below `count` in order, up to `jobs` of them at the same time from as many threads, and
-/// returns when all are over. None begins after `stop` is set, or after one has thrown: that exception is thrown again.
+/// returns when all are over. No call begins after `stop` is set or one has thrown: that exception is thrown again.
 void flyInParallel(int count, int jobs, const std::atomic<bool>& stop, const std::function<void(int)>& fly);
 
 }  // namespace swiftlet::apps

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// on a coarser one it closes wherever a frame falls on the edge of a cell.
 constexpr double kCoarsest_m = 0.2;
 
-/// T_world_given: the rigid fit of the SLAM poses to the driven ones. None if they do not determine a direction.
+/// T_world_given: the rigid fit of the SLAM poses to the driven ones. nullopt if they do not determine a direction.
 std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
                                     const std::vector<perception::TrackedScan>& tracked,
                                     const std::vector<common::Pose2>& driven) {

@@ -128,7 +128,7 @@ std::string jsonOf(const Identification& found, const std::string& out) {
 
 constexpr const char* kNatureFile = "nature.yaml";
 
-/// Only the simulator says what flew: by a nature.yaml, or that it was the plant of the data sheet.
+/// Only the simulator knows the true plant: by a nature.yaml, or as the plant of the data sheet.
 void requirePlant(const std::filesystem::path& run) {
   std::error_code failure;
   if (std::filesystem::exists(run / kNatureFile, failure)) return;
@@ -154,7 +154,7 @@ std::vector<control::CommandAngle> benchRows(const std::string& run, const commo
   return rows;
 }
 
-/// A model that lacks something is written all the same, if it has anything: what it lacks is told.
+/// An incomplete model is written as well, if it has anything; its gaps are reported.
 int identify(const IdentifyOptions& options) {
   const common::VehicleConfig vehicle = loadVehicle(options.vehicle);
   if (!options.out.empty()) requireWritable(options.out, "--out", kModelLine);

@@ -47,7 +47,7 @@ common::Pose2 startInMap(const std::string& text) {
   return {start[0], start[1], common::wrapAngle(start[2] * common::kRadPerDeg)};
 }
 
-/// Throws InputError for a start outside the map: nothing seen there could contradict it.
+/// Throws InputError for a start outside the map: no measurement there could contradict it.
 void refuseOutside(const common::Pose2& T_map_start, const interfaces::StoredMap& map, const std::string& text) {
   const Eigen::Vector2d start_grid_m = map.T_map_grid.inverse() * T_map_start.position_m();
   const common::CellRect known = common::knownExtent(map.grid);
@@ -81,7 +81,7 @@ struct LocalizeRun {
   LocalizeFigures shown;
   double wall_s = 0.0;
 
-  /// Whether the map is of another place than the log; none if that is not known. `given`: the start was.
+  /// Whether the map is of another place than the log; nullopt if that is not known. `given`: the start was given.
   std::optional<bool> wrongMap(bool given) const {
     if (refuted) return true;
     const bool found = times_localized > (given ? 1U : 0U) || state == LocalizationState::kLocalized;

@@ -29,7 +29,7 @@ struct Trust {
 struct LogMapping {
   explicit LogMapping(const perception::LaserSlamConfig& config) : slam(config) {}
 
-  /// The track knows the scan by `known_as`. Returns nothing until a first scan has had enough points.
+  /// The track knows the scan by `known_as`. Returns nullopt until a first scan has had enough points.
   std::optional<perception::TrackedScan> add(common::Time known_as, const perception::LaserSlamInput& input);
   void finish();
 

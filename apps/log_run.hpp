@@ -1,4 +1,4 @@
-// One recorded log, mapped in one way: how far the map is off, and what the map says of itself.
+// One recorded log, mapped in one way: how far the map is off, and the judgement of the map itself.
 #pragma once
 
 #include <cstdint>

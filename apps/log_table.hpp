@@ -13,7 +13,7 @@ namespace swiftlet::apps {
 /// as long as `runs`.
 std::string logTable(const std::vector<LogRun>& runs, const std::vector<LogOutcome>& outcomes);
 
-/// Throws common::InputError if there is a page that has no place for the table, or it cannot be written. Call it
+/// Throws common::InputError if the page exists and has no place for the table, or it cannot be written. Call it
 /// before the work.
 void checkLogPage(const std::filesystem::path& page);
 

@@ -32,7 +32,7 @@ void returnLargeBlocks() {
 #endif
 }
 
-/// What was printed may have been lost: a full disk is told, a reader that has gone is not.
+/// The output may have been lost: a full disk is reported, a reader that has gone is not.
 int withOutput(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   if (errno == EPIPE) return code;
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   using namespace swiftlet;
   openStandardStreams();
   returnLargeBlocks();
-  // Beyond a limit of the shell (ulimit -f) a write then fails, and is told, as on a full disk.
+  // Beyond a limit of the shell (ulimit -f) a write then fails, and is reported as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
 
   apps::Program program("swiftlet", toString(apps::buildVersion()),

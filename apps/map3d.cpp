@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using common::Pose3;
 
-/// One frame of so many, and one pixel of so many in it, tell how far away what the camera sees is.
+/// One frame in this many, and one of its pixels in this many, are sampled for the typical depth of the scene.
 constexpr std::uint64_t kDepthFrames = 10;
 constexpr std::size_t kDepthPixels = 97;
 
@@ -62,7 +62,7 @@ Pose3 T_results_map(const Map3dRun& run) {
   return run.anchor->T_world_camera * T_map_camera.inverse();
 }
 
-/// None if nothing was measured.
+/// nullopt if nothing was measured.
 std::optional<double> medianDepth_m(const common::DepthImage& depth) {
   std::vector<float> measured_m;
   for (std::size_t i = 0; i < depth.depth_m.size(); i += kDepthPixels)
@@ -125,7 +125,7 @@ common::Trajectory stretched(common::Trajectory trajectory, double factor) {
   return trajectory;
 }
 
-/// In the stamps of the recording. Empty where none are given.
+/// In the stamps of the recording. Empty without given poses.
 common::Trajectory givenPoses(const Map3dOptions& options) {
   if (options.poses == "none") return {};
   common::Trajectory poses =

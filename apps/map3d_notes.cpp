@@ -16,14 +16,14 @@ namespace {
 using interfaces::FrameFault;
 using interfaces::RgbdFolder;
 
-/// With poses for a smaller part of the frames, their times are probably those of another clock.
+/// With poses for a smaller part of the frames, their times are probably from another clock.
 constexpr double kFewPoses = 0.5;
 /// A map of which more than this part was lost is probably not one map.
 constexpr double kMostLost = 0.1;
 /// No camera pauses longer within one recording.
 constexpr double kLongGap_s = 10.0;
 
-/// Says how far away the frames are, from which a user sees whether the unit of the depths is right.
+/// The typical depth of the frames, from which a user sees whether the unit of the depths is right.
 std::string depthQuestion(const RgbdFolder& folder, const Map3dRun& run) {
   return fmt::format("the depths are {:.2f} m in the median at {:g} units a metre: is depth_units_per_m right?",
                      run.medianDepth_m(), folder.calibration().depth_units_per_m);

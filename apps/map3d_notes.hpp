@@ -1,4 +1,4 @@
-// What `swiftlet map3d` has to say of a recording: what is odd about it, and why it cannot be mapped.
+// Notes of `swiftlet map3d` on a recording: its oddities, and why it cannot be mapped.
 #pragma once
 
 #include <string>

@@ -64,9 +64,9 @@ struct Map3dRun {
  private:
   static constexpr std::uint64_t kFalseStartFrames = 15;
   static constexpr double kFalseStart_s = 3.0;
-  static constexpr double kFalseStartRatio = 3.0;  ///< Lost so many times longer than it was tracked.
+  static constexpr double kFalseStartRatio = 3.0;  ///< Lost this many times longer than it was tracked.
 
-  /// 0 of none.
+  /// 0 of an empty list.
   static double medianOf(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values.empty() ? 0.0 : values[values.size() / 2];

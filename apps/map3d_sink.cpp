@@ -56,7 +56,7 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
 
 void Map3dSink::writeNow(const common::World& world) {
   if (!world.map3d) return;
-  jobs_->deliverDue(now_ + kLatency);  // Nothing else may write the same files.
+  jobs_->deliverDue(now_ + kLatency);  // No job may write the same files then.
   returnFreedMemory();
   if (!folder_.failure()) folder_.wroteMap3d(writeOctrees(folder_.path(), *world.map3d, world.stamp));
   returnFreedMemory();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooks{50};
 
-/// Linux tells it in units of 1024 bytes.
+/// Linux counts it in units of 1024 bytes.
 double greatestEver_MB() {
   rusage usage{};
   return ::getrusage(RUSAGE_SELF, &usage) == 0 ? 1.024e-3 * static_cast<double>(usage.ru_maxrss) : 0.0;

@@ -6,7 +6,7 @@
 namespace swiftlet::apps {
 
 /// The most since the object was made, without what the process needed before. One thread. Where the system does not
-/// tell (no /proc), it is 0.
+/// report it (no /proc), it is 0.
 class MemoryWatch {
  public:
   MemoryWatch();

@@ -14,7 +14,7 @@ namespace swiftlet::apps {
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 
-/// The mission file of each vehicle of the scenario, in their order: its own, or `otherwise` where it names none.
+/// The mission file of each vehicle of the scenario, in their order: its own, or else `otherwise`.
 std::vector<std::string> missionFiles(const simulation::Scenario& scenario, const std::string& otherwise);
 
 /// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.

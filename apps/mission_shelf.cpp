@@ -31,8 +31,8 @@ std::string firstComment(const std::string& text) {
   return first == std::string::npos ? std::string() : comment.substr(first, last - first + 1);
 }
 
-/// The maps that a mission may load, read now: in flight nothing reads a file. Those of a text that is no mission are
-/// none; why it is none is said where missions are judged. Throws common::InputError for a map that cannot be used.
+/// The maps that a mission may load, read now: in flight no file is read. A text that is no mission has no maps;
+/// the check of missions reports why. Throws common::InputError for a map that cannot be used.
 std::vector<common::OfferedMap> mapsOf(const std::string& text, const std::string& file, std::uint64_t seed) {
   std::optional<behaviors::Mission> mission;
   try {

@@ -11,7 +11,7 @@ namespace swiftlet::apps {
 
 class FolderShelf final : public web::MissionShelf {
  public:
-  /// `first` is a mission of its own, listed before those of `folder`; a folder that does not exist has none.
+  /// `first` is a mission of its own, listed before those of `folder`; a folder that does not exist has no missions.
   /// `map_seed`: of the particles, in the maps that missions load.
   FolderShelf(std::filesystem::path first, std::filesystem::path folder, std::uint64_t map_seed)
       : first_(std::move(first)), folder_(std::move(folder)), map_seed_(map_seed) {}
@@ -21,7 +21,7 @@ class FolderShelf final : public web::MissionShelf {
       const std::string& file, const std::map<std::string, std::string>& parameters) override;
 
  private:
-  /// Read anew each time, so that a file that was edited is flown as it is.
+  /// Read again each time, so that a file that was edited is flown as it is.
   std::vector<std::filesystem::path> files() const;
 
   std::filesystem::path first_;
@@ -29,7 +29,7 @@ class FolderShelf final : public web::MissionShelf {
   std::uint64_t map_seed_;
 };
 
-/// The folder of missions that findData finds; one that does not exist if there is none.
+/// The folder of missions that findData finds; a path that does not exist if it finds no folder.
 std::filesystem::path shippedMissions();
 
 }  // namespace swiftlet::apps

@@ -15,7 +15,7 @@ enum class GraphVerdict {
   kConverged,
   kNotConverged,
   kContradictory,  ///< It converged, but some closures are far beyond their uncertainty: chi2 is impossible.
-  kCannotTell,     ///< So many closures were refused that the refused ones may be the right ones.
+  kCannotTell,     ///< Too many closures were refused: they may be the right ones.
 };
 const char* toString(GraphVerdict verdict);
 

@@ -98,7 +98,7 @@ struct Measured {
   std::size_t flights = 0, failed = 0;
 };
 
-/// None if it is no number, as a figure that was not measured.
+/// nullopt if it is no number, as a figure that was not measured.
 std::optional<double> figureOf(const FlownTrial& trial, const std::string& key, const Json& value) {
   if (!value.is_number()) return std::nullopt;
   const auto number = value.get<double>();
@@ -272,7 +272,7 @@ std::string page(const Papers& papers, const std::vector<FlownTrial>& trials, co
   return text;
 }
 
-/// Of results that are not those of the papers' trials, or of other profiles, nothing is shown.
+/// Results of other trials than the papers', or of other profiles, are not shown.
 void tellUnused(const std::vector<FlownTrial>& trials) {
   for (const FlownTrial& trial : trials)
     if (!trial.used)

@@ -10,7 +10,7 @@
 namespace swiftlet::apps {
 namespace {
 
-/// By the wall clock, for those who watch the report of a running flight.
+/// By the wall clock, for people who watch the report of a running flight.
 constexpr std::chrono::seconds kPicturePeriod{5};
 /// Drawing takes about as long as half a second of a flight at full speed.
 constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);

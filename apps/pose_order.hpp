@@ -1,4 +1,4 @@
-// Two trajectories that are to be compared, of which each may have stamps, frame numbers or nothing but an order.
+// Two trajectories to be compared, each with stamps, frame numbers or only an order.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@ class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
 
-  /// What is done after so long, and the time left if it is known: "3 of 8 flights, about 1 h 20 min left".
+  /// The work done after this time, and the time left if it is known: "3 of 8 flights, about 1 h 20 min left".
   void update(const std::string& done, double wall_s, std::optional<double> left_s = {});
   /// The same of a run of which that share is done: " 40 %  120 scans, about 3 min left".
   void update(double share, const std::string& done, double wall_s);

@@ -23,7 +23,7 @@ std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) 
   return interfaces::openLaserLog(options.file, log_options);
 }
 
-/// So many stamps tell the rate of a laser.
+/// This many stamps determine the rate of a laser.
 constexpr std::size_t kFirstStamps = 1000;
 
 /// The name without the first of these endings that it has.

@@ -35,7 +35,7 @@ std::filesystem::path folderFor(const RecordedLogOptions& options, const std::st
 /// "1 range", "2 ranges".
 std::string plural(std::uint64_t count, const std::string& one, const std::string& more);
 
-/// The value for JSON, null where there is none.
+/// The value for JSON, or null.
 template <typename Json, typename Value>
 Json orNull(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
@@ -49,15 +49,15 @@ class RecordedLog {
   /// `file` is its name in messages.
   RecordedLog(std::unique_ptr<interfaces::LaserLog> log, std::string file, bool uses_odometry);
 
-  /// None at the end, also at one that a damage makes: what came before it counts all the same. Throws InputError when
-  /// not a single scan did.
+  /// nullopt at the end, also where damage ends the log: the scans before it count. Throws InputError when
+  /// not a single scan came before it.
   std::optional<SweptScan> next();
   /// `logged` for SLAM and localization, without its odometry where that is not to be used. Refers to `logged`.
   perception::LaserSlamInput inputOf(const SweptScan& logged) const;
 
   const interfaces::LaserLog& reader() const { return swept_.reader(); }
   std::uint64_t scans() const { return scans_; }
-  /// All scans so far have the same stamp: it tells nothing.
+  /// All scans so far have the same stamp, which is no time.
   bool hasOneStamp() const { return scans_ > 1 && !stamps_differ_; }
   /// Why it could not be read to its end; empty when it could.
   const std::string& damage() const { return swept_.damage(); }
@@ -65,10 +65,10 @@ class RecordedLog {
   /// Why a map of it cannot be trusted, whatever the map looks like; empty if it can.
   std::string whyBent() const { return swept_.whyBent(); }
 
-  /// Of the first record that could not be read; none where all could, or the format has no lines.
+  /// Of the first record that could not be read; nullopt where all could, or the format has no lines.
   std::optional<int> firstSkippedLine() const;
 
-  /// For people, label and value: format, scans and, where the stamps tell it, duration.
+  /// For people, label and value: format, scans and, if the stamps are usable, duration.
   std::vector<std::pair<std::string, std::string>> facts() const;
   /// For people: what is odd about it, with what the front end found.
   std::vector<std::string> warnings(const perception::LaserSlamCounts& found) const;
@@ -79,7 +79,7 @@ class RecordedLog {
 
  private:
   void countStamp(common::Time stamp);
-  /// What is odd about the steps of the stamps; empty if nothing is.
+  /// What is odd about the steps of the stamps; empty if they are regular.
   std::string stampNote() const;
   void countRanges(const common::LaserScan& scan);
 
@@ -91,7 +91,7 @@ class RecordedLog {
   bool stamps_differ_ = false;
   std::vector<common::Time> first_stamps_;
   double duration_s_ = 0.0;                              ///< From the first stamp to the last.
-  std::uint64_t ranges_ = 0, invalid_ = 0, beyond_ = 0;  ///< All; those that tell nothing; those without a hit.
+  std::uint64_t ranges_ = 0, invalid_ = 0, beyond_ = 0;  ///< All; those without information; those without a hit.
   double nearest_m_ = 0.0, farthest_m_ = 0.0;            ///< What the laser of the last scan measures.
 };
 

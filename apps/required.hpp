@@ -9,7 +9,7 @@
 
 namespace swiftlet::apps {
 
-/// The value; throws InputError with the reason if there is none.
+/// The value; throws InputError with the reason without one.
 template <typename Made>
 Made required(tl::expected<Made, interfaces::FileError> made) {
   if (!made) throw common::InputError(common::Problem{{}, "", made.error().message, ""});

@@ -24,7 +24,7 @@ class RgbdSink final : public autonomy::FlightSink {
   void input(const autonomy::Input& input) override;
   void ticked(const autonomy::TickOutcome& outcome) override;
 
-  /// Why something could not be written; none if nothing failed. Nothing is written after that.
+  /// Why something could not be written; nullopt without a failure. Nothing is written after that.
   const std::optional<std::string>& failure() const { return failure_; }
   /// See RgbdRecorder::add.
   std::size_t leftOut() const { return recorder_ ? recorder_->leftOut() : 0; }

@@ -21,7 +21,7 @@ common::InputError unusableRun(const fs::path& place, const std::string& message
   return common::InputError(common::Problem{{place.string()}, "", message, hint});
 }
 
-/// A name alone does not tell: a sheet of the user may have that of another one.
+/// A name alone is not enough: a sheet of the user may have that of another one.
 void refuseOtherVehicle(const fs::path& config, const FlownVehicle& vehicle) {
   const System system = loadSystem(config.string());
   const common::VehicleConfig &flew = system.vehicle, &given = vehicle.sheet;

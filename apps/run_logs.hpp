@@ -29,10 +29,10 @@ void refuseRunsGivenTwice(const std::vector<std::string>& runs, const std::strin
 /// of another rate, one of another vehicle, and one without the truth where it is needed.
 std::vector<interfaces::ControlRow> readControlRows(const std::string& run, const FlownVehicle& vehicle, Truth truth);
 
-/// What the filter of that run was told. Throws common::InputError with file and line.
+/// The inputs of that run's filter. Throws common::InputError with file and line.
 std::vector<perception::FilterInput> readFilterTape(const std::string& run);
 
-/// What the filter was told, and the truth while the vehicle flew. Throws common::InputError, also for a flight that
+/// The inputs of the filter, and the truth while the vehicle flew. Throws common::InputError, also for a flight that
 /// took less than `least_s`.
 perception::TapedFlight readTapedFlight(const std::string& run, const FlownVehicle& vehicle, double least_s);
 

@@ -18,9 +18,9 @@ constexpr double kShortSweep_s = 0.03;
 constexpr double kMostPeriods = 1.5;
 /// No laser turns around in less.
 constexpr double kLeastTurn_s = 0.005;
-/// A laser with so wide a view turns on and on: its sweep takes as long as the time to the next.
+/// A laser with this wide a view turns without a stop: its sweep takes as long as the time to the next.
 constexpr double kFullTurn_rad = 330.0 * common::kRadPerDeg;
-/// So many scans tell the time between two of them.
+/// This many scans determine the time between two of them.
 constexpr std::size_t kFirstScans = 8;
 
 }  // namespace
@@ -58,7 +58,7 @@ void SweptLog::take(const LoggedScan& logged) {
     survey_.add(scan, logged.T_robot_laser, period_s_);
 }
 
-/// Reads the first scans, which tell what sweeps they are.
+/// Reads the first scans, which determine the kind of the sweeps.
 void SweptLog::begin() {
   while (!ended_ && ahead_.size() < kFirstScans) readAhead();
   if (ahead_.empty()) return;

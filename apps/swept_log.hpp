@@ -16,7 +16,7 @@ namespace swiftlet::apps {
 
 struct SweptScan : interfaces::LoggedScan {
   std::optional<perception::SweepMotion>
-      motion;  ///< None where the sweep is short, or its time or motion is not known.
+      motion;  ///< nullopt where the sweep is short, or its time or motion is not known.
 };
 
 /// One thread at a time.
@@ -24,14 +24,14 @@ class SweptLog {
  public:
   explicit SweptLog(std::unique_ptr<interfaces::LaserLog> reader) : reader_(std::move(reader)) {}
 
-  /// None at the end, also at one that a damage makes. Throws InputError when not a single scan came before the damage.
+  /// nullopt at the end, also where damage ends the log. Throws InputError when no scan came before the damage.
   std::optional<SweptScan> next();
 
   const interfaces::LaserLog& reader() const { return *reader_; }
   /// Why it could not be read to its end; empty when it could.
   const std::string& damage() const { return damage_; }
 
-  /// For people: that the time of the sweeps is not known, and what is made of it. Empty where it is known.
+  /// For people: that the time of the sweeps is not known, and what is assumed. Empty where it is known.
   std::string unknownTime() const;
   /// Why a map of it cannot be trusted, as its sweeps could not be undone; empty if it can.
   std::string whyBent() const;
@@ -47,7 +47,7 @@ class SweptLog {
   std::deque<interfaces::LoggedScan> ahead_;
   bool ended_ = false;
   std::string damage_;
-  std::optional<Sweeps> sweeps_;  ///< None before the first scan.
+  std::optional<Sweeps> sweeps_;  ///< nullopt before the first scan.
   double period_s_ = 0.0;         ///< From one of the first scans to the next.
   perception::SweepTracker tracker_;
   perception::SweepTimeSurvey survey_;

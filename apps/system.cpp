@@ -71,7 +71,7 @@ std::string namedFile(const std::string& name, const std::string& folder, const 
   const std::filesystem::path beside = std::filesystem::path(place.file).parent_path() / name;
   std::error_code error;
   const bool there = std::filesystem::exists(beside, error);
-  // What is there and cannot be followed, such as a loop of links, is not looked for elsewhere: reading it says why.
+  // What is there and cannot be followed, such as a loop of links, is not searched elsewhere: its reader reports why.
   if (error || (there && std::filesystem::is_regular_file(beside, error))) return beside.string();
   try {
     return fileFor(name, folder);
@@ -94,7 +94,7 @@ class ProfilePlaces {
     for (const std::string& key : reader.writtenKeys()) places_[key] = reader.locationOf(key);
   }
   void setFile(std::string file) { file_ = std::move(file); }
-  /// The profile without a line for a setting that none of them names.
+  /// The profile without a line for a setting that is in none of the files.
   common::SourceLocation of(const std::string& key) const {
     const auto place = places_.find(key);
     return place == places_.end() ? common::SourceLocation{file_} : place->second;

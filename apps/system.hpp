@@ -65,7 +65,7 @@ System loadSystem(const std::string& name);
 std::vector<common::Problem> problemsOfLqr(const System& system);
 
 /// Why the sensors of this system cannot carry a flight, each with the place in the profile; empty if they can. They
-/// may serve for logs all the same.
+/// may serve for logs nevertheless.
 std::vector<common::Problem> problemsOfSensors(const System& system);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.

@@ -9,7 +9,7 @@ namespace swiftlet::apps {
 /// done is therefore that before the last step, as of that step; between steps the time runs down.
 class TimeLeft {
  public:
-  /// None before it can be told, and where the run lasts longer than was expected. Neither argument decreases.
+  /// nullopt while it is unknown, and where the run lasts longer than expected. Neither argument decreases.
   std::optional<double> after(double share_taken, double wall_s) {
     if (share_taken > taken_) {
       done_ = taken_;

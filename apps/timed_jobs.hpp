@@ -1,4 +1,4 @@
-// How much processor time jobs take. Only those who show it know of it: the jobs are delivered as without it.
+// How much processor time jobs take. The measurement does not affect the jobs: they are delivered as without it.
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ class JobMeter {
     double first_ms = 0.0;
     double last_ms = 0.0;
   };
-  /// The medians of the first and of the last tenth of all jobs of a kind; none with fewer than ten.
+  /// The medians of the first and of the last tenth of all jobs of a kind; nullopt with fewer than ten.
   std::optional<Ends> ends(const std::string& kind) const;
   /// Of all jobs of a kind, in their order.
   std::vector<double> took_ms(const std::string& kind) const;

@@ -39,16 +39,16 @@ using evaluation::TrialResults;
 
 struct TrialOptions {
   std::string trials;
-  std::optional<int> repeat;  ///< Flights of each trial; none: what the trial says.
+  std::optional<int> repeat;  ///< Flights of each trial; nullopt: from the trial.
   int jobs = 1;
-  std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
+  std::optional<int> seed;  ///< Of the first flight; nullopt: from the trial.
   std::string system;
   std::string nature;  ///< Empty: those of the trial.
   bool control_log = false;
   bool record_rgbd = false;
   bool allow_incomplete_world = false;
   std::string vehicle_memory;     ///< Empty: each flight starts from the data sheet.
-  std::optional<double> battery;  ///< None: as the trial says.
+  std::optional<double> battery;  ///< nullopt: from the trial.
   std::string out;
   bool json = false;
   bool envelope = false;
@@ -107,8 +107,8 @@ fs::path runFolder(const TrialConfig& trial, int seed, const fs::path& out) {
   return out / fmt::format("{}-{:03}", trial.name, seed);
 }
 
-/// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds. What stops a flight from
-/// being flown at all ends the trial, and is thrown once `result` has the others.
+/// All flights of one trial, `jobs` at a time; the results are in the order of the seeds. A flight that cannot
+/// begin ends the trial, and its exception is thrown once `result` has the others.
 void flyAll(const TrialConfig& trial, const TrialOptions& options, const VehicleMemorySetup& memory,
             const fs::path& out, const std::atomic<bool>& stop, TrialProgress& progress, TrialResult& result) {
   const auto [first_seed, count] = seedsOf(trial, options);
@@ -176,8 +176,8 @@ void refuseSameNames(const std::vector<TrialConfig>& trials, const fs::path& fil
                                                "name each of systems, natures and batteries once"});
 }
 
-/// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial
-/// is told before the first flight.
+/// The trials to be flown, read and checked, with missions that suit their systems: a mistake in the last trial
+/// is reported before the first flight.
 std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   const fs::path file_or_folder = findTrial(options.trials);
   std::vector<TrialConfig> trials;
@@ -201,7 +201,7 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   return trials;
 }
 
-/// The memory that every flight starts from; the vehicle of every trial must be the one it is of.
+/// The memory that every flight starts from; it must belong to the vehicle of every trial.
 VehicleMemorySetup memoryFor(const std::vector<TrialConfig>& trials, const TrialOptions& options) {
   VehicleMemorySetup memory;
   if (options.vehicle_memory.empty()) return memory;

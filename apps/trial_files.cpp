@@ -39,7 +39,7 @@ std::optional<Problem> findFile(const TrialConfig& trial, const std::string& key
   }
   try {
     (void)common::findBeside(trial.folder, name);
-    return std::nullopt;  // No regular file: who reads it says why.
+    return std::nullopt;  // No regular file: its reader reports why.
   } catch (const InputError& missing) {
     return inTrial(trial, key, name, missing.problems().front());
   }

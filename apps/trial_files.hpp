@@ -9,13 +9,13 @@
 
 namespace swiftlet::apps {
 
-/// The problem of a file that a trial names by `key`, told at that place of the trial. A file of that name beside the
+/// The problem of a file that a trial names by `key`, with that place in the trial. A file of that name beside the
 /// trial is what was meant.
 common::Problem inTrial(const evaluation::TrialConfig& trial, const std::string& key, const std::string& name,
                         common::Problem problem);
 
 /// Finds a mission where data is, or beside the trial, also named without its ending, and sets `name` to its path.
-/// Returns the problem of one that is nowhere, or is no mission.
+/// Returns the problem of a mission that is not found, or is no mission.
 std::optional<common::Problem> findMissionOf(const evaluation::TrialConfig& trial, const std::string& key,
                                              std::string& name);
 

@@ -24,7 +24,7 @@ void prepare(std::vector<evaluation::TrialConfig>& trials);
 /// Warnings of missions that wait for an operator, in trials whose script does not answer: a line each.
 std::vector<std::string> warningsOfOperator(const std::vector<evaluation::TrialConfig>& trials);
 
-/// The map that the flights of a trial are given; null if they are given none. One that a robot makes first lies in
+/// The map that the flights of a trial are given; null without a given map. A map that a robot makes first lies in
 /// `out`.
 std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, const std::filesystem::path& out);
 
@@ -57,10 +57,10 @@ inline const TrialResultsProof kTrialResults{"results.json", "\"trials\""};
 std::filesystem::path trialFolder(const std::string& given, const std::string& noun, const TrialResultsProof& proof);
 
 /// Removes the results and the report that another trial left in a folder of trialFolder(): they would look like this
-/// one's until its last flight. Call it once nothing keeps the flights on the ground.
+/// one's until its last flight. Call it once no problem keeps the flights on the ground.
 void clearOfOlderResults(const std::filesystem::path& out, const TrialResultsProof& proof);
 
-/// Throws common::InputError if the seeds of so many flights would go beyond kGreatestSeed.
+/// Throws common::InputError if the seeds of this many flights would go beyond kGreatestSeed.
 void checkSeeds(int first, int count);
 
 }  // namespace swiftlet::apps

@@ -12,10 +12,10 @@ namespace swiftlet::apps {
 /// Safe from several threads. Its line is shown on a terminal alone: elsewhere the lines of the flights are enough.
 class TrialProgress {
  public:
-  /// Of so many flights.
+  /// The progress of this many flights.
   TrialProgress(int flights, bool quiet);
 
-  /// A flight, as "levels seed 3", has been in the air for so long in simulated time.
+  /// A flight, as "levels seed 3", has been in the air for this long in simulated time.
   void flies(const std::string& flight, double simulated_s);
   /// Prints what a flight that is over came to.
   void over(const std::string& lines, bool passed);

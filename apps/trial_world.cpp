@@ -28,7 +28,7 @@ bool isThere(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// The world of the shipped folders, or of `beside`, whose name is most like this one, in whatever case; empty if none
+/// The world of the shipped folders, or of `beside`, whose name is most like this one, in any case; empty if no name
 /// is.
 std::string similarWorld(const std::string& name, const fs::path& beside) {
   std::vector<std::string> files, stems;

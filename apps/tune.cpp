@@ -33,14 +33,14 @@ struct TuneOptions {
 };
 
 std::vector<TapedFlight> readFlights(const std::vector<std::string>& runs, const common::VehicleConfig& vehicle) {
-  // As long as `identify` asks for: the filter converges in some seconds, which would be all that is learned from.
+  // As long as for `identify`: the filter converges in some seconds, and a shorter flight would teach only that.
   const double least_s = control::AxisFitOptions{}.shortest_s;
   std::vector<TapedFlight> flights;
   for (const std::string& run : runs) flights.push_back(readTapedFlight(run, {vehicle, kSystemOfVehicle}, least_s));
   return flights;
 }
 
-/// What is judged must not have been learned from.
+/// Flights for the judgement must not be flights for the learning.
 void refuseRepeatedFlights(const TuneOptions& options) {
   refuseRunsGivenTwice(options.runs, "run");
   refuseRunsGivenTwice(options.held_out, "--held-out");

@@ -32,7 +32,7 @@ using control::Gain;
 using evaluation::FlightScore;
 using evaluation::TrialConfig;
 
-/// The one trial to be flown, in one nature, with what it names found.
+/// The one trial to be flown, in one nature, with its files found.
 TrialConfig trialToFly(const TuneGainsOptions& options) {
   const fs::path file = common::findData(options.trial);
   TrialConfig trial = evaluation::readTrial(file);
@@ -81,7 +81,7 @@ class GainFlights {
     return cost;
   }
 
-  /// What has been found so far; none before the first set has flown.
+  /// The best gains so far; nullopt before the first set has flown.
   const std::optional<control::GainSearch>& best() const { return best_; }
 
  private:

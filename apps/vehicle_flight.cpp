@@ -184,7 +184,7 @@ common::LosslessQueue<common::OperatorCommand>& VehicleFlight::commands() {
   return web_ ? web_->commands() : own_commands_;
 }
 
-/// The answer has no asker, so that its id is one that no page uses.
+/// The answer has no client, so its id is one that no page uses.
 void VehicleFlight::landIfAsked() {
   if (asked_to_land_ || !hooks_.land || !*hooks_.land) return;
   asked_to_land_ = true;
@@ -193,7 +193,7 @@ void VehicleFlight::landIfAsked() {
   commands().push({0, common::LandCommand{}});
 }
 
-/// The flight goes on: what is lost is its record.
+/// The flight continues; only its record is lost.
 void VehicleFlight::warnOfUnwrittenFiles() {
   if (warned_of_unwritten_files_ || !folder_.failure()) return;
   warned_of_unwritten_files_ = true;
@@ -276,7 +276,7 @@ common::MachineUse VehicleFlight::machineUse(MemoryWatch& memory) const {
   return use;
 }
 
-/// A crash teaches nothing of the vehicle that flies next.
+/// A crash contains no lesson for the next flight.
 void VehicleFlight::keepMemory(interfaces::FlightEnd& end) {
   if (!setup_.memory.kept) return;
   const autonomy::VehicleMemory learned = autonomy_.learned();

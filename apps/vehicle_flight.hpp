@@ -78,9 +78,9 @@ class VehicleFlight {
   interfaces::RunFolder folder_;
   PictureSink pictures_;
   Map3dSink map3d_;
-  std::unique_ptr<ControlLogSink> control_log_;          ///< Null unless it is asked for.
-  std::unique_ptr<RgbdSink> rgbd_;                       ///< Null unless it is asked for.
-  std::unique_ptr<VisualOdometrySink> visual_odometry_;  ///< Null unless it is asked for.
+  std::unique_ptr<ControlLogSink> control_log_;          ///< Null unless requested.
+  std::unique_ptr<RgbdSink> rgbd_;                       ///< Null unless requested.
+  std::unique_ptr<VisualOdometrySink> visual_odometry_;  ///< Null unless requested.
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;

@@ -1,4 +1,4 @@
-// The file of --vehicle-memory: what is known of one vehicle from its earlier flights.
+// The file of --vehicle-memory: what earlier flights have learned of one vehicle.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ enum class MemoryUse { kRead, kReadAndWrite };
 VehicleMemorySetup setupOfMemory(const std::filesystem::path& file, const common::VehicleConfig& vehicle,
                                  std::size_t vehicles, MemoryUse use);
 
-/// None if there is no such file yet. Throws common::InputError, with line and column, for a file that is no memory or
+/// nullopt without such a file. Throws common::InputError, with line and column, for a file that is no memory or
 /// that of another vehicle.
 std::optional<autonomy::VehicleMemory> readVehicleMemory(const std::filesystem::path& file,
                                                          const common::VehicleConfig& vehicle);

@@ -39,8 +39,8 @@ class WebChannel {
 class WebLink {
  public:
   /// Listens at once; throws common::InputError when it cannot. Token, clock and missions of the options are set here.
-  /// `vehicles`: the names of several; empty for one that flies alone. `missions`: those that a page may start; null:
-  /// none.
+  /// `vehicles`: the names of several; empty for one that flies alone. `missions`: those a page may start; null: no
+  /// missions.
   WebLink(web::WebServerOptions options, const std::vector<std::string>& vehicles,
           std::unique_ptr<web::MissionShelf> missions = nullptr);
   ~WebLink();

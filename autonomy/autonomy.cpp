@@ -34,7 +34,7 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
   return std::nullopt;
 }
 
-/// A frame of the observing camera changes nothing here. It is an input so that recordings contain it.
+/// A frame of the observing camera has no effect here. It is an input so that recordings contain it.
 void Autonomy::take(const common::SensorEvent& event) {
   if (!senses_.sense(event)) return;
   if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {

@@ -50,7 +50,7 @@ class Autonomy {
   /// (jobs().awaits).
   std::optional<common::Setpoint> process(const Input& input);
 
-  /// Who runs its jobs. Before each input of a time, process what jobs().nextDue(time) returns.
+  /// The runner of its jobs. Before each input of a time, process what jobs().nextDue(time) returns.
   const common::JobRunner& jobs() const { return *jobs_; }
 
   /// The newest snapshot; never null.
@@ -62,7 +62,7 @@ class Autonomy {
   /// True if the mission ended by the operator's land command.
   bool landedByOperator() const { return commander_.landedByOperator(); }
   common::VehicleState state() const { return senses_.estimator().state(); }
-  /// Where the controller wants the vehicle; none unless it flies.
+  /// The reference of the controller; nullopt unless the vehicle flies.
   std::optional<Eigen::Vector3d> reference_odom_m() const { return navigator_.reference_odom_m(); }
   /// Height over the take-off floor of the slice of the map that is shown.
   double mapHeight_m() const { return navigator_.mapHeight_m(); }
@@ -75,7 +75,7 @@ class Autonomy {
 
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults() { return commander_.takeResults(); }
-  /// What the mission asked to be written since the last call.
+  /// The files that the mission requested since the last call.
   std::vector<RunFile> takeFiles() { return commander_.takeFiles(); }
   /// See Estimator::setFilterListener.
   void setFilterListener(perception::FilterListener* listener) { senses_.setFilterListener(listener); }
@@ -85,7 +85,7 @@ class Autonomy {
   common::Setpoint tick(common::Time now);
   std::shared_ptr<const common::World> snapshot(const Percept& percept);
 
-  std::string vehicle_name_;  ///< Also that of the data sheet, for what is learned.
+  std::string vehicle_name_;  ///< Also identifies the data sheet, for what is learned.
   std::string vehicle_kind_;
   // The results of jobs refer to these members. jobs_ follows them, so that it is destroyed first.
   Senses senses_;

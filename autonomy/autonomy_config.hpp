@@ -34,7 +34,7 @@ struct AutonomyConfig {
   EnergyConfig energy;
   static constexpr double behavior_rate_hz = 20.0;  ///< Ticks of the mission's tree a second.
   ScanQueueConfig scans;
-  InertialInputConfig inertial;  ///< Its sections are on the level of these.
+  InertialInputConfig inertial;  ///< Its sections are at this level of the file.
   PilotAssistConfig assist;
 
   void describe(common::config::Fields& fields);
@@ -46,20 +46,20 @@ struct AutonomyConfig {
   std::vector<std::string> problemsWith(double clearance_m) const;
 };
 
-/// What an autonomy is made of. Whatever the pointers name is read only while the autonomy is made, and may go then.
+/// The parts of an autonomy. The objects of the pointers are read only while it is made, and may be destroyed then.
 struct AutonomySetup {
   AutonomyConfig config = {};
-  common::VehicleConfig vehicle;  ///< Data sheet of the vehicle, as its owner believes it to be.
+  common::VehicleConfig vehicle;  ///< Data sheet of the vehicle; the true plant may differ.
   common::LaserConfig laser;      ///< Data sheet of the level laser.
-  behaviors::Mission mission;     ///< The first one; the operator may start others in its place.
-  /// Never null. Who runs the jobs, and with that the clock by which they are delivered (common/jobs.hpp).
+  behaviors::Mission mission;     ///< The first mission; the operator may start others in its place.
+  /// Never null. Runs the jobs, and sets the clock by which they are delivered (common/jobs.hpp).
   std::unique_ptr<common::JobRunner> jobs;
-  const common::GivenMap* given = nullptr;  ///< A map to localize in; null: none is given.
+  const common::GivenMap* given = nullptr;  ///< A map to localize in; null: no given map.
   /// Appears in the snapshots and in the events of the loop; empty if there is only one vehicle.
   std::string vehicle_name = {};
-  const VehicleMemory* memory = nullptr;  ///< What earlier flights of the vehicle have learned; null: nothing.
+  const VehicleMemory* memory = nullptr;  ///< What earlier flights of the vehicle have learned; null: no memory.
   const common::RgbdCameraConfig* camera = nullptr;  ///< Data sheet of an RGB-D camera; null without one.
-  const control::VehicleModel* model = nullptr;      ///< What was identified of the vehicle; null: nothing was.
+  const control::VehicleModel* model = nullptr;      ///< The identified model of the vehicle; null: not identified.
   /// Data sheet of a second laser, whose scan plane stands upright; null without one.
   const common::LaserConfig* vertical_laser = nullptr;
 };

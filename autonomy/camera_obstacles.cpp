@@ -18,11 +18,11 @@ constexpr double kMargin_m = 0.15;
 constexpr double kFloor_m = 0.10;
 /// A voxel counts with the evidence of two frames, in log odds: a single one may have met a mixed pixel.
 constexpr int kLeastEvidence = static_cast<int>(1.5 / VoxelMap::kLogOddsStep);
-/// What the laser sees is in the grid already. The two maps differ by up to so many cells, which must not narrow doors.
+/// What the laser sees is in the grid already. The maps differ by up to this many cells, which must not narrow doors.
 constexpr int kNearLaser_cells = 2;
-/// So many blocks are read in one update, two megabytes, and the submap that is begun is read to its end.
+/// This many blocks are read in one update, two megabytes, and the submap that is begun is read to its end.
 constexpr int kBlocksPerUpdate = 4000;
-/// So many columns are asked in one update whether they have gone, and those of the submap that is begun.
+/// This many columns are checked in one update for vacated voxels, and the submap that is begun is finished.
 constexpr int kAskedPerUpdate = 1000;
 /// The height may change by this much before the voxels are read again.
 constexpr double kSameHeight_m = 0.03;

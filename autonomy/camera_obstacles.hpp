@@ -20,7 +20,7 @@ namespace swiftlet::autonomy {
 
 /// One thread. Without a 3D map the grid stays the same object. When the height changes, the voxels of the submaps next
 /// to the vehicle are read again at once, those of a large map in the following updates: an update is short. What a
-/// later submap shows to have gone is taken out in the same way, a part in each update.
+/// later submap shows as free is removed in the same way, a part in each update.
 class CameraObstacles {
  public:
   explicit CameraObstacles(double hull_height_m) : half_hull_m_(0.5 * hull_height_m) {}
@@ -49,14 +49,14 @@ class CameraObstacles {
   struct Columns {
     std::shared_ptr<const common::VoxelMap> voxels;
     std::map<int, std::vector<common::VoxelIndex>> layers;  ///< The blocks of `voxels` by their z.
-    std::optional<double> height_m;  ///< Of the body, for which the columns were read; none before.
+    std::optional<double> height_m;  ///< Height of the body for which the columns were read; nullopt before.
     std::vector<Column> all;
     /// Those that the laser does not see, and the grid this was found in; null before the first time.
     std::vector<Column> beside_laser;
     std::shared_ptr<const common::OccupancyGrid> laser_grid;
     PlacedSubmap placed;              ///< The submap and its place when `beside_laser` was found.
     common::CellRect around;          ///< The cells of the laser grid that were looked at.
-    std::vector<PlacedSubmap> later;  ///< The submaps that were asked what has gone.
+    std::vector<PlacedSubmap> later;  ///< The submaps that were checked for vacated voxels.
   };
   void readColumns(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order);
   int read(Columns& columns) const;
@@ -69,7 +69,7 @@ class CameraObstacles {
 
   double half_hull_m_;
   std::optional<double> height_m_;  ///< For which columns are read.
-  bool unread_ = false;             ///< Some columns are those of another height, or may have gone.
+  bool unread_ = false;             ///< Some columns are those of another height, or may have been vacated.
   std::vector<Columns> columns_;    ///< Of each submap.
   std::shared_ptr<const common::Map3dLayer> layer_;
   std::shared_ptr<const common::OccupancyGrid> laser_grid_, grid_;

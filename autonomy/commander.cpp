@@ -56,7 +56,7 @@ Commander::Commander(const AutonomyConfig& config, AutonomySetup& setup)
   followMission();
 }
 
-/// What the rest of the autonomy knows of the mission; another one may have taken its place.
+/// Gives the mission's data to the rest of the autonomy; another mission may have replaced it.
 void Commander::followMission() {
   const behaviors::Mission& mission = missions_.mission();
   decision_.max_height_m = mission.maxHeight_m().value_or(vehicle_max_height_m_);
@@ -96,7 +96,7 @@ void Commander::take(const common::OperatorCommand& asked, Time now, const commo
   context_.commands.push_back(command);
 }
 
-/// Places in the given map get their places in `map`; or why they have none. Empty if all have.
+/// Sets the places in `map` of places in the given map. Returns why one has none; empty if all have.
 std::string Commander::resolvePlaces(common::OperatorCommand& command, const common::World& world) const {
   auto* goal = std::get_if<common::GoalCommand>(&command.kind);
   auto* zone = std::get_if<common::KeepOutCommand>(&command.kind);
@@ -147,7 +147,7 @@ void Commander::pilotArrived(const common::PilotSample& sample) {
 
 // --------------------------------------------------------------------------------------------------------- the tick
 
-/// The flight home ends so far above the thrust at which the vehicle has to land where it is as a tilt needs.
+/// The flight home ends above the thrust at which the vehicle has to land where it is, by what a tilt needs.
 common::EnergyLayer Commander::energy(const Percept& percept, const Navigator& navigator,
                                       const common::World* last) const {
   FlightHome home{navigator.executor().desk().home_m(), 0.0, navigator.controller().landing_s()};
@@ -237,12 +237,12 @@ common::Intent Commander::chooseIntent(const Supervision& supervision, const Nav
   return context_.intent.value_or(common::Intent{});
 }
 
-/// A hold keeps the vehicle on the ground whatever the mission does; TakeOff goes on when it ends.
+/// A hold keeps the vehicle on the ground whatever the mission does; TakeOff continues when it ends.
 bool Commander::waitsToTakeOff(const Supervision& supervision) const {
   return supervision.hold && context_.intent && std::holds_alternative<common::TakeOffIntent>(context_.intent->kind);
 }
 
-/// What flies the vehicle is told before the mission that waits: the controller's own landing, then the supervisor.
+/// Reports what controls the vehicle before the waiting mission: the controller's own landing, then the supervisor.
 void Commander::tellWhoFlies(const Supervision& supervision, const common::Intent& intent, const Navigator& navigator) {
   const FlightState flight = navigator.controller().state();
   status_.flown_by = supervision.flown_by;
@@ -261,7 +261,7 @@ void Commander::tellWhoFlies(const Supervision& supervision, const common::Inten
 
 // ------------------------------------------------------------------------------------------------------ the mission
 
-/// The supervisor lands the vehicle for good. The mission may need several ticks to let go of it.
+/// The supervisor lands the vehicle, which ends the mission. The mission may need several ticks to release control.
 void Commander::endMission(const std::string& reason) {
   if (!missionOver()) {
     status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;

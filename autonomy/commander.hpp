@@ -54,7 +54,7 @@ class Commander {
   /// See Autonomy::offerMaps.
   void offerMaps(std::vector<OfferedMap> maps) { map_shelf_.offer(std::move(maps)); }
 
-  /// The navigator switches its controller where the operator asks for another.
+  /// The navigator switches its controller where the operator requests another.
   void take(const common::OperatorCommand& command, common::Time now, const common::World& world, Navigator& navigator);
   void pilotArrived(const common::PilotSample& sample);
 
@@ -69,14 +69,14 @@ class Commander {
   const KeepOutZones& keepOut() const { return requests_.keepOut(); }
   bool missionOver() const { return common::isOver(status_.state); }
   const common::MissionStatus& missionStatus() const { return status_; }
-  /// The layer of the snapshot, without what the navigator knows of it.
+  /// The layer of the snapshot, without the navigator's part.
   common::MissionLayer missionLayer(const common::World* last) const;
   /// True if the mission ended by the operator's land command.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
 
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults() { return std::exchange(results_, {}); }
-  /// What the mission asked to be written since the last call.
+  /// The files that the mission requested since the last call.
   std::vector<RunFile> takeFiles() { return requests_.takeFiles(); }
 
  private:

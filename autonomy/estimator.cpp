@@ -22,8 +22,8 @@ namespace {
 
 /// Period of the images from which slopes of the ground are taken.
 constexpr double kGroundPeriod_s = 0.2;
-/// What the camera measures is not used for so long after the beams down contradicted it, or corrected the height: two
-/// windows of HeightDrift, and longer than the filter resists a correction.
+/// Measurements of the camera are not used for this long after the beams down contradicted it, or corrected the height:
+/// two windows of HeightDrift, and longer than the filter resists a correction.
 constexpr double kCameraDoubted_s = 1.0;
 /// Several frames of a slow camera.
 constexpr double kCameraSaw_s = 0.3;
@@ -197,7 +197,7 @@ perception::ProjectedScan Estimator::project(const common::LaserScan& scan) cons
 }
 
 /// Points on a moving person bias the match, so points where the tracker predicts people are removed. A position that
-/// is known less well than the tolerance of that comparison tells nothing: what the map does not explain may be a wall.
+/// known less well than the tolerance of that comparison is no basis: what the map does not explain may be a wall.
 perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedScan& scan, Time measured) const {
   if (uncertainty_.drift_m() > perception::PeopleTracker::Config::explained_within_m) return scan;
   return perception::withoutPeople(people_.expectedAt(measured), map_.T_map_odom() * planar(scan.T_odom_body), scan);
@@ -299,7 +299,7 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
 }
 
 /// The camera is the only sensor beside the beams that measures the height. Where it takes a climb for rest, the levels
-/// below agree with nothing, and the height would follow the camera up to the ceiling.
+/// below agree with no measurement, and the height would follow the camera up to the ceiling.
 void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stamp) {
   const auto vertical = filter_->verticalAt(stamp);
   if (!space_.hasCamera() || !vertical) return;

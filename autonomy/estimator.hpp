@@ -68,14 +68,14 @@ struct ScanOutcome {
   bool interrupted = false;                       ///< The odometry was lost and restarts with this scan.
   common::Pose2 T_map_body;                       ///< At the scan's stamp.
   std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body relative to a key scan of the map.
-  /// None if the scan did not measure the surface below.
+  /// nullopt if the scan did not measure the surface below.
   std::optional<control::RawHeight> raw_height;
   double drift_m = 0.0;  ///< See DriftMonitor.
 };
 
-/// What a filter of a body in motion knows beside its state.
+/// The filter's data on a body in motion, beside its state.
 struct BodyMotion {
-  /// Acceleration at the newest IMU sample, gravity and bias removed; none before the filter has started.
+  /// Acceleration at the newest IMU sample, gravity and bias removed; nullopt before the filter has started.
   std::optional<Eigen::Vector3d> acceleration_odom_m_s2;
   Eigen::Vector2d horizon_offset_rad;  ///< See HorizonOffset.
 };
@@ -87,16 +87,16 @@ struct EstimatedMaps {
   std::shared_ptr<const common::LevelMap> levels;
   /// Null without a camera and an upright laser, and before the first frame or sweep.
   std::shared_ptr<const common::Map3dLayer> map3d;
-  std::vector<common::Target> targets;               ///< That the profile names, as the camera has seen them.
-  std::optional<common::Localization> localization;  ///< None if no map was given.
+  std::vector<common::Target> targets;               ///< Targets that the profile names, as the camera has seen them.
+  std::optional<common::Localization> localization;  ///< nullopt without a given map.
 };
 
 /// What the parts have counted so far.
 struct EstimatorCounts {
   perception::LaserOdometryCounts odometry;
   perception::SlamCounts slam;
-  std::optional<RgbdCounts> camera;             ///< None without a camera.
-  std::optional<mapping3d::RadioCounts> radio;  ///< None without a camera whose frames come over a radio.
+  std::optional<RgbdCounts> camera;             ///< nullopt without a camera.
+  std::optional<mapping3d::RadioCounts> radio;  ///< nullopt without a camera whose frames come over a radio.
 };
 
 /// One thread. The jobs of SLAM and localization are submitted to `jobs`, which must not deliver after its destruction.
@@ -110,8 +110,8 @@ class Estimator {
   Estimator(const Estimator&) = delete;
   Estimator& operator=(const Estimator&) = delete;
 
-  /// What the last tick has flown. A given map that it loads takes the place of the present one, and nothing is known
-  /// of the vehicle's place in it.
+  /// What the last tick has flown. A given map that it loads replaces the present one, and the vehicle is no longer
+  /// localized.
   void hear(const Feedback& feedback);
   /// The sample as it came from a vehicle with an AHRS. In one without, where FusionConfig::use_ahrs is false, it gets
   /// the filter's attitude; before the filter starts that by gravity, which is not finite while the vehicle moves.
@@ -123,7 +123,7 @@ class Estimator {
   /// Processes a scan at `now`. The first scans, taken while the vehicle stands still, only initialize the filter and
   /// return nothing.
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
-  /// Whether the frame can be used; others that get it ask here instead of judging it again. False without a camera.
+  /// Whether the frame can be used; other users of the frame rely on this check. False without a camera.
   [[nodiscard]] bool addFrame(std::shared_ptr<const common::RgbdFrame> frame);
   /// Without an upright laser the sweep is ignored.
   void addSweep(std::shared_ptr<const common::VerticalScan> sweep) { space_.add(std::move(sweep)); }
@@ -135,7 +135,7 @@ class Estimator {
   /// Why a flight from where the vehicle stands would not know its height or position; empty if it would. See
   /// StartView::problem.
   std::string whyUnready(common::Time now) const;
-  /// Hears all that the filter is told from now on; null for none. It must outlive the estimator.
+  /// Gets all inputs of the filter from now on; null for no listener. It must outlive the estimator.
   void setFilterListener(perception::FilterListener* listener) { filter_.setListener(listener); }
 
   /// The state at the newest IMU sample, with T_map_odom.
@@ -152,7 +152,7 @@ class Estimator {
   std::vector<common::Event> takeEvents(const common::PlaceNames& names = {});
 
  private:
-  /// When a sensor last told of each; of processing, not of measuring.
+  /// When a sensor last measured each; time of processing, not of measuring.
   struct Seen {
     common::Time position, height;
     common::Time ground;                         ///< The last image that the slopes of the ground were taken from.

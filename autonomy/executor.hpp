@@ -35,20 +35,20 @@ class Executor {
 
   /// Carries out the intent. An intent with the id of the last one continues its maneuver.
   void tick(const common::Intent& intent, const ManeuverInput& input);
-  /// Flies the retreat of the reactive layer, or returns the vehicle to the intent if there is none.
+  /// Flies the retreat of the reactive layer, or, without one, returns the vehicle to the intent.
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
   /// No sensor sees the surroundings any more: a retreat ends in a hold.
   void endRetreat() { retreat_.end(); }
 
   const common::IntentStatus& status() const { return status_; }
-  /// The velocity along the path being flown; zero if there is none.
+  /// The velocity along the path being flown; zero without a path.
   Eigen::Vector2d wantedVelocity_map_m_s() const;
   std::vector<Eigen::Vector2d> remainingPlan_map_m() const;
   /// The place that the vehicle is flying to, if the intent has one.
   std::optional<Eigen::Vector2d> goal_map_m() const;
   /// The unknown place that the vehicle explores, if the intent is to explore.
   std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
-  /// Where the person is believed whom the vehicle follows, or returns to.
+  /// Estimated place of the person whom the vehicle follows, or returns to.
   std::optional<Eigen::Vector2d> followedPerson_map_m() const;
   /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
   /// FlightController::setEscape.

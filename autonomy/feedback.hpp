@@ -1,4 +1,4 @@
-// What one tick of flying tells the senses of the inputs after it.
+// Feedback of one tick of flying to the senses, for the inputs after it.
 #pragma once
 
 #include <memory>
@@ -11,21 +11,21 @@
 
 namespace swiftlet::autonomy {
 
-/// What the mission wants of the given map.
+/// The mission's order about the given map.
 struct GivenMapOrder {
   std::shared_ptr<const common::GivenMap>
-      load;  ///< The given map from now on; null: the place in it is looked for anew.
+      load;  ///< The given map from now on; null: the place in it is searched again.
 };
 
 struct Feedback {
   bool airborne = false;  ///< Otherwise the vehicle stands still.
-  /// So much lower than the height of the map the vehicle flies, below something that hangs over its path.
+  /// How much lower than the height of the map the vehicle flies, below something that hangs over its path.
   double below_map_m = 0.0;
   /// Elsewhere scans are not compared with the given map, because near the floor the laser sees other objects.
   bool at_flight_height = false;
-  std::optional<double> flight_height_m;  ///< Over the take-off floor, of the slice of the map; none on the ground.
+  std::optional<double> flight_height_m;  ///< Over the take-off floor, of the slice of the map; nullopt on the ground.
   double thrust_margin = 0.0;             ///< Greatest thrust over the weight.
-  /// The horizontal speed while the vehicle follows a path whose end is not near; none otherwise.
+  /// The horizontal speed while the vehicle follows a path whose end is not near; nullopt otherwise.
   std::optional<double> path_speed_m_s;
   common::Setpoint setpoint;
   InertialContext inertial;  ///< How that setpoint was flown.

@@ -125,7 +125,7 @@ void SensorCheck::checkPosition() {
     add(fmt::format("nothing measures the position: the mount of {}: {}", laser_.name, why), "z_m counts upward");
 }
 
-/// A wall is taken for floor or ceiling where a slanted beam meets it far below or above the laser. What remains is
+/// A wall counts as floor or ceiling where a slanted beam hits it far below or above the laser. The rest is
 /// seen up to a distance that shrinks with the slant.
 void SensorCheck::checkTilt() {
   const double level_cos = std::abs((laser_.mount.pose().rotation * Eigen::Vector3d::UnitZ()).z());

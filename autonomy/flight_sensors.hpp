@@ -1,4 +1,4 @@
-// Whether the sensors of a profile can carry a flight: what its data sheets tell before anything moves.
+// Whether the sensors of a profile can carry a flight: by its data sheets, before the vehicle moves.
 #pragma once
 
 #include <string>

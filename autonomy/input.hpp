@@ -17,7 +17,7 @@ struct CommandInput {
   common::Time taken;
 };
 
-/// The 100 Hz timer (common::kControlPeriod): asks for a setpoint.
+/// The 100 Hz timer (common::kControlPeriod): requests a setpoint.
 struct Tick {
   common::Time now;
 };

@@ -1,4 +1,4 @@
-// The maps that missions may load, and what they ask for about them: LoadMap and Relocalize. Every map was read before
+// The maps that missions may load, and the requests about them: LoadMap and Relocalize. Every map was read before
 // the mission that names it begins.
 #pragma once
 
@@ -25,9 +25,9 @@ class MapShelf {
   /// The answer to a request, and what the senses are to do for it.
   struct Answer {
     common::MissionAnswer answer;
-    std::optional<GivenMapOrder> order;  ///< None if the request cannot be met.
+    std::optional<GivenMapOrder> order;  ///< nullopt if the request cannot be met.
   };
-  /// Answers a request about the given map; every other one is for somebody else. `given`: there is a given map.
+  /// Answers a request about the given map; returns nullopt for any other. `given`: there is a given map.
   std::optional<Answer> take(const common::MissionRequest& request, bool given) const;
 
  private:

@@ -1,7 +1,7 @@
 // The mission that is flown, and how another one takes its place in flight.
 //
 //            start                     stop, or start of another
-//   waiting ------> flown ----------------------------------------> let go, over several ticks
+//   waiting ------> flown ----------------------------------------> released, over some ticks
 //      ^              ^                                              |                  |
 //      |              +---------------- there is another ------------+                  |
 //      +------------------------------------------------- there is none ----------------+
@@ -27,14 +27,14 @@ class MissionDesk {
   void waitForStart() { waits_ = true; }
   /// From now on the flight has a given map, for missions that need one.
   void mapIsGiven() { limits_.has_map = true; }
-  /// Nothing is flown until the operator starts a mission.
+  /// No mission is flown until the operator starts one.
   bool waits() const { return waits_; }
-  /// Nothing is flown, or will be once the vehicle has stopped, until the operator starts a mission.
+  /// No mission is flown, or will be once the vehicle has stopped, until the operator starts one.
   bool noneFollows() const { return (waits_ || leaves_) && !next_; }
-  /// As Mission::waitingCommand(); none of a mission that has been stopped.
+  /// As Mission::waitingCommand(); nullopt of a mission that has been stopped.
   std::optional<common::OperatorCommand> waitingCommand() const;
 
-  /// Answers the commands to start and to stop a mission; nothing for any other.
+  /// Answers the commands to start and to stop a mission; nullopt for any other.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command);
 
   /// As Mission::tick. The mission that is left keeps the vehicle until it has stopped.
@@ -52,7 +52,7 @@ class MissionDesk {
   behaviors::MissionLimits limits_;
   std::optional<behaviors::Mission> next_;
   bool waits_ = false;
-  bool leaves_ = false;  ///< The mission is letting go of the vehicle.
+  bool leaves_ = false;  ///< The mission is releasing control.
 };
 
 }  // namespace swiftlet::autonomy

@@ -13,7 +13,7 @@ using common::Time;
 
 namespace {
 
-/// Nearer to the end of a path the vehicle brakes, so its speed there tells nothing of a long path. The shipped
+/// Nearer to the end of a path the vehicle brakes, so its speed there does not represent a long path. The shipped
 /// profiles brake within v^2 / (2 a) = 0.33 m; the rest is margin for faster ones.
 constexpr double kFarFromGoal_m = 1.0;
 
@@ -107,8 +107,8 @@ void Navigator::updateCameraObstacles(const Percept& percept) {
   if (dip_m > 0.0) lower_obstacles_.update(around.map3d, around.grid_for_paths, body_map_m);
 }
 
-/// A vehicle that stands and is not to take off has its motors off, also while its mission waits for somebody who comes
-/// to change the battery.
+/// A vehicle that stands and is not to take off has its motors off, also while its mission waits for a person
+/// who changes the battery.
 void Navigator::restMotors(const Decision& decision, Time now) {
   // A take-off right after a landing should not find them off.
   constexpr double kUntilRest_s = 1.0;
@@ -167,12 +167,12 @@ void Navigator::assistPilot(const Decision& decision, control::FlightTick& fligh
   if (before && !assisted_) controller_.hold();
   if (!assisted_) return;
   flight.thrust_applies = assist_.thrustApplies(flown_.setpoint.thrust);
-  // What the laser saw last is no longer so: without it the program asks for a stop.
+  // The last scan is outdated then: without it the program requests a stop.
   const planning::AvoidanceDecision& avoidance = decision.unseen ? planning::AvoidanceDecision() : reactive_.decision();
   flight.pilot_flies = !assist_.fly(controller_, avoidance, flight.state, decision.max_height_m);
 }
 
-/// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
+/// The height of flight is the reference's: a vehicle that sinks does not move the slice of the map that is
 /// shown, and neither do a landing and a flight below something, behind which the path rises again.
 void Navigator::followMapHeight(double height_m) {
   if (controller_.state() == FlightState::kTakingOff) map_height_m_ = height_m;

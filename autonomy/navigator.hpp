@@ -63,7 +63,7 @@ class Navigator {
   bool prepared() const { return readiness_.prepared(); }
   /// False before there is a map.
   bool knowsWallsAround(const common::VehicleState& state) const;
-  /// Where the controller wants the vehicle; none unless it flies.
+  /// The reference of the controller; nullopt unless the vehicle flies.
   std::optional<Eigen::Vector3d> reference_odom_m() const;
   /// Height over the take-off floor of the slice of the map that is shown.
   double mapHeight_m() const { return map_height_m_; }
@@ -82,7 +82,7 @@ class Navigator {
   void followMapHeight(double height_m);
   InertialContext inertialContext(const control::FlightTick& flight, const common::Setpoint& setpoint) const;
 
-  std::optional<common::RgbdCameraConfig> camera_;  ///< None without one.
+  std::optional<common::RgbdCameraConfig> camera_;  ///< nullopt without a camera.
   control::FlightController controller_;
   Executor executor_;
   Reactive reactive_;
@@ -91,7 +91,7 @@ class Navigator {
   PilotAssist assist_;
   bool assisted_ = false;  ///< At the last tick.
   Readiness readiness_;
-  std::optional<common::Time> stands_since_;  ///< Since when it has stood with the motors on; none: it does not.
+  std::optional<common::Time> stands_since_;  ///< Start of standing with the motors on; empty while it does not stand.
   double map_height_m_ = 0.0;
   std::shared_ptr<const common::LaserPoints> laser_points_;
   Feedback flown_;  ///< Of the last tick.

@@ -1,4 +1,4 @@
-// What the senses know at a tick.
+// The result of the senses at a tick.
 #pragma once
 
 #include <memory>
@@ -45,8 +45,8 @@ struct Surroundings {
   std::shared_ptr<const common::OccupancyGrid> grid_for_paths;  ///< See GivenMapOverlay::gridForPaths.
   std::shared_ptr<const common::OccupancyGrid> flown;           ///< The flight's alone.
   std::shared_ptr<const common::GivenMap> given;                ///< Null without one.
-  std::optional<common::Pose2> T_map_given;                     ///< None while the vehicle is not localized in it.
-  std::optional<common::Localization> localization;             ///< None without a given map.
+  std::optional<common::Pose2> T_map_given;                     ///< nullopt while the vehicle is not localized in it.
+  std::optional<common::Localization> localization;             ///< nullopt without a given map.
   std::shared_ptr<const common::LevelMap> levels;
   std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without a sensor for it.
   std::vector<common::Target> targets;
@@ -59,7 +59,7 @@ struct Percept {
   std::vector<SeenScan> scans;                   ///< Since the last tick, in the order in which they were measured.
   std::vector<SeenFrame> frames;                 ///< Since the last tick.
   double drift_m = 0.0;                          ///< See DriftMonitor; of the last scan.
-  std::optional<control::RawHeight> raw_height;  ///< The newest since the last tick; none without a new one.
+  std::optional<control::RawHeight> raw_height;  ///< The newest since the last tick; nullopt without a new one.
   double battery_v = 0.0;                        ///< 0 before the first sample.
   bool ready = false;                            ///< The filter has started.
   bool fusion_diverged = false;

@@ -16,19 +16,19 @@ constexpr double kProgramShare = 0.20;
 constexpr double kHoverStick = 0.5;
 /// The attitude of an autopilot is good to about a degree (common/sensor_event.hpp), which tilts the program's share.
 constexpr double kHorizonError_rad = 1.0 * common::kRadPerDeg;
-/// From a speed that is asked for to one that is flown.
+/// From a requested speed to the flown speed.
 constexpr double kLag_s = 0.4;
 /// Kept from what is near, ahead and aside: gusts move a vehicle that stands by some 5 cm, and the pilot may leave it
 /// there for long. A door of 0.8 m leaves a hull of 0.55 m this much on either side.
 constexpr double kSpare_m = 0.12;
-/// From a distance that is missing to the speed away.
+/// From a missing distance to the speed away.
 constexpr double kAway_1_s = 1.0;
 /// The reference that is farther away was left by the pilot's sticks, not by the wind.
 constexpr double kLeft_m = 0.35;
-/// The yaw that is asked for lies so far ahead of the present one while its stick is moved.
+/// The requested yaw leads the present one by this time while its stick is moved.
 constexpr double kYawAhead_s = 0.25;
 
-/// Without the dead band, so that the wish begins at zero.
+/// Without the dead band, so that it starts at zero.
 double wish(double stick, double dead_band) {
   return std::copysign(std::max(0.0, std::abs(stick) - dead_band) / (1.0 - dead_band), stick);
 }
@@ -79,8 +79,8 @@ Eigen::Vector2d PilotAssist::wantedVelocity_map_m_s(const common::VehicleState& 
 }
 
 /// The reactive layer counts on its own deceleration and lag; against the pilot's stick the program has only what is
-/// left of its share, less the tilt by which the horizon may be wrong. A stick that is moved farther leaves none: the
-/// program then asks for a stop.
+/// left of its share, less the tilt by which the horizon may be wrong. A stick beyond that share leaves nothing: the
+/// program then requests a stop.
 double PilotAssist::allowedSpeed_m_s(const planning::AvoidanceDecision& decision) const {
   const double limit_m_s = decision.speed_limit_m_s;
   if (limit_m_s >= unlimited_m_s_) return limit_m_s;

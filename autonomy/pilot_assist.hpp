@@ -1,4 +1,4 @@
-// Assistance for a pilot who flies by hand (Grzonka 2012, IV-D): the sticks are the wish, the program keeps the vehicle
+// Assistance for a pilot who flies by hand (Grzonka 2012, IV-D): the sticks steer, the program keeps the vehicle
 // from what the laser sees and holds it while the sticks are centred. The remote control mixes both: the program moves
 // each stick by at most a fifth of its range (AutopilotConfig::program_share in the simulator), so that the pilot flies
 // on whatever the program does.
@@ -25,7 +25,7 @@ struct PilotAssistConfig {
   double speed_m_s = 2.5;
   double climb_m_s = 0.5;
   double yaw_rate_deg_s = 60.0;
-  static constexpr double acceleration_m_s2 = 1.0;  ///< Acceleration with which the pilot's wish is followed.
+  static constexpr double acceleration_m_s2 = 1.0;  ///< Acceleration with which the pilot's velocity is followed.
   double dead_band = 0.03;                          ///< Share of a stick's range within which it counts as centred.
   static constexpr double climb_dead_band = 0.2;    ///< Share of the range of the thrust's stick within which it counts
                                                     ///< as centred: where it hovers differs with vehicle and battery.
@@ -36,20 +36,20 @@ struct PilotAssistConfig {
 /// One thread; called at every tick of the controller.
 class PilotAssist {
  public:
-  /// `max_tilt_deg` is that of a stick at its end, `avoidance` what the speed limits of the decisions are made with.
+  /// `max_tilt_deg`: tilt at the end of a stick; `avoidance`: settings of the speed limits in the decisions.
   PilotAssist(const PilotAssistConfig& config, double max_tilt_deg, const planning::AvoidanceConfig& avoidance);
 
   void pilotArrived(const common::PilotSample& sample);
 
   /// Whether it assists in this tick: the pilot flies in the air, and the position is known.
   bool assists(bool pilot_flies, common::FlightState flight, const common::VehicleState& state);
-  /// What the pilot wishes, in `map`; zero while it does not assist.
+  /// The velocity by the pilot's sticks, in `map`; zero while it does not assist.
   Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState& state) const;
-  /// Commands the controller as the pilot wishes and the reactive layer allows. Returns false when the pilot's sticks
-  /// have led the vehicle so far from the reference that it has to begin anew where the vehicle is.
+  /// Commands the controller by the sticks, as far as the reactive layer allows. Returns false when the pilot's sticks
+  /// have led the vehicle so far from the reference that it has to restart where the vehicle is.
   [[nodiscard]] bool fly(control::FlightController& controller, const planning::AvoidanceDecision& decision,
                          const common::VehicleState& state, double max_height_m);
-  /// Whether the thrust that the program asks for is within what it may move the stick by.
+  /// Whether the thrust of the program is within the share by which it may move the stick.
   bool thrustApplies(double thrust) const;
 
  private:
@@ -59,7 +59,7 @@ class PilotAssist {
 
   PilotAssistConfig config_;
   double max_tilt_rad_;
-  double hover_stick_;  ///< The stick of the thrust when the pilot took over: from there it wishes to climb or to sink.
+  double hover_stick_;  ///< The stick of the thrust when the pilot took over: from there it commands climb or descent.
   double deceleration_m_s2_, lag_s_, unlimited_m_s_;  ///< Of the reactive layer.
   common::PilotSample sticks_;
   bool assists_ = false;

@@ -31,7 +31,7 @@ struct ReactiveInput {
   double drift_m = 0.0;  ///< Standard deviation of the position, grown since the laser fixed it in every direction.
   /// Objects that the map does not explain, usually people, after this scan.
   std::span<const common::DynamicObstacle> obstacles;
-  /// The velocity that the intent asks for; zero if it holds.
+  /// The velocity of the intent; zero if it holds.
   Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
   const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
   /// Obstacles that only the 3D map has, in the level frame of the body.

@@ -12,7 +12,7 @@ void Readiness::watch(const Percept& percept, control::FlightController& control
     tellUnprepared(percept);
 }
 
-/// The mission begins with a prepared vehicle: where a sensor never sends, nothing else would say why it does not.
+/// The mission begins with a prepared vehicle: if a sensor never sends, this is the only message about it.
 void Readiness::tellUnprepared(const Percept& percept) {
   constexpr double kUntilTold_s = 5.0;
   if (!unprepared_since_) unprepared_since_ = percept.now;

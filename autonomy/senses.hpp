@@ -31,11 +31,11 @@ class Senses {
  public:
   Senses(const AutonomyConfig& config, const AutonomySetup& setup);
 
-  /// What is known before the first input. `standing`: of the vehicle that has not flown.
+  /// The percept before the first input. `standing`: of the vehicle that has not flown.
   Percept start(const Feedback& standing);
   /// What the last tick has flown, once, before the next input.
   void hear(const Feedback& feedback);
-  /// Takes a measurement. False if its stamps are wrong, so that nobody should use it.
+  /// Takes a measurement. False if its stamps are wrong, so that it must not be used.
   bool sense(const common::SensorEvent& event);
   /// What is known at a tick.
   Percept sense(common::Time now);

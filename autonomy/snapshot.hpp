@@ -1,4 +1,4 @@
-// The parts of the snapshot that Autonomy gives to those who watch.
+// The parts of the snapshot that Autonomy publishes.
 #pragma once
 
 #include "autonomy/commander.hpp"

@@ -23,7 +23,7 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
   const common::CommandResult accepted{command.id, true, {}};
   if (std::holds_alternative<common::HoldCommand>(command.kind)) {
     operator_holds_ = true;
-    home_.active = home_.forced();  // One that the charge asks for goes on after Resume.
+    home_.active = home_.forced();  // A flight home for the charge continues after Resume.
     return accepted;
   }
   if (std::holds_alternative<common::ResumeCommand>(command.kind)) return resume(command.id);
@@ -90,7 +90,7 @@ void Supervisor::pilotArrived(Time now, bool takes_over) {
       takes_over ? "the pilot took over" : "the pilot gave control back", common::Concern::kPilot);
 }
 
-/// Who flies is unknown after the pilot's last sample. A hold is right for both: a pilot's sticks overrule it, and
+/// After the pilot's last sample it is unknown who flies. A hold is right for both: a pilot's sticks override it, and
 /// without a pilot the vehicle stays where it is, instead of going on with the mission that the pilot took it from.
 void Supervisor::watchPilot(Time now) {
   if (!pilot_flies_ || (now - pilot_heard_).seconds() <= pilot_silent_s_) return;

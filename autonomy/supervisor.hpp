@@ -25,12 +25,12 @@ struct Supervision {
   bool hold = false;
   std::string hold_reason;
   bool unseen = false;  ///< No sensor sees the surroundings.
-  /// The flight home, counted from 1; the mission holds meanwhile. 0: none.
+  /// The flight home, counted from 1; the mission holds meanwhile. 0: no such flight.
   unsigned home = 0;
   /// The flight back along the trail until the vehicle knows its height and position again, counted from 1; the mission
-  /// holds meanwhile. 0: none.
+  /// holds meanwhile. 0: no such flight.
   unsigned back = 0;
-  bool land = false;  ///< Land for good: the mission is over.
+  bool land = false;  ///< Land and stay: the mission is over.
   std::string land_reason;
   common::FlownBy flown_by = common::FlownBy::kMission;
 };
@@ -68,7 +68,7 @@ class Supervisor {
   /// Why the command is refused: every one but land while the vehicle lands, and those that lead elsewhere while it
   /// flies home to land. Empty if it is not.
   std::string refusal(const common::OperatorCommand& command) const;
-  /// Why the mission holds, or would; empty if nothing holds it.
+  /// Why the mission holds, or would; empty if it does not.
   std::string holdReason() const;
   /// Why the vehicle must not take off, with the figure; empty if it may.
   std::string takeOffRefusal(const common::EnergyLayer& energy) const { return energy_.takeOffRefusal(energy); }
@@ -86,7 +86,7 @@ class Supervisor {
   std::vector<common::Event> takeEvents();
 
  private:
-  /// A flight home, wanted by the operator or, with a reason, by the EnergyWatch. One with a reason ends in a landing.
+  /// A flight home, requested by the operator or, with a reason, by the EnergyWatch. The latter ends in a landing.
   struct FlightHome {
     bool active = false;
     std::string reason;
@@ -95,13 +95,13 @@ class Supervisor {
 
     bool forced() const { return active && !reason.empty(); }
   };
-  /// Does what a request asks for at once, and returns it for the rest.
+  /// Does the immediate part of a request, and returns it for the rest.
   WatchRequest obey(common::Time now, WatchRequest request);
   void startHome(std::string reason, AtHome then = AtHome::kHold);
   common::CommandResult resume(std::uint64_t id);
   void watchPilot(common::Time now);
   common::FlownBy flownBy() const;
-  /// `concern`: none if the operator asked for it.
+  /// `concern`: kNone if the operator requested it.
   void land(common::Time now, std::string reason, common::Concern concern = common::Concern::kLanding);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason,
            common::Concern concern = common::Concern::kNone);
@@ -115,7 +115,7 @@ class Supervisor {
   bool pilot_flies_ = false;
   common::Time pilot_heard_;  ///< When the last of the pilot's samples arrived.
   FlightHome home_;
-  unsigned back_ = 0;  ///< The flight back that the PositionWatch asks for.
+  unsigned back_ = 0;  ///< The flight back that the PositionWatch requests.
   std::string blind_;  ///< Why the SightWatch holds; empty if it does not.
   bool landed_by_operator_ = false;
   Supervision supervision_;

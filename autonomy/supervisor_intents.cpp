@@ -10,7 +10,7 @@ namespace {
 
 /// Ids of the supervisor's intents; those of the mission count from 1.
 constexpr std::uint64_t kHold = 1ULL << 62;
-/// Of the landing, which is for good: there is one.
+/// Of the landing, which is final: there is one.
 constexpr std::uint64_t kLand = kHold + 1;
 /// Of the first flight home by a path; that along the trail is the next, and so for each further flight home.
 constexpr std::uint64_t kHome = kHold + 2;

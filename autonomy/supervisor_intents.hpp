@@ -35,7 +35,7 @@ class SupervisorIntents {
   void remember(const Eigen::Vector2d& wanted_to_see_map_m) { wanted_to_see_map_m_ = wanted_to_see_map_m; }
   void forget() { wanted_to_see_map_m_.reset(); }
 
-  /// The flight that is asked for; none while the mission flies, or while it still has to release the vehicle. Tells
+  /// The requested flight; nullopt while the mission flies, or while it still has to release the vehicle. Tells
   /// the supervisor when a flight has ended. Call it while airborne.
   std::optional<common::Intent> flight(const Supervision& asked, const SupervisedFlight& flight,
                                        Supervisor& supervisor);
@@ -47,7 +47,7 @@ class SupervisorIntents {
   double clearance_m_;
   /// The unknown place that was explored when the supervisor began to hold the mission.
   std::optional<Eigen::Vector2d> wanted_to_see_map_m_;
-  /// The newest flight back. It keeps its path: after an interruption the trail has the way back in it, too.
+  /// The newest flight back. It keeps its path: after an interruption the trail contains the flight back, too.
   common::Intent back_;
 };
 

@@ -9,7 +9,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// One cell of the shipped map: a denser trail shows nothing more on the page.
+/// One cell of the shipped map: a denser trail looks the same on the page.
 constexpr double kShownTrailStep_m = 0.05;
 /// A vehicle that hovers wanders within this distance, and flies nowhere.
 constexpr double kHoverRadius_m = 0.3;

@@ -1,6 +1,6 @@
-// AvoidObstacle: has the vehicle in flight while the reactive layer retreats from something unmapped or closing.
+// AvoidObstacle: active in flight while the reactive layer retreats from something unmapped or closing.
 // SKIPPED otherwise, SUCCESS when the danger is over. The layer itself acts at the laser rate under every intent; this
-// node keeps the vehicle for it, so that no other intent works against the retreat. [UNB III-A, Fig. 5]
+// node stays active for it, so that no other intent works against the retreat. [UNB III-A, Fig. 5]
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

@@ -29,17 +29,17 @@ struct Context {
   bool hold = false;                           ///< The operator holds, or an emergency does.
   std::string hold_reason;                     ///< "the operator holds"; for events.
   common::GoalLimits goal_limits;              ///< Limits of the goals that are accepted.
-  /// The map by which the operator's goals are judged; null if there is none yet.
+  /// The map by which the operator's goals are judged; null before the first map.
   std::shared_ptr<const common::GoalMap> goal_map;
   /// Goals and home that arrived since the last tick, in order. The mission empties it and answers each in `results`.
   std::vector<common::OperatorCommand> commands;
   std::vector<common::MissionAnswer> answers;  ///< To requests, since the last tick.
 
   // Out.
-  /// The intent of this tick. The ids of one mission rise from 1; the same id is the same intent. None only if nothing
-  /// in the tree has the vehicle (the mission has ended, or all of it was skipped).
+  /// The intent of this tick. The ids of one mission rise from 1; the same id is the same intent. nullopt only if no
+  /// node of the tree is active (the mission has ended, or all of it was skipped).
   std::optional<common::Intent> intent;
-  std::vector<common::MissionRequest> requests;  ///< The mission appends what it asks for.
+  std::vector<common::MissionRequest> requests;  ///< The mission appends its requests.
   std::vector<common::Event> events;             ///< The mission appends its events.
   std::vector<common::CommandResult> results;    ///< The mission appends its answers.
 };

@@ -1,5 +1,5 @@
 // EmergencyLand: descends at once where the vehicle is, by the raw height alone, and switches the motors off. SUCCESS
-// on the ground. It cannot be taken back: letting go does not end the descent.
+// on the ground. It cannot be revoked: a release does not end the descent.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

@@ -1,4 +1,4 @@
-// ExploreUntilFound: explores until so many targets of a name are found, and then looks with the camera at what it has
+// ExploreUntilFound: explores until `count` targets of a name are found, and then looks with the camera at what it has
 // not seen yet. SUCCESS when they are found; FAILURE when nothing is left to look at, or when exploring fails.
 //
 //   explore --nothing left--> look at the nearest unseen place --> at the next ... --nothing left--> FAILURE
@@ -22,7 +22,7 @@ class ExploreUntilFound final : public LookingLeaf {
  private:
   void onStart(tree::TickContext& context) override;
   tree::Status act(tree::TickContext& context) override;
-  /// Empty while it goes on; else why exploring has failed.
+  /// Empty while exploring continues; else why it has failed.
   std::string explore(FlightTick& tick, const common::ExploreIntent& intent);
 
   tree::Input<std::string> name_;

@@ -1,8 +1,8 @@
 // A behaviour: a leaf that emits an Intent at each tick and watches the IntentStatus of that intent.
 //
-// To let go, it emits hold until the vehicle has stopped (IntentStatus::released of that hold), or until the reactive
-// layer has the vehicle anyway. When it resumes, it emits its intent again with a new id, as one that goes on with the
-// one before (Intent::resumes).
+// To release control, it emits hold until the vehicle has stopped (IntentStatus::released of that hold), or until the
+// reactive layer controls the vehicle anyway. When it resumes, it emits its intent again with a new id, as one that
+// continues the one before (Intent::resumes).
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class FlightLeaf : public tree::Leaf {
  protected:
   /// Emits the intent, with the same id until something interrupts it. `kind` may change only after renewIntent().
   void emitIntent(FlightTick& tick, common::IntentKind kind);
-  /// The next emitIntent() gets a new id and begins anew.
+  /// The next emitIntent() gets a new id and starts over.
   void renewIntent() { intent_id_ = interrupted_id_ = 0; }
   /// Status of the present intent; running until it is answered.
   common::IntentState intentState(const FlightTick& tick) const;
@@ -40,9 +40,9 @@ class FlightLeaf : public tree::Leaf {
   tree::Release onHalt(tree::TickContext& context) override;
 
  private:
-  std::uint64_t intent_id_ = 0;  ///< 0 if there is none yet.
+  std::uint64_t intent_id_ = 0;  ///< 0 before the first intent.
   std::uint64_t hold_id_ = 0;
-  std::uint64_t interrupted_id_ = 0;  ///< The intent that a hold interrupted last; 0: none, or it is to begin anew.
+  std::uint64_t interrupted_id_ = 0;  ///< The intent that a hold interrupted last; 0: none, or it starts over.
 };
 
 /// A behaviour with a single intent: SUCCESS and FAILURE are those of the intent.
@@ -55,7 +55,7 @@ class IntentLeaf : public FlightLeaf {
   using IntentOrProblem = tl::expected<common::IntentKind, std::string>;
   /// Called when an intent begins: at the start and after a suspension.
   virtual IntentOrProblem makeIntent(const FlightTick& tick) = 0;
-  /// The present intent is outdated and must be emitted anew.
+  /// The present intent is outdated and must be emitted again.
   virtual bool isOutdated(const FlightTick&) const { return false; }
 
   void onStart(tree::TickContext& context) override;

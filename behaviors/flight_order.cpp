@@ -63,7 +63,7 @@ class Walk {
     return outcomes_[static_cast<std::size_t>(node.id())];
   }
 
-  /// Whether the node may answer that it does not want the vehicle.
+  /// Whether the node may be SKIPPED.
   bool maySkip(const tree::Node& node) const { return outcomesOf(node).skipped; }
 
   Exits walkLeaf(const tree::Node& node, std::string_view id, Whereabouts entry) {
@@ -150,7 +150,7 @@ class Walk {
 
   Exits walkDecorator(const tree::Node& node, std::string_view id, Whereabouts entry) {
     const tree::Node& child = *node.children().front();
-    // After its time a Delay ends where it is when its child does not want the vehicle.
+    // After its time a Delay ends without a move if its child is SKIPPED.
     const bool stays = id == "Precondition" || id == "RunOnce" || (id == "Delay" && maySkip(child));
     const Exits exits = walk(child, entry);
     walkNextRound(node, id, exits);

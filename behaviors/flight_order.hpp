@@ -9,7 +9,7 @@
 namespace swiftlet::behaviors {
 
 /// - A node flies or lands (leaf_traits.hpp) although the vehicle is on the floor, judged by the statuses that lead
-///   there; or nothing ever takes off.
+///   there; or no node ever takes off.
 /// - A child of a Priority, other than the last, that is never SKIPPED: the children below it would never get the
 ///   vehicle.
 std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree);

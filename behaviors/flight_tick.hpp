@@ -18,8 +18,8 @@ struct MissionMemory {
   std::uint64_t last_intent_id = 0;
   /// The newest accepted goal or home command that no OperatorCommand has taken yet.
   std::optional<common::OperatorCommand> pending_command = {};
-  common::FlightMode mode = common::FlightMode::kFast;  ///< Of leaves that name none.
-  bool go_on = false;  ///< The operator said so, and no WaitForOperator has taken it yet.
+  common::FlightMode mode = common::FlightMode::kFast;  ///< Of leaves that name no mode.
+  bool go_on = false;  ///< The operator said "go on", and no WaitForOperator has taken it yet.
   /// Answers to requests, until the leaf that asked takes its own: it may be suspended when the answer comes.
   std::vector<common::MissionAnswer> answers = {};
   std::vector<int> located_targets = {};  ///< The ids of those that a LocateTarget was about.
@@ -42,7 +42,7 @@ class FlightTick final : public tree::TickContext {
     flight.intent = common::Intent{id, std::move(kind), resumes};
   }
 
-  /// Asks for it; the id of the request, to find its answer.
+  /// Appends the request; returns its id, to find its answer.
   std::uint64_t request(common::MissionRequestKind kind) {
     flight.requests.push_back({newIntentId(), std::move(kind)});
     return flight.requests.back().id;

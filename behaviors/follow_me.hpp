@@ -1,5 +1,5 @@
-// FollowMe: stays `distance_m` behind a walking person, with the camera on that person; RUNNING until something above
-// it ends it, and FAILURE when nobody is seen for `lost_s`. ReturnToMe: flies to where the person was last followed;
+// FollowMe: stays `distance_m` behind a walking person, with the camera on that person; RUNNING until a node above
+// it ends it, and FAILURE when no person is seen for `lost_s`. ReturnToMe: flies to where the person was last followed;
 // SUCCESS near that person.
 #pragma once
 

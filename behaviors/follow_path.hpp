@@ -2,8 +2,8 @@
 // is flown around. After an interruption the leg that was being flown is flown again.
 //
 // FollowPath is SUCCESS at the last point; the others are passed within corner_m, without a stop. Patrol visits every
-// point, waits there, and begins anew: SUCCESS after `rounds` rounds, never if `rounds` is 0. It leaves out a point
-// that cannot be reached, with an event, and is FAILURE after a round in which none could be.
+// point, waits there, and starts over: SUCCESS after `rounds` rounds, never if `rounds` is 0. It leaves out a point
+// that cannot be reached, with an event, and is FAILURE after a round in which no point could be reached.
 #pragma once
 
 #include <cstddef>

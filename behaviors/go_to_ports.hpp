@@ -21,7 +21,7 @@ class GoToPorts {
         clearance_m_(setup, "clearance_m"),
         mode_(setup, "mode") {}
 
-  /// The intent to fly to a place that the mission names, in the present mode if the port names none; or which port has
+  /// The intent to fly to a place that the mission names, in the present mode if the port is not set; or which port has
   /// no value, or that the place is one of a given map whose pose is not known. The place is not judged.
   tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place, const FlightTick& tick,
                                                          common::FlightMode present) const {
@@ -48,7 +48,7 @@ class GoToPorts {
   }
 
  private:
-  /// What is mapped at the goal and has not been cleared after this time is likely to stay.
+  /// An obstacle at the goal that has not been cleared from the map after this time is likely to stay.
   static constexpr double kMayGo_s = 5.0;
 
   tree::Input<double> tolerance_m_;

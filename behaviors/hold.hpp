@@ -1,4 +1,4 @@
-// Hold: has the vehicle while the operator holds or an emergency does; SKIPPED otherwise, SUCCESS when the hold ends.
+// Hold: active while the operator holds or an emergency does; SKIPPED otherwise, SUCCESS when the hold ends.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

@@ -1,5 +1,5 @@
 // Inspect: orbits `point` at `radius_m` with the camera on it. SUCCESS after `turns`; parts of the circle that are not
-// free are left out; FAILURE when none of it is. The place of the point in a given map is asked for once, when it
+// free are left out; FAILURE when no part is. The place of the point in a given map is looked up once, when it
 // begins.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the leaves of a mission do, as far as the checks of missions ask: a line a leaf. How a leaf may end stands in
+// What the leaves of a mission do, as far as the checks of missions need it: a line a leaf. How a leaf may end is in
 // its manifest.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace swiftlet::behaviors {
 
-/// What a leaf does with the vehicle whenever it is ticked. AvoidObstacle and Hold ask for it only in flight: kNone.
+/// What a leaf does with the vehicle whenever it is ticked. AvoidObstacle and Hold are active only in flight: kNone.
 enum class VehicleUse : unsigned char { kNone, kTakesOff, kFlies, kLands };
 /// A map of the place that was made before the flight.
 enum class MapUse : unsigned char { kNone, kNeeds, kLoads };

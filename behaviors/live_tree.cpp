@@ -35,7 +35,7 @@ void LiveTree::onStatus(const tree::Node& node, Status from, Status to) {
   if (!tree::isActive(from) && (to == Status::kRunning || ends)) {
     shown.began_s = now_s_;
     shown.duration_s.reset();
-    // A Priority tells why it starts a child before it does.
+    // A Priority reports why it starts a child before it does.
     if (to == Status::kRunning && told_s_[static_cast<std::size_t>(node.id())] != now_s_) shown.reason.clear();
   }
   if ((ends || tree::isActive(from)) && !tree::isActive(to) && shown.began_s)

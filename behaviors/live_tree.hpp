@@ -33,7 +33,7 @@ class LiveTree final : public tree::Observer {
   const tree::Tree& tree_;
   double now_s_ = 0.0;
   common::TreeView view_;
-  std::vector<double> told_s_;               ///< By node: when its reason was told.
+  std::vector<double> told_s_;               ///< By node: when its reason was reported.
   std::vector<std::uint64_t> shown_writes_;  ///< By node: Tree::writesOfPorts when its ports were shown.
 };
 

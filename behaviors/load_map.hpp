@@ -1,5 +1,5 @@
 // LoadMap: from now on `file` is the given map, in which the flight finds its place and the mission names its places.
-// It asks for no flight, and may stand before the take-off. SUCCESS when the map is taken; FAILURE for one that was not
+// It starts no flight, and may come before the take-off. SUCCESS when the map is loaded; FAILURE for a map that was not
 // read before the flight. `check`, `fly` and `trial` read it and refuse one that cannot be used.
 #pragma once
 

@@ -22,14 +22,14 @@ using tree::Status;
 
 namespace {
 
-/// At a place: at least until the frames taken there have counted, and at most so long.
+/// At a place: at least until the frames taken there have counted, and at most this long.
 constexpr double kLeastLook_s = 0.6, kMostLook_s = 2.0;
-/// Sides that differ by less tell the same.
+/// Sides that differ by less are one side.
 constexpr double kOtherSide_rad = 55.0 * common::kRadPerDeg;
 constexpr int kSides = 24;  ///< Every 15 degrees, a fraction of kOtherSide_rad.
 /// The picture of a camera that looks ahead or slightly down ends at some 25 degrees below and 10 above.
 constexpr double kTanBelow = 0.47, kTanAbove = 0.18;
-/// What stands at the target's place hides it from no side.
+/// An obstacle at the target's own place does not hide it from any side.
 constexpr double kTargetNear_m = 0.5;
 constexpr double kViewTolerance_m = 0.15;  ///< The picture is the same from there; nearer would take longer.
 
@@ -130,7 +130,7 @@ Status LocateTarget::act(tree::TickContext& context) {
   if (const std::string problem = problemOfPorts(); !problem.empty()) return fail(context, problem);
   const Ports ports{*name_.get(), *sigma_m_.get(), *distance_m_.get(), *clearance_m_.get(), *modeOr(mode_, tick.mode)};
   const common::Target* target = withId(*tick.flight.world->targets, target_);
-  if (target == nullptr) {  // None is chosen, or the candidate was dropped after free-space violations.
+  if (target == nullptr) {  // No target is chosen, or the candidate was dropped after free-space violations.
     onStart(context);
     target = nearestOther(tick, ports.name);
     if (target == nullptr)

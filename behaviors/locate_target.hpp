@@ -1,5 +1,5 @@
 // LocateTarget: flies to where the camera sees a target well, and looks at it from several sides until its place is
-// known to `sigma_m`. SUCCESS then, with the camera on it; each success is about a target that none before was about.
+// known to `sigma_m`. SUCCESS then, with the camera on it; each success is about a new target.
 // FAILURE when no other is known, or when looking from all sides was not enough.
 //
 //   choose the nearest --> fly to a free place to look from, facing it --> look --known well--> SUCCESS
@@ -34,7 +34,7 @@ class LocateTarget final : public FlightLeaf {
   /// The target's place is known: writes it.
   tree::Status located(tree::TickContext& context, const common::Target& target);
   std::string problemOfPorts() const;
-  /// Where to look from next; none: no side is left.
+  /// Where to look from next; nullopt: no side is left.
   std::optional<common::GoToIntent> nextView(const FlightTick& tick, const common::Target& target,
                                              const Ports& ports) const;
 

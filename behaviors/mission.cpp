@@ -26,7 +26,7 @@ struct Mission::Impl {
   explicit Impl(tree::Tree parsed)
       : tree(std::move(parsed)), narrator(tree), live(tree), observers({&narrator, &live}) {}
 
-  /// What `act` does to the tree in one tick, told to the observers.
+  /// What `act` does to the tree in one tick, reported to the observers.
   template <typename Act>
   auto observed(Context& context, Act act) {
     FlightTick tick(context, memory);

@@ -40,7 +40,7 @@ class Mission {
 
   TickResult tick(Context& context);
 
-  /// Takes the vehicle from the mission for good (land, shut down). Call it instead of tick until it returns true, or
+  /// Ends the mission's control of the vehicle (land, shut down). Call it instead of tick until it returns true, or
   /// once if its intents are not flown any more. Emits hold until the vehicle has stopped. Afterwards the mission is
   /// reset.
   bool letGo(Context& context);

@@ -22,7 +22,7 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
 std::vector<std::string> mapFilesOf(const tree::Tree& tree);
 
 /// Every problem of a mission file, without flying it: those of the XML, and what cannot work in flight (a node that
-/// flies before the take-off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty if
+/// flies before the take-off, a clearance the reactive layer forbids, a branch that is never ticked). Empty if
 /// the mission is sound.
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits = {});
 
@@ -31,7 +31,7 @@ struct MissionVerdict {
   std::vector<tree::Problem> problems;  ///< As checkMission says, with the paths of the nodes.
   /// What can be flown, but is probably not meant (mission_warnings.hpp), or should be written otherwise.
   std::vector<tree::Problem> warnings;
-  /// Of a mission with mocks: whose the nodes of the tree are, a line an owner: "3 of the engine: Sequence, Timeout",
+  /// Of a mission with mocks: the owners of the tree's nodes, a line an owner: "3 of the engine: Sequence, Timeout",
   /// "1 of Swiftlet: Land" or "2 mocks: GoTo, TakeOff (Swiftlet's has no port `height`)". Empty if there are problems.
   std::vector<std::string> whose;
 };
@@ -39,12 +39,12 @@ struct MissionVerdict {
 MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {},
                             const tree::TreeFiles& together = {});
 /// Types that Swiftlet does not have are mocks (behaviors/tree/mocks.hpp). With one in the tree only the XML is judged,
-/// because nobody knows how a mock moves the vehicle, and so is a tree without any behaviour of Swiftlet, and one that
-/// another of the files uses. Such a mission cannot be flown. The file is read leniently (ParseOptions).
+/// because the effect of a mock on the vehicle is unknown, and so is a tree without any behaviour of Swiftlet, and one
+/// that another of the files uses. Such a mission cannot be flown. The file is read leniently (ParseOptions).
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {},
                                      const tree::TreeFiles& together = {});
 
-/// Of a mission file that flies without an operator who goes on, or gives goals. Empty for one that cannot be read.
+/// Of a mission file that flies without an operator who says "go on" or gives goals. Empty for an unreadable file.
 std::vector<tree::Problem> operatorWarnings(const std::string& path, const MissionLimits& limits);
 
 MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits = {});

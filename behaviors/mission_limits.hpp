@@ -18,20 +18,20 @@ struct MissionLimits {
   std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
   /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
   double max_height_m = 2.0;
-  /// Above the take-off floor, up to which the sensors measure the height: no TakeOff may ask for more.
+  /// Above the take-off floor, up to which the sensors measure the height: no TakeOff may be higher.
   double measured_height_m = std::numeric_limits<double>::infinity();
   /// Above the take-off floor, from which on they measure it: no flight may be lower.
   double least_measured_height_m = 0.0;
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
-  /// Names of the targets that the profile looks for; none: any name is accepted.
+  /// Names of the targets that the profile looks for; nullopt: any name is accepted.
   std::optional<std::vector<std::string>> target_names = {};
   /// A map of the place is given; nodes that localize need one, or a LoadMap in the mission.
   bool has_map = true;
-  /// Somebody says "go on" to a WaitForOperator, and gives an OperatorCommand its goals: without the page only the
-  /// script of a trial does. Where nobody does, a node that waits for it is a warning.
+  /// An operator says "go on" to a WaitForOperator, and gives an OperatorCommand its goals: without the page only the
+  /// script of a trial does. Without an operator, a node that waits for it is a warning.
   bool operator_goes_on = true;
   bool operator_gives_goals = true;
-  /// Why the map that a LoadMap names, in that mission file, cannot be loaded, with its place; none if it can. Without
+  /// Why the map that a LoadMap in that mission file names cannot be loaded, with its place; nullopt if it can. Without
   /// a function every map is accepted.
   std::function<std::optional<common::Problem>(const std::string& map, const std::string& mission)> map_problem = {};
 };

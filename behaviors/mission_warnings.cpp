@@ -61,7 +61,7 @@ class Warnings {
     return may_be_halted ? "waits until something else ends it" : "waits without an end";
   }
 
-  /// The first leaf below that has the vehicle whenever it is ticked; null without one.
+  /// The first leaf below that is active whenever it is ticked; null without one.
   const tree::Node* flyingLeafIn(const tree::Node& node) const {
     if (traitsOf(tree_.nodes()[static_cast<std::size_t>(node.id())]).vehicle != VehicleUse::kNone) return &node;
     for (const auto& child : node.children())

@@ -12,7 +12,7 @@ namespace swiftlet::behaviors {
 /// - A node that is never ticked, because one before it always succeeds, always fails, or never ends, or because a
 ///   condition, a case or a count that the file fixes excludes it.
 /// - A Parallel of several children that fly: only the last intent of a tick is flown.
-/// - Nothing lands the vehicle, and no OperatorCommand leaves that to the operator; or the mission may succeed in the
+/// - No node lands the vehicle, and no OperatorCommand leaves that to the operator; or the mission may succeed in the
 ///   air.
 /// - What operatorWarnings() finds.
 /// Each has the path of its node.

@@ -1,6 +1,6 @@
 // MoveToGoal: SUCCESS when the vehicle is within tolerance_m of `goal` (in `map`: x;y at the present height or at
 // `height_m`, or x;y;z with z above the take-off floor) and, where `yaw_deg` is given, looks there. In a flight that
-// was given a map, both are those of that map, and FAILURE while the vehicle does not know its place in it.
+// was given a map, both are those of that map, and FAILURE while the vehicle is not localized in it.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

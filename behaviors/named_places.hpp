@@ -21,7 +21,7 @@ namespace swiftlet::behaviors {
 /// An immutable value, valid as long as the localization does not move the given map.
 class NamedPlaces {
  public:
-  /// Nothing but the reason while the flight has a given map and does not know its place in it.
+  /// Returns the reason while the flight has a given map and is not localized in it.
   static tl::expected<NamedPlaces, std::string> in(const common::World& world) {
     const common::MapLayer& map = *world.map;
     if (map.localization && !map.T_map_given)

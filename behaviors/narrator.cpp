@@ -93,13 +93,13 @@ void Narrator::forgiveBelow(const Node& node) {
   std::erase_if(failures_, [&](const Failure& failure) { return isBelow(failure.node); });
 }
 
-/// A condition that answers no has not failed at anything: it is asked again at each tick.
+/// A condition that is false is no failure: it is asked again at each tick.
 bool Narrator::isCondition(const Node& node) const {
   const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(node.id())].manifest;
   return manifest != nullptr && manifest->kind == tree::NodeKind::kCondition;
 }
 
-/// A child of a Priority: its event already says who has the vehicle.
+/// A child of a Priority: its event already names the active child.
 bool Narrator::isReportedBySwitches(const Node& node) const {
   const int parent = tree_.nodes()[static_cast<std::size_t>(node.id())].parent;
   if (parent < 0) return false;

@@ -6,7 +6,7 @@
 //   a goal in the given map: followed when the localization moves the map; given up, then hold, when it loses the place
 //   a goal is reached, or cannot be reached: an event, then hold
 //   suspended and resumed: continues to its goal
-//   halted: has no goal any more
+//   halted: forgets its goal
 #pragma once
 
 #include <optional>
@@ -40,7 +40,7 @@ class OperatorCommand final : public FlightLeaf {
 
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;
-  std::optional<common::OperatorCommand> command_;  ///< The present command; none if it holds.
+  std::optional<common::OperatorCommand> command_;  ///< The present command; nullopt while it holds.
   std::optional<common::GoToIntent> goal_;
 };
 

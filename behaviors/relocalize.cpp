@@ -17,7 +17,7 @@ using tree::Status;
 
 namespace {
 
-/// The places about the vehicle are looked at as they come: a gust must not keep it at one.
+/// The places about the vehicle need little precision: a gust must not keep it at one.
 constexpr double kTolerance_m = 0.15;
 constexpr int kTurns = 3;       ///< A laser sees 240 to 270 degrees; three turns show all of it twice.
 constexpr int kDirections = 4;  ///< In a corridor two of them are free.

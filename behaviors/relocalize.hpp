@@ -1,4 +1,4 @@
-// Relocalize: forgets the pose in the given map, turns about once where it is and, while that does not tell the place,
+// Relocalize: forgets the pose in the given map, turns about once where it is and, until the vehicle is localized,
 // flies to free places around and back.
 //
 //   forget --> turn by 120 deg, three times --> fly out, fly back, in four directions --> FAILURE
@@ -40,8 +40,8 @@ class Relocalize final : public FlightLeaf {
   std::uint64_t request_id_ = 0;  ///< 0 before it has asked.
   bool forgotten_ = false;
   std::vector<Look> looks_;
-  std::size_t look_ = 0;     ///< The one that is being flown.
-  bool flies_back_ = false;  ///< From that one.
+  std::size_t look_ = 0;     ///< The place that is being flown to.
+  bool flies_back_ = false;  ///< It flies back from that place.
   common::GoToIntent back_;  ///< To where the vehicle began.
 };
 

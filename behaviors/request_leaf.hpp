@@ -1,5 +1,5 @@
-// A behaviour without an intent: it asks the flight for something once and waits for the answer, which is its SUCCESS
-// or FAILURE. It lets go at once; what was asked for is done nevertheless.
+// A behaviour without an intent: it sends the flight one request and waits for the answer, which is its SUCCESS
+// or FAILURE. It is released at once; the request is carried out nevertheless.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class RequestLeaf : public tree::Leaf {
   using Leaf::Leaf;
 
  protected:
-  /// The request, or the reason why there is none.
+  /// The request, or why it cannot be made.
   using RequestOrProblem = tl::expected<common::MissionRequestKind, std::string>;
   /// Called once, at the first tick.
   virtual RequestOrProblem makeRequest(const FlightTick& tick) = 0;
@@ -27,7 +27,7 @@ class RequestLeaf : public tree::Leaf {
  private:
   tree::Status act(tree::TickContext& context) final;
 
-  std::uint64_t id_ = 0;  ///< 0 before it has asked.
+  std::uint64_t id_ = 0;  ///< 0 before the request.
 };
 
 }  // namespace swiftlet::behaviors

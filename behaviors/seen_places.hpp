@@ -19,11 +19,11 @@
 
 namespace swiftlet::behaviors {
 
-/// What a search asks for.
+/// The area of a search.
 struct SearchArea {
   double range_m = 3.0;                     ///< A place counts as seen from at most this far.
   double clearance_m = 0.10;                ///< Between hull and obstacle, of places to look from.
-  std::optional<common::MapBounds> bounds;  ///< Places outside are not asked for.
+  std::optional<common::MapBounds> bounds;  ///< Places outside are not searched.
   bool leave_building = false;              ///< Places to look from may be far from everything.
 };
 
@@ -35,7 +35,7 @@ class SeenPlaces {
   /// Marks what the newest frame of the layer shows. The same frame is taken once.
   void see(const common::Map3dLayer& layer, const common::OccupancyGrid& grid, double range_m);
   bool isSeen(const Eigen::Vector2d& place_map_m) const { return places_.at(places_.cellAt(place_map_m)) != 0; }
-  /// It is not asked for any more, and neither are its neighbours.
+  /// It is not searched any more, and neither are its neighbours.
   void giveUp(const Eigen::Vector2d& place_map_m);
 
   /// A place that the camera has not seen, and a pose to look at it from.
@@ -43,7 +43,7 @@ class SeenPlaces {
     Eigen::Vector2d place_map_m;
     common::Pose2 from_map;
   };
-  /// For the nearest place to `here_map_m`; none if all is seen. Places that cannot be looked at are given up. `map`
+  /// For the nearest place to `here_map_m`; nullopt if all is seen. Places that cannot be looked at are given up. `map`
   /// may be null.
   std::optional<Look> next(const Eigen::Vector2d& here_map_m, const common::OccupancyGrid& grid,
                            const common::GoalMap* map, const SearchArea& area);

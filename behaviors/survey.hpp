@@ -1,5 +1,5 @@
 // Survey: flies over `polygon` in lanes so that the sensor sees all of it. SUCCESS after the last lane; known obstacles
-// are left out; FAILURE when no place of the lanes is free. The place of the polygon in a given map is asked for once,
+// are left out; FAILURE when no place of the lanes is free. The place of the polygon in a given map is looked up once,
 // when it begins.
 #pragma once
 

@@ -138,7 +138,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME swiftlet-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-# The libraries are static: who links them needs what they were compiled with, the -dev packages of section [build].
+# The libraries are static: a program that links them needs their dependencies, the -dev packages of section [build].
 file(READ "${PROJECT_SOURCE_DIR}/scripts/packages.txt" packages)
 string(REGEX MATCH "\n\\[build\\][^[]*" packages "${packages}")
 string(REGEX MATCHALL "\n[a-z0-9.+-]+-dev" packages "${packages}")

@@ -23,11 +23,11 @@ struct LandCommand {};
 struct GoalCommand {
   /// Set by the autonomy from `goal_given_m`, if there is one.
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  /// The place in the given map, which the goal then follows; refused while the vehicle does not know its own there.
+  /// The place in the given map, which the goal then follows; refused while the vehicle is not localized in it.
   std::optional<Eigen::Vector2d> goal_given_m = std::nullopt;
 };
 
-/// Flies another mission, or the one that waits. The text comes along, so that a recording needs no file.
+/// Flies another mission, or the one that waits. The command contains the text, so that a recording needs no file.
 struct StartMissionCommand {
   std::string name;  ///< The file, for messages.
   std::string xml;

@@ -42,7 +42,7 @@ class YamlReader final : public Fields {
     return unknownKeys();
   }
 
-  /// Asked for what became of a key that is not known, by its path; nothing if it never was one. Call it before `read`.
+  /// Returns what became of an unknown key, by its path; nullopt if it never was a key. Call it before `read`.
   using WhatBecameOf = std::function<std::optional<std::string>(const std::string& path)>;
   void explainFormerKeys(WhatBecameOf what_became_of);
 

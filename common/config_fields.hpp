@@ -86,7 +86,7 @@ class Fields {
     endSection(relationProblems(config));
   }
 
-  /// A sequence of Configs. Who gives one gives it whole: nothing of the items that were there before is kept.
+  /// A sequence of Configs. A file that gives one replaces all of it: the items that were there before are dropped.
   template <typename Config>
   void list(std::string_view name, std::vector<Config>& configs, std::string_view sentence) {
     const std::optional<int> given = beginList(name, static_cast<int>(configs.size()), sentence);
@@ -112,8 +112,8 @@ class Fields {
   /// False if the section is to be skipped.
   virtual bool beginSection(std::string_view name, std::string_view sentence) = 0;
   virtual void endSection(std::vector<std::string> problems) = 0;
-  /// The number of items of another list that takes the place of the one with `count` items, each of which begins with
-  /// its defaults; none: the present list is described.
+  /// The number of items of a list that replaces the one with `count` items, each of which begins with
+  /// its defaults; nullopt: the present list is described.
   virtual std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) = 0;
   virtual void beginItem(int index) = 0;
   virtual void endList() = 0;

@@ -45,8 +45,8 @@ bool isIn(const std::vector<fs::path>& folders, const fs::path& name) {
   });
 }
 
-/// Like names of folders for the first part of a path that is not there: `missions/x.xml` for `mission/x.xml`. Nothing
-/// if all of its folders are there, or none is alike.
+/// Similar folder names for the first part of a path that is not there: `missions/x.xml` for `mission/x.xml`. Nothing
+/// if all of its folders are there, or none is similar.
 std::optional<fs::path> withLikeFolder(const fs::path& name, const std::vector<fs::path>& folders) {
   fs::path there;
   for (auto part = name.begin(); part != name.end() && std::next(part) != name.end(); ++part) {

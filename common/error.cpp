@@ -63,7 +63,7 @@ InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(joinProblems(problems)), problems_(std::move(problems)) {}
 
 std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> candidates) {
-  // `p` for `P`, which has no letter in common with it.
+  // `p` for `P`, which share no letter.
   const auto same = [seen = lowerCase(asSeen(word))](const auto& one) { return lowerCase(asSeen(one)) == seen; };
   if (const auto found = std::find_if(candidates.begin(), candidates.end(), same); found != candidates.end())
     return *found;
@@ -72,14 +72,14 @@ std::optional<std::string> nearestWord(std::string_view word, std::span<const st
   if (const auto found = std::find_if(candidates.begin(), candidates.end(), begins); found != candidates.end())
     return *found;
   const std::string* best = nullptr;
-  // Where every letter would have to change, nothing is alike.
+  // Where every letter would have to change, the words are not similar.
   std::size_t best_distance = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   const auto begin = [&](const std::string& candidate) {
     return std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first - word.begin();
   };
   for (const std::string& candidate : candidates) {
     const std::size_t distance = editDistance(word, candidate);
-    // Of two as near the one that begins alike: `speed` for `sped`, before `seed`.
+    // Of two equally near words, the one with the same beginning: `speed` for `sped`, before `seed`.
     const bool begins_alike = best != nullptr && distance == best_distance && begin(candidate) > begin(*best);
     if (distance < best_distance || begins_alike) {
       best_distance = distance;

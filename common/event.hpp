@@ -14,8 +14,8 @@ enum class Severity { kInfo, kWarning, kError };
 inline constexpr std::array kSeverities{Severity::kInfo, Severity::kWarning, Severity::kError};
 const char* toString(Severity severity);
 
-/// What an event tells of the safety of the flight. Its reporter names what it is about; whether the operator is
-/// alarmed is decided by alarmOf() alone.
+/// What an event means for the safety of the flight. Its reporter names what it is about; alarmOf() alone decides
+/// whether the operator is alarmed.
 enum class Concern {
   kNone,
   kTurnBack,
@@ -39,8 +39,8 @@ struct Event {
   Concern concern = Concern::kNone;
 };
 
-/// The alarm that the event is, in a few words for the operator; empty if it is none. An alarm must not be missed: the
-/// vehicle does what the operator did not ask for, or soon will. That is every concern of which the event warns.
+/// The alarm of the event, in a few words for the operator; empty without one. An alarm must not be missed: the
+/// vehicle does what the operator did not ask for, or soon will. These are the concerns of warnings.
 std::string_view alarmOf(const Event& event);
 
 }  // namespace swiftlet::common

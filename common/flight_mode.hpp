@@ -6,7 +6,7 @@
 
 namespace swiftlet::common {
 
-/// `kFast` is the mode where a mission names none. `kBrisk` is for those who ask for more, such as following a person
+/// `kFast` is the default of a mission. `kBrisk` is for behaviours that need more speed, such as following a person
 /// who walks at 1 m/s.
 enum class FlightMode { kFast, kCareful, kAccurate, kBrisk };
 inline constexpr std::array kFlightModes{FlightMode::kFast, FlightMode::kCareful, FlightMode::kAccurate,

@@ -14,8 +14,8 @@ class FormerSettings {
   /// Throws InputError when the file cannot be read as such a list.
   explicit FormerSettings(const std::string& file);
 
-  /// "is no longer a setting: it is 3.5: Half width of all confidence regions.", or that of a section all of whose
-  /// settings are gone. Nothing for a path that never was either. `path` is such as "autonomy.scans.latency_s".
+  /// "is no longer a setting: it is 3.5: Half width of all confidence regions.", or the text for a section all of whose
+  /// settings are gone. nullopt for a path that never existed. `path` is such as "autonomy.scans.latency_s".
   std::optional<std::string> whatBecameOf(const std::string& path) const;
 
  private:

@@ -32,10 +32,10 @@ inline constexpr double kLeastFlightHeight_m = 0.3;
 
 struct Goal {
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
-  std::optional<double> height_m;  ///< Above the take-off floor; none: the present flight height.
+  std::optional<double> height_m;  ///< Above the take-off floor; nullopt: the present flight height.
   double tolerance_m = 0.0;
   double clearance_m = 0.0;  ///< Between hull and obstacle.
-  /// Within this distance of it a free place will do as well, even beyond the tolerance.
+  /// A free place within this distance of it is accepted too, even beyond the tolerance.
   double shift_m = 0.0;
   PlaceNames names = {};  ///< For the text of a refusal.
 };
@@ -58,7 +58,7 @@ class GoalMap {
  public:
   virtual ~GoalMap() = default;
   virtual PlaceState stateAt(const Eigen::Vector2d& place_map_m, double clearance_m) const = 0;
-  /// The free place nearest to `place_map_m`; none if there is no free place within `reach_m`.
+  /// The free place nearest to `place_map_m`; nullopt if there is no free place within `reach_m`.
   virtual std::optional<Eigen::Vector2d> nearestFree(const Eigen::Vector2d& place_map_m, double reach_m,
                                                      double clearance_m) const = 0;
 };

@@ -1,4 +1,4 @@
-// What a behaviour wants of the vehicle, and the status of that. Behaviours emit an Intent at each tick; the autonomy
+// What a behaviour requests of the vehicle, and its status. Behaviours emit an Intent at each tick; the autonomy
 // carries it out and answers with the IntentStatus of that Intent. An Intent with the previous `id` continues it.
 #pragma once
 
@@ -37,7 +37,7 @@ struct MapBounds {
 };
 struct ExploreIntent {
   double clearance_m = 0.10;        ///< Between hull and obstacle.
-  std::optional<MapBounds> bounds;  ///< Space outside is left unexplored; none: no limit.
+  std::optional<MapBounds> bounds;  ///< Space outside is left unexplored; nullopt: no limit.
   /// Fly also to where the laser would see too little to fix the position.
   bool leave_building = false;
   FlightMode mode = FlightMode::kFast;
@@ -46,12 +46,12 @@ struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   /// The goal in the frame of the given map, where the mission names it there.
   std::optional<Eigen::Vector2d> goal_given_m;
-  std::optional<double> height_m;  ///< Above the take-off floor; none: stay at the present height.
+  std::optional<double> height_m;  ///< Above the take-off floor; nullopt: stay at the present height.
   std::optional<double> yaw_map_rad;
   double tolerance_m = 0.05;  ///< Greatest horizontal distance at arrival.
-  /// Where the goal itself is not free, a free place this near is as good, although it is beyond the tolerance.
+  /// Where the goal itself is not free, a free place this near is accepted, although it is beyond the tolerance.
   double shift_m = 0.0;
-  double shift_after_s = 0.0;  ///< Only after the goal has not been free for this long: what stands there may go.
+  double shift_after_s = 0.0;  ///< Only after the goal has not been free for this long: a person there may go.
   double clearance_m = 0.10;   ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
@@ -69,18 +69,18 @@ struct RetraceIntent {
 /// Fly over an area in lanes, so that the sensor sees all of it.
 struct SurveyIntent {
   Polygon area;
-  std::optional<double> spacing_m;  ///< Greatest distance between two lanes; none: by what the sensor sees.
-  std::optional<double> height_m;   ///< Above the take-off floor; none: stay at the present height.
+  std::optional<double> spacing_m;  ///< Greatest distance between two lanes; nullopt: from what the sensor sees.
+  std::optional<double> height_m;   ///< Above the take-off floor; nullopt: stay at the present height.
   double clearance_m = 0.10;        ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
 /// Orbit a point with the camera on it, counter-clockwise.
 struct InspectIntent {
   Eigen::Vector2d point_map_m = Eigen::Vector2d::Zero();
-  std::optional<double> point_height_m;  ///< Above the take-off floor; none: not known.
+  std::optional<double> point_height_m;  ///< Above the take-off floor; nullopt: not known.
   double radius_m = 1.5;
   double turns = 1.0;
-  /// Of the vehicle; none: where the camera's axis meets the point, or the present one.
+  /// Of the vehicle; nullopt: where the camera's axis meets the point, or the present height.
   std::optional<double> height_m;
   double clearance_m = 0.10;  ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
@@ -100,7 +100,7 @@ using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIn
 struct Intent {
   std::uint64_t id = 0;  ///< 0: no behaviour has emitted one; the vehicle holds.
   IntentKind kind;
-  std::uint64_t resumes = 0;  ///< The intent that was interrupted and that this one goes on with; 0: none.
+  std::uint64_t resumes = 0;  ///< The interrupted intent that this one continues; 0: it continues no intent.
 };
 
 enum class IntentState { kRunning, kSucceeded, kFailed };

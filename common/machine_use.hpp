@@ -1,4 +1,4 @@
-// What a flight took of the computer that flew it. It is never the same again, so nothing of it may enter the state of
+// The computing resources that a flight used. They differ between runs, so nothing of them may enter the state of
 // a flight, or a file that a seed makes the same again.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace swiftlet::common {
 
-/// Each is none if it was not measured.
+/// Each is nullopt if it was not measured.
 struct MachineUse {
   /// Most resident memory of the process during the flight, in 10^6 bytes. Flights side by side share it.
   std::optional<double> memory_peak_MB;

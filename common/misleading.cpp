@@ -29,7 +29,7 @@ Character characterAt(std::string_view text, std::size_t at) {
   return {code, bytes};
 }
 
-/// Characters from `first` to `last`, and what is meant by them; empty for what is to be taken out.
+/// Characters from `first` to `last`, and what is meant by them; empty for characters to be removed.
 struct Range {
   std::uint32_t first, last;
   const char* meant;

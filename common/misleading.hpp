@@ -18,7 +18,7 @@ struct Misleading {
 /// missions are judged alike (behaviors/tree/characters.hpp).
 std::optional<Misleading> misleadingIn(std::string_view text);
 
-/// "it has a zero-width space (U+200B): write nothing there"; empty for a text in which nothing misleads.
+/// "it has a zero-width space (U+200B): write nothing there"; empty for a text without misleading characters.
 std::string misleadingHint(std::string_view text);
 
 /// The text as it is seen: without what cannot be seen, and with the characters of ASCII that others look like. Letters

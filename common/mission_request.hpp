@@ -1,4 +1,4 @@
-// What a behaviour asks of the flight beside its intent: something that is done at once, or with the next camera frame.
+// What a behaviour requests of the flight beside its intent: something done at once, or with the next camera frame.
 // Each request is answered once, at a later tick of the behaviours.
 #pragma once
 
@@ -28,7 +28,7 @@ struct PhotographRequest {
 struct LoadMapRequest {
   std::string file;  ///< As the mission names it.
 };
-/// Forget the pose in the given map and look for it anew.
+/// Forget the pose in the given map and search for it again.
 struct RelocalizeRequest {};
 
 using MissionRequestKind =

@@ -51,7 +51,7 @@ std::string withoutFolders(std::string_view text) {
 
 std::string forOperator(const Problem& problem) {
   Problem told = problem;
-  // A hint that names an option is of use only where the program is started.
+  // A hint that names an option helps only where the program is started.
   if (told.hint.find("--") != std::string::npos) told.hint.clear();
   return withoutFolders(toString(told));
 }

@@ -12,7 +12,7 @@ namespace swiftlet::common {
 /// The text with each path shortened to the name of its file: "/srv/kim/hall/map.yaml:3" becomes "map.yaml:3".
 std::string withoutFolders(std::string_view text);
 
-/// The problem as the operator is told: without folders, and without a hint that only helps at the command line.
+/// The problem as shown to the operator: without folders, and without a hint that only helps at the command line.
 std::string forOperator(const Problem& problem);
 /// The first problem, and how many more there are.
 std::string forOperator(const InputError& error);

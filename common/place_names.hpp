@@ -1,4 +1,4 @@
-// How texts for people name places: in the frame that the reader sees on the page, which is that of the given map while
+// How texts for people name places: in the frame that the reader sees on the page, which is the given map's while
 // the vehicle is localized in it, and `map` otherwise (decision 060).
 #pragma once
 
@@ -13,7 +13,7 @@ namespace swiftlet::common {
 
 /// A value. Made from the pose that the page uses too (MapLayer::T_map_given), so that both name the same place alike.
 struct PlaceNames {
-  std::optional<Pose2> T_given_map;  ///< None: places are named in `map`.
+  std::optional<Pose2> T_given_map;  ///< nullopt: places are named in `map`.
 
   static PlaceNames in(const std::optional<Pose2>& T_map_given) {
     return {T_map_given ? std::optional(T_map_given->inverse()) : std::nullopt};

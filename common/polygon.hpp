@@ -11,7 +11,7 @@
 
 namespace swiftlet::common {
 
-/// In the `map` frame, the corners in order, either way round. Valid if problemOf() finds nothing.
+/// In the `map` frame, the corners in order, in either direction. Valid if problemOf() finds nothing.
 struct Polygon {
   std::vector<Eigen::Vector2d> corners_map_m;
 

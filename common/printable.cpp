@@ -13,7 +13,7 @@ bool isContinuation(std::string_view text, std::size_t i) {
   return i < text.size() && (byteAt(text, i) & 0xC0U) == 0x80U;
 }
 
-/// Length in bytes of the UTF-8 character at `i`; 0 if there is none that may be shown. Overlong forms, surrogates and
+/// Length in bytes of the UTF-8 character at `i`; 0 if it may not be shown. Overlong forms, surrogates and
 /// values beyond Unicode are invalid (RFC 3629).
 std::size_t shownBytes(std::string_view text, std::size_t i) {
   const unsigned char first = byteAt(text, i);

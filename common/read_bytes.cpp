@@ -20,7 +20,7 @@ Problem problemWith(const std::filesystem::path& file, std::string message, std:
   return {{file.string()}, "", std::move(message), std::move(hint)};
 }
 
-/// What a clone has in place of a large file, until that is brought: a small text that says where it is.
+/// The pointer that a clone has in place of a large file, until that is fetched: a small text with its location.
 struct Pointer {
   std::string_view begins_with;
   const char* keeper;

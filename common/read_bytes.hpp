@@ -30,7 +30,7 @@ inline constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
 /// The bytes of a file. Throws InputError if it is not a regular file, cannot be read, or is larger than `most_bytes`.
 std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes = kMostFileBytes);
 
-/// The same for texts that nothing unpacks. Throws InputError also if the file is packed, by gzip for instance.
+/// The same for texts that are not unpacked. Throws InputError also if the file is packed, by gzip for instance.
 std::string readText(const std::filesystem::path& file, std::size_t most_bytes = kMostFileBytes);
 
 }  // namespace swiftlet::common

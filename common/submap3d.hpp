@@ -1,7 +1,7 @@
 // A piece of the 3D map, drawn around one key scan of the 2D map and moving with it.
 //
-// A loop closure moves the key scans, so what hangs on them is right at once and is not drawn again; only what fuses
-// all submaps into one grid must be made anew.
+// A loop closure moves the key scans, so what is stored relative to them is right at once and is not drawn again; only
+// the grid fused from all submaps must be made again.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct SurfacePoint {
   std::array<std::uint8_t, 3> rgb{};
 };
 
-/// Where a surface was seen only with much noise, its points are averaged in cubes of so many times the side, and are
+/// Where a surface was seen only with much noise, its points are averaged in cubes of this many times the side, and are
 /// as much farther apart (decision 099). It is eight times the least noise that goes there, so that a flat surface is
 /// mostly in one layer of them, and half of what the figures of the cloud call covered.
 inline constexpr double kLargeCube = 4.0;
@@ -40,7 +40,7 @@ struct Submap3d {
   std::shared_ptr<const std::vector<SurfacePoint>> points;  ///< Never null.
   std::shared_ptr<const VoxelMap> voxels;                   ///< Never null.
   double cube_m = 0.02;                                     ///< Side of the cubes each of which has one point.
-  std::size_t coarse = 0;  ///< So many points, the last ones, have cubes of kLargeCube times that side.
+  std::size_t coarse = 0;  ///< Number of points, the last ones, that have cubes of kLargeCube times that side.
   /// The numbers of the first and the last frame drawn into it; each frame is drawn into one submap.
   std::uint64_t first_frame = 0, last_frame = 0;
 

@@ -6,7 +6,7 @@
 
 namespace swiftlet::common {
 
-/// Replaces `chosen` by `count` indices into the weights, ascending, each as often as its weight over `sum` asks for,
+/// Replaces `chosen` by `count` indices into the weights, ascending, each count * weight / sum times,
 /// rounded up or down. `sum` is that of the weights and positive; `uniform`, in [0, 1), is the one random number that
 /// serves for all. There must be at least one weight.
 template <typename Weight, typename Index>

@@ -28,7 +28,7 @@ Pose3 interpolated(const Pose3& first, const Pose3& second, double share);
 Pose3 blended(const Pose3& first, const Pose3& second, double share);
 
 /// The pose at a time between two poses of a sequence (a vector or deque of StampedPose, ordered like a Trajectory), or
-/// at the stamp of one. None before the first and after the last, and, if there is a `longest_gap`, between two that
+/// at the stamp of one. nullopt before the first and after the last, and, if there is a `longest_gap`, between two that
 /// are farther apart.
 template <typename Poses>
 std::optional<Pose3> poseAt(const Poses& poses, Time time, std::optional<Duration> longest_gap = std::nullopt) {

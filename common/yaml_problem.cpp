@@ -60,7 +60,7 @@ std::string_view keyOf(std::string_view line) {
   return next.starts_with(':') || next.starts_with('=') ? line.substr(0, end) : std::string_view();
 }
 
-/// What a text that is not YAML is told: where, what and how to mend it.
+/// The message for a text that is not YAML: where, what and how to mend it.
 struct Cause {
   int line = 0, column = 0;
   std::string message, hint;

@@ -1,4 +1,4 @@
-// Reading YAML, and what people who wrote it by hand are told when it cannot be read.
+// Reading YAML, and the messages for people who wrote it by hand, when it cannot be read.
 #pragma once
 
 #include <cstddef>

@@ -39,8 +39,8 @@ Actuation actuate(const Eigen::Vector3d& wanted_odom_m_s2, double yaw_rad, doubl
   Actuation result;
   Eigen::Vector3d& given_m_s2 = result.given_odom_m_s2;
   given_m_s2 = wanted_odom_m_s2;
-  // More than the motors can give would only wind up the integral. A vehicle that still stands may be much weaker than
-  // is known, so that it is given whatever lifts it.
+  // More than the motors can give would only wind up the integral. A standing vehicle may be much weaker than known, so
+  // it may use all of its thrust.
   const double available_m_s2 = std::max(0.0, common::kGravity_m_s2 * (thrust.margin() - 1.0));
   const double most_up_m_s2 = on_ground ? available_m_s2 : std::min(available_m_s2, max_up_m_s2);
   given_m_s2.z() = std::clamp(wanted_odom_m_s2.z(), -max_up_m_s2, most_up_m_s2);

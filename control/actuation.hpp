@@ -1,5 +1,5 @@
 // From a wanted acceleration to the tilt and the thrust that the vehicle can give. Used by every controller whose law
-// is one of accelerations.
+// yields accelerations.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ inline constexpr double kKeptForHeight = 0.03;
 /// Roll, pitch and thrust of the setpoint are set.
 struct Actuation {
   common::Setpoint setpoint;
-  Eigen::Vector3d given_odom_m_s2 = Eigen::Vector3d::Zero();  ///< What of the wanted acceleration is left.
+  Eigen::Vector3d given_odom_m_s2 = Eigen::Vector3d::Zero();  ///< The wanted acceleration within the limits.
 };
 
 /// The attitude whose thrust points along the wanted force, within the tilt that the thrust can carry. While

@@ -7,7 +7,7 @@
 namespace swiftlet::control {
 namespace {
 
-/// With attitude gains as autopilots have them, a step of 1 rad asks for about the full thrust of a motor up and down.
+/// With attitude gains as autopilots have them, a step of 1 rad takes about the full thrust of a motor up and down.
 /// Half as much again is allowed, since a step lasts for less time than it takes to lose height.
 constexpr double kStepPerThrust_rad = 1.5;
 constexpr double kLeastStep_rad = 0.04;  ///< Enough to stay upright in gusts, at any throttle.

@@ -10,7 +10,7 @@
 namespace swiftlet::control {
 
 /// The setpoint with roll and pitch no farther from the present attitude than its thrust leaves the motors room for. At
-/// half throttle the step may be 43 deg, which limits nothing.
+/// half throttle the step may be 43 deg, which is no limit in practice.
 common::Setpoint withinThrustLeft(common::Setpoint setpoint, const Eigen::Quaterniond& rotation_odom_body);
 
 }  // namespace swiftlet::control

@@ -27,11 +27,11 @@ struct ControlErrors {
   double heading_rad = 0.0;                                          ///< Yaw of the state.
 };
 
-/// By what `input.horizontal` allows: without a position its error is zero, and without a velocity so is that.
+/// By what `input.horizontal` allows: without a position its error is zero, and without a velocity that error is too.
 ControlErrors errorsOf(const ControlInput& input, const ControlLimits& limits);
 
-/// Adds `rate * error * dt` to the integral, within its bound, unless the vehicle was given less than was wanted and
-/// the integral would grow into that.
+/// Adds `rate * error * dt` to the integral, within its bound. Anti-windup: not while the vehicle was given less than
+/// was wanted and the integral would grow further.
 void integrate(Eigen::Vector3d& integral_m_s2, const Eigen::Vector3d& rate, const Eigen::Vector3d& error,
                const Eigen::Vector3d& refused_m_s2, double most_m_s2, double dt_s);
 

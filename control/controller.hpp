@@ -25,10 +25,10 @@ enum class ControllerKind {
 };
 inline constexpr int kControllerKinds = 5;
 const char* toString(ControllerKind kind);
-/// The kind with that word; none for any other.
+/// The kind with that word; nullopt for any other.
 std::optional<ControllerKind> controllerNamed(std::string_view word);
 
-/// What of the horizontal state a controller may use.
+/// The part of the horizontal state that a controller may use.
 enum class Horizontal {
   kPosition,  ///< Hold the reference.
   kVelocity,  ///< The position is unknown: only the velocity of the reference is held.
@@ -41,7 +41,7 @@ struct ControlInput {
   double dt_s = common::kControlPeriod.seconds();
   common::VehicleState state;
   Reference reference;
-  /// By the accelerometer, without gravity and bias; none while it is not known.
+  /// From the accelerometer, without gravity and bias; nullopt while it is not known.
   std::optional<Eigen::Vector3d> acceleration_odom_m_s2;
   Horizontal horizontal = Horizontal::kPosition;
   /// The vehicle stands: the tilt and the yaw rate stay zero, and neither the horizontal integrals nor the learned
@@ -60,7 +60,7 @@ class Controller {
   /// Forgets integrals and estimated disturbances.
   virtual void reset() = 0;
 
-  /// The setpoint; its stamp and motors_on are set by the caller. `thrust` has been told the voltage, and learns here.
+  /// The setpoint; its stamp and motors_on are set by the caller. `thrust` has the voltage already, and learns here.
   virtual common::Setpoint tick(const ControlInput& input, ThrustModel& thrust) = 0;
 
   /// The constant acceleration that the controller adds against wind, a wrong horizon and a wrong thrust model, as

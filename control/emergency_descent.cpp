@@ -21,10 +21,10 @@ constexpr double kMaxIntegral_m_s2 = 2.0;      ///< A hover command that is wron
 constexpr double kBlindMargin_per_s = 0.1;
 /// Growth of the error of a speed that the thrust model carries: its hover command is good to about 1 % of gravity.
 constexpr double kModelSpeed_m_s2 = 0.05;
-/// Share of the speed of a descent that is wanted while the thrust model alone carries the speed: the model's error is
+/// Share of the wanted speed of a descent while the thrust model alone carries the speed: the model's error is
 /// added to it.
 constexpr double kModelShare = 0.6;
-/// Slower than this share of the wanted speed the vehicle does not sink as it should.
+/// Below this share of the wanted speed the vehicle does not sink as it should.
 constexpr double kSinkingShare = 0.7;
 /// If the height by the thrust model is this far below the ground, the model has missed the touch-down.
 constexpr double kMissed_m = 0.3;
@@ -110,8 +110,8 @@ double EmergencyDescent::accelerationFor(double wanted_m_s, double dt_s) {
   return std::clamp(config_.gain_1_s * error_m_s + integral_m_s2_, -kMaxAcceleration_m_s2, kMaxAcceleration_m_s2);
 }
 
-/// A table of glass, or the edges of a gap, carry the vehicle higher than the beams say. What keeps still there though
-/// more and more thrust is taken away stands, as in a blind descent.
+/// A table of glass, or the edges of a gap, carry the vehicle higher than the beams say. A vehicle that stays still
+/// while more and more thrust is taken away stands, as in a blind descent.
 double EmergencyDescent::seenAcceleration_m_s2(common::Time now, double dt_s) {
   last_seen_ = now;
   motion_ = {filter_.height_m(), filter_.velocity_m_s()};
@@ -137,7 +137,7 @@ double EmergencyDescent::blindAcceleration_m_s2(common::Time now, double dt_s,
   } else {
     motion_.velocity_m_s += given_m_s2_ * dt_s;
     motion_.height_m += motion_.velocity_m_s * dt_s;
-    integral_m_s2_ = 0.0;  // The model agrees with its own commands, so there is nothing to learn.
+    integral_m_s2_ = 0.0;  // The model agrees with its own commands, so the integral has no error to correct.
   }
   // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
   const double wrong_m_s = blind_s * (carried ? kCarriedSpeed_m_s2 : kModelSpeed_m_s2);

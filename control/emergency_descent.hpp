@@ -89,7 +89,7 @@ class EmergencyDescent {
   void start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s,
              const Eigen::Vector3d& trim_level_m_s2 = Eigen::Vector3d::Zero());
   /// The yaw rate is zero. The tilt brakes the velocity given to start() without measuring it again.
-  /// `carried` is the motion by the inertial samples, used while no raw height is fresh; none if it is not known.
+  /// `carried` is the motion by the inertial samples, used while no raw height is fresh; nullopt if it is not known.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust,
                         const std::optional<VerticalMotion>& carried = std::nullopt);
   bool touchedDown() const { return touched_down_; }
@@ -98,7 +98,7 @@ class EmergencyDescent {
   const AlphaBetaFilter& filter() const { return filter_; }
 
  private:
-  /// `margin_m`: so much the height may be wrong; `age_s`: so old the motion is.
+  /// `margin_m`: by how much the height may be wrong; `age_s`: the age of the motion.
   double wantedVelocity_m_s(double margin_m, double age_s) const;
   double accelerationFor(double wanted_m_s, double dt_s);
   double seenAcceleration_m_s2(common::Time now, double dt_s);
@@ -106,7 +106,7 @@ class EmergencyDescent {
 
   Config config_;
   AlphaBetaFilter filter_;
-  Eigen::Vector2d velocity_left_m_s_ = Eigen::Vector2d::Zero();  ///< What braking has not taken away yet.
+  Eigen::Vector2d velocity_left_m_s_ = Eigen::Vector2d::Zero();  ///< The velocity that is still to be braked.
   Eigen::Vector3d trim_level_m_s2_ = Eigen::Vector3d::Zero();
   common::Time last_seen_;  ///< When the ground was last measured; at first, when the descent started.
   common::Time last_moving_;

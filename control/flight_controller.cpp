@@ -123,7 +123,7 @@ tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Ve
 }
 
 void FlightController::hold() {
-  if (escapes_until_) return;  // It ends in a hold by itself.
+  if (escapes_until_) return;  // The escape ends in a hold by itself.
   follower_.stop();
 }
 
@@ -348,8 +348,8 @@ void FlightController::startEmergencyDescent() {
   emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(), trim_level_m_s2);
 }
 
-/// While the pilot flies, nothing that the program asks for is flown. What it does, also a take-off or a landing, goes
-/// on from where the pilot gives the vehicle back; neither a time limit nor a touch-down is counted before that.
+/// While the pilot flies, no setpoint of the program is flown. A take-off or a landing continues from where the pilot
+/// gives the vehicle back; neither a time limit nor a touch-down is counted before that.
 void FlightController::beginAtVehicle() {
   const Eigen::Vector3d& position_m = last_state_.T_odom_body.position_m;
   follower_.reset(position_m, common::yawOf(last_state_.T_odom_body.rotation));
@@ -363,7 +363,7 @@ void FlightController::beginAtVehicle() {
   if (state() == FlightState::kTakingOff && now_ - state_since_ > spool_up) state_since_ = now_ - spool_up;
 }
 
-/// The last horizontal velocity that can still be believed, in the body frame without roll and pitch.
+/// The last horizontal velocity that is still known well enough, in the body frame without roll and pitch.
 Eigen::Vector2d FlightController::velocityForBraking_m_s() const {
   const double variance = last_state_.velocity_covariance_m2_s2.diagonal().head<2>().maxCoeff();
   if (variance > kDampedVelocitySigma_m_s * kDampedVelocitySigma_m_s) return Eigen::Vector2d::Zero();

@@ -58,15 +58,15 @@ struct FlightTick {
   /// is then one that setpoints predict, with a horizontal part that other sensors support or none. Only read in the
   /// tick itself.
   std::string_view inertial_fault;
-  /// A part of the inertial samples is replaced, by what the thrust is believed to lift.
+  /// A part of the inertial samples is replaced by a prediction from the thrust.
   bool inertial_contradicted = false;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
-  /// The motors get the thrust of the last setpoint: while a pilot overrules it, nothing is learned of it.
+  /// The motors get the thrust of the last setpoint: while a pilot overrides it, the thrust model does not learn.
   bool thrust_applies = true;
   /// Roll and pitch of the horizon that the autopilot flies by, less those of the state: what a setpoint has to add.
   Eigen::Vector2d horizon_offset_rad = Eigen::Vector2d::Zero();
-  /// By the accelerometer, without gravity and bias; none while it is not known.
+  /// From the accelerometer, without gravity and bias; nullopt while it is not known.
   std::optional<Eigen::Vector3d> acceleration_odom_m_s2 = std::nullopt;
 };
 
@@ -208,7 +208,7 @@ class FlightController {
   Eigen::Vector2d velocityForBraking_m_s() const;
   void startEmergencyDescent();
   void beginAtVehicle();
-  /// Whether the condition has held for so long; `since` keeps when it began.
+  /// Whether the condition has held for this long; `since` keeps when it began.
   bool heldFor(std::optional<common::Time>& since, bool condition, double seconds) const;
 
   Config config_;

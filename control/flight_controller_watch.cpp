@@ -67,8 +67,8 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
     transition(FlightInput::kLand, fmt::format("no horizontal estimate for {:.1f} s", config_.horizontal_loss_s));
 }
 
-/// The velocity is known for longer than the position. So the vehicle brakes, or leaves the walls that it would drift
-/// into on its way down.
+/// The velocity is known for longer than the position. So the vehicle brakes, or flies away from the walls into which
+/// it would drift while it descends.
 void FlightController::escape() {
   const double length_m = std::min(escape_map_m_.norm(), escapeReach_m());
   if (state() != FlightState::kFlying || length_m < config_.blind_speed_m_s * dt_s_) {

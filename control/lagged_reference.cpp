@@ -5,7 +5,7 @@
 namespace swiftlet::control {
 
 void LaggedReference::advance(const Reference& reference, double lag_s, double dt_s) {
-  constexpr double kJump_m = 0.3;  // A reference that was placed anew did not get there by flying.
+  constexpr double kJump_m = 0.3;  // A reference that jumps by more was set again.
   const Eigen::Vector2d position_m = reference.position_odom_m.head<2>();
   const Eigen::Vector2d velocity_m_s = reference.velocity_odom_m_s.head<2>();
   if (!point_ || lag_s <= 0.0 ||

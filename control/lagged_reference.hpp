@@ -21,7 +21,7 @@ class LaggedReference {
 
   /// Follows the reference by one tick, and jumps with it.
   void advance(const Reference& reference, double lag_s, double dt_s);
-  /// None while the horizontal position is not held.
+  /// nullopt while the horizontal position is not held.
   const std::optional<Point>& point() const { return point_; }
   void reset() { point_.reset(); }
 

@@ -25,7 +25,7 @@ void OscillationGuard::observe(const Eigen::Quaterniond& rotation_odom_body, dou
   square_rad2_ += common::followedShare(dt_s, config_.rms_s) * ((tilt_rad - *mean_rad_).squaredNorm() - square_rad2_);
   const double calm_rad = config_.calm_deg * common::kRadPerDeg;
   const double share = std::clamp(calm_rad / std::max(swing_rad(), 1e-9), config_.least_share, 1.0);
-  // Down at once and up slowly: gains that return as soon as the swing has ended would begin it anew.
+  // Down at once and up slowly: gains that return as soon as the swing has ended would start it again.
   share_ = share < share_ ? share : share_ + common::followedShare(dt_s, config_.recovery_s) * (share - share_);
 }
 

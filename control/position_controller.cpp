@@ -50,7 +50,7 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
   return actuation.setpoint;
 }
 
-/// Most of what the trim makes up for turns with the vehicle: an attitude that is read with a lean, a weak motor, the
+/// Most of what the trim compensates turns with the vehicle: an attitude that is read with a lean, a weak motor, the
 /// drag of flying ahead.
 void PositionController::turnTrim(double yaw_rad) {
   if (trim_yaw_rad_)

@@ -42,7 +42,7 @@ class PositionController final : public Controller {
 
   PositionController(const Config& config, const common::VehicleConfig& vehicle);
 
-  /// The learned hover command stays.
+  /// Keeps the learned hover command.
   void reset() override;
   common::Setpoint tick(const ControlInput& input, ThrustModel& thrust) override;
   Eigen::Vector3d trim_odom_m_s2(const ThrustModel&) const override { return integral_m_s2_; }
@@ -58,7 +58,7 @@ class PositionController final : public Controller {
   Config config_;
   common::VehicleConfig vehicle_;
   Eigen::Vector3d integral_m_s2_ = Eigen::Vector3d::Zero();
-  std::optional<double> trim_yaw_rad_;  ///< Yaw at the last tick; none before the first.
+  std::optional<double> trim_yaw_rad_;  ///< Yaw at the last tick; nullopt before the first.
   LaggedReference lagged_;
 };
 

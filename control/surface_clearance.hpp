@@ -1,5 +1,5 @@
 // Keeps the vehicle above what it flies over: where a table leaves too little air under a path, the path is lifted. It
-// goes by the distance that is measured straight down, so that it also works while the height is not known well.
+// uses the distance that is measured straight down, so that it also works while the height is not known well.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ class SurfaceClearance {
 
   /// A distance to what is below, and the height of the body over the take-off floor when it was measured.
   void observe(const RawHeight& below, double height_m);
-  /// Call it once a tick while paths are flown, with the height that the path asks for.
+  /// Call it once a tick while paths are flown, with the height of the path.
   void advance(common::Time now, double wanted_m, double dt_s);
   void reset();
 

@@ -53,7 +53,7 @@ class SwitchedController {
   ThrustModel thrust_;
   std::array<std::unique_ptr<Controller>, kControllerKinds> controllers_;
   ControllerKind kind_;
-  bool switched_ = false;  ///< The controller has not ticked since it was switched to.
+  bool switched_ = false;  ///< The present controller has not ticked since the switch.
   std::optional<Command> last_;
   Command step_ = Command::Zero();
 };

@@ -88,7 +88,7 @@ double ThrustTable::hoverCommand(double voltage_v) const { return std::exp(logAt
 double ThrustTable::learn(double voltage_v, double log_step, double dt_s) {
   const double before = logAt(voltage_v);
   const Place place = placeOf(voltage_v);
-  // How far each knot follows: wholly near the voltage, and the less elsewhere, the better it knows its own.
+  // How far each knot follows: fully near the voltage, and elsewhere the less, the better its own value is known.
   std::array<double, kKnots> follow{};
   for (std::size_t i = 0; i < kKnots; ++i) {
     const double familiar = seen_s_[i] / config_.familiar_s;
@@ -106,7 +106,7 @@ double ThrustTable::learn(double voltage_v, double log_step, double dt_s) {
   return logAt(voltage_v) - before;
 }
 
-/// The two knots at the present voltage are right; what contradicts them elsewhere gives way.
+/// The two knots at the present voltage are right; knots elsewhere that contradict them are corrected.
 void ThrustTable::keepFalling(std::size_t from) {
   log_commands_[from + 1] = std::min(log_commands_[from + 1], log_commands_[from]);
   for (std::size_t i = from + 2; i < kKnots; ++i) log_commands_[i] = std::min(log_commands_[i], log_commands_[i - 1]);

@@ -48,9 +48,9 @@ class ThrustTable {
   ThrustTable(const Config& config, const common::VehicleConfig& vehicle);
 
   /// Takes over the rows of an earlier flight; the knots between and beyond them follow the law above. Values outside
-  /// the bounds about the data sheet are brought to the bound. No rows change nothing.
+  /// the bounds about the data sheet are moved to the bound. Without rows it changes nothing.
   void recall(const ThrustPoints& points);
-  /// Every knot, also those that only followed the learned ones.
+  /// Every knot, also one that only followed the learned ones.
   ThrustPoints points() const;
 
   /// Moves the command at this voltage by the factor exp(`log_step`), as far as the bounds allow, after `dt_s` near it.

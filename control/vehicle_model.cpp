@@ -34,7 +34,7 @@ constexpr std::array<AxisBounds, 4> kAxisBounds{{{"forward", 3.0, 30.0, -5.0, 5.
                                                  {"left", -30.0, -3.0, -5.0, 5.0},
                                                  {"up", 2.0, 30.0, -30.0, -2.0},
                                                  {"yaw", 0.2, 5.0, -1.0, 1.0}}};
-/// What is left of gain and offset at a hover, where the command is the one that carries the weight.
+/// The sum of gain and offset at a hover, where the command is the one that carries the weight.
 constexpr double kMostAtHover_m_s2 = 5.0;
 
 /// The angle at the command 0, which the rows hold.
@@ -141,7 +141,7 @@ std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConf
   check("battery_full_v", battery_full_v, sheet.battery_full_v, "V");
   check("battery_empty_v", battery_empty_v, sheet.battery_empty_v, "V");
   check("battery_capacity_ah", battery_capacity_ah, sheet.battery_capacity_ah, "Ah");
-  // One of another battery or vehicle has another C(U), which is no news.
+  // A table of another battery or vehicle has another C(U); no problem is reported for that.
   if (problems.size() > before || vehicle != sheet.name) return problems;
   if (auto problem = problemOfRows(thrust, sheet, table)) problems.push_back(std::move(*problem));
   return problems;

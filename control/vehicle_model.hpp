@@ -64,13 +64,13 @@ struct VehicleModel {
   bool hasAxes() const;
 };
 
-/// Why no multirotor has an identified axis like that, "forward.gain: the reason"; empty for one that has not been
+/// Why no multirotor can have such an identified axis, "forward.gain: the reason"; empty for one that has not been
 /// identified. `axis` is the key of the axis in VehicleModel. The bounds are wide: an LQR divides by the gain, so that
 /// a wrong sign or size would fly the vehicle into a wall.
 std::vector<std::string> problemsOfAxis(const std::string& axis, const AxisModel& model);
 
 /// The command for which the vehicle takes that angle, by a bench's rows of rising commands and angles; the angle
-/// itself without rows. Beyond the rows the end of the mapping goes on with a slope of 1.
+/// itself without rows. Beyond the rows the mapping continues with a slope of 1.
 double commandFor(double angle_rad, const std::vector<CommandAngle>& rows);
 
 }  // namespace swiftlet::control

@@ -17,10 +17,10 @@ namespace {
 constexpr double kLiftedOff_m = 0.06;     ///< Above the noise of the height and the give of the gear.
 constexpr double kSpoolShare = 0.6;       ///< Share of the hover command given before the vehicle lifts.
 constexpr double kReferenceLead_m = 0.3;  ///< Greatest lead of the height reference over the vehicle.
-/// A take-off with all of its thrust for this long is given up; with enough of it, a lift takes tenths of that.
+/// A take-off with all of its thrust for this long is given up; with enough thrust, a lift takes tenths of that.
 constexpr double kSpent_s = 2.0;
-/// A table of glass, or the edges of a gap, carry the vehicle higher than the beams down say. In the air no wind does,
-/// for so long.
+/// A table of glass, or the edges of a gap, carry the vehicle higher than the beams down say. In the air no wind holds
+/// it still for this long.
 constexpr double kStandsHigher_s = 3.0;
 constexpr double kTouchdownSpeed_m_s = 0.10;  ///< A descent is faster: only the ground explains less.
 constexpr double kTouchdownMargin_m = 0.20;   ///< Error of the height after a descent over unknown ground.
@@ -69,7 +69,7 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
 common::Setpoint FlightController::descend(const FlightTick& tick) {
   const double height_m = last_state_.T_odom_body.position_m.z();
   const double over_ground_m = last_state_.height_above_ground_m;
-  // Without a measurement of it the height is carried by the inertial samples, and as uncertain as they make it.
+  // Without a measurement the inertial samples carry the height, and its uncertainty grows.
   const bool carried = last_state_.verticalAge_s(now_) > kCarried_s;
   const double uncertain_m = carried ? 2.0 * std::sqrt(std::max(0.0, last_state_.position_covariance_m2(2, 2))) : 0.0;
   const bool near = over_ground_m < standing_raw_m_ + config_.touchdown_height_m + uncertain_m;
@@ -84,7 +84,7 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   moveVertically(-std::numeric_limits<double>::infinity(), descent_m_s + wrong_m_s, height_m);
   const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_));
 
-  // If the vehicle is pushed up while the controller wants down, it stands on the ground.
+  // If the vehicle does not sink under a small thrust, it stands on the ground.
   const bool rests =
       setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
       std::abs(last_state_.velocity_odom_m_s.z()) < (carried ? kCarriedTouchdownSpeed_m_s : kTouchdownSpeed_m_s);
@@ -126,7 +126,7 @@ void FlightController::moveVertically(double goal_m, double speed_m_s, double he
 /// The ground may carry a part of the weight while the vehicle takes off and lands.
 bool FlightController::learnsThrust(const FlightTick& tick) const {
   if (!tick.thrust_applies || tick.pilot_flies || state() == FlightState::kEmergencyLanding) return false;
-  if (tick.inertial_contradicted) return false;  // The estimate follows the given thrust, whatever it lifts.
+  if (tick.inertial_contradicted) return false;  // The estimate follows the given thrust, whatever the vehicle weighs.
   if (state() == FlightState::kTakingOff) return lifted_;
   return state() == FlightState::kFlying || !nearGround();
 }

@@ -10,19 +10,19 @@
 
 namespace swiftlet::evaluation {
 
-/// A figure is none if it could not be measured.
+/// A figure is nullopt if it could not be measured.
 struct BehaviorScore {
   std::optional<double> keep_out_gap_m;        ///< Least distance of the hull from a keep-out zone, negative inside.
   std::optional<double> inspect_axis_max_deg;  ///< Greatest angle between the camera's axis and the inspected point.
   /// Least share of the floor of a surveyed area that the camera has seen; floor below obstacles does not count.
   std::optional<double> survey_coverage;
-  /// Of the time of following, with the person 1.5 to 3 m away: the least share of the flight modes, one after the
-  /// other, in which a person was followed, that of the first and that of the last.
+  /// Share of the time of following with the person 1.5 to 3 m away: the least share of the flight modes, one after the
+  /// other, in which a person was followed, and the shares of the first and of the last mode.
   std::optional<double> follow_share, follow_first_share, follow_last_share;
   std::optional<double> follow_nearest_m;   ///< Least distance between the vehicle's centre and the person's.
-  std::optional<double> follow_farthest_m;  ///< Greatest distance between them.
-  std::optional<double> follow_lost_s;      ///< Longest time in which the person was not at the believed place.
-  std::optional<double> targets_found;      ///< See TargetScore; none where the trial asks for no targets.
+  std::optional<double> follow_farthest_m;  ///< Greatest distance between the two.
+  std::optional<double> follow_lost_s;      ///< Longest time in which the person was not at the estimated place.
+  std::optional<double> targets_found;      ///< See TargetScore; nullopt where the trial requires no targets.
   std::optional<double> target_error_max_m, target_error_median_m, false_targets;
 };
 

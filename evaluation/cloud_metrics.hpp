@@ -14,7 +14,7 @@ namespace swiftlet::evaluation {
 using Cloud = std::vector<Eigen::Vector3d>;
 
 /// Distances of a cloud to the nearest true surface: of each cube of kSpacing_m with points their mean, so that a
-/// surface counts by its area and not by how many points it has. A point farther than kLimit_m has no surface to be
+/// surface counts by its area and not by the number of its points. A point farther than kLimit_m has no surface to be
 /// compared with and counts as that far.
 struct CloudError {
   double median_m = 0.0;

@@ -27,9 +27,9 @@ struct ConductRecord {
   double airborne_s = 0.0;
   double tilted_s = 0.0;      ///< Part of airborne_s with more than kTilted_rad between the body's z axis and upright.
   double tilt_max_rad = 0.0;  ///< Greatest tilt while airborne.
-  std::optional<double> touch_down_speed_m_s;  ///< Greatest speed of descent at a touch-down; none without one.
-  std::optional<double> charge_min;            ///< Least true charge while airborne; none if it never was.
-  /// Longest time from the beginning of a fault to the first snapshot in which the vehicle holds, lands or stands; none
+  std::optional<double> touch_down_speed_m_s;  ///< Greatest speed of descent at a touch-down; nullopt without one.
+  std::optional<double> charge_min;            ///< Least true charge while airborne; nullopt if it never flew.
+  /// Longest time from the begin of a fault to the first snapshot in which the vehicle holds, lands or stands; nullopt
   /// without a fault, and infinite if it did none of these.
   std::optional<double> safe_action_s;
   std::optional<HomeEnergy> home_energy;  ///< Of the last flight home that arrived and ended on the ground.

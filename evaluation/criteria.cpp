@@ -37,7 +37,7 @@ void describeMission(Criteria& c, common::config::Fields& fields) {
   fields("mission_time_max_s", c.mission_time_max_s, kPositive, "Greatest simulated time of the mission.");
 }
 
-/// What the vehicle believed.
+/// Criteria of the estimate.
 void describeEstimate(Criteria& c, common::config::Fields& fields) {
   fields("estimate_rms_max_m", c.estimate_rms_max_m, kPositive, "Greatest RMS of the estimate's horizontal error.");
   fields("estimate_spatial_rms_max_m", c.estimate_spatial_rms_max_m, kPositive,

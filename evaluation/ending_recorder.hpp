@@ -1,4 +1,4 @@
-// Records what led to the end of a flight: where the vehicle was and how much it had left when its mission last ran,
+// Records what led to the end of a flight: where the vehicle was and its charge when its mission last ran,
 // which sensor failed around then, and who ordered it down. The verdict is judged from it.
 #pragma once
 
@@ -27,7 +27,7 @@ struct EndingRecord {
   double position_error_m = 0.0;               ///< Horizontal error of the estimate then.
   std::vector<Eigen::Vector3d> trail_world_m;  ///< True positions in the kTrail_s until then, kTrailPeriod_s apart.
   std::string faulty_sensor;                   ///< IMU or laser, if it failed within kAround_s of then; else empty.
-  std::string order;                           ///< The order to end the flight that came around then; empty: none.
+  std::string order;                           ///< The order to end the flight that came around then; empty: no order.
   std::optional<Eigen::Vector2d> failed_goal_map_m;  ///< The goal that the mission asked for last, if it failed.
   double charge_at_take_off = 1.0;
   double airborne_until_then_s = 0.0;

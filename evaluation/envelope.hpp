@@ -38,7 +38,7 @@ struct EnvelopeConfig {
   std::vector<std::string> validate() const;
 };
 
-/// A file such as config/envelope.yaml. A quantity without a name has that of its key. Throws common::InputError with
+/// A file such as config/envelope.yaml. A quantity without a name is named by its key. Throws common::InputError with
 /// file, line and column.
 EnvelopeConfig readEnvelope(const std::filesystem::path& file);
 
@@ -57,12 +57,12 @@ struct EnvelopeFlight {
   bool acceptable = false;
   std::string verdict;                 ///< As in results.json: "done", "crashed".
   std::string ending;                  ///< In words, with what was touched or why.
-  std::optional<double> goal_error_m;  ///< None if no goal was reached.
+  std::optional<double> goal_error_m;  ///< nullopt if no goal was reached.
   std::string folder;                  ///< Of its run, relative to the report; empty if it was not kept.
 };
 
 /// `scores` has one for each vehicle. The flight is acceptable if the verdict on each vehicle is; otherwise the first
-/// that is not tells how it ended.
+/// that is not gives the ending.
 EnvelopeFlight envelopeFlight(const std::vector<FlightScore>& scores);
 
 /// The flights at one value, in the order of their seeds. After the first that is not acceptable no more are flown.
@@ -87,7 +87,7 @@ struct EnvelopeFinding {
   double share(double value) const { return (value - from) / (quantity.to - from); }
   /// The first step that is not acceptable; null if all are.
   const EnvelopeStep* firstFailing() const;
-  /// The farthest value that was flown so that it and all nearer ones were acceptable; none if the base was not.
+  /// The farthest value that was flown so that it and all nearer ones were acceptable; nullopt if the base was not.
   std::optional<double> acceptableTo() const;
   /// Values beyond the first failing one at which all flights were acceptable again: the boundary is not sharp, or the
   /// range behind it was not flown densely enough.
@@ -95,8 +95,8 @@ struct EnvelopeFinding {
 };
 
 /// The next value to fly, given what has been flown: first `steps` values at equal distances up to the end, so that
-/// nothing is taken for monotone, then `bisections` values between the first failing one and its acceptable neighbour.
-/// None when that is done, when no value fails, or when the base itself fails. At most `steps` + `bisections` values
+/// monotony is not assumed, then `bisections` values between the first failing one and its acceptable neighbour.
+/// nullopt when that is done, when no value fails, or when the base itself fails. At most `steps` + `bisections` values
 /// are flown. Without state: the same steps have the same next value.
 std::optional<double> nextValue(const EnvelopeFinding& finding, const EnvelopeConfig& config);
 

@@ -16,10 +16,10 @@ struct EnvelopeEntry {
   std::optional<simulation::NatureRange> real;
   std::optional<simulation::NatureRange> harsh;
 
-  /// The value farthest from the base, in the direction in which it was turned, that a nature draws; none if it draws
+  /// The value farthest from the base, in the direction of the variation, that a nature draws; nullopt if it draws
   /// nothing in that direction.
   std::optional<double> worstOf(const std::optional<simulation::NatureRange>& nature) const;
-  /// Distance of a value from the base, as a multiple of that of the worst value that `harsh` draws; none if `harsh`
+  /// Distance of a value from the base, as a multiple of that of the worst value that `harsh` draws; nullopt if `harsh`
   /// draws nothing in that direction.
   std::optional<double> harshMultiple(double value) const;
 };
@@ -31,13 +31,13 @@ struct EnvelopeResults {
   std::string version;  ///< Version of the program.
   int first_seed = 1;
   EnvelopeConfig config;
-  EnvelopeStep base;  ///< The flights with nothing turned up.
+  EnvelopeStep base;  ///< The flights without any change.
   std::vector<EnvelopeEntry> entries;
 
   /// The base was acceptable and the search of every quantity has ended.
   bool complete() const;
   int flights() const;
-  /// The entries with the one first that has the least reserve: those that failed, by harshMultiple() of the first
+  /// The entries by reserve, the least first: those that failed, by harshMultiple() of the first
   /// failing value; those that failed and that `harsh` does not draw; those that never failed.
   std::vector<const EnvelopeEntry*> byReserve() const;
 };
@@ -45,7 +45,7 @@ struct EnvelopeResults {
 /// A value with the unit that ends the name of its key: ("quadrotor.motor_lag_s", 0.0412) is "41.2 ms".
 std::string shownValue(const std::string& key, double value);
 
-/// What came of one quantity: "crash: touched box_1 (seed 7)", "none of 20 failed".
+/// The result for one quantity: "crash: touched box_1 (seed 7)", "none of 20 failed".
 std::string endingText(const EnvelopeFinding& finding);
 
 /// envelope.json. Figures have six significant digits.
@@ -57,7 +57,7 @@ common::Table envelopeTable(const EnvelopeResults& results);
 /// A row for each flight that was not acceptable, with a link to its report.
 common::Table failedFlightTable(const EnvelopeResults& results);
 
-/// Quantities with an acceptable value beyond a failing one; no rows if there are none.
+/// Quantities with an acceptable value beyond a failing one; no rows without such a quantity.
 common::Table raggedTable(const EnvelopeResults& results);
 
 }  // namespace swiftlet::evaluation

@@ -1,4 +1,4 @@
-// Records a simulated flight, tick by tick: the truth and what the autonomy believed. The autonomy never sees any of
+// Records a simulated flight, tick by tick: the truth and the estimates of the autonomy. The autonomy never sees any of
 // it.
 #pragma once
 
@@ -74,7 +74,7 @@ struct LocalizationRecord {
 struct FlightRecord {
   common::Pose3 T_world_map;    ///< The vehicle's `map` frame as it can know it; see knowableFrame().
   common::Pose3 T_world_start;  ///< The take-off place with the true heading of the body.
-  /// None if no map was given, or if its pose in the world is not known.
+  /// nullopt if no map was given, or if its pose in the world is not known.
   std::optional<LocalizationRecord> localization;
   std::vector<ReachedGoal> goals;
   /// Errors of the estimate at the times of the estimates, while airborne.
@@ -98,9 +98,9 @@ struct FlightRecord {
   std::vector<PhaseScore> phases;
   std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
   simulation::Truth last_truth;
-  std::shared_ptr<const common::OccupancyGrid> map;     ///< The last map; null if there was none.
-  std::shared_ptr<const common::Map3dLayer> map3d;      ///< The last 3D map; null if there was none.
-  std::optional<VisualOdometryRecord> visual_odometry;  ///< None unless the trial asks for it; filled in by the flight.
+  std::shared_ptr<const common::OccupancyGrid> map;     ///< The last map; null without one.
+  std::shared_ptr<const common::Map3dLayer> map3d;      ///< The last 3D map; null without one.
+  std::optional<VisualOdometryRecord> visual_odometry;  ///< nullopt unless the trial requires it; set by the flight.
   std::vector<common::Pose3> T_world_body_views;        ///< True poses, 5 Hz while airborne: where the camera looked.
   common::Trajectory truth_map;                         ///< In the `map` frame, 20 Hz while airborne, for pictures.
 };
@@ -121,10 +121,10 @@ class FlightRecorder {
   void watch(const std::vector<PhaseConfig>& phases);
   /// Call at every scan that arrives.
   void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
-  /// Call before tick(): the true places of the people, the one who is to be followed first.
+  /// Call before tick(): the true places of the people, the person to be followed first.
   void people(std::vector<Eigen::Vector2d> people_world_m) { behaviors_.people(std::move(people_world_m)); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second
-  /// old. `reference_odom_m` is where the controller wants the vehicle, none unless it flies.
+  /// old. `reference_odom_m` is the reference of the controller, nullopt unless the vehicle flies.
   void tick(const simulation::Truth& truth, const common::VehicleState& estimate,
             const std::optional<Eigen::Vector3d>& reference_odom_m = std::nullopt);
   /// Call at every tick of the mission's tree, with the intent that it emitted and the status that it saw.

@@ -43,7 +43,7 @@ struct ConductScore {
   std::optional<double> laser_latency_p95_s;
 };
 
-/// An optional figure is none if it could not be measured, for example if no goal was reached.
+/// An optional figure is nullopt if it could not be measured, for example if no goal was reached.
 struct FlightScore {
   std::int64_t seed = 0;
   std::string vehicle;         ///< Name of the vehicle among several that flew together; empty: it flew alone.
@@ -52,7 +52,7 @@ struct FlightScore {
   bool mission_begun = false;  ///< Otherwise there is no mission_time_s.
   bool mission_done = false;
   Verdict verdict = Verdict::kUnfinished;
-  std::string verdict_reason;  ///< What the truth says, with figures.
+  std::string verdict_reason;  ///< Reason by the truth, with figures.
 
   std::optional<double> coverage;      ///< Share of the free space that the hull can cover, at the mission's clearance.
   std::string coverage_problem;        ///< Why there is no coverage: the world is not closed.
@@ -76,9 +76,9 @@ struct FlightScore {
   std::optional<double> map_wall_error_median_raw_m;
   ConductScore conduct;
   BehaviorScore behaviors;
-  std::optional<LocalizationScore> localization;       ///< None if the flight was given no map.
-  std::optional<Map3dScore> map3d;                     ///< None if it made no 3D map.
-  std::optional<VisualOdometryScore> visual_odometry;  ///< None unless the trial asks for it.
+  std::optional<LocalizationScore> localization;       ///< nullopt without a given map.
+  std::optional<Map3dScore> map3d;                     ///< nullopt without a 3D map.
+  std::optional<VisualOdometryScore> visual_odometry;  ///< nullopt unless the trial requires it.
 
   int collisions = 0;
   /// Collisions that the verdict does not excuse, as it does forced ones, glass that no beam had seen, and walkers that
@@ -94,7 +94,7 @@ struct FlightScore {
   double distance_m = 0.0;                 ///< True distance.
   double end_distance_m = 0.0;             ///< True horizontal distance from the take-off place at the end.
   double speed_max_m_s = 0.0;              ///< True horizontal speed.
-  std::optional<double> explored_area_m2;  ///< None if the mission did not explore.
+  std::optional<double> explored_area_m2;  ///< nullopt if the mission did not explore.
   double reachable_area_m2 = 0.0;          ///< Area that the hull can cover; `coverage` is a share of it.
   std::vector<PhaseScore> phases;
   std::vector<OperatorAnswer> operator_answers;
@@ -104,7 +104,7 @@ struct FlightScore {
   common::MachineUse machine;
 
   /// Every criterion that was missed, with figure and bound. A collision that is excused, or that is judged over all
-  /// flights, is none of them.
+  /// flights, is not among them.
   std::vector<std::string> failures;
   /// No flight passes that ended in a collision, whoever is to blame for it.
   bool passed() const { return failures.empty() && collisions == 0; }

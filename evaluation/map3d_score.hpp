@@ -30,7 +30,7 @@ struct Map3dScore {
   std::optional<CameraErrors> camera = {};
 };
 
-/// None if the flight has no 3D map, or one without a point.
+/// nullopt if the flight has no 3D map, or a map without a point.
 std::optional<Map3dScore> scoreMap3d(const FlightRecord& record, const TrueWorld& world);
 
 }  // namespace swiftlet::evaluation

@@ -27,7 +27,7 @@ struct WallError {
   static constexpr double kLimit_m = 1.0;
 };
 
-/// None if the map has no occupied cell.
+/// nullopt if the map has no occupied cell.
 std::optional<WallError> wallError(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
                                    const simulation::RayCaster& rays, double height_world_m);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Figure = std::optional<double>;
 
-/// What became of the flight. Where verdicts are asked for, crashes and needless landings are judged over all flights,
+/// The end of the flight. Where verdicts are required, crashes and needless landings are judged over all flights,
 /// see TrialResult::missed().
 void judgeEnding(const FlightScore& score, const Criteria& criteria, Judge& judge) {
   if (criteria.mission_done && !score.mission_done) judge.fail(fmt::format("mission: {}", score.outcome));
@@ -48,7 +48,7 @@ void judgeMission(const FlightScore& score, const Criteria& criteria, Judge& jud
     judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
 }
 
-/// What was asked for step by step is asked of every flight, however it ended.
+/// Criteria of single steps apply to every flight, however it ended.
 void judgeSteps(const FlightScore& score, Judge& judge) {
   for (const PhaseScore& phase : score.phases)
     for (std::string& failure : phase.missed()) judge.fail(std::move(failure));
@@ -64,12 +64,12 @@ void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool la
   if (conduct.thrust_margin_min || lacking_counts)
     judge.atLeast("thrust margin", conduct.thrust_margin_min, criteria.thrust_margin_min);
   atMost("touch-down speed, m/s", conduct.touch_down_speed_m_s, criteria.touch_down_speed_max_m_s);
-  // However the flight ended: without the figure its fault never began, and nothing was tried.
+  // However the flight ended: without the figure its fault never began, and the trial tested nothing.
   judge.atMost("time from fault to safe action, s", conduct.safe_action_s, criteria.safe_action_max_s);
   atMost("error of the energy for the flight home", conduct.home_energy_error, criteria.home_energy_error_max);
 }
 
-/// What behaviours promise is asked of every flight.
+/// Criteria of behaviours apply to every flight.
 void judgeBehaviors(const BehaviorScore& behaviors, const Criteria& criteria, Judge& judge) {
   judge.atLeast("distance from keep-out zones, m", behaviors.keep_out_gap_m, criteria.keep_out_gap_min_m);
   judge.atMost("angle to the inspected point, deg", behaviors.inspect_axis_max_deg, criteria.inspect_axis_max_deg);
@@ -88,7 +88,7 @@ void judgeDistances(const FlightScore& score, const Criteria& criteria, Judge& j
                   criteria.unfinished_distance_min_m);
 }
 
-/// What the computer needed is asked of every flight, however it ended.
+/// Criteria of the computer apply to every flight, however it ended.
 void judgeMachine(const common::MachineUse& machine, const Criteria& criteria, Judge& judge) {
   judge.atMost("memory, MB", machine.memory_peak_MB, criteria.memory_max_MB);
   judge.atMost("camera frame at the end over one at the start", machine.frameGrowth(), criteria.frame_growth_max);

@@ -45,8 +45,8 @@ struct OperatorStep {
 struct OperatorAnswer {
   std::string command;  ///< "goal (3.00, -1.50)".
   ExpectedAnswer expected = ExpectedAnswer::kAccepted;
-  std::optional<common::Time> given;  ///< None: its condition never came.
-  std::optional<bool> accepted;       ///< None: no answer came.
+  std::optional<common::Time> given;  ///< nullopt: its condition never came.
+  std::optional<bool> accepted;       ///< nullopt: no answer came.
   std::string reason;
 
   /// In words why it is not what the script expects; empty if it is.

@@ -100,7 +100,7 @@ std::vector<std::string> PhaseScore::missed() const {
   return failures;
 }
 
-/// A recorder that has seen one tick tells them.
+/// The names come from a recorder that has seen one tick.
 std::vector<std::string> phaseFigureNames(const PhaseConfig& config) {
   PhaseConfig any = config;
   any.from_s = any.settle_s = 0.0;

@@ -55,7 +55,7 @@ std::string phaseFigureProblem(const PhaseConfig& config, const std::string& nam
 /// By their names: position_mean_x_m, height_std_m ...
 using PhaseFigures = std::vector<std::pair<std::string, double>>;
 
-/// What a phase has of a flight. A phase without a tick has no figures but its time.
+/// The figures of one phase of a flight. A phase without a tick has only its time.
 struct PhaseScore {
   std::string name;
   PhaseFigures figures;
@@ -90,7 +90,7 @@ struct PhaseTick {
   common::Pose3 T_map_truth;
   Eigen::Vector3d velocity_map_m_s = Eigen::Vector3d::Zero();
   common::VehicleState estimate;
-  std::optional<Eigen::Vector3d> reference_odom_m = std::nullopt;  ///< Of the controller; none unless it flies.
+  std::optional<Eigen::Vector3d> reference_odom_m = std::nullopt;  ///< Of the controller; nullopt unless it flies.
 };
 
 /// Collects the ticks of one phase, and computes its figures from the truth.

@@ -1,4 +1,4 @@
-// What a trial asks of one of its systems beyond what it asks of all: our own must reach more than the paper's.
+// Criteria of a trial for one of its systems, beyond those for all: our own must reach more than the paper's.
 #pragma once
 
 #include <string>

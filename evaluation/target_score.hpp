@@ -34,10 +34,10 @@ inline constexpr double kTargetMatch_m = 0.5;
 struct TargetScore {
   double found = 0.0;  ///< Share of the true targets that were found.
   std::optional<double> error_max_m, error_median_m;
-  double false_targets = 0.0;  ///< Reported ones that are none, or that were reported before.
+  double false_targets = 0.0;  ///< Reported ones that are no target, or that were reported before.
 };
 
-/// By the targets that are found, not by candidates. The nearest pairs belong together. None without a true target.
+/// By the targets that are found, not by candidates. The nearest pairs belong together. nullopt without a true target.
 std::optional<TargetScore> scoreTargets(const std::vector<common::Target>& reported,
                                         const std::vector<TrueTarget>& truth, const common::Pose3& T_world_map);
 

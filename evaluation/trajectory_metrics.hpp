@@ -31,18 +31,18 @@ enum class Alignment {
   kSpatial,    ///< Least squares over all six degrees of freedom. No scale.
 };
 
-/// T_truth_estimate. None if there are too few pairs, or if their points do not determine the rotation: all at one
+/// T_truth_estimate. nullopt if there are too few pairs, or if their points do not determine the rotation: all at one
 /// point (planar) or on one line (spatial).
 std::optional<common::Pose3> align(const std::vector<PosePair>& pairs, Alignment alignment);
 
 /// The factor by which the estimate is multiplied to fit best when it is also aligned in this mode (planar or spatial;
-/// Umeyama 1991, eq. 42). It is for estimates without absolute scale, such as those of one camera. None if `align`
-/// gives none, or if no positive scale fits: heights that are upside down can outweigh the rest of a planar alignment.
+/// Umeyama 1991, eq. 42). It is for estimates without absolute scale, such as those of one camera. nullopt if `align`
+/// fails, or if no positive scale fits: heights that are upside down can outweigh the rest of a planar alignment.
 std::optional<double> bestScale(const std::vector<PosePair>& pairs, Alignment alignment);
 /// The pairs with the positions of the estimate multiplied by `scale`.
 std::vector<PosePair> scaled(std::vector<PosePair> pairs, double scale);
 
-/// The errors of the positions after alignment, in metres; none if `align` gives none.
+/// The errors of the positions after alignment, in metres; nullopt if `align` fails.
 struct AbsoluteError {
   common::Pose3 T_truth_estimate;
   Statistics translation_m;

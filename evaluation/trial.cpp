@@ -52,7 +52,7 @@ void checkPhases(const std::vector<PhaseConfig>& phases, common::Validation& val
                        fmt::format("`{}` is the name of two of them", phase.name));
 }
 
-/// What is asked of one of the systems is of phases and figures that there are.
+/// The criteria of one system must name phases and figures that exist.
 void checkBounds(const TrialConfig& trial, const SystemBounds& of_one, common::Validation& validation) {
   validation.require(trial.flies(of_one.system), "asked_of",
                      fmt::format("`{}` is not one of the systems", of_one.system));

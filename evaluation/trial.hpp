@@ -84,7 +84,7 @@ struct TrialConfig {
 
   /// Whether one of its flights is with that profile.
   bool flies(const std::string& profile) const;
-  /// The bounds of figures over all flights that it asks of its one system.
+  /// The bounds of figures over all flights for its one system.
   std::vector<PhaseBound> figureBounds() const;
 
   /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there

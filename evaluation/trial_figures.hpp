@@ -16,7 +16,7 @@ enum class Statistic { kMin, kMedian, kMax, kMean };
 struct TrialFigure {
   const char* name;  ///< As in results.json: "goal_error_max_m".
   Statistic statistic;
-  std::optional<double> (*of)(const FlightScore&);  ///< None if the flight lacks it: it then counts for nothing.
+  std::optional<double> (*of)(const FlightScore&);  ///< nullopt if the flight lacks it; it is then ignored.
 };
 
 /// In the order of results.json.
@@ -25,7 +25,7 @@ const std::vector<TrialFigure>& trialFigures();
 /// Why there is no figure of that name, with the most similar one; empty if there is.
 std::string trialFigureProblem(const std::string& name);
 
-/// None if no flight has the figure.
+/// nullopt if no flight has the figure.
 std::optional<double> valueOf(const TrialFigure& figure, const std::vector<FlightScore>& flights);
 /// By its name, which must exist.
 std::optional<double> trialFigure(std::string_view name, const std::vector<FlightScore>& flights);
@@ -33,7 +33,7 @@ std::optional<double> trialFigure(std::string_view name, const std::vector<Fligh
 /// The seeds of the flights that lack the figure.
 std::vector<std::int64_t> seedsWithout(const TrialFigure& figure, const std::vector<FlightScore>& flights);
 
-/// The median over all flights, where one that lacks the figure counts as worse than any that has it; none without
+/// The median over all flights, where one that lacks the figure counts as worse than any that has it; nullopt without
 /// flights.
 std::optional<double> medianOverAll(std::optional<double> FlightScore::*figure,
                                     const std::vector<FlightScore>& flights);

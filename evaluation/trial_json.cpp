@@ -143,7 +143,7 @@ ordered_json verdictsJson(const TrialResult& trial) {
   return json;
 }
 
-/// Of figures that some flights lack, which count for nothing in them.
+/// Of figures that some flights lack, which are ignored there.
 ordered_json seedsWithoutJson(const TrialResult& trial) {
   ordered_json json = ordered_json::object();
   for (const TrialFigure& figure : trialFigures())

@@ -30,13 +30,13 @@ struct TrialResult {
   /// The criteria over all flights that are missed.
   std::vector<std::string> missed() const;
   /// At least one flew, and neither a criterion of a flight nor one over all of them is missed. A collision that is
-  /// excused, or one of those that `crashes_max` allows, misses none, although its flight has not passed.
+  /// excused, or within `crashes_max`, is no miss, although its flight has not passed.
   bool met() const;
   int collisions() const;  ///< All of them, the unavoidable ones included.
   int glassContacts() const;
   /// How many flights got that verdict.
   int count(Verdict verdict) const;
-  /// One of trialFigures() by its name, which must exist: over the flights that have it, none if none has.
+  /// One of trialFigures() by its name, which must exist: over the flights that have it; nullopt without one.
   std::optional<double> figure(std::string_view figure_name) const { return trialFigure(figure_name, flights); }
 };
 

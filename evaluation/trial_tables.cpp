@@ -25,10 +25,10 @@ struct SummaryColumn {
   const char* title;
   const char* figure;
   std::string (*show)(const std::optional<double>&);
-  /// Its criterion, which is a lower bound if its name says so (`isLowerBound`); null if there is none.
+  /// Its criterion, which is a lower bound if its name says so (`isLowerBound`); null without a criterion.
   double Criteria::*bound;
   bool where_asked = false;   ///< Shown only if a trial has the criterion, or its paper has a figure.
-  const char* raw = nullptr;  ///< The figure in the raw frame; null: it has none.
+  const char* raw = nullptr;  ///< The figure in the raw frame; null: it has no raw figure.
 };
 
 template <int kDecimals>
@@ -80,7 +80,7 @@ const PaperFigure* paperFigure(const SummaryColumn& column, const TrialResult& t
   return found == trial.paper.end() ? nullptr : &*found;
 }
 
-/// None if there is no criterion.
+/// nullopt without a criterion.
 std::optional<double> boundOf(const SummaryColumn& column, const Criteria& criteria) {
   if (column.bound == nullptr) return std::nullopt;
   if (column.bound == &Criteria::needless_share_max && !criteria.verdicts) return std::nullopt;

@@ -13,7 +13,7 @@
 
 namespace swiftlet::evaluation {
 
-/// Clearance and bound of the reachable area for trials that give none.
+/// Clearance and bound of the reachable area for trials without their own.
 inline constexpr double kClearance_m = 0.10;
 /// A larger area means that the world is open.
 inline constexpr double kReachableAreaMax_m2 = 2000.0;

@@ -19,7 +19,7 @@ Judgement judgeCrash(const VerdictFacts& facts) {
   return {Verdict::kCrashed, facts.contact};
 }
 
-/// Why the flight had to end, as far as the truth knows; none if it does not.
+/// Why the flight had to end, by the truth; nullopt without such a reason.
 std::optional<std::string> confirmedReason(const VerdictFacts& facts) {
   if (!facts.order.empty()) return facts.order;
   if (!facts.faulty_sensor.empty()) return fmt::format("{} failed", facts.faulty_sensor);

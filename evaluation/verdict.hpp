@@ -15,7 +15,7 @@ enum class Verdict {
   kForced,      ///< It crashed, and no flying could have prevented that.
   kStruck,      ///< A person walked into it while it stood still or moved away.
   kUnseen,      ///< It touched glass that had never returned a beam.
-  kNeedless,    ///< It landed or never took off, although the truth knows no reason for that.
+  kNeedless,    ///< It landed or never took off, and the truth shows no reason for it.
   kCrashed,     ///< It crashed, and could have prevented it.
   kOutside,     ///< It landed where nothing encloses it: it has left the building.
   kUnfinished,  ///< It was still in the air when the flight was ended, by the time limit or from outside.
@@ -26,7 +26,7 @@ const char* toString(Verdict verdict);
 /// Whether the vehicle has done what was possible: the first seven.
 bool acceptable(Verdict verdict);
 
-/// What the truth knows about the end of a flight. "Then" is the last instant at which the mission ran in the air, or
+/// The true facts about the end of a flight. "Then" is the last instant at which the mission ran in the air, or
 /// the end of a flight that never took off: what made the vehicle give up was true by then.
 struct VerdictFacts {
   bool mission_done = false;
@@ -45,12 +45,12 @@ struct VerdictFacts {
   /// Greatest thrust over the weight at the last time at which a landing could still have been begun.
   double landing_margin = 10.0;
 
-  std::string order;                 ///< The last order of operator or pilot to end the flight; empty: there was none.
-  std::string faulty_sensor;         ///< A sensor that the vehicle needs and that failed then; empty: there was none.
+  std::string order;                 ///< The last order of operator or pilot to end the flight; empty: no order.
+  std::string faulty_sensor;         ///< A sensor that the vehicle needs and that failed then; empty: no such sensor.
   double thrust_margin = 10.0;       ///< Greatest thrust over the weight then.
   double charge = 1.0;               ///< Share of the full battery then.
   double least_charge = 0.0;         ///< Charge at which the thrust margin is the least that flies safely.
-  std::optional<double> home_share;  ///< Charge that the true path home takes; none: there is no path.
+  std::optional<double> home_share;  ///< Charge that the true path home takes; nullopt: there is no path.
   bool goal_reachable = true;        ///< In the true free space; also true if no goal failed.
   double position_error_m = 0.0;     ///< Of the estimate then.
   bool position_seen = true;         ///< The laser saw enough to fix the position, for some time until then.

@@ -26,7 +26,7 @@ double marginAt(double charge, const TrueWorld& world) {
   return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle);
 }
 
-/// The least charge in steps of 1 % whose thrust margin is kLowMargin; 1 if none is.
+/// The least charge in steps of 1 % whose thrust margin is kLowMargin; 1 if there is no such charge.
 double leastCharge(const TrueWorld& world) {
   for (int percent = 1; percent < 100; ++percent)
     if (marginAt(0.01 * percent, world) >= kLowMargin) return 0.01 * percent;
@@ -93,7 +93,7 @@ simulation::FreeSpaceQuery queryOf(const FlightRecord& record, const TrueWorld& 
   return query;
 }
 
-/// Charge that the vehicle, as it flew until then, takes for the true path home.
+/// Charge that the true path home takes, at the consumption of the flight until then.
 std::optional<double> homeShare(const FlightRecord& record, const std::optional<double>& path_m) {
   const EndingRecord& ending = record.ending;
   if (!path_m || ending.airborne_until_then_s <= 0.0) return std::nullopt;

@@ -7,7 +7,7 @@
 namespace swiftlet::evaluation {
 namespace {
 
-/// Between two true poses that are farther apart than this the vehicle stood: nothing is known of it.
+/// Between two true poses that are farther apart than this the vehicle stood: its pose there is unknown.
 constexpr common::Duration kGap = common::Duration::fromMilliseconds(200);
 
 }  // namespace

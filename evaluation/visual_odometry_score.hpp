@@ -10,7 +10,7 @@
 
 namespace swiftlet::evaluation {
 
-/// What an RGB-D camera alone tells of the flight, without laser, inertial unit and height.
+/// The flight by an RGB-D camera alone, without laser, inertial unit and height.
 struct VisualOdometryRecord {
   common::Trajectory body;  ///< In a frame of its own; frames that were lost are missing.
   std::size_t frames = 0;   ///< Frames that came.
@@ -18,13 +18,13 @@ struct VisualOdometryRecord {
 };
 
 struct VisualOdometryScore {
-  /// Absolute trajectory error after the best rigid motion of the whole trajectory; horizontal and vertical. None if
+  /// Absolute trajectory error after the best rigid motion of the whole trajectory; horizontal and vertical. nullopt if
   /// too little was tracked to align it.
   std::optional<double> rms_m;
   double lost_share = 0.0;  ///< Of the frames that came.
 };
 
-/// `truth` as FlightRecord::truth_map. None without a frame.
+/// `truth` as FlightRecord::truth_map. nullopt without a frame.
 std::optional<VisualOdometryScore> scoreOf(const VisualOdometryRecord& record, const common::Trajectory& truth);
 
 }  // namespace swiftlet::evaluation

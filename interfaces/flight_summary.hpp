@@ -43,9 +43,9 @@ struct RunInfo {
   std::string started;                   ///< Local date and time; the caller's clock.
   std::string vehicle = {};              ///< Name of the vehicle among several; empty: it flew alone.
   std::string nature = {};               ///< Name of the simulator's nature; empty: it flew in no simulator.
-  std::string nature_yaml = {};          ///< The values drawn from that nature; empty: nothing is drawn.
+  std::string nature_yaml = {};          ///< The values drawn from that nature; empty: no value is drawn.
   std::vector<RunText> sheets = {};      ///< Data sheets that the settings name and that are not shipped.
-  std::string vehicle_memory_yaml = {};  ///< What earlier flights have learned of the vehicle; empty: nothing.
+  std::string vehicle_memory_yaml = {};  ///< What earlier flights have learned of the vehicle; empty: no memory.
 };
 
 /// A stretch of the flight in which one thing flew the vehicle, with one intent.
@@ -90,12 +90,12 @@ struct FlightSummary {
   std::string reason;
   common::Duration mission_time;           ///< From the first tick of the mission to its end.
   double distance_m = 0.0;                 ///< Path length by the estimate.
-  std::optional<double> explored_area_m2;  ///< None if the mission did not explore.
+  std::optional<double> explored_area_m2;  ///< nullopt if the mission did not explore.
   double battery_remaining = 1.0;
-  std::optional<double> coverage;  ///< Share of the reachable free space in [0, 1]; none if the truth is not known.
-  std::optional<LocalizationSummary> localization;  ///< None if it was given no map.
+  std::optional<double> coverage;  ///< Share of the reachable free space in [0, 1]; nullopt if the truth is not known.
+  std::optional<LocalizationSummary> localization;  ///< nullopt without a given map.
   std::vector<Phase> phases;
-  std::optional<double> octree_age_s;  ///< How much older map.bt and map.ot are than the summary; none without them.
+  std::optional<double> octree_age_s;  ///< How much older map.bt and map.ot are than the summary; nullopt without them.
   std::vector<common::Frontier> frontiers;  ///< The frontiers that remained, each with its reason.
   std::vector<common::Target> targets;      ///< What the camera has found of those that it looked for.
   std::vector<Figure> figures;

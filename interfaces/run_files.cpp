@@ -56,7 +56,7 @@ bool isRunFile(const std::string& name) {
   });
 }
 
-/// Whether mission.json is that of a run. A profile or a map of another program may have the same name as a file of a
+/// Whether mission.json belongs to a run. A profile or a map of another program may have the same name as a file of a
 /// run.
 bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.json", "swiftlet mission", 200); }
 

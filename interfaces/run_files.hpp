@@ -1,4 +1,4 @@
-// The folder of a run: who may write into it, and which of its files are those of an older run.
+// The folder of a run: the right to write into it, and its files from an older run.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace swiftlet::interfaces {
 
-/// What a flight knew of the vehicle when it began, and what it learned, where that is kept.
+/// The vehicle's memory at the begin of a flight, and after it, where it is kept.
 inline constexpr const char* kMemoryReadFile = "vehicle_memory_read.yaml";
 inline constexpr const char* kMemoryLearnedFile = "vehicle_memory_learned.yaml";
 
-// These throw common::InputError for a folder that cannot hold a run: it is none, another flight writes into it, or it
-// holds what is no run.
+// These throw common::InputError for a folder that cannot hold a run: no folder, in use by another flight, or with
+// other files than a run's.
 
-/// Makes the folder if there is none, and keeps others from it.
+/// Makes the folder if it is missing, and locks it.
 FolderLock claimedRunFolder(const std::filesystem::path& path);
 
 /// Removes the files of an older run from a claimed folder; returns it.

@@ -130,7 +130,7 @@ struct RunFolder::Impl {
   EventWriter events_file;
   TumWriter trajectory_file;
   std::optional<TumWriter> given_trajectory_file, camera_trajectory_file;
-  std::shared_ptr<const common::GivenMap> given;  ///< The one that the file's poses lie in.
+  std::shared_ptr<const common::GivenMap> given;  ///< The map in which the file's poses lie.
   Time camera_stamp;                              ///< Of the last frame in its file.
   Every trajectory_due, sample_due, map_due;
   FlightSummary summary;
@@ -201,7 +201,7 @@ void RunFolder::Impl::localize(const common::World& world) {
     keep(given_trajectory_file->write({world.vehicle->state.stamp, T_given_odom * world.vehicle->state.T_odom_body}));
 }
 
-/// A frame is a snapshot's news once; one that did not fit has no pose of its own.
+/// A frame is written once; a frame that did not fit has no pose of its own.
 void RunFolder::Impl::followCamera(const common::World& world) {
   if (!world.map3d || !world.map3d->frame || !world.map3d->tracked || failure) return;
   const Time stamp = world.map3d->frame->stamps.measured;

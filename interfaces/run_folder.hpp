@@ -18,8 +18,8 @@
 //   vehicle_memory_read.yaml, vehicle_memory_learned.yaml    of a flight with a vehicle's memory: before and after it
 //   control.tsv      with --control-log: commands, motion and battery at 100 Hz (interfaces/control_log.hpp)
 //   rgbd/            with --record-rgbd: the frames of the RGB-D camera (interfaces/rgbd/rgbd_recorder.hpp)
-//   fusion.tsv       with --control-log: all that the fusion filter was told (perception/fusion/filter_tape.hpp)
-//   nature.yaml      what a simulated vehicle drew from its nature; none if it draws nothing
+//   fusion.tsv       with --control-log: all inputs of the fusion filter (perception/fusion/filter_tape.hpp)
+//   nature.yaml      the true plant values of a simulated vehicle; no file if none was drawn
 #pragma once
 
 #include <filesystem>
@@ -50,22 +50,22 @@ namespace swiftlet::interfaces {
 std::filesystem::path freshRunFolder(const std::filesystem::path& parent, const std::string& started,
                                      const std::string& mission);
 
-/// How the flight ended, as the caller knows it.
+/// How the flight ended, from the caller.
 struct FlightEnd {
   Outcome outcome = Outcome::kDone;
   std::string reason;
   std::optional<double> coverage;
   std::vector<Figure> figures;
   std::optional<double> wall_time_s;
-  common::Trajectory ground_truth_map = {};  ///< In the `map` frame; empty if nobody knows it.
-  std::string vehicle_memory_yaml = {};      ///< What is known of the vehicle now; empty: nothing is to be kept.
+  common::Trajectory ground_truth_map = {};  ///< In the `map` frame; empty if it is not known.
+  std::string vehicle_memory_yaml = {};      ///< The vehicle's memory after the flight; empty: it is not kept.
   common::MachineUse machine = {};
 };
 
 /// What became of some files of the 3D map: they are large, and another thread than the folder's writes them.
 struct Map3dWritten {
   Written written;
-  /// When submaps and poses were those that map.bt and map.ot are fused from; none if those are as they were.
+  /// When submaps and poses were those that map.bt and map.ot are fused from; nullopt if those are unchanged.
   std::optional<common::Time> octree_stamp = {};
 };
 
@@ -101,7 +101,7 @@ class RunFolder {
   const std::filesystem::path& path() const;
   /// The summary so far; after `finish` that of the whole flight.
   const FlightSummary& summary() const;
-  /// Why something could not be written; none if nothing failed.
+  /// Why something could not be written; nullopt without a failure.
   const std::optional<std::string>& failure() const;
 
  private:

@@ -15,7 +15,7 @@ constexpr double kSureDecrease = 4.0;
 constexpr double kWidths[] = {2.0, 5.0, 20.0};
 /// A chi2 of edges that agree but for rounding: a millionth of a sigma.
 constexpr double kRounding = 1e-12;
-/// So large that the first step is that of Gauss-Newton: the starts are near.
+/// Large enough for a first step of Gauss-Newton: the starts are near.
 constexpr double kGaussNewtonRadius = 1e16;
 
 template <typename Graph>

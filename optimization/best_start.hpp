@@ -4,7 +4,7 @@
 //                                 else: from the guess, and from both with a robust kernel that widens; the best
 //
 // Where the noise is that of real sensors the chordal start lies in the basin of the best solution, and its own chi2
-// tells: on random graphs of rotations up to 0.7 rad off, no other start beat it where chi2 fell by less than 6 times,
+// shows it: on random graphs of rotations up to 0.7 rad off, no other start beat it where chi2 fell less than 6 times,
 // and on those of the usual data sets it falls by at most 2.6. Beyond that the robust kernel found the lowest chi2 most
 // often.
 #pragma once

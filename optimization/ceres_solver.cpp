@@ -19,7 +19,7 @@ ceres::Solver::Summary solve(ceres::Problem& problem, const PoseGraphConfig& con
 }
 
 int stepsTried(const ceres::Solver::Summary& summary) {
-  return std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // The first is the look at the guess.
+  return std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // The first evaluates the guess.
 }
 
 }  // namespace swiftlet::optimization

@@ -12,7 +12,7 @@ namespace swiftlet::optimization {
 /// time.
 ceres::Solver::Summary solve(ceres::Problem& problem, const PoseGraphConfig& config);
 
-/// None where nothing could move.
+/// 0 where nothing could move.
 int stepsTried(const ceres::Solver::Summary& summary);
 
 }  // namespace swiftlet::optimization

@@ -30,7 +30,7 @@ Pose3 poseFrom(const Square<3>& rotation, const Eigen::Vector3d& position_m) {
   return {Eigen::Quaterniond(rotation).normalized(), position_m};
 }
 
-/// How well an edge knows its rotation, all axes alike: by its mean variance.
+/// The information of an edge on its rotation, equal for all axes: by its mean variance.
 double rotationWeight(const PoseEdge2D& edge) { return edge.information(2, 2); }
 double rotationWeight(const PoseEdge3D& edge) {
   return 3.0 / edge.information.bottomRightCorner<3, 3>().inverse().trace();
@@ -80,7 +80,7 @@ class LinearGraph {
     if (j >= 0) right_.template middleRows<kSize>(kSize * j) += weight * constant;
   }
 
-  /// False, and nothing changed, where there is no one solution.
+  /// False, with nothing changed, where the solution is not unique.
   bool solve() {
     if (count_ <= 0) return true;
     Eigen::SparseMatrix<double> matrix(kSize * count_, kSize * count_);

@@ -1,4 +1,4 @@
-// A guess for a pose graph that needs none: first the rotations, then the positions, each by one linear least squares
+// An initial guess for a pose graph: first the rotations, then the positions, each by one linear least squares
 // problem ("chordal relaxation": Martinec and Pajdla 2007; Carlone et al. 2015). Where the noise is that of real
 // sensors it lies near the best solution, whatever the guess in the file.
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace swiftlet::optimization {
 
-/// Fixed poses stay, and the first pose of each connected part that has none. Where the equations cannot be solved, the
-/// graph's own poses are returned.
+/// Fixed poses stay, and so does the first pose of each connected part without a fixed one. Where the equations cannot
+/// be solved, the graph's own poses are returned.
 std::vector<common::Pose2> chordalStart(const PoseGraph2D& graph);
 std::vector<common::Pose3> chordalStart(const PoseGraph3D& graph);
 

@@ -21,7 +21,7 @@ constexpr double kRefusalCost = 5.0;
 constexpr double kContradictionSigmas = 25.0;
 constexpr double kSameFactor = 4.0;       ///< Closures that agree only if their variances are greater do not agree.
 constexpr double kGreatestFactor = 9.0;   ///< Closures that are three times as far off as their information says.
-constexpr std::size_t kFewClosures = 40;  ///< Of fewer, those beyond 95 % are one or none.
+constexpr std::size_t kFewClosures = 40;  ///< Of fewer closures, at most one is beyond 95 %.
 constexpr int kRounds = 40;
 constexpr int kIterations = 30;
 
@@ -50,15 +50,15 @@ class Selector {
     return result();
   }
 
-  /// Where all are kept, and none is judged by more than it alone. False closures make the factor too great, so here
+  /// Keeps all closures, and judges each by the others. False closures make the factor too great, so here
   /// standard deviations are at most those of the information.
   ClosureSelection look() {
     take(graph_.squaredInnovationsOfEach());
     return result(1.0);
   }
 
-  /// Whether a kept closure is beyond what belongs to the others, even if their tail is heavy. A few have no tail that
-  /// tells.
+  /// Whether a kept closure is beyond what belongs to the others, even if their tail is heavy. A few have no
+  /// tail.
   bool oneMayStandOut() const {
     return count(kept_) < kFewClosures || greatestKept() > gateOf(squaredOf(kept_), graph_.errorSize());
   }
@@ -104,7 +104,7 @@ class Selector {
     return closest;
   }
 
-  /// Removes the worst closures; where none is to be removed, takes back those that agree: at first only those that
+  /// Removes the worst closures; if none is left to remove, restores those that agree: at first only those that
   /// agree as well as most. Each comes back at most twice, so that it ends.
   void refine() {
     std::vector<int> returns(kept_.size(), 0);

@@ -39,9 +39,9 @@ struct ClosureSelection {
 /// The graph's poses are the optimum for the kept edges afterwards.
 ClosureSelection selectClosures(WeightedGraph& graph);
 
-/// Of a graph whose poses are the optimum for all edges: refuses those that selectClosures() does, but only where the
+/// For a graph whose poses are the optimum for all edges: refuses as selectClosures() does, but only where the
 /// errors are impossible: one closure is off by 25 standard deviations, or all together are off by more than the
-/// information says, and one stands out. Elsewhere it refuses none, and takes the time of one look.
+/// information says, and one stands out. Elsewhere it refuses no closure, and takes the time of one evaluation.
 ClosureSelection contradictedClosures(WeightedGraph& graph);
 
 }  // namespace swiftlet::optimization

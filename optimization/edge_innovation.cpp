@@ -15,7 +15,7 @@ namespace {
 
 /// Information of a prior that keeps poses without edges solvable; negligible beside any edge.
 constexpr double kPriorInformation = 1e-9;
-/// Where an edge alone determines a direction, its innovation has no variance but this, and no error.
+/// Where an edge alone determines a direction, its innovation has only this variance, and no error.
 constexpr double kUndetermined = 1e-6;
 
 /// e' * (covariance of the innovation)^-1 * e, where the covariance is the identity plus `sign` times that of the
@@ -151,7 +151,7 @@ SquaredInnovations EdgeInnovations::squared(const std::vector<WhitenedEdge>& edg
   for (int i = 0; i < size * places_; ++i) entries_.emplace_back(i, i, kPriorInformation);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const int from = place_[at(edges[i].from)], to = place_[at(edges[i].to)];
-    const double weight = kept[i] ? 1.0 : 0.0;  // What is not kept has its place in the pattern all the same.
+    const double weight = kept[i] ? 1.0 : 0.0;  // Edges that are not kept stay in the sparsity pattern.
     const ErrorMatrix by_from = weight * edges[i].jacobian_from.transpose();
     const ErrorMatrix by_to = weight * edges[i].jacobian_to.transpose();
     add(from, from, by_from * edges[i].jacobian_from);

@@ -10,7 +10,7 @@ namespace swiftlet::optimization {
 /// tenth where that is larger. 1 where there are no values.
 double varianceFactor(std::vector<double> squared, int degrees_of_freedom);
 
-/// By how much the squared innovations of right closures exceed those of 95 % of them, at most.
+/// Greatest factor by which the squared innovations of right closures exceed their 95 % quantile.
 inline constexpr double kTailRatio = 9.0;
 
 /// The squared innovation beyond which a value is no part of these, whose tail may be heavy: kTailRatio times that

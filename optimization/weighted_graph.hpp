@@ -1,4 +1,4 @@
-// A pose graph whose edges are weighted anew again and again, as those who choose among its edges see it: numbers of
+// A pose graph whose edges are weighted again and again, as seen by the algorithms that select edges: numbers of
 // edges, whatever the graph's dimension.
 #pragma once
 

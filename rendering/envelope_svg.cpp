@@ -47,7 +47,7 @@ void drawBar(const EnvelopeBar& bar, double y, Out out) {
   fmt::format_to(out,
                  R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"><title>{}</title></rect>)",
                  color, xOf(0), top, end - xOf(0), kBarHeight_px, common::escaped(bar.acceptable_text));
-  if (bar.fails) {  // Between the last that was acceptable and the first that failed nobody knows.
+  if (bar.fails) {  // Between the last acceptable and the first failed value it is not known.
     fmt::format_to(out, R"(<rect class="{} unsure" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", color, end,
                    top, xOf(*bar.fails) - end, kBarHeight_px);
     if (*bar.fails <= kEnvelopeAxisEnd)

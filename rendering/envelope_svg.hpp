@@ -10,10 +10,10 @@ namespace swiftlet::rendering {
 /// Positions are multiples of what is drawn at worst: 0 is the base, 1 the edge of the outer range.
 struct EnvelopeBar {
   std::string name;
-  std::optional<double> inner;  ///< Edge of the inner range; none: it has none.
+  std::optional<double> inner;  ///< Edge of the inner range; nullopt: there is no inner range.
   bool outer = false;           ///< Whether there is an outer range.
   double acceptable = 0.0;      ///< End of what was acceptable.
-  std::optional<double> fails;  ///< First that failed, not before `acceptable`; none: nothing failed.
+  std::optional<double> fails;  ///< First that failed, not before `acceptable`; nullopt: none failed.
   std::string inner_text;       ///< Values of the edges, shown on hovering.
   std::string outer_text;
   std::string acceptable_text;

@@ -16,7 +16,7 @@ struct MapView {
   int width_px = 640;  ///< In [16, 8192].
   int height_px = 480;
   Scheme scheme = Scheme::kLight;
-  /// None: the known map and the points of in_view_map_m, by fitViewport(). Its width and height are those above.
+  /// nullopt: the known map and the points of in_view_map_m, by fitViewport(). Its width and height are those above.
   std::optional<Viewport> viewport;
 };
 

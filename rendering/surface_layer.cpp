@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The 3D map keeps one point in a cube. Neighbours are then up to the cube's diagonal apart, which a disc of so many
+/// The 3D map keeps one point in a cube. Neighbours are then up to the cube's diagonal apart, which a disc of this many
 /// times the side bridges.
 constexpr double kDiscDiameter = 1.75;
 /// Nearer points are not drawn: their discs would fill the picture.

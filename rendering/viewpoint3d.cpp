@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 /// Vertical field of view, the usual one of 3D viewers (three.js).
 constexpr double kFieldOfView_rad = 50.0 * common::kRadPerDeg;
-/// So many points are looked at for the extent of everything: the rest lies between them.
+/// Number of points that are sampled for the extent of everything.
 constexpr std::size_t kExtentSamples = 5000;
 /// The whole picture shows at least a cube of twice this side, so that a first small surface does not fill it.
 constexpr double kSmallestHalf_m = 1.0;

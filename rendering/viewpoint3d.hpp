@@ -14,7 +14,7 @@ namespace swiftlet::rendering {
 /// Equal viewpoints give equal pictures of the same content.
 struct Viewpoint3d {
   enum class Kind {
-    kWhole,   ///< Around the middle of everything known, from as far as all of it needs.
+    kWhole,   ///< Around the middle of everything known, from far enough to show all of it.
     kOrbit,   ///< Around `target`, from `distance_m`.
     kFollow,  ///< Around the vehicle, from `distance_m`; the direction does not turn with it.
     kCamera,  ///< From the RGB-D camera, with its field of view; kFollow while there is none.

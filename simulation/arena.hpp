@@ -18,14 +18,14 @@
 
 namespace swiftlet::simulation {
 
-/// Vehicles are numbered in the order of the scenario. A second vehicle changes nothing for the first until they meet:
+/// Vehicles are numbered in the order of the scenario. A second vehicle has no effect on the first until they meet:
 /// the world, the wind and the first vehicle's start and noise are drawn as if it were alone.
 ///
 /// An attended vehicle has an owner that advances it and applies its setpoints; the others stay where they start. All
 /// attended vehicles pass through the same instants. The first that is advanced to an instant moves the arena there;
 /// the others must be advanced to the same instant, in any order, before any of them is advanced further. A setpoint
 /// must be applied before any vehicle is advanced further. SWIFTLET_CHECK enforces all of this. So each setpoint is
-/// known before the step that needs it, and the order of the vehicles changes nothing. The arena does not wait for a
+/// known before the step that needs it, and the order of the vehicles has no effect. The arena does not wait for a
 /// vehicle that has crashed or is no longer attended.
 ///
 /// Called from one thread.

@@ -47,7 +47,7 @@ class Autopilot {
   /// Takes a setpoint that came over the link at `arrived`.
   void receive(const common::Setpoint& setpoint, common::Time arrived);
   /// Takes the sticks of a pilot who flies, as a setpoint. With a program_share, the last setpoint of the link moves
-  /// each of them by at most that share of its range; one that is old, that is not finite, or whose motors are off does
+  /// each of them by at most that share of its range; a setpoint that is old, not finite, or has the motors off does
   /// not.
   void fly(const common::Setpoint& sticks, common::Time now);
 

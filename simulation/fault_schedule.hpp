@@ -17,17 +17,17 @@ class FaultSchedule {
  public:
   explicit FaultSchedule(std::vector<FaultConfig> faults);
 
-  /// What an observer says about the flight from now on: its state, the mission's phase, the running behaviours.
+  /// The observer's state of the flight from now on: its state, the mission's phase, the running behaviours.
   void tellPhase(std::vector<std::string> words) { phase_ = std::move(words); }
   /// Call at each step, in the order of time.
   void step(common::Time now, const Eigen::Vector2d& position_world_m);
 
-  /// The first fault of the sensor that is active at this time; null if there is none.
+  /// The first fault of the sensor that is active at this time; null without one.
   const FaultConfig* of(Sensor sensor, common::Time time) const;
   bool anyActive(common::Time time) const;
   /// The sensor without which no vehicle flies on: the IMU, the laser or the battery's, if one of their faults that
   /// lasts for kLasting_s is active and takes away what the sensor is for. Delays below kBridged_s and a blocked sector
-  /// narrower than kNarrow_deg take nothing away.
+  /// narrower than kNarrow_deg do not count.
   std::optional<Sensor> failedForFlight(common::Time time) const;
 
   static constexpr double kLasting_s = 1.0;    ///< What the prediction of a filter bridges.
@@ -37,7 +37,7 @@ class FaultSchedule {
  private:
   struct Scheduled {
     FaultConfig config;
-    std::optional<common::Time> begin, end;  ///< None: its place or phase has not come.
+    std::optional<common::Time> begin, end;  ///< nullopt: its place or phase has not come.
 
     bool activeAt(common::Time time) const { return begin && time >= *begin && time < *end; }
   };

@@ -31,7 +31,7 @@ bool isModelFolder(const fs::path& folder) {
   return fs::exists(folder / "model.config", ignored) || fs::exists(folder / "model.sdf", ignored);
 }
 
-/// In a model's folder of the cache each version has a folder of its own; a copy made by hand has none.
+/// In a model's folder of the cache each version has a folder of its own; a copy made by hand has no version folder.
 std::optional<fs::path> versionIn(const fs::path& model, const std::string& wanted) {
   if (isModelFolder(model)) return model;
   std::optional<int> newest;

@@ -21,7 +21,7 @@ struct FuelAddress {
   std::string inside;   ///< Path of a file in the model; empty for the model itself.
 };
 
-/// None if the URI is not the address of a model.
+/// nullopt if the URI is not the address of a model.
 std::optional<FuelAddress> fuelAddress(std::string_view uri);
 
 using common::percentDecoded;

@@ -1,5 +1,5 @@
-// A hand that takes the vehicle, carries it aside and turns it, and lets go: what moves it, whatever its controller
-// does.
+// A hand that takes the vehicle, carries it aside and turns it, and releases it: it moves the vehicle whatever its
+// controller does.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace swiftlet::simulation {
 
-/// Takes the vehicle at `time_s`, and lets go at rest after `lasts_s`.
+/// Takes the vehicle at `time_s`, and releases it at rest after `lasts_s`.
 struct HandConfig {
   double time_s = 0.0;
   double lasts_s = 2.0;

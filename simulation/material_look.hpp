@@ -1,4 +1,4 @@
-// What the visuals of an SDF file say of how a thing looks.
+// The look of a thing by the visuals of an SDF file.
 #pragma once
 
 #include <optional>

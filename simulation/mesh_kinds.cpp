@@ -19,7 +19,7 @@ using namespace std::string_view_literals;
 constexpr const char* kRemedy = "export it as .dae, .obj, .stl or .glb from the program that made it";
 
 struct Kind {
-  std::string_view begins_with;  ///< Empty: it is told by its ending only.
+  std::string_view begins_with;  ///< Empty: it is recognized by its ending only.
   std::string_view endings;      ///< Each with a blank behind it.
   const char* name;
   bool read_in_part = false;  ///< Assimp reads some of them.

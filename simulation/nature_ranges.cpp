@@ -21,7 +21,7 @@ using common::Problem;
 
 constexpr const char* kLeastThrust = "least_thrust_over_weight";
 
-/// What a nature's file may say: the parts of a scenario that are the plant.
+/// The keys of a nature's file: the parts of a scenario that are the plant.
 struct NatureKeys {
   double least_thrust_over_weight = 1.05;
   Scenario scenario;
@@ -51,7 +51,7 @@ std::size_t closeOf(std::string_view text, std::size_t from) {
 
 bool isWhole(double value) { return std::floor(value) == value; }
 
-/// The node below `root` at "quadrotor.battery.capacity_ah", made where there is none.
+/// The node below `root` at "quadrotor.battery.capacity_ah", made if it is missing.
 YAML::Node nodeAt(const YAML::Node& root, const std::string& key) {
   YAML::Node node = root;
   for (std::size_t begin = 0; begin <= key.size();) {
@@ -138,8 +138,8 @@ std::string NatureRanges::Entry::drawn(const Choose& choose) const {
 NatureRanges::NatureRanges(const std::string& given, const std::string& file) : file_(file) {
   const std::string text = common::yamlText(given);
   entries_ = Reader(text, file).entries;
-  // The file is read with the lower and with the upper end of each range in its place, so that everything that is wrong
-  // is told now, with its line, and not in some draw.
+  // The file is read with the lower and with the upper end of each range in its place, so that every mistake is
+  // reported now, with its line, and not in some draw.
   for (const bool low : {true, false}) {
     const auto end_of = [low](const std::string&, double a, double b) { return low ? a : b; };
     std::string with_numbers = text;

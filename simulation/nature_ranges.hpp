@@ -30,7 +30,7 @@ class NatureRanges {
   /// Replaces the range of a key that has one; other keys stay as they are.
   void narrow(const std::string& key, double low, double high);
 
-  /// What the number of a key is drawn from; both ends are equal if it is fixed. None for keys that the file does not
+  /// The range of a key; both ends are equal if it is fixed. nullopt for keys that the file does not
   /// have, or that are not numbers.
   std::optional<NatureRange> rangeOf(const std::string& key) const;
 

@@ -25,7 +25,7 @@ struct PlantKey {
 /// In the order of the reference. Keys inside of lists are left out.
 std::vector<PlantKey> plantKeys(const Scenario& scenario);
 
-/// None if there is no such number.
+/// nullopt if there is no such number.
 std::optional<PlantKey> plantKey(const Scenario& scenario, const std::string& key);
 
 /// Sets the number of a key, which must exist, as if the scenario's file had written it out: no nature changes it. The

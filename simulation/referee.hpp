@@ -23,7 +23,7 @@ class Referee {
   /// World and rays must outlive it.
   Referee(const WorldModel& world, const RayCaster& rays, const Scenario& scenario);
 
-  /// Highest floor under the feet at the last call of lookDown(); -infinity if there is none.
+  /// Highest floor under the feet at the last call of lookDown(); -infinity without a floor.
   double floor_world_m() const { return floor_world_m_; }
 
   /// Finds the floor under the feet. Call at 100 Hz or more.

@@ -54,7 +54,7 @@ std::string wideEncoding(std::string_view bytes) {
   return {};
 }
 
-/// What the XML declaration says; empty if there is none, or if it says nothing of it.
+/// The encoding in the XML declaration; empty without a declaration, or if it names no encoding.
 std::string declaredEncoding(std::string_view bytes) {
   const std::size_t begin = bytes.find('<');
   if (begin == std::string_view::npos || !bytes.substr(begin).starts_with("<?xml")) return {};

@@ -70,7 +70,7 @@ bool isNumber(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// How many numbers a text is; none if it is anything else.
+/// The number of numbers in a text; nullopt if it is anything else.
 std::optional<std::size_t> numbersIn(std::string_view text) {
   std::size_t count = 0;
   while (true) {
@@ -100,7 +100,7 @@ std::string withoutMetres(std::string text) {
   return text;
 }
 
-/// What the text most likely means, written as SDF wants it; none if that cannot be told.
+/// What the text most likely means, written as SDF wants it; nullopt if that is unclear.
 std::optional<std::string> meant(const std::string& text, Count count) {
   const std::string plain = withoutMetres(replaced(common::asSeen(text), ";", " "));
   for (const std::string& guess : {plain, replaced(replaced(plain, ", ", " "), ",", "."), replaced(plain, ",", " ")})

@@ -11,7 +11,7 @@
 namespace swiftlet::simulation {
 
 /// A problem for each element with a number that the simulator uses, such as <pose> and <size>, whose text is not as
-/// many numbers as it takes, with blanks between them. What an element without a text means is libsdformat's to say.
+/// many numbers as it takes, with blanks between them. libsdformat decides on elements without a text.
 std::vector<common::Problem> numberProblems(const std::string& file, std::string_view text,
                                             const std::vector<SdfTag>& tags);
 

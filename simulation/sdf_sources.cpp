@@ -37,7 +37,7 @@ std::string nameIn(const std::string& uri) {
   return fs::path(percentDecoded(uri)).filename().string();
 }
 
-/// The minor version of "1.9" and the like; none for others.
+/// The minor version of "1.9"; nullopt for other texts.
 std::optional<int> minorVersion(std::string_view text) {
   const bool digits = text.size() > 2 && text.size() < 5 &&
                       std::all_of(text.begin() + 2, text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -47,7 +47,7 @@ std::optional<int> minorVersion(std::string_view text) {
 
 constexpr int kNewestMinorVersion = 9;  // Of libsdformat 12.
 
-/// The file of a model's folder: the one that model.config names for the newest version that can be read, or model.sdf.
+/// The file of a model's folder: the newest readable version by model.config, or model.sdf.
 std::optional<fs::path> modelFileIn(const fs::path& folder) {
   std::error_code ignored;
   for (const char* config : {"model.config", "manifest.xml"}) {

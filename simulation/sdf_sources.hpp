@@ -34,7 +34,7 @@ class SdfSources {
   /// A message in which copies have the names of their originals.
   std::string withOriginals(std::string message) const;
 
-  /// Things that the world names and that are not to be had, each with its place; without them it is incomplete. A
+  /// Things that the world names and that are not found, each with its place; without them it is incomplete. A
   /// model without anything stands for an include that was not found.
   const std::vector<common::Problem>& missing() const { return missing_; }
   const std::vector<std::string>& warnings() const { return warnings_; }

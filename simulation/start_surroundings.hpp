@@ -8,7 +8,7 @@
 
 namespace swiftlet::simulation {
 
-/// The terrain above a point: one beneath it is inside the ground. Null if there is none.
+/// The terrain above a point: one beneath it is inside the ground. Null without terrain above.
 const Shape* terrainAbove(const WorldModel& world, const RayCaster& rays, const Eigen::Vector3d& point_world_m);
 
 /// Compares places near a start that is blocked.

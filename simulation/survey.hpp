@@ -39,7 +39,7 @@ class SurveyDrive {
   /// The path has two points or more. `rays` must outlive it.
   SurveyDrive(const SurveyConfig& config, const common::LaserConfig& laser, const RayCaster& rays);
 
-  /// The next scan; none at the end of the path.
+  /// The next scan; nullopt at the end of the path.
   std::optional<SurveyScan> next();
   double duration_s() const { return legs_.empty() ? 0.0 : legs_.back().end_s; }
 

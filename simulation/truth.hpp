@@ -19,7 +19,7 @@ struct Truth {
   bool airborne = false;
   double battery_remaining = 1.0;  ///< True charge, as a share of the full one.
   bool faulty = false;             ///< A fault of the scenario is active.
-  /// The IMU or the laser, if a fault of it is active: without them there is no flight.
+  /// The IMU or the laser, if a fault of it is active: the vehicle cannot fly without them.
   std::optional<Sensor> failed_sensor;
 
   /// Smallest horizontal distance from the hull so far, while airborne: to the static world, to a walker, and to the

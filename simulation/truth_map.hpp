@@ -38,7 +38,7 @@ common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const Free
 double area_m2(const common::TiledGrid<std::uint8_t>& cells);
 
 /// Length of the shortest path from the cell of one point to that of another through cells that are 1, with steps to
-/// the eight neighbours; none if there is no path.
+/// the eight neighbours; nullopt if there is no path.
 std::optional<double> pathLength_m(const common::TiledGrid<std::uint8_t>& cells, const Eigen::Vector2d& from_m,
                                    const Eigen::Vector2d& to_m);
 

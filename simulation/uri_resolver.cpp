@@ -90,7 +90,7 @@ std::optional<fs::path> UriResolver::find(const std::string& uri, const fs::path
   if (isOnTheWeb(uri)) return std::nullopt;
   for (const auto& [folder, path] : placesOf(uri, used_in)) {
     std::error_code error;
-    // A link that leads to nothing is the file that was meant, and its reader says so.
+    // A broken link is the intended file, and its reader reports it.
     if (fs::exists(folder / path, error) || fs::is_symlink(folder / path, error))
       return newestIn((folder / path).lexically_normal());
   }

@@ -18,7 +18,7 @@ class UriResolver {
   /// GZ_FUEL_CACHE_PATH, IGN_FUEL_CACHE_PATH, ~/.gz/fuel, ~/.ignition/fuel and ~/.gazebo/models.
   UriResolver(const std::filesystem::path& sdf_file, const std::vector<std::string>& model_paths);
 
-  /// The file or folder of a URI in the file `used_in`; none if there is no such file or folder. An address of Fuel is
+  /// The file or folder of a URI in the file `used_in`; nullopt if it does not exist. An address of Fuel is
   /// found in a cache of Fuel, whatever the case of its letters, or in a folder that has a folder of the model's name.
   /// A `model://` that is nowhere else is found in a cache of Fuel, if only one owner there has a model of that name.
   std::optional<std::filesystem::path> find(const std::string& uri, const std::filesystem::path& used_in = {}) const;

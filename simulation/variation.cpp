@@ -118,10 +118,10 @@ std::pair<int, int> crossings(const Shape& shape, const Eigen::Vector3d& from) {
   return count;
 }
 
-/// The solid that a point is in: nothing touches a hull in the middle of a large box. A mesh may be a house.
+/// The solid that a point is in: a hull in the middle of a large box touches no surface. A mesh may be a house.
 const Shape* solidAround(const WorldModel& world, const RayCaster& rays, const Eigen::Vector3d& point) {
   constexpr std::size_t kMostTriangles = 5000;  // Solids have less; terrain is no solid.
-  const Eigen::Vector3d beside = point + Eigen::Vector3d(1.3e-4, 0.7e-4, 0.0);  // Edges are met twice.
+  const Eigen::Vector3d beside = point + Eigen::Vector3d(1.3e-4, 0.7e-4, 0.0);  // A ray along an edge hits it twice.
   for (const double up : {1.0, -1.0}) {
     const Hit hit = rays.cast(beside, up * Eigen::Vector3d::UnitZ(), 1e4);
     if (!hit || static_cast<std::size_t>(hit.shape) >= world.shapes.size()) continue;
@@ -289,7 +289,7 @@ class Reach {
   std::optional<common::TiledGrid<std::uint8_t>> cells_;
 };
 
-/// Conditions for a start that is drawn: nothing is above it. In an area it is also on the floor of the nominal start,
+/// Conditions for a drawn start: no shape is above it. In an area it is also on the floor of the nominal start,
 /// which can be reached from it.
 std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, const RayCaster& rays, Reach& reach) {
   const Variation& variation = drawn.scenario.variation;

@@ -34,7 +34,7 @@ struct Realization {
 /// scenario and seed give the same result. Throws common::InputError with file and line if the scenario cannot be
 /// flown: no floor under a start, a start inside something, an unknown obstacle, or no suitable draw.
 Realization realize(const WorldModel& world, const Scenario& scenario);
-/// A world that one draw in twenty suits is then refused once in 30,000 seeds: 0.95^200.
+/// A world in which one draw in twenty is suitable is then refused once in 30,000 seeds: 0.95^200.
 inline constexpr int kMostDraws = 200;
 
 }  // namespace swiftlet::simulation

@@ -27,7 +27,7 @@ class Walker {
   Walker(const WalkerConfig& config, int seed, std::size_t number, double floor_world_m, double hull_radius_m,
          const RayCaster& rays);
 
-  /// None while it is not in the world.
+  /// nullopt while it is not in the world.
   const std::optional<Actor>& actor() const { return actor_; }
   void step(common::Time now, const WalkedAround& vehicle, double step_s);
 

@@ -23,7 +23,7 @@ using Color = Eigen::Vector3f;
 /// A material of a mesh.
 struct SurfaceMaterial {
   Color color = Color::Constant(0.7F);
-  std::string image = {};  ///< A file with the picture of the surface, PNG or JPEG; empty if there is none.
+  std::string image = {};  ///< A file with the picture of the surface, PNG or JPEG; empty without a picture.
 
   bool operator==(const SurfaceMaterial& other) const = default;
 };
@@ -38,7 +38,7 @@ struct Shape {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
   bool glass = false;                                   ///< Its material is transparent by half or more.
   std::optional<Pattern> pattern = {};                  ///< The pattern that its material names.
-  std::string image = {};  ///< Stretched over each side of it, as `materials` are not; empty if there is none.
+  std::string image = {};  ///< Stretched over each side of it, as `materials` are not; empty without a picture.
   std::vector<SurfaceMaterial> materials = {};           ///< Of a mesh; empty: `color` everywhere.
   std::vector<std::uint16_t> material_of_triangle = {};  ///< Indices into `materials`.
   std::vector<Eigen::Vector2f> image_places = {};  ///< Of the vertices in the images of their materials, see Mesh.
@@ -55,7 +55,7 @@ struct WorldModel {
   Color light = Color::Ones();  ///< Of the lamps: what cameras see of white under them.
   /// The pose of `<frame name="start">`, if the world has one.
   std::optional<common::Pose3> T_world_start;
-  /// The line of that frame in the file, or of the world if it has none.
+  /// The line of that frame in the file, or else of the world.
   common::SourceLocation start_source;
   /// Elements that were skipped or replaced, each as "file:line: ...".
   std::vector<std::string> warnings;
@@ -67,7 +67,7 @@ struct WorldModel {
   void moveModel(const std::string& model, const Eigen::Vector2d& shift_world_m);
   /// Multiplies the colour of every shape of a model that has no picture; channels stay within [0, 1].
   void tintModel(const std::string& model, const Color& share);
-  /// Smallest box around all shapes of a model; empty if there is none.
+  /// Smallest box around all shapes of a model; empty without shapes.
   Eigen::AlignedBox3f boundsOf_world_m(const std::string& model) const;
   /// Smallest box around all shapes.
   Eigen::AlignedBox3f bounds_world_m() const;

@@ -46,7 +46,7 @@ std::string scoped(const std::string& scope, const std::string& name) {
 struct Names {
   std::vector<std::string> models;
   std::vector<std::string> links;
-  std::vector<std::string> others;  ///< What has no model to be placed: lights, actors and models that were added.
+  std::vector<std::string> others;  ///< Names without a model to be placed: lights, actors and models that were added.
   std::set<std::string> stand_ins;  ///< Models whose parts are not known.
 };
 
@@ -77,7 +77,7 @@ class StateReader {
   StateReader(const std::string& file, Names names, WorldState& state)
       : file_(file), names_(std::move(names)), state_(state) {}
 
-  /// `scope` is that of the models around it, "outer::inner::".
+  /// `scope` is the scope of the models around it, "outer::inner::".
   void addModel(const sdf::ElementPtr& model, const std::string& scope) {
     const std::string name = scoped(scope, nameOf(model));
     state_.entities[name] = stateOf(model);

@@ -31,7 +31,7 @@ struct WorldState {
   const EntityState* of(const std::string& name) const;
 };
 
-/// The first <state> of the world, as Gazebo classic takes it; empty if there is none. `file` is for messages.
+/// The first <state> of the world, as Gazebo classic takes it; empty without one. `file` is for messages.
 WorldState readState(const sdf::World& world, const std::string& file);
 
 }  // namespace swiftlet::simulation

@@ -28,7 +28,7 @@ GrayImage grayOf(const common::Image& image);
 GrayImage halved(const GrayImage& image);
 
 /// Each pixel is the mean of those of its four that belong to the nearest surface among them, so that no point appears
-/// between two surfaces. Fewer than two measured pixels make none: at the border of a hole the sensor errs most.
+/// between two surfaces. With fewer than two measured pixels it is unknown: a sensor errs most beside a hole.
 common::DepthImage halved(const common::DepthImage& depth);
 
 /// The camera of the halved image. A pixel's centre has integer coordinates, so the principal point moves by a quarter

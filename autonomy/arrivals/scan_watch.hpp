@@ -9,8 +9,8 @@
 namespace swiftlet::autonomy {
 
 /// One thread. The noise of the ranges makes each scan differ from the one before, so a scan whose ranges are equal bit
-/// by bit comes from a driver that repeats its last one: it counts as none. A scan without a single return carries no
-/// noise; it is never a repeated one.
+/// by bit comes from a driver that repeats its last one and is left out. A scan without a single return carries no
+/// noise; it never counts as repeated.
 class ScanWatch {
  public:
   /// Whether this scan repeats the one before it.

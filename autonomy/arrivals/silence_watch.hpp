@@ -24,7 +24,7 @@ class SilenceWatch {
   std::optional<common::Event> watch(common::Time now);
 
   bool isDue(common::Time now) const { return since_ && now - *since_ >= silence_; }
-  /// From when the silence counts; none before the first measurement.
+  /// Start of the silence; nullopt before the first measurement.
   std::optional<common::Time> since() const { return since_; }
 
  private:

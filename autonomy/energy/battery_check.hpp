@@ -1,4 +1,4 @@
-// Which samples of the battery are used: a landing that a single wrong one asks for is not taken back.
+// Which samples of the battery are used: a landing for a single wrong sample would not be taken back.
 #pragma once
 
 #include <optional>

@@ -8,7 +8,7 @@ namespace {
 
 /// Long enough to hold stops and long legs, short against the fall of the voltage, which raises the current.
 constexpr double kMemory_s = 60.0;
-/// Variance of the speed, (m/s)^2, from which the slope is believed.
+/// Variance of the speed, (m/s)^2, from which the slope is used.
 constexpr double kTellingVariance = 0.02;
 
 }  // namespace
@@ -16,7 +16,7 @@ constexpr double kTellingVariance = 0.02;
 void CurrentModel::add(double current_a, double speed_m_s, double dt_s) {
   if (!std::isfinite(current_a) || !std::isfinite(speed_m_s)) return;
   const double keep = std::exp(-std::max(0.0, dt_s) / kMemory_s);
-  // The first sample of a flight may come without a duration. It must count for little: it is that of motors that have
+  // The first sample of a flight may come without a duration. It must count for little, because the motors have
   // only begun to carry the vehicle.
   constexpr double kFirst = 1e-6;
   const double weight = weight_ > 0.0 ? 1.0 - keep : std::max(kFirst, 1.0 - keep);

@@ -1,4 +1,4 @@
-// The current that flying draws: that of hovering, and some for each metre a second of speed.
+// The current that flying draws: the current of hovering, and some for each metre a second of speed.
 #pragma once
 
 namespace swiftlet::autonomy {

@@ -12,7 +12,7 @@ namespace swiftlet::autonomy {
 using common::config::kPositive;
 namespace {
 
-/// From this drop of the gauge on, it tells more about the capacity than the data sheet.
+/// From this drop of the gauge on, the gauge shows the capacity better than the data sheet.
 constexpr double kTellingDrop = 0.05;
 /// A gauge has moved by more than this. Coarse ones move by 1 %.
 constexpr double kMoved = 0.002;
@@ -53,7 +53,7 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     drawn_at_move_as_ = drawn_as_;
     drawn_since_move_as_ = 0.0;
   }
-  // What was drawn before the battery was charged, or taken out, tells nothing of what the gauge says now.
+  // What was drawn before the battery was charged, or removed, says nothing about the present reading of the gauge.
   const bool takes_off = airborne && !airborne_;
   airborne_ = airborne;
   if (takes_off) {
@@ -82,7 +82,7 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
   last_ = sample;
 }
 
-/// Without a measured current it is the mean one by which the gauge has fallen, or the last one while that says little.
+/// Without a measured current: the mean current by which the gauge has fallen, or the last one while the drop is small.
 double EnergyMonitor::currentOf_a(const common::BatterySample& sample) const {
   if (hasCurrent(sample)) return sample.current_a;
   const double drop = flown_ ? remaining_at_take_off_ - sample.remaining : 0.0;
@@ -99,7 +99,7 @@ void EnergyMonitor::followed(double speed_m_s, double dt_s) {
   home_speed_m_s_ += speed_m_s > home_speed_m_s_ ? kCruise * step_m_s : (kCruise - 1.0) * step_m_s;
 }
 
-/// As the fuel gauge has shown it since the last take-off; before that, as believed.
+/// From the fuel gauge since the last take-off; before that, from the data sheet.
 double EnergyMonitor::capacity_as() const {
   const double drop = remaining_at_take_off_ - moved_to_;
   return drop > kTellingDrop && drawn_at_move_as_ > 0.0 ? drawn_at_move_as_ / drop : capacity_as_;
@@ -143,7 +143,7 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const FlightHome& hom
 
 /// Without a path the vehicle would fly along its trail.
 void EnergyMonitor::tellHome(const FlightHome& home, common::EnergyLayer& layer) const {
-  // The learned speed falls to zero while the vehicle hovers, which tells nothing of how fast it would fly home.
+  // The learned speed falls to zero while the vehicle hovers, which is not the speed of a flight home.
   constexpr double kLeast_m_s = 0.1;
   layer.home_planned = home.planned_m.has_value();
   layer.home_m = home.planned_m.value_or(home.trail_m);

@@ -25,7 +25,7 @@ struct EnergyConfig {
 
 /// What a flight home takes.
 struct FlightHome {
-  std::optional<double> planned_m;  ///< Length of the planned path; none while there is none.
+  std::optional<double> planned_m;  ///< Length of the planned path; nullopt without a path.
   double trail_m = 0.0;             ///< Along the trail, without its loops.
   double landing_s = 0.0;           ///< From the height of the flight to the ground.
 };
@@ -35,7 +35,7 @@ struct FlightHome {
 /// which paths have been flown so far.
 class EnergyMonitor {
  public:
-  /// The capacity is the battery's as its owner believes; it is corrected by what the fuel gauge says in flight. The
+  /// The capacity is that of the data sheet; it is corrected by what the fuel gauge says in flight. The
   /// thrust goes with the voltage to the power of `voltage_exponent`.
   EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent);
 
@@ -48,7 +48,7 @@ class EnergyMonitor {
   /// The vehicle lands when the charge falls to `land_share` or `thrust_margin`, the present one, to `least_margin`.
   common::EnergyLayer layer(common::Time now, const FlightHome& home, double thrust_margin, double land_share,
                             double least_margin) const;
-  /// Why the charge is not that of the gauge but counted on by the current; empty if it is the gauge's.
+  /// Why the charge is not that of the gauge but extrapolated by the current; empty if it is the gauge's.
   std::string countedOn(common::Time now) const;
 
  private:
@@ -71,7 +71,7 @@ class EnergyMonitor {
   double power_w_ = 0.0;
   bool flown_ = false;  ///< The smoothed values are those of a flight.
   bool airborne_ = false;
-  bool settled_ = false;  ///< The smoothed current is that of the flight, and tells how long the charge lasts.
+  bool settled_ = false;  ///< The smoothed current is that of the flight, and predicts how long the charge lasts.
   double remaining_at_take_off_ = 0.0;
   common::Time taken_off_;
   double drawn_as_ = 0.0;  ///< By the measured current, since the last take-off.

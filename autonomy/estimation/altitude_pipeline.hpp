@@ -25,7 +25,7 @@
 
 namespace swiftlet::autonomy {
 
-/// Vertical distance from the body down to the surface below: the median of the mirror beams; none if there are none.
+/// Vertical distance from the body down to the surface below: the median of the mirror beams; nullopt without them.
 std::optional<double> medianBelow_m(const perception::ProjectedScan& scan);
 
 /// The height information of one scan.
@@ -37,7 +37,7 @@ struct AltitudeStep {
   bool slope_began = false;                          ///< The ground below slopes from here on.
   std::optional<double> doubt_m_s;                   ///< See SlopeDoubt: the height may be wrong from here on.
   std::optional<perception::HeightDriftRate> drift;  ///< See HeightDrift: the vertical speed is wrong.
-  std::optional<double> slope_ended_rise_m;          ///< A slope has ended; the ground is so much higher behind it.
+  std::optional<double> slope_ended_rise_m;          ///< A slope has ended; the ground is higher by this behind it.
 };
 
 /// One thread.

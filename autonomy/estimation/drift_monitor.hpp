@@ -1,7 +1,7 @@
 // How far the position has become uncertain since the take-off, where scans did not fix it.
 //
 // Along a corridor without features, and while no scan matches, the error grows. A scan that sees every direction again
-// stops the growth, but it tells where the vehicle is relative to what it saw before, not relative to the take-off: the
+// stops the growth, but it measures the position relative to what was seen before, not relative to the take-off: the
 // error that was gathered remains. It is taken back only where the vehicle sees again what it mapped when it knew its
 // position better: then it is as uncertain as it was there.
 #pragma once
@@ -15,17 +15,17 @@
 
 namespace swiftlet::autonomy {
 
-/// What one scan tells of the position.
+/// The information of one scan on the position.
 struct PositionFix {
   common::Time stamp;
   Eigen::Matrix2d covariance_odom_m2;  ///< The filter's, of the horizontal position, after the scan.
   bool matched = false;
-  /// Unit vector along which a match does not fix the position; none if it fixes every direction.
+  /// Unit vector along which a match does not fix the position; nullopt if it fixes every direction.
   std::optional<Eigen::Vector2d> unobservable_direction_odom;
   /// Later scans are matched to this one, so its error is theirs.
   bool new_reference = false;
-  /// The key scan of the map to which the pose is relative, and one of an earlier pass to which alone it was matched in
-  /// every direction; -1: none. Key scans count up from 0.
+  /// The key scan of the map to which the pose is relative, and the one of an earlier pass, if the scan was matched to
+  /// that pass alone in every direction; -1: none. Key scans count up from 0.
   int newest_key = -1, known_key = -1;
 };
 

@@ -46,9 +46,9 @@ class FlightLocalizer {
  public:
   FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs);
 
-  /// Another map takes the place of the present one: the state is that of a new localizer.
+  /// Replaces the present map: the state is that of a new localizer.
   void load(const GivenMap& map);
-  /// The pose is looked for anew in the whole map.
+  /// The pose is searched again in the whole map.
   void forget();
 
   /// Whether the next scan, predicted at that pose, must be withheld from the odometry; see perception::ScanTurns.
@@ -59,7 +59,7 @@ class FlightLocalizer {
   void passOver(const Eigen::Matrix3d& step_covariance, bool interrupted);
 
   const common::Localization& localization() const { return localization_; }
-  /// The given map in the frame `map`; none while the vehicle is not localized in it.
+  /// The given map in the frame `map`; nullopt while the vehicle is not localized in it.
   std::optional<perception::GivenBackground> background(const common::Pose2& T_map_odom) const;
   std::vector<common::Event> takeEvents();
 

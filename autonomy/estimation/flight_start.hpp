@@ -27,10 +27,10 @@ class FlightStart {
   /// See Estimator::withAttitude.
   common::ImuSample withAttitude(const common::ImuSample& sample, const perception::ErrorStateFilter& filter) const;
   void imuArrived(const common::ImuSample& sample);
-  /// Starts the filter with a scan of the standing vehicle. Returns the height of its body over the floor; none while
+  /// Starts the filter with a scan of the standing vehicle. Returns the height of its body over the floor, nullopt if
   /// the filter has not started.
   std::optional<double> start(const common::LaserScan& scan, const LaserPipeline& laser, HeardFilter& filter);
-  /// False for a scan that was under way when the filter started: it is of a time of which the filter knows no pose.
+  /// False for a scan that was under way when the filter started: the filter has no pose for its time.
   bool isCovered(const common::LaserScan& scan) const { return scan.stamps.measured >= started_; }
   /// Keeps a scan of the vehicle at rest with its attitude.
   void look(const common::LaserScan& scan, const Eigen::Quaterniond& R_odom_body);

@@ -1,4 +1,4 @@
-// The error-state filter, and who listens to what it is told.
+// The error-state filter, and the listener to its inputs.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace swiftlet::autonomy {
 
-/// One thread. Nothing else changes the filter.
+/// One thread. Only this class changes the filter.
 class HeardFilter {
  public:
   explicit HeardFilter(const perception::FusionConfig& config) : filter_(config) {}
 
-  /// Hears all that the filter is told from now on; null for none. It must outlive this.
+  /// Gets all inputs of the filter from now on; null for no listener. It must outlive this.
   void setListener(perception::FilterListener* listener) { listener_ = listener; }
-  /// Tells the listener and then the filter. Returns what perception::tell returns.
+  /// Gives the input to the listener and then to the filter. Returns what perception::tell returns.
   tl::expected<perception::Insertion, std::string> tell(const perception::FilterInput& input) {
     if (listener_ != nullptr) listener_->heard(input);
     return perception::tell(filter_, input);

@@ -13,9 +13,9 @@ using common::Duration;
 using common::Time;
 
 constexpr const char* kFusion3d = "mapping3d fusion";
-/// A submap reaches about so far: a turn moves what is there.
+/// About the reach of a submap: a turn moves points at that distance.
 constexpr double kSubmapReach_m = 5.0;
-/// A sensor whose work has not copied the submaps for so many periods has stopped.
+/// A sensor whose work has not copied the submaps for this many periods has stopped.
 constexpr double kLatePeriods = 2.0;
 
 }  // namespace

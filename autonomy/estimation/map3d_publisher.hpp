@@ -15,8 +15,7 @@
 namespace swiftlet::autonomy {
 
 struct Map3dPublisherConfig {
-  static constexpr double publish_period_s =
-      0.4;  ///< Time between copies of the growing submap for those who show the map.
+  static constexpr double publish_period_s = 0.4;  ///< Time between copies of the growing submap for viewers.
   static constexpr double fusion_period_s =
       10.0;  ///< Time between fusions of all submaps to one map; after a loop closure they are fused at once.
   double fusion_latency_s = 2.0;
@@ -34,7 +33,7 @@ class Map3dPublisher {
   /// Whether the submaps are to be copied by the work that begins now; they are then as of `now`.
   bool begin(common::Time now);
   /// Whether the submaps are to be copied though no work begins, because the sensor has stopped since the last copy and
-  /// what it saw last is in none; they are then as of `now`.
+  /// its last measurements are in no copy; they are then as of `now`.
   bool beginLate(common::Time now);
   void setSubmaps(std::vector<common::Submap3d> submaps);
   /// Fuses all submaps again: every `fusion_period_s`, and at once when a loop closure has moved one by a voxel or
@@ -44,7 +43,7 @@ class Map3dPublisher {
   bool hasLayer() const { return layer_ != nullptr; }
   /// The layer that is published next, made at the first call. It counts as changed.
   common::Map3dLayer& change();
-  /// Whether layer() would return a layer that is not the one of before.
+  /// Whether layer() would return another layer than before.
   bool isStale(const std::shared_ptr<const common::KeyPoses>& keys) const;
   /// The layer with these key scans; null before the first change. The same object until something changes.
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);

@@ -38,8 +38,8 @@ struct MappedScan {
 
 struct MapStep {
   common::Pose2 T_map_body;  ///< At the scan's stamp.
-  /// Pose of the body relative to a key scan, for data that must move with the map; none before the first scan in the
-  /// map.
+  /// Pose of the body relative to a key scan, for data that must move with the map; nullopt before the first scan in
+  /// the map.
   std::optional<common::KeyRelativePose> at_key;
   int known_key = -1;  ///< perception::SlamUpdate::known_key.
 };

@@ -17,24 +17,24 @@ class PoseTrack {
  public:
   explicit PoseTrack(const perception::ErrorStateFilter& filter) : filter_(filter) {}
 
-  /// A scan was processed. `at_key`: the place of the body in the map, none before there is a map.
+  /// A scan was processed. `at_key`: the place of the body in the map, nullopt before the first map.
   void scanned(common::Time stamp, const std::optional<common::KeyRelativePose>& at_key,
                const common::Pose3& T_odom_body);
   /// A scan matched, at `now`.
   void matched(common::Time now) { matched_ = now; }
 
-  /// Whether the pose at `time` is to be used at `now`: the filter has come so far, and a scan of that time has been
+  /// Whether the pose at `time` is to be used at `now`: the filter has reached it, and a scan of that time has been
   /// processed, or is not worth waiting for any longer.
   bool isKnown(common::Time time, common::Time now, common::Time wait_until) const;
-  /// Whether a scan has just told the place in the map, which otherwise is only predicted.
+  /// Whether a scan has just measured the place in the map, which otherwise is only predicted.
   bool isSupported(common::Time now) const;
 
-  /// The frame `odom` as of the last scan relative to a key scan; none before there is a map.
+  /// The frame `odom` as of the last scan relative to a key scan; nullopt before the first map.
   const std::optional<common::KeyRelativePose>& odomAtKey() const { return odom_at_key_; }
   std::optional<common::KeyRelativePose> atKey(common::Time time) const;
   /// The filter's attitude at a time, and how its pose changes around it.
   std::optional<BodyAtFrame> bodyAt(common::Time time) const;
-  /// The poses during a sweep, without the people; none where the place in the map is only predicted.
+  /// The poses during a sweep, without the people; nullopt where the place in the map is only predicted.
   std::optional<SweepSituation> during(const VerticalLaserPipeline::Interval& times, common::Time now) const;
 
  private:

@@ -11,7 +11,7 @@ double PositionUncertainty::add(const OdometryStep& step, bool matched, const co
   PositionFix fix;
   fix.stamp = filter_.newest();
   fix.covariance_odom_m2 = horizontal_m2();
-  // A restart of the odometry has nothing to tell of the motion before it.
+  // A restart of the odometry does not measure the motion before it.
   fix.matched = matched && !step.interrupted;
   fix.unobservable_direction_odom = unobservableDirection(step, T_odom_body);
   fix.new_reference = matched && !step.covariance.isZero();

@@ -22,7 +22,7 @@ class PositionUncertainty {
   /// Covariance of the motion since the last scan, (x_m, y_m, yaw_rad) with the axes of the body; `matched`: the filter
   /// accepted the match.
   Eigen::Matrix3d ofStep(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body);
-  /// What the scan told of the position, after it is in the map. Returns the drift.
+  /// Adds the position by the scan, after it is in the map. Returns the drift.
   double add(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body, const MapStep& map);
   /// See DriftMonitor; as of the last scan that was matched or tried.
   double drift_m() const { return drift_m_; }

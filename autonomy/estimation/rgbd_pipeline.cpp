@@ -92,7 +92,7 @@ void RgbdPipeline::skip(const char* fault, Time now) {
   say(now, Severity::kWarning, "a frame cannot be used", std::string(fault) + "; further ones are only counted");
 }
 
-/// By the flight's clock. The middle row of a rolling shutter stands for all.
+/// By the flight's clock. The time of a rolling shutter's middle row is used for all rows.
 Time RgbdPipeline::timeOf(const common::RgbdFrame& frame) const {
   return frame.stamps.measured + frame.row_time * (frame.camera.height_px / 2) -
          Duration::fromSeconds(calibration_.clockOffset_s());

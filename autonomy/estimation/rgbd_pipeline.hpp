@@ -37,10 +37,10 @@ struct BodyAtFrame {
   mapping3d::MovingBody motion;
 };
 
-/// What the estimator knows at the time of a frame.
+/// The estimator's data at the time of a frame.
 struct FrameSituation {
-  std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body; none if that is not known.
-  std::optional<BodyAtFrame> body;                ///< Motion of the body; none if that is not known.
+  std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body; nullopt if it is not known.
+  std::optional<BodyAtFrame> body;                ///< Motion of the body; nullopt if it is not known.
   /// Whether a measurement has just supported the position, so that it is a pose in the map and not only predicted.
   bool supported = false;
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
@@ -67,18 +67,18 @@ class RgbdPipeline {
   /// False for a frame that cannot be used: it is counted and left out.
   bool add(std::shared_ptr<const common::RgbdFrame> frame);
 
-  /// The time at which the frame that is next to be mapped was measured; none while there is no such frame, or while
+  /// The time at which the frame that is next to be mapped was measured; nullopt while there is no such frame, or while
   /// another one is being mapped.
   std::optional<common::Time> next() const;
   /// Until then it is worth waiting for a scan of its time. Only if there is a next one.
   common::Time waitUntil() const { return waiting_->stamps.arrived + common::Duration::fromSeconds(config_.wait_s); }
   /// Maps the next frame.
   void map(const FrameSituation& situation, common::Time now);
-  /// What the last frame tells the filter; none if that was asked before, or if there is nothing new.
+  /// The measurement of the last frame for the filter; nullopt if it was taken before, or without a new frame.
   std::optional<CameraStep> takeStep() { return std::exchange(step_, std::nullopt); }
   /// The filter no longer has the clone from which the measurements start.
   void forgetClone() { reference_.reset(); }
-  /// Notices that the camera sends nothing usable, takes what has come over the radio, and fuses the submaps if it is
+  /// Detects that the camera sends nothing usable, takes what has come over the radio, and fuses the submaps if it is
   /// time. To be called at every tick.
   void watch(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 
@@ -88,7 +88,7 @@ class RgbdPipeline {
   /// The layer with these key scans; null before the first frame. The same object until something changes.
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
   const RgbdCounts& counts() const { return counts_; }
-  /// None without a radio.
+  /// nullopt without a radio.
   std::optional<mapping3d::RadioCounts> radioCounts() const {
     return radio_ ? std::optional(radio_->counts()) : std::nullopt;
   }
@@ -133,7 +133,7 @@ class RgbdPipeline {
   std::set<std::string> faults_said_;
   std::optional<common::Time> through_at_;  ///< When a frame last came through the radio.
   bool stuck_said_ = false;                 ///< An event has said that no frame comes through the radio.
-  int most_halvings_ = 0;                   ///< Most halvings of frames that an event has told.
+  int most_halvings_ = 0;                   ///< Most halvings of frames that an event has reported.
   std::optional<common::Time> lost_since_;
 
   Map3dPublisher publisher_;

@@ -16,9 +16,9 @@ struct RgbdPipelineConfig {
   static constexpr bool measure = true;  ///< Whether the poses of frames are measurements for the filter.
   double latency_s = 0.06;
   static constexpr double wait_s = 0.05;   ///< Greatest wait of a frame for a scan that is not older.
-  Map3dPublisherConfig publisher;          ///< Its keys are on the level of the pipeline's own.
-  static constexpr double silent_s = 1.0;  ///< A camera that sends no usable frame for so long is silent.
-  static constexpr double lost_s = 0.5;    ///< The track counts as lost when no frame has fitted for so long.
+  Map3dPublisherConfig publisher;          ///< Its keys are at this level of the file.
+  static constexpr double silent_s = 1.0;  ///< A camera that sends no usable frame for this long is silent.
+  static constexpr double lost_s = 0.5;    ///< The track counts as lost when no frame has fitted for this long.
 
   void describe(common::config::Fields& fields);
 };

@@ -27,7 +27,7 @@ namespace swiftlet::autonomy {
 
 struct EstimatorConfig;
 
-/// What else the estimator knows at a tick.
+/// Further data of the estimator at a tick.
 struct MapSituation {
   const PoseTrack& poses;
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
@@ -50,7 +50,7 @@ class SpaceSensors {
   bool hasCamera() const { return rgbd_ != nullptr; }
   /// Mount and clock; only with a camera.
   common::CameraEstimate camera() const { return rgbd_->camera(); }
-  /// What the camera tells the filter, at every tick before `map`; none without news.
+  /// The measurement of the camera for the filter, at every tick before `map`; nullopt without a new one.
   std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   /// See RgbdPipeline::forgetClone.
   void forgetClone() { rgbd_->forgetClone(); }
@@ -60,9 +60,9 @@ class SpaceSensors {
   /// Null before the first frame or sweep.
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
   std::vector<common::Target> targets(const common::KeyPoses& keys) const;
-  /// None without a camera.
+  /// nullopt without a camera.
   std::optional<RgbdCounts> counts() const { return rgbd_ ? std::optional(rgbd_->counts()) : std::nullopt; }
-  /// None without a camera whose frames come over a radio.
+  /// nullopt without a camera whose frames come over a radio.
   std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
   std::vector<common::Event> takeEvents(const common::PlaceNames& names);
 

@@ -14,7 +14,7 @@ using common::Duration;
 using common::Time;
 
 constexpr const char* kTargets = "targets";
-/// So long a frame waits for a scan that is not older, as the frames of the 3D map do by default.
+/// A frame waits this long for a scan that is not older, as the frames of the 3D map do by default.
 constexpr double kWait_s = 0.05;
 
 }  // namespace

@@ -47,8 +47,8 @@ class TargetPipeline {
 
   /// Of frames that RgbdPipeline::add accepts. A newer one replaces the one that waits.
   void add(std::shared_ptr<const common::RgbdFrame> frame);
-  /// The time at which the frame that is next was measured, by the flight's clock; none while there is none, or while
-  /// another one is being looked at. `clock_offset_s` is how late the camera's clock is.
+  /// The time at which the frame that is next was measured, by the flight's clock; nullopt without one, or while
+  /// another one is being processed. `clock_offset_s` is how late the camera's clock is.
   std::optional<common::Time> next(double clock_offset_s) const;
   /// Until then it is worth waiting for a scan of its time. Only if there is a next one.
   common::Time waitUntil() const;

@@ -11,15 +11,15 @@ namespace {
 using common::CellIndex;
 using common::Time;
 
-constexpr double kPeriod_s = 0.045;  ///< Scans in between are left out: twenty a second say enough.
+constexpr double kPeriod_s = 0.045;  ///< Scans in between are left out: twenty a second suffice.
 constexpr double kReach_m = 4.0;     ///< What blocks a path is near.
 constexpr double kHover_m_s = 0.2;   ///< Above the speed of a hover in gusts; flights are faster.
-/// Beams that rise or fall by more than this say nothing about the laser's height.
+/// Beams that rise or fall by more than this show nothing at the laser's height.
 constexpr double kLevel_m = 0.04;
 constexpr int kHits = 5;                                     ///< Fewer may be noise.
 constexpr double kPassed_s = 0.35;                           ///< Longer than the gap between two legs stays open.
 constexpr int kPasses = 4;                                   ///< So that no single wrong scan frees a place.
-constexpr double kForgotten_s = 90.0, kForgetEvery_s = 1.0;  ///< Bounds the memory; longer than people stand in a way.
+constexpr double kForgotten_s = 90.0, kForgetEvery_s = 1.0;  ///< Bounds the memory; longer than people block a path.
 
 template <typename Cells>
 void sortOnce(Cells& cells) {

@@ -1,6 +1,6 @@
-// Places that something has just left. Who stands somewhere for a while is drawn into the slices of the map at every
+// Places that a person has just left. A person who stands for a while is drawn into the slices of the map at every
 // height that a tilting laser meets, and a hovering vehicle, whose beams stay in one slice, would clear these only in
-// half a minute. Where level beams ended before and pass now, what stood there is gone, at every height of the hull
+// half a minute. Where level beams ended before and pass now, the place is free again, at every height of the hull
 // (Grzonka 2012, V-E: the vehicle follows a detour once a person has moved out of its way).
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace swiftlet::autonomy {
 
-/// One thread. An obstacle that level beams never met, such as a shelf, is not affected.
+/// One thread. An obstacle that level beams never hit, such as a shelf, is not affected.
 class VacatedPlaces {
  public:
   /// Takes in the beams of a scan. Passing beams count only while the vehicle hovers: in flight the slices are cleared
@@ -32,10 +32,10 @@ class VacatedPlaces {
 
  private:
   using Cell = std::pair<int, int>;
-  /// A cell that level beams met.
+  /// A cell that level beams hit.
   struct Met {
     int hits = 0;
-    common::Time seen;                         ///< When it was last met or passed.
+    common::Time seen;                         ///< When it was last hit or passed.
     std::optional<common::Time> passed_since;  ///< From when on beams have passed it and none has ended near it.
     common::Time passed_last;
     int passes = 0;  ///< Scans since then.

@@ -21,7 +21,7 @@ constexpr const char* kDrawing = "mapping3d";
 /// Sweeps that wait to be placed, or to be drawn: half a second of the fastest laser. More of them come only when the
 /// link has held them back, or the work takes longer than it may.
 constexpr std::size_t kMostWaiting = 20;
-/// A laser whose data sheet says that it has no noise still counts in millimetres.
+/// The least noise, for a laser whose data sheet says that it has none.
 constexpr double kLeastNoise_m = 0.001;
 
 Time endOf(const common::LaserScan& sweep) {

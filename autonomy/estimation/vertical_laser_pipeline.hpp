@@ -1,5 +1,5 @@
 // Makes the 3D map from the sweeps of a second laser whose scan plane stands upright. It needs no camera, and works
-// outdoors. The sweeps are not matched: what places them is the laser in the plane, the altitude and the attitude.
+// outdoors. The sweeps are not matched: their poses come from the level laser, the altitude and the attitude.
 //
 //   sweep --> waits until the poses of its beams are known --> returns, each by the pose of its own time
 //                --> SubmapStore (points, voxels), a job --> Map3dLayer
@@ -37,7 +37,7 @@ struct VerticalLaserPipelineConfig {
   double body_radius_m = 0.3;
   double latency_s = 0.05;                ///< Declared time for drawing the sweeps that have come since the last job.
   static constexpr double wait_s = 0.05;  ///< Greatest wait of a sweep for a scan of the first laser that is not older.
-  static constexpr double silent_s = 1.0;  ///< A laser that sends no usable sweep for so long is silent.
+  static constexpr double silent_s = 1.0;  ///< A laser that sends no usable sweep for this long is silent.
 
   void describe(common::config::Fields& fields);
 };
@@ -67,7 +67,7 @@ class VerticalLaserPipeline {
   /// A sweep that was not measured after the last one is counted and left out.
   void add(std::shared_ptr<const common::VerticalScan> sweep);
 
-  /// First and last time of the sweep that is placed next; none if none waits.
+  /// First and last time of the sweep that is placed next; nullopt if no sweep waits.
   struct Interval {
     common::Time begin, end;
   };
@@ -76,7 +76,7 @@ class VerticalLaserPipeline {
   common::Time waitUntil() const;
   /// Places the next sweep; without a situation it is left out.
   void place(const std::optional<SweepSituation>& situation);
-  /// Draws what was placed, in a job, and notices that the laser sends nothing usable. To be called at every tick.
+  /// Draws the placed sweeps, in a job, and detects that the laser sends nothing usable. To be called at every tick.
   void draw(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 
   /// See Map3dPublisher::layer.

@@ -17,9 +17,9 @@ namespace occupancy = common::occupancy;
 
 /// The localization is a mean of particles and varies by one to three centimetres from generation to generation.
 constexpr double kSmoothing_s = 3.0;
-/// The frame is moved when it is so far off at the vehicle: less than half of what a goal may be missed by.
+/// The frame is moved when it is off by this much at the vehicle: less than half of the tolerance of a goal.
 constexpr double kMoved_m = 0.02;
-/// More than noise: the map of the flight was corrected, or the place found anew.
+/// More than noise: the map of the flight was corrected, or the place was found again.
 constexpr double kJumped_m = 0.20;
 /// A turn moves what is far away: 1 deg is 9 cm at 5 m.
 constexpr double kTurned_rad = 0.5 * common::kRadPerDeg;

@@ -40,10 +40,10 @@ class GivenMapOverlay {
   std::shared_ptr<const common::OccupancyGrid> gridForPaths() const { return for_paths_; }
   /// The map of the flight alone; null before the first update.
   const std::shared_ptr<const common::OccupancyGrid>& flown() const { return flown_; }
-  /// The given map; null if there is none.
+  /// The given map; null without one.
   const std::shared_ptr<const GivenMap>& given() const { return given_; }
   /// The frame of the given map, smoothed, and moved in steps of some centimetres at the vehicle, so that plans live
-  /// longer than a scan. None while the vehicle is not localized.
+  /// longer than a scan. nullopt while the vehicle is not localized.
   const std::optional<common::Pose2>& T_map_given() const { return T_map_given_; }
   /// What has changed since the given map was made.
   std::vector<common::Event> takeEvents() { return changes_.takeEvents(); }

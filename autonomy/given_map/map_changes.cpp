@@ -13,10 +13,10 @@ using common::CellIndex;
 using common::OccupancyGrid;
 namespace occupancy = common::occupancy;
 
-constexpr double kInterval_s = 2.0;  ///< What differs is said after 4 s: twice it is looked at.
+constexpr double kInterval_s = 2.0;  ///< A difference is reported after 4 s: it is checked twice.
 /// The same wall differs by as much in two maps: 1 deg at 10 m is 17 cm, and a cell on each side.
 constexpr double kUnchangedWithin_m = 0.25;
-/// Outline of the smallest thing that is said: a box of 15 cm shows one or two sides of it.
+/// Outline of the smallest change that is reported: a box of 15 cm shows one or two sides of it.
 constexpr double kLeastOutline_m = 0.30;
 /// A person who walks by is gone at the next check.
 constexpr int kChecks = 3;

@@ -21,7 +21,7 @@ class MapChanges {
   /// Compares the two grids, at most every few seconds. `laid` is the given map in the cells of the flight's map.
   void update(common::Time now, const common::OccupancyGrid& flown, const common::OccupancyGrid& laid,
               const common::Pose2& T_map_given);
-  /// The place is lost, or another map is the given one: what has not been said twice is forgotten.
+  /// The place is lost, or the given map was replaced: changes that have not been reported are forgotten.
   void forget() { seen_.clear(); }
   std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
 

@@ -15,7 +15,7 @@ using common::CellIndex;
 using common::OccupancyGrid;
 namespace occupancy = common::occupancy;
 
-/// The cells that belong to an occupied square of so many cells a side: what a morphological opening leaves of the map.
+/// The cells that belong to an occupied square of this side in cells: what a morphological opening leaves of the map.
 class ThickWalls {
  public:
   ThickWalls(const OccupancyGrid& grid, int side)

@@ -20,7 +20,7 @@ class ResampledMap {
   ResampledMap(const common::OccupancyGrid& source, double resolution_m);
 
   double resolution_m() const { return resolution_m_; }
-  /// The source, whose frame lies in that of the result as told.
+  /// The source in the frame of the result, placed by `T_target_source`.
   common::OccupancyGrid drawn(const common::OccupancyGrid& source, const common::Pose2& T_target_source) const;
 
  private:

@@ -12,7 +12,7 @@ namespace swiftlet::autonomy {
 
 /// An AHRS errs by about a degree, for a quarter of a minute in one direction, and leans while the vehicle accelerates.
 /// The estimate, which the laser supports, errs by a fifth of that. The error turns with the vehicle, so that an
-/// integral over the world's axes has to learn it anew after each turn. One thread.
+/// integral over the world's axes has to learn it again after each turn. One thread.
 class HorizonOffset {
  public:
   /// The attitudes at the time of one inertial sample.

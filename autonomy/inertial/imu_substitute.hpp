@@ -1,7 +1,7 @@
 // What an inertial unit would measure, predicted from the setpoints while it gives nothing that can be used: the
 // attitude follows roll, pitch and yaw rate of the setpoint with a lag, and the specific force along the rotors' axis
 // is gravity times the share of the hover thrust. With it the filter goes on by laser and height (Tomic 2012, "Action",
-// asks for a fall-back when inertial measurements fail), and the descent is steered by the position.
+// requires a fall-back when inertial measurements fail), and the descent is steered by the position.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ class ImuSubstitute {
   void measured(const common::ImuSample& sample);
   /// The setpoint that is flown from now on, and its thrust over that which carries the weight.
   void flown(const common::Setpoint& setpoint, double thrust_over_hover);
-  /// The next sample, one control period after the last one; none if that is later than `now`, before the first
+  /// The next sample, one control period after the last one; nullopt if that is later than `now`, before the first
   /// measured sample, and when that is longer ago than any descent takes.
   std::optional<common::ImuSample> next(common::Time now);
 

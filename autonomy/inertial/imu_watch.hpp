@@ -20,7 +20,7 @@ struct ImuWatchConfig {
 /// Whether all its numbers are.
 bool isFinite(const common::ImuSample& sample);
 
-/// One thread. A sample that is not finite counts as none. A sensor that measures never gives the same numbers many
+/// One thread. A sample that is not finite is left out. A sensor that measures never gives the same numbers many
 /// times in a row, so samples that are equal bit by bit come from a driver that repeats its last one. The same holds
 /// for the attitude alone, whose noise is about a degree: while the gyroscopes measure, an attitude that repeats is
 /// that of an AHRS that has stopped, in a hover too; and, within thrice the time, for the rates or the forces alone.
@@ -29,7 +29,7 @@ class ImuWatch {
   explicit ImuWatch(const ImuWatchConfig& config) : config_(config) {}
 
   void add(const common::ImuSample& sample);
-  /// The newest samples are an old one that a driver repeats: they say nothing of the motion, and must not be
+  /// The newest samples are an old one that a driver repeats: they do not measure the motion, and must not be
   /// integrated.
   bool repeats() const;
   /// What is wrong at `now`, for people; empty if nothing is, and before the first sample. A view of a literal: a tick
@@ -39,7 +39,7 @@ class ImuWatch {
  private:
   ImuWatchConfig config_;
   std::optional<common::ImuSample> last_;  ///< The last finite sample.
-  bool finite_ = true;                     ///< The last sample was.
+  bool finite_ = true;                     ///< Whether the last sample was finite.
   /// Stamps of the last samples whose part of it differed from the one before.
   common::Time rates_changed_, force_changed_, attitude_changed_;
 };

@@ -24,11 +24,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kPause_s = 0.1;  ///< After a pause the windows begin anew.
+constexpr double kPause_s = 0.1;  ///< After a pause the windows start over.
 /// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
 constexpr std::size_t kUsualSamples = 320;
 
-/// The mean of `value` over the newest samples of `window` that span `span_s`; none if they do not span it yet.
+/// The mean of `value` over the newest samples of `window` that span `span_s`; nullopt if they do not span it yet.
 template <typename Window, typename Value>
 auto meanOver(const Window& window, double span_s, Value value) -> std::optional<decltype(value(window.back()))> {
   auto sum = value(window.back());
@@ -71,7 +71,7 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   ImuSample used = sample;
   if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
   if (force_wrong_) {
-    // The filter measures the noise of its samples by their differences. What stands in for a measurement is off by a
+    // The filter measures the noise of its samples by their differences. A replaced value is off by a
     // few percent of gravity for seconds, which is worth this much noise.
     spread_m_s2_ = spread_m_s2_ > 0.0 ? -config_.implied_spread_m_s2 : config_.implied_spread_m_s2;
     used.specific_force_body_m_s2 =
@@ -80,9 +80,9 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   return used;
 }
 
-/// Near the ground so little thrust is that of a vehicle which stands, whose weight the ground carries.
+/// Near the ground so little thrust means that the vehicle stands, and the ground carries its weight.
 double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
-  constexpr double kStands = 0.85;  // Less lifts nothing, even where the hover command is a tenth off.
+  constexpr double kStands = 0.85;  // Less cannot lift, even where the hover command is off by a tenth.
   const bool stands = context_.near_ground && expected_m_s2 < kStands * common::kGravity_m_s2;
   return stands || !context_.thrust_applies ? common::kGravity_m_s2 : expected_m_s2;
 }
@@ -140,7 +140,7 @@ std::string InertialCheck::fault() const {
 }
 
 /// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
-/// than half of that leaves it as it is. None if they do not span it yet.
+/// than half of that leaves it as it is. nullopt if they do not span it yet.
 std::optional<double> InertialCheck::medianForce_m_s2(double span_s, int component) {
   const Time newest = window_.back().sample.stamps.measured;
   if ((newest - window_.front().sample.stamps.measured).seconds() < span_s - 1e-6) return std::nullopt;
@@ -178,7 +178,7 @@ void InertialCheck::compareForces(Time now) {
   const auto along = meanOver(window_, config_.vertical_window_s, [](const Compared& one) {
     return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
   });
-  // Less force than the thrust gives is a vehicle that sinks: a motor or a battery gives way. More cannot be.
+  // Less force than the thrust gives means a sinking vehicle, by a weak motor or battery. More force is impossible.
   if (along && *along > config_.vertical_m_s2) distrust(*along, Fault::kAlong);
 }
 

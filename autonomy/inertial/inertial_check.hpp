@@ -1,5 +1,5 @@
-// Notices inertial samples that contradict the attitude of the AHRS and the thrust that was given, and puts these in
-// the place of what they contradict, so that the filter goes on with laser and height (Tomic 2012, "Action", asks for a
+// Notices inertial samples that contradict the attitude of the AHRS and the thrust that was given, and replaces what
+// contradicts by these, so that the filter continues with laser and height (Tomic 2012, "Action", requires a
 // fall-back when the fusion diverges; here the fusion is kept from it).
 #pragma once
 
@@ -21,16 +21,15 @@ struct InertialCheckConfig {
   static constexpr double rate_window_s = 0.1;  ///< Time over which rates are compared.
   static constexpr double vertical_m_s2 =
       3.5;  ///< Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer
-            ///< is not used; less force than that is a vehicle that sinks.
+            ///< is not used; less force than that means that the vehicle sinks.
   static constexpr double vertical_window_s = 0.05;  ///< Time over which forces along the axis are compared.
   static constexpr double horizontal_m_s2 =
       2.5;  ///< Median specific force across the rotors' axis from which the accelerometer is not used.
   static constexpr double horizontal_window_s = 0.3;  ///< Time over which the median of forces across the axis is
                                                       ///< taken: more than twice that of a push of a hand.
-  static constexpr double implied_spread_m_s2 =
-      4.0;  ///< What takes the place of a specific force alternates by this much from sample to sample, so that the
-            ///< filter trusts laser and height more.
-  static constexpr double thrust_lag_s = 0.05;  ///< Lag of the thrust behind its command.
+  static constexpr double implied_spread_m_s2 = 4.0;  ///< A replaced specific force alternates by this much from sample
+                                                      ///< to sample, so that the filter weights laser and height more.
+  static constexpr double thrust_lag_s = 0.05;        ///< Lag of the thrust behind its command.
   static constexpr double trusted_again_s =
       1.0;  ///< Samples are used again once nothing has contradicted them for this long.
   static constexpr double land_after_s = 1.5;  ///< A contradiction that has lasted this long ends in a landing.
@@ -39,7 +38,7 @@ struct InertialCheckConfig {
 /// What the vehicle does, as far as it decides what a sample must be.
 struct InertialContext {
   bool airborne = false;     ///< Flying, taking off or landing; on the ground nothing is compared.
-  bool near_ground = false;  ///< The ground may carry a part of the weight: the thrust says nothing.
+  bool near_ground = false;  ///< The ground may carry a part of the weight: the thrust is no reference.
   bool thrust_applies = true;
   double thrust_over_hover = 1.0;  ///< Command given over the command that carries the weight.
 };
@@ -54,8 +53,8 @@ class InertialCheck {
 
   /// Call at each tick of the control.
   void vehicleIs(const InertialContext& context) { context_ = context; }
-  /// The sample to be used: the same one, or one whose rates are those of the AHRS, or whose specific force is that of
-  /// the thrust. A sample that is not finite is returned as it is and counts as none.
+  /// The sample to be used: unchanged, or with the rates of the AHRS, or with the specific force of
+  /// the thrust. A sample that is not finite is returned unchanged and left out.
   common::ImuSample checked(const common::ImuSample& sample);
   /// Samples are being replaced.
   bool contradicted() const { return rates_wrong_ || force_wrong_; }
@@ -68,7 +67,7 @@ class InertialCheck {
   struct Compared {
     common::ImuSample sample;
     double expected_m_s2 = 0.0;  ///< Specific force along z.
-    bool known = false;          ///< Whether the thrust says it.
+    bool known = false;          ///< Whether the thrust determines it.
   };
   double expectedForce_m_s2(common::Time now);
   double impliedForce_m_s2(double expected_m_s2) const;
@@ -85,8 +84,8 @@ class InertialCheck {
   double thrust_over_hover_ = 1.0;
   double spread_m_s2_ = 0.0;  ///< Of the last force that was replaced.
   std::optional<common::Time> last_, since_;
-  std::optional<common::Time> rates_wrong_, force_wrong_;  ///< When they last were.
-  /// What the last sample contradicts; none if it is only mistrusted because of earlier ones.
+  std::optional<common::Time> rates_wrong_, force_wrong_;  ///< When they last were wrong.
+  /// What the last sample contradicts; kNone if it is left out only because of earlier ones.
   enum class Fault { kNone, kRates, kAcross, kAlong };
   Fault fault_ = Fault::kNone;
   double fault_size_ = 0.0;  ///< In deg/s or m/s^2.

@@ -26,16 +26,16 @@ struct InertialInputConfig {
 /// One thread.
 class InertialInput {
  public:
-  /// The lag of the attitude is the one that the controllers believe.
+  /// The lag of the attitude that the controllers assume.
   InertialInput(const InertialInputConfig& config, double attitude_lag_s)
       : watch_(config.imu),
         check_(config.inertial_check),
         substitute_({attitude_lag_s, config.inertial_check.thrust_lag_s}) {}
 
-  /// What the filter is to be given for a sample that arrived; none if it tells nothing.
+  /// The filter's input for a sample that arrived; nullopt if it is of no use.
   std::optional<common::ImuSample> take(const common::ImuSample& sample);
-  /// The next sample that takes the place of measured ones; none while those can be used, on the ground, and while
-  /// somebody else flies than the setpoints. To be called at each tick until there is none.
+  /// The next sample that replaces measured ones; nullopt while those can be used, on the ground, and while a pilot
+  /// overrides the setpoints. To be called at each tick until it returns nullopt.
   std::optional<common::ImuSample> predicted(common::Time now);
   /// Call at each tick of the control.
   void flown(const common::Setpoint& setpoint, const InertialContext& context);

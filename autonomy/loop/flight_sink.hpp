@@ -1,4 +1,4 @@
-// Observers of a flight: the run folder, the page, the scorer, a recorder. They see everything and change nothing.
+// Observers of a flight: the run folder, the page, the scorer, a recorder. They see everything and have no effect.
 #pragma once
 
 #include <memory>
@@ -27,12 +27,12 @@ struct TickOutcome {
   common::VehicleState state;
   common::Intent intent;               ///< The intent since the last tick of the behaviours.
   common::IntentStatus intent_status;  ///< The status of that intent.
-  /// Where the controller wants the vehicle; none unless it flies.
+  /// The reference of the controller; nullopt unless the vehicle flies.
   std::optional<Eigen::Vector3d> reference_odom_m = std::nullopt;
 };
 
 /// Each function is called in the loop's thread, and may be left out. The order is that of the loop: the inputs up to a
-/// tick; then the outcome of the tick, the world if there is a new snapshot, the files that the mission asked for, the
+/// tick; then the outcome of the tick, the world if there is a new snapshot, the files that the mission requested, the
 /// events, and the answers to commands.
 class FlightSink {
  public:

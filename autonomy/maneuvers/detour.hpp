@@ -30,7 +30,7 @@ class Detour {
   /// requested) long enough ago.
   bool due(common::Time stuck_since, common::Time now) const;
   void ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m);
-  /// `reason` says why there is no path. Returns what the intent says meanwhile: "detour: goes nearer to look".
+  /// `reason` says why there is no path. Returns the progress meanwhile: "detour: goes nearer to look".
   Progress begin(const DetourPlan& plan, std::string reason, common::Time now, const common::VehicleState& state);
   /// Call it once a tick. Stops when the detour has arrived, took too long, or lost its path.
   void endWhenOver(const ManeuverInput& input);

@@ -9,7 +9,7 @@
 namespace swiftlet::autonomy {
 
 struct ExecutorConfig {
-  PlanningConfig planning;  ///< Without a section of its own: its keys stand beside those of the settings below.
+  PlanningConfig planning;  ///< Its keys are at this level of the file.
   planning::PlanKeeper::Config plan_keeper;
   static constexpr double explore_period_s = 0.5;  ///< Least time between choices of the next viewpoint.
   static constexpr double explore_period_share =
@@ -22,7 +22,7 @@ struct ExecutorConfig {
   static constexpr double viewpoint_tolerance_deg = 12.0;  ///< Yaw error at which a viewpoint counts as reached.
   double give_up_s = 60.0;
   double detour_after_s = 2.5;
-  static constexpr double detour_s = 15.0;  ///< Longest time of going nearer or aside; a path is asked for meanwhile.
+  static constexpr double detour_s = 15.0;  ///< Longest time of going nearer or aside; a path is requested meanwhile.
   FollowConfig follow;
 
   void describe(common::config::Fields& fields);

@@ -53,7 +53,7 @@ Progress Explore::fly(const ManeuverInput& input) {
   return Progress::running();
 }
 
-/// A choice on a large map takes long, and a viewpoint far away seldom changes: it is chosen anew after a share of the
+/// A choice on a large map takes long, and a viewpoint far away seldom changes: it is chosen again after a share of the
 /// time that its path takes.
 double Explore::reconsiderAfter_s() const {
   const double rest_m = common::polylineLength(flight_.remaining_map_m());

@@ -23,30 +23,30 @@ struct ExplorationMemory {
 
 class PersonWatch;
 
-/// Who is followed, so that a Follow that was interrupted, by avoiding an obstacle for example, goes on with the same
+/// The followed person, so that a Follow that was interrupted, by avoiding an obstacle for example, keeps that
 /// person.
 struct FollowMemory {
-  std::shared_ptr<PersonWatch> person;  ///< Null: nobody yet.
+  std::shared_ptr<PersonWatch> person;  ///< Null: no person yet.
   common::Time watched;                 ///< When it was last updated.
 };
 
 struct TourState;
 
 struct FlightMemory {
-  /// Height of paths over the take-off floor: that of the take-off until a goal names another.
+  /// Height of paths over the take-off floor: the height of the take-off until a goal names another.
   double cruise_height_m = 1.0;
-  /// The lower height of the plan that leads below something; none once the vehicle is back at the height of paths.
+  /// The lower height of the plan that leads below something; nullopt once the vehicle is back at the height of paths.
   std::optional<double> lowered_m;
   /// Where the vehicle flew lower, and how high over the take-off floor: a flight back along the trail flies there as
   /// low.
   std::vector<Eigen::Vector3d> lowered_map_m;
-  /// Where the vehicle stood before it last took off: there it can stand again. None where the position was unknown.
+  /// Where the vehicle stood before it last took off: there it can stand again. nullopt where the position was unknown.
   std::optional<Eigen::Vector2d> stood_map_m;
   bool told_laser_alone = false;  ///< An event has said that a laser cannot know whether there is room below.
   ExplorationMemory exploration;
   FollowMemory follow;
   std::vector<std::shared_ptr<TourState>> tours;  ///< Those that have not ended, see Tour; the newest last.
-  std::optional<Eigen::Vector2d> person_map_m;    ///< Where the person who is, or was, followed was last believed.
+  std::optional<Eigen::Vector2d> person_map_m;    ///< Last estimated place of the person who is, or was, followed.
   std::vector<common::Event> events;
 
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {}) {

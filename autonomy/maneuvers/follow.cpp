@@ -26,7 +26,7 @@ constexpr double kMayStand_s = 1.5;
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "follow a person", intent.mode), config_(setup.config.follow), intent_(intent) {}
 
-/// The person who was followed a moment ago is still the one; to return, the place counts where that person was last.
+/// A person who was followed a moment ago is kept. To return, the last place of that person counts.
 void Follow::begin(Time now) {
   since_ = now;
   FollowMemory& memory = setup_.memory.follow;
@@ -138,7 +138,7 @@ bool Follow::flyAlongTrail(const ManeuverInput& input, const planning::CostMap& 
   return true;
 }
 
-/// A path of one point means to stay here.
+/// A path of one point is a hold.
 void Follow::flyOrStay(const planning::Path& path, const ManeuverInput& input) {
   if (path.points_map_m.size() == 1) {
     if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();

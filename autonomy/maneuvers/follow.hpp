@@ -12,9 +12,9 @@ namespace swiftlet::autonomy {
 
 /// One thread.
 ///
-///   looks for somebody who walks --> follows --> lost: flies to where the person may be --> failed
+///   looks for a walking person ----> follows --> lost: flies to where the person may be --> failed
 ///                                       ^----------- seen again -----------+
-///   To return it first flies to where the last person was, and is done when it is near somebody.
+///   To return it first flies to where the last person was, and is done when it is near a person.
 class Follow final : public PathManeuver {
  public:
   Follow(const common::FollowIntent& intent, const ManeuverSetup& setup);
@@ -45,7 +45,7 @@ class Follow final : public PathManeuver {
   std::shared_ptr<PersonWatch> person_;  ///< Never null after the first watch().
   std::optional<Eigen::Vector2d> target_map_m_;
   std::optional<common::Time> since_, near_since_;
-  std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for somebody.
+  std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for a person.
   common::Time asked_;
   bool on_trail_ = false;  ///< The plan leads along the trail.
   bool lost_ = false;

@@ -1,5 +1,5 @@
-// The configuration of following a person: how people walk, when a track is the person's, where a person who is not
-// seen may be, and what a path behind the person costs.
+// The configuration of following a person: how people walk, when a track is the person's, where a hidden person
+// may be, and what a path behind the person costs.
 #pragma once
 
 #include "common/config_fwd.hpp"
@@ -9,11 +9,10 @@ namespace swiftlet::autonomy {
 /// How people walk indoors.
 struct WalkingConfig {
   static constexpr double stands_m_s = 0.25;   ///< A person who is slower than this stands.
-  static constexpr double slow_m_s = 0.3;      ///< Least speed of a person who has turned where nobody saw it.
-  static constexpr double fast_m_s = 1.1;      ///< Greatest speed of a person who has turned where nobody saw it.
+  static constexpr double slow_m_s = 0.3;      ///< Least speed of a person who has turned while hidden.
+  static constexpr double fast_m_s = 1.1;      ///< Greatest speed of a person who has turned while hidden.
   static constexpr double sets_off_m_s = 0.5;  ///< Speed at which a person who stands is expected to set off.
-  static constexpr double turns_1_s =
-      0.4;  ///< Turns and stops of a walking person, per second, where nothing forces them.
+  static constexpr double turns_1_s = 0.4;   ///< Turns and stops of a walking person, per second, without an obstacle.
   static constexpr double stop_share = 0.3;  ///< Share of stops among the turns and stops of a walking person.
   static constexpr double goes_on_share =
       0.5;  ///< Probability that a person in sight goes on as before in the next seconds: straight on, or standing.
@@ -21,7 +20,7 @@ struct WalkingConfig {
 };
 
 struct HiddenPersonConfig {
-  static constexpr int particles = 200;         ///< Places where a person who is not seen may be.
+  static constexpr int particles = 200;         ///< Places where a hidden person may be.
   static constexpr double place_sigma_m = 0.1;  ///< Standard deviation of the place at the end of a track, per axis.
   static constexpr double velocity_sigma_m_s =
       0.15;  ///< Standard deviation of the velocity at the end of a track, per axis.
@@ -31,7 +30,7 @@ struct HiddenPersonConfig {
                                          ///< and rises as fast while they end on something new there.
   static constexpr double explained_within_m = 0.12;  ///< An end point this near to something that the map showed
                                                       ///< before the person stood there is explained by it.
-  static constexpr double other_within_m = 0.5;  ///< What beams end on this near to another tracked person is that one.
+  static constexpr double other_within_m = 0.5;  ///< Beam ends this near to another tracked person are that person.
   static constexpr double spread_m = 0.03;       ///< Spread of the places of particles that are drawn from one.
   static constexpr double spread_m_s = 0.05;     ///< Spread of the velocities of particles that are drawn from one.
   static constexpr double one_place_m = 0.6;     ///< Particles within this distance count as one place.
@@ -63,7 +62,7 @@ struct PursuitConfig {
             ///< distance, or with the person out of sight, counts 1.
   static constexpr double per_square_metre = 0.3;  ///< Loss of a right distance by its squared error.
   static constexpr double per_move =
-      0.03;  ///< Loss of flying for one step, so that the vehicle waits where that is as good.
+      0.03;  ///< Loss of flying for one step, so that the vehicle waits where waiting is equally good.
   static constexpr double per_cost = 0.02;  ///< Loss by the cost of a step in the cost map above that of open space.
   static constexpr double mapped_within_m =
       0.45;  ///< What the map shows this near to where the person walked is the person.
@@ -86,12 +85,12 @@ struct PaceConfig {
 
 struct FollowConfig {
   static constexpr double replan_s = 0.2;     ///< Time between two paths.
-  static constexpr double replan_m = 0.4;     ///< A place to fly to that moved by less is the same.
-  static constexpr double lost_s = 3.0;       ///< A person who was not seen for longer is said to be out of sight.
+  static constexpr double replan_m = 0.4;     ///< A place to fly to that moved by less counts as unchanged.
+  static constexpr double lost_s = 3.0;       ///< A person who was not seen for longer is reported as out of sight.
   static constexpr double tolerance_m = 0.5;  ///< Tolerance of the place where a person is expected.
   static constexpr double near_s = 1.0;       ///< The vehicle has returned to a person when it was near for this long.
   static constexpr double looks_ahead_s =
-      8.0;  ///< Somebody to be followed is waited for ahead for this long; then the vehicle turns around.
+      8.0;  ///< The vehicle waits ahead for a person for this long; then it turns around.
   static constexpr double looks_around_deg_s = 25.0;  ///< Yaw rate of turning around to look for the person.
   PersonWatchConfig watch;
   PaceConfig pace;

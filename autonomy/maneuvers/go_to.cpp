@@ -30,7 +30,7 @@ bool isGoalTaken(const planning::PlanFailure& failure) {
          failure.reason == Reason::kOutsideMap;
 }
 
-/// A point of the path where something may stand that blocks it.
+/// A point of the path where an obstacle may block it.
 std::optional<Eigen::Vector2d> pointAhead(const std::vector<Eigen::Vector2d>& path_map_m) {
   constexpr double kAhead_m = 1.5;  // Farther than the vehicle brakes, near enough to be in sight.
   if (path_map_m.empty()) return std::nullopt;
@@ -111,8 +111,8 @@ void GoTo::tellLaserAlone(Time now, const planning::PlanFailure& failure) {
                     "no camera makes a 3D map");
 }
 
-/// The laser does not see behind the vehicle: one that has gone aside and waits there with its back to the blockage
-/// would never learn that the path is free.
+/// The laser does not see behind the vehicle: a vehicle that waits aside with its back to the blockage
+/// would never see that the path is free.
 void GoTo::lookAlongBlockedPath() {
   const bool waits = no_path_ && !flight_.plan();
   setup_.controller.lookAt(waits ? ahead_map_m_ : std::nullopt);
@@ -125,7 +125,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   no_path_.reset();
   detour_.breakOff();
   const Eigen::Vector2d& end_map_m = (*answer.path)->points_map_m.back();
-  // A place at the edge of the tolerance leaves the controller nothing: there the place is the goal.
+  // A place at the edge of the tolerance leaves the controller no tolerance: there the place is the goal.
   const bool beside = (end_map_m - intent_.goal_map_m).norm() > common::kShareOfTolerance * intent_.tolerance_m;
   place_map_m_ = beside ? end_map_m : intent_.goal_map_m;
   if (!beside) {

@@ -31,16 +31,16 @@ class GoTo final : public PathManeuver {
   void tellLaserAlone(common::Time now, const planning::PlanFailure& failure);
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
   bool shiftsAtOnce() const { return intent_.shift_after_s <= 0.0; }
-  /// After the goal has not been free for long enough, a free place beside it will do.
+  /// After the goal has not been free for long enough, a free place beside it is accepted.
   void shiftWhenDue(common::Time now);
-  /// How long no path is waited for.
+  /// How long to wait without a path.
   double patience_s() const;
 
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
   std::optional<common::Time> goal_taken_since_;  ///< Since when the goal itself has not been free.
-  bool shifted_;                                  ///< Whether a free place beside the goal will do.
+  bool shifted_;                                  ///< Whether a free place beside the goal is accepted.
   bool sees_heights_ = false;                     ///< Whether there is a 3D map.
   Eigen::Vector2d place_map_m_;                   ///< The goal, or the free place that is flown to instead.
   std::optional<Eigen::Vector2d> ahead_map_m_;    ///< Of the last path to the goal, a little ahead of the vehicle.

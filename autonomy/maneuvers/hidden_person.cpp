@@ -14,7 +14,7 @@ namespace {
 /// The longest step of the particles: at 1.1 m/s, the fastest by default, two cells of the map, so that none passes a
 /// wall.
 constexpr double kStep_s = 0.1;
-/// Of the particles, the likeliest place is looked for at every eighth, and every tenth is a walk of pursuitPath: 20 of
+/// The likeliest place is searched at every eighth particle, and every tenth is a walk of pursuitPath: 20 of
 /// 200 by default, which is what it has time for.
 constexpr std::size_t kEveryPlace = 8, kEveryWalk = 10;
 /// Below that sum of weights by the particle the person is nowhere where the particles are.
@@ -70,7 +70,7 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
     if (random_.chance(config_.walking.stop_share)) particle.velocity_map_m_s.setZero();
   }
   const Eigen::Vector2d step_map_m = particle.place_map_m + dt_s * particle.velocity_map_m_s;
-  // What the map shows at the particle's own place may be the person, who may walk out of it.
+  // An obstacle of the map at the particle's own place may be the person, who may walk out of it.
   const bool blocked = common::occupancy::isOccupied(grid.at(grid.cellAt(step_map_m))) &&
                        !common::occupancy::isOccupied(grid.at(grid.cellAt(particle.place_map_m)));
   if (blocked)
@@ -79,9 +79,9 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
     particle.place_map_m = step_map_m;
 }
 
-/// Beams that pass a place show that nobody is there. What they end on, if the map did not show it before the person
-/// came and it is nobody else, is the person: one who stands long enough is mapped, and the track of one who sets off
-/// again begins some steps later.
+/// Beams that pass a place show that no person is there. A beam end that the map did not show before the person
+/// came, and that is no other person, is the person. One who stands for long is mapped, and after that person sets
+/// off again the track begins some steps later.
 void HiddenPerson::lookFor(Particle& particle, const Sight& sight, double dt_s) const {
   const HiddenPersonConfig& hidden = config_.hidden;
   const Eigen::Vector2d offset_m = particle.place_map_m - view_.from_map_m();

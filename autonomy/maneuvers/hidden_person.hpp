@@ -1,6 +1,6 @@
-// HiddenPerson: where a person may be who is not seen, as particles. They walk on as the person did, turn and stop as
-// people do, do not walk through what the map shows, and are not where the vehicle looks and sees nobody. The particle
-// filter of Thrun 2005, chapter 4.3, whose measurement is that nobody is seen.
+// HiddenPerson: the possible places of a hidden person, as particles. They walk on as the person did, turn and stop as
+// people do, do not walk through what the map shows, and are not where the vehicle sees free space. The particle
+// filter of Thrun 2005, chapter 4.3, with this absence as the measurement.
 #pragma once
 
 #include <memory>
@@ -18,11 +18,11 @@
 
 namespace swiftlet::autonomy {
 
-/// What the vehicle knows and sees.
+/// The vehicle's map and what it sees.
 struct Sight {
   std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null.
-  const perception::SeenPoints* seen = nullptr;       ///< Null: nothing is seen.
-  std::vector<Eigen::Vector2d> others_map_m = {};     ///< Where somebody else is tracked.
+  const perception::SeenPoints* seen = nullptr;       ///< Null: no beams.
+  std::vector<Eigen::Vector2d> others_map_m = {};     ///< Where other people are tracked.
 };
 
 /// One thread. In the `map` frame.

@@ -19,9 +19,9 @@ constexpr double kOnCircle_m = 0.15;
 /// From then on the vehicle may leave its first place: well within half of a camera's opening angle, and above the
 /// yaw's error in a hover, 1 deg.
 constexpr double kFacesPoint_rad = 3.0 * common::kRadPerDeg;
-/// And for so long: a heading that swings through is beside the point again.
+/// It must face the point for this long: a heading that swings through leaves the point again.
 constexpr double kFacesFor_s = 0.4;
-/// A height that is off by more than this is said.
+/// A height that is off by more than this is reported.
 constexpr double kPassesBy_m = 0.05;
 
 /// The height of the body from which the camera's axis meets the point.
@@ -56,7 +56,7 @@ void Inspect::watch(const ManeuverInput& input) {
                            intent_.radius_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
 }
 
-/// That from which the camera's axis meets the point, within the bounds of the flight.
+/// The height from which the camera's axis meets the point, within the bounds of the flight.
 void Inspect::chooseHeight(const ManeuverInput& input) {
   const double wanted_m = heightToSee_m({intent_.radius_m, *intent_.point_height_m}, T_body_camera(input));
   const double greatest_m = setup_.controller.maxHeight_m();

@@ -84,7 +84,7 @@ void Land::approach(const ManeuverInput& input) {
   const bool late = (input.now - *since_).seconds() > kApproach_s;
   if (phase_ == Phase::kLooksBeyond && (there || late || !no_path_.empty())) return choose(input);
   if (there) return descend(input.now, {});
-  // While somebody passes there is no path; a moment later there is.
+  // While a person passes there is no path; a moment later there is one.
   if (late || !input.state.horizontal_valid)
     return descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));
   if (!setup_.retreat.active() && flight_.keep(input) && flight_.mayAsk())
@@ -98,7 +98,7 @@ Progress Land::answered(const PlanningAnswer& answer, Time now, const common::Ve
   return Progress::running();
 }
 
-/// Where the vehicle is; `reason` says why not at a better place.
+/// Lands where the vehicle is; `reason` says why not at a better place.
 void Land::descend(Time now, const std::string& reason) {
   phase_ = Phase::kDescends;
   if (!reason.empty()) setup_.memory.say(now, Severity::kWarning, "landing where it is", reason);

@@ -43,8 +43,8 @@ class Land final : public Maneuver {
   Phase phase_ = Phase::kStops;
   std::optional<common::Time> since_;                     ///< When the landing began.
   Eigen::Vector2d here_map_m_ = Eigen::Vector2d::Zero();  ///< Where it stopped to land; not in Phase::kStops.
-  std::optional<Eigen::Vector2d> place_map_m_;            ///< Where it flies to; none before it is chosen.
-  std::string no_path_;                                   ///< Why there is no path to the place; empty if there is one.
+  std::optional<Eigen::Vector2d> place_map_m_;            ///< Where it flies to; nullopt before it is chosen.
+  std::string no_path_;                                   ///< Why there is no path to the place; empty if it has one.
 };
 
 }  // namespace swiftlet::autonomy

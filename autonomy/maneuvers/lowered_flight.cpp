@@ -3,7 +3,7 @@
 namespace swiftlet::autonomy {
 
 void LoweredFlight::follow(const planning::Path* plan, const common::VehicleState& state) {
-  // A flight back asks for lowered places within a metre (Retrace), so a tenth of that loses none.
+  // A flight back searches lowered places within a metre (Retrace), so with a tenth of that none is lost.
   constexpr double kSpacing_m = 0.1;
   if (!memory_.lowered_m) return;
   const bool planned = plan != nullptr && plan->anyLowered();

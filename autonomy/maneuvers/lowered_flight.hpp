@@ -15,7 +15,7 @@ class LoweredFlight {
   LoweredFlight(FlightMemory& memory, const control::FlightController& controller)
       : memory_(memory), controller_(controller) {}
 
-  /// Remembers where it is lower. `plan` is what is flown; null: nothing.
+  /// Remembers where it is lower. `plan` is the plan that is flown; null without one.
   void follow(const planning::Path* plan, const common::VehicleState& state);
 
   FlightHeights heights() const {

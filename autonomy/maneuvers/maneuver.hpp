@@ -1,5 +1,5 @@
 // A maneuver carries out one intent: it is made when the intent begins and destroyed when it ends or another intent
-// comes, and all its state goes with it.
+// comes, and all its state is destroyed with it.
 //
 //   intent begins --> made --> step, step, answered, step ... --> done or failed --> destroyed
 //                                        another intent comes -----------------------^
@@ -34,7 +34,7 @@ struct ManeuverSetup {
   PlanningDesk& desk;
   const RetreatFlight& retreat;
   FlightMemory& memory;
-  PlanningClient client;                             ///< The client in whose name it asks for plans.
+  PlanningClient client;                             ///< The client that requests its plans.
   std::uint64_t resumes = 0;                         ///< Intent::resumes.
   const common::RgbdCameraConfig* camera = nullptr;  ///< Null without one.
 };
@@ -63,11 +63,11 @@ class Maneuver {
   virtual std::optional<Eigen::Vector2d> goal_map_m() const { return std::nullopt; }
   /// The unknown place that it explores, in `map`.
   virtual std::optional<Eigen::Vector2d> wantsToSee_map_m() const { return std::nullopt; }
-  /// Where the person is believed whom it follows, or returns to, in `map`.
+  /// Estimated place, in `map`, of the person whom it follows, or returns to.
   virtual std::optional<Eigen::Vector2d> followedPerson_map_m() const { return std::nullopt; }
   /// The path it flies; null for a maneuver without planned paths.
   virtual const PathFlight* path() const { return nullptr; }
-  /// The velocity along the path it flies, in `map`; zero if there is none.
+  /// The velocity along the path it flies, in `map`; zero without a path.
   virtual Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState&) const { return Eigen::Vector2d::Zero(); }
 };
 

@@ -35,7 +35,7 @@ struct ManeuverInput {
   std::string take_off_refusal = {};                 ///< Why the vehicle must not take off; empty if it may.
   std::vector<common::DynamicObstacle> people = {};  ///< What the map does not explain, as last seen.
   const perception::SeenPoints* seen = nullptr;      ///< By the newest scan; null before the first one.
-  std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null without zones.
   common::PlaceNames names = {};                                      ///< For texts.
   std::shared_ptr<const common::Map3dLayer> map3d = {};               ///< Null without an RGB-D camera.
   /// Why the sensors cannot carry a flight from where the vehicle stands; empty if they can.

@@ -111,7 +111,7 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
 }
 
 /// A plan whose goal is free only at the lower height ends there. The height of paths may be above the greatest: the
-/// mission that took the place of another may allow less.
+/// mission that replaced another may allow less.
 double PathFlight::endHeight_m() const {
   const planning::Path* flown = plan();
   const bool lower = flown != nullptr && !flown->lowered.empty() && flown->lowered.back();

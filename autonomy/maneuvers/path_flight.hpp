@@ -35,16 +35,16 @@ class PathFlight {
   void release() { keeper_.clear(); }
   /// Stops. The next plan that is offered is flown.
   void abandon();
-  /// Greatest speed on the present plan; the next one that is flown has none.
+  /// Greatest speed on the present plan; it does not apply to the next one.
   void setPace(double speed_m_s);
-  /// The heading at the end of later paths; none for the direction of flight.
+  /// The heading at the end of later paths; nullopt for the direction of flight.
   void setGoalYaw(std::optional<double> yaw_map_rad) { goal_yaw_map_rad_ = yaw_map_rad; }
 
   /// The vehicle has been at the goal and at the flight's height, within the tolerance and slow, for a while. Call it
   /// at every tick.
   bool arrived(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m);
 
-  /// The present plan; null if there is none.
+  /// The present plan; null without one.
   const planning::Path* plan() const { return controller_.followsPath() ? keeper_.plan() : nullptr; }
   /// The rest of the plan, from the place where the vehicle was last seen; empty without a plan.
   std::vector<Eigen::Vector2d> remaining_map_m() const;

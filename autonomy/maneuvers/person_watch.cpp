@@ -11,7 +11,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// The directions in which a person who stands may set off; those between them differ by less than half a metre in a
+/// Directions in which a standing person may set off; others differ from the nearest one by less than half a metre in a
 /// second at the speeds of people indoors.
 constexpr int kDirectionsFromRest = 6;
 /// Turns of a person in sight who does not go on straight, and their shares: a bend, and a corner or a turn around.
@@ -76,7 +76,7 @@ const common::DynamicObstacle* PersonWatch::likeliest(std::span<const common::Dy
     if ((now - obstacle.last_seen).seconds() > config_.fresh_s) continue;
     double apart_m = (obstacle.center_map_m - place_map_m(now)).norm();
     if (hidden_) {
-      // Of somebody else it would be a coincidence to be where the person probably is.
+      // Another person is unlikely to be where the person probably is.
       const double share = hidden_->share(obstacle.center_map_m, config_.gate_m);
       if (share < (hidden_->inSight() ? config_.least_share_in_sight : config_.least_share)) continue;
       apart_m = std::min(apart_m, config_.gate_m * (1.0 - share));

@@ -18,27 +18,27 @@ namespace swiftlet::autonomy {
 /// One thread. In the `map` frame.
 ///
 ///              a moving obstacle is near enough                 the track ends
-///   nobody ------------------------------------> seen ------------------------------> hidden: particles
+///   unknown -----------------------------------> seen ------------------------------> hidden: particles
 ///                                                  ^  an obstacle where a particle is    |
 ///                                                  +-------------------------------------+
 class PersonWatch {
  public:
   explicit PersonWatch(const PersonWatchConfig& config) : config_(config) {}
 
-  /// The nearest moving obstacle within `tracked_m` of `here_map_m` becomes the person, if there is none yet.
+  /// The nearest moving obstacle within `tracked_m` of `here_map_m` becomes the person, if none is chosen yet.
   void choose(std::span<const common::DynamicObstacle> obstacles, const Eigen::Vector2d& here_map_m);
   /// Follows the person through the obstacles of the present time.
   void update(std::span<const common::DynamicObstacle> obstacles, const Sight& sight, common::Time now);
-  /// The person was last there, and is believed to be until seen again; for a watch that goes on from an earlier one.
+  /// The person was last there, and is assumed to be until seen again; for a watch that continues an earlier one.
   void remember(const Eigen::Vector2d& place_map_m, common::Time when);
 
   bool known() const { return last_.has_value(); }
-  /// Known: where the person is at `now`; the likeliest place of one who is hidden.
+  /// Known: the place of the person at `now`; the likeliest place of a hidden person.
   Eigen::Vector2d place_map_m(common::Time now) const;
   Eigen::Vector2d velocity_map_m_s() const;
   /// Known: what the person may do from `now` on.
   std::vector<PossibleWalk> walks(common::Time now) const;
-  /// The track has ended, and beams show nobody where the person stood.
+  /// The track has ended, and beams show that no person is where the person stood.
   bool hidden() const { return hidden_ && !hidden_->inSight(); }
   /// Known: the time since the person was seen, tracked or standing.
   double unseen_s(common::Time now) const { return (now - last_->last_seen).seconds(); }
@@ -56,7 +56,7 @@ class PersonWatch {
   std::optional<common::DynamicObstacle> last_;
   std::optional<HiddenPerson> hidden_;
   bool remembered_ = false;
-  std::shared_ptr<const common::OccupancyGrid> grid_while_walking_;  ///< Without the person who stands now.
+  std::shared_ptr<const common::OccupancyGrid> grid_while_walking_;  ///< Without the person, who stands now.
   std::vector<Eigen::Vector2d> trail_map_m_;
 };
 

@@ -1,4 +1,4 @@
-// What a maneuver asks of the planning, in the world that it sees.
+// A maneuver's request to the planning, in the world that it sees.
 #pragma once
 
 #include <cstdint>

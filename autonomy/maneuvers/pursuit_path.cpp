@@ -28,7 +28,7 @@ constexpr int kReach = kSteps, kSide = 2 * kReach + 1;
 constexpr std::size_t kGridPlaces = static_cast<std::size_t>(kSide) * kSide;
 /// Losses of a step in which the person is not seen, and of one at a wrong distance: both count alike.
 constexpr double kUnseen = 1.0, kWrongDistance = 1.0;
-/// Twice the distance at which a person is wanted is beyond any use; rays that long need not be followed.
+/// Beyond twice the wanted distance a person is too far away; rays that long need not be followed.
 constexpr double kBeyondUse = 2.0;
 /// Steps of a walk between two looks at the map: two of its cells.
 constexpr double kStride_m = 0.1;

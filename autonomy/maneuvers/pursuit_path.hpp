@@ -1,4 +1,4 @@
-// The path of the next seconds on which a person who walks on stays in sight and at the right distance, whatever that
+// The path of the next seconds on which a walking person stays in sight and at the right distance, whatever that
 // person is likely to do. Dynamic programming over places and time, with the expected loss over what the person may do
 // [LaValle, Gonzalez-Banos, Becker, Latombe 1997, "Motion strategies for maintaining visibility of a moving target"].
 #pragma once

@@ -53,7 +53,7 @@ Progress Retrace::step(const ManeuverInput& input) {
   return Progress::running("flying back along the trail");
 }
 
-/// Without a plan there is no detour: what stands in the way, a closed door for example, stops the vehicle for good.
+/// Without a plan there is no detour: an obstacle on the trail, a closed door for example, stops the vehicle forever.
 bool Retrace::isStuck(const ManeuverInput& input) {
   constexpr double kMoved_m = 0.3;  // More than a hover sways.
   if (!moved_ || (input.position_map_m() - moved_->to_map_m).norm() > kMoved_m)
@@ -79,7 +79,7 @@ void Retrace::keepOut(const std::vector<common::Polygon>& zones) {
   }
 }
 
-/// A retreat or a lost estimate ends the path; what is left of it is flown from the nearest place on.
+/// A retreat or a lost estimate ends the path; the rest is flown from its nearest place on.
 void Retrace::follow(const ManeuverInput& input) {
   auto& path = intent_.path_map_m;
   path.erase(path.begin(), path.end() - std::ssize(remaining(input.position_map_m())));

@@ -1,6 +1,6 @@
 // Retrace: flies back along a path that was flown before. It needs no map and no plan, so it works where the map or the
-// position cannot be trusted; the reactive layer brakes as everywhere. It fails before a keep-out zone that was made
-// after the trail, and where something is in the way for long.
+// position is unreliable; the reactive layer brakes as everywhere. It fails before a keep-out zone that was made
+// after the trail, and where an obstacle stays for long.
 #pragma once
 
 #include <optional>

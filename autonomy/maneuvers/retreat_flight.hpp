@@ -1,4 +1,4 @@
-// Flies what the reactive layer asks for: its speed limit, and its retreat, which overrides every intent.
+// Flies the decisions of the reactive layer: its speed limit, and its retreat, which overrides every intent.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ class RetreatFlight {
   explicit RetreatFlight(control::FlightController& controller) : controller_(controller) {}
 
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
-  /// When nothing is seen any more the vehicle holds: nobody knows what it would retreat into.
+  /// Without sight of the surroundings the vehicle holds: what it would retreat into is unknown.
   void end();
   bool active() const { return yaw_map_rad_.has_value(); }
 

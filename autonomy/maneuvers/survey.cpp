@@ -12,11 +12,11 @@ namespace {
 
 /// Between two places of a lane: a lane bends around what is narrower.
 constexpr double kStep_m = 0.4;
-/// Of the strip that is seen at once, so much is the next lane's too.
+/// Share of the strip in view that the next lane sees too.
 constexpr double kOverlap = 0.4;
 /// Without a camera: the laser sees farther than rooms are wide, and the floor that its mirror sees is a line.
 constexpr double kWithoutCamera_m = 1.0;
-constexpr double kLeastSpacing_m = 0.3;  ///< Denser lanes show nothing new and take too long.
+constexpr double kLeastSpacing_m = 0.3;  ///< Denser lanes show no more and take too long.
 
 /// The width of the floor where the lower edge of the picture meets it, less the overlap.
 double spacingFor_m(const common::RgbdCameraConfig& camera, double height_m) {

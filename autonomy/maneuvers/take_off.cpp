@@ -32,7 +32,7 @@ Progress TakeOff::step(const ManeuverInput& input) {
   return cannot("take off", controller_);
 }
 
-/// A laser whose motor has just started, or somebody who steps aside, may change what is seen.
+/// A laser whose motor has just started, or a person who steps aside, may change what is seen.
 std::optional<Progress> TakeOff::waiting(const ManeuverInput& input) {
   constexpr double kLongest_s = 5.0;
   if (control::isAirborne(controller_.state())) return std::nullopt;

@@ -1,5 +1,5 @@
 // TakeOff: climbs to the intent's height; done when it hovers there. A vehicle that flies already is done at once; one
-// whose thrust or charge does not suffice fails with the figure. One that could not know its height or position waits a
+// whose thrust or charge does not suffice fails with the figure. One that would not know its height or position waits a
 // little with its motors off, and fails.
 #pragma once
 

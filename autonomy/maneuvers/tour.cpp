@@ -10,12 +10,12 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// A station to which the vehicle has set out so often is left: something that is not mapped keeps it away.
+/// A station to which the vehicle has set out this many times is left out: an unmapped obstacle keeps it away.
 constexpr int kMostTries = 5;
-/// So many interrupted tours are kept. A mission that halts a tour for good never asks for it again.
+/// This many interrupted tours are kept. A mission that halts a tour forever never requests it again.
 constexpr std::size_t kMostTours = 8;
 
-/// That of the intent, or of the one that it resumes, or a new one.
+/// The state of the intent's tour, or of the one that it resumes, or a new one.
 std::shared_ptr<TourState> stateFor(const ManeuverSetup& setup) {
   auto& tours = setup.memory.tours;
   auto found = std::find_if(tours.begin(), tours.end(), [&](const auto& tour) {

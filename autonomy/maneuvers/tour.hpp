@@ -47,7 +47,7 @@ class Tour : public PathManeuver {
   /// The places to fly to, in order; a place that is not free is left out. Called when there is a map, and for those
   /// that were left out a second time.
   virtual std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) = 0;
-  /// Where the vehicle flies for a place; none: the place is left out. Here: the place itself, if it is free.
+  /// Where the vehicle flies for a place; nullopt: the place is left out. Here: the place itself, if it is free.
   virtual std::optional<Eigen::Vector2d> standFor(const planning::CostMap& map,
                                                   const Eigen::Vector2d& place_map_m) const;
   /// Whether it may fly on from where it is.
@@ -75,8 +75,8 @@ class Tour : public PathManeuver {
   double corner_m_;
   std::shared_ptr<TourState> state_;
   std::vector<Station>& stations_;    ///< Of `state_`.
-  std::optional<std::size_t> asked_;  ///< The station that a path is asked for.
-  std::string no_path_;               ///< Why the last station that was not reached was not.
+  std::optional<std::size_t> asked_;  ///< The station of the requested path.
+  std::string no_path_;               ///< Why the last station that was missed was not reached.
 };
 
 }  // namespace swiftlet::autonomy

@@ -16,7 +16,7 @@ using Points = std::vector<Point>;
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-/// The places that the path may lead over: the start, those of the trail where the hull may be, and the person's.
+/// The places of the path: the start, those of the trail where the hull may be, and the person's.
 Points placesOf(const TrailQuestion& ask, const Point& start) {
   Points places{start};
   const auto add = [&](const Point& place) {

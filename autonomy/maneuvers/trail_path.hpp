@@ -1,5 +1,5 @@
 // The path along which a person is followed: the cheapest chain of straight lines over places where that person walked,
-// which somebody could pass, and which lead where the person went. It leaves out what a straight line cuts short.
+// where a person can pass, and which lead where the person went. It leaves out detours that a straight line cuts short.
 #pragma once
 
 #include <span>

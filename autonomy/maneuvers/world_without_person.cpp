@@ -19,10 +19,10 @@ using Point = Eigen::Vector2d;
 constexpr double kPast_m = 0.15;
 /// The discs of a person are at most this far ahead: DynamicObstacles::discs predicts as far as this.
 constexpr double kPredicted_s = 1.5;
-/// The middle of a person is known this well; the discs of somebody else who is as near are left out, too.
+/// The middle of a person is known this well; the discs of other people this near are left out, too.
 constexpr double kSame_m = 0.4;
 
-/// Between places of the trail that are farther apart the person may have walked another way.
+/// Between places of the trail that are farther apart the person may have taken another path.
 constexpr double kConnected_m = 0.6;
 constexpr double kTrailStep_m = 0.1;
 

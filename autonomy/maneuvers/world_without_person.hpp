@@ -1,5 +1,5 @@
-// The world in which a path behind a person is planned: as it would be if that person were not there. A person who
-// stands is mapped, and the map takes seconds to forget where somebody stood.
+// The world in which a path behind a person is planned: the world without that person. A person who
+// stands is mapped, and the map takes seconds to forget it.
 #pragma once
 
 #include "autonomy/maneuvers/maneuver_input.hpp"
@@ -8,7 +8,7 @@
 namespace swiftlet::autonomy {
 
 struct PersonInMap {
-  double body_m = 0.3;     ///< Nothing else is this near to the middle of a person.
+  double body_m = 0.3;     ///< No other obstacle is this near to the middle of a person.
   double within_m = 0.45;  ///< What the map shows this near to a person may be the person.
 };
 

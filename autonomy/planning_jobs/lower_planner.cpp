@@ -20,7 +20,7 @@ using common::CellIndex;
 using common::OccupancyGrid;
 namespace occupancy = common::occupancy;
 
-/// Where the camera saw free space it is as sure of it as some beams of the laser.
+/// Where the camera saw free space, it is as certain as by some beams of the laser.
 constexpr occupancy::Cell kSeenFree = -20;
 
 /// Two grids of the same extent: what is known at the height of flight, and at the lower one.

@@ -1,5 +1,5 @@
 // Paths below what hangs over them: where the voxels of the camera show room for the hull at a lower height, the
-// vehicle flies there, and comes back up behind it. A laser alone cannot know that room.
+// vehicle flies there, and comes back up behind it. A laser alone cannot see that room.
 //
 //   voxels, grid at the height of flight --> two cost maps, one lower --> planAtTwoHeights
 #pragma once
@@ -18,11 +18,11 @@
 
 namespace swiftlet::autonomy {
 
-/// What is known of heights when a path is asked for.
+/// The heights at the time of a path request.
 struct FlightHeights {
   double cruise_m = 1.0;            ///< The height of flight, over the take-off floor.
-  double reference_m = 1.0;         ///< Where the vehicle is to be.
-  std::optional<double> lowered_m;  ///< The lower height of the plan that is flown; none while it flies no such plan.
+  double reference_m = 1.0;         ///< Reference height of the controller.
+  std::optional<double> lowered_m;  ///< The lower height of the plan that is flown; nullopt without such a plan.
 
   /// The vehicle is nearer to the lower height.
   bool isLower() const { return lowered_m && reference_m < 0.5 * (cruise_m + *lowered_m); }
@@ -41,7 +41,7 @@ struct LowerQuestion {
   double tolerance_m = 0.0, shift_m = 0.0;  ///< As those of a GoalRequest.
 };
 
-/// One job at a time. At each call it tries one height: the one that the present plan has, or that which the last call
+/// One job at a time. Each call tries one height: that of the present plan, or that which the last call
 /// succeeded with, or the next lower one.
 class LowerPlanner {
  public:

@@ -8,7 +8,7 @@ namespace {
 using common::VoxelBlock;
 using common::VoxelIndex;
 
-/// In log odds: with the usual sensor model, that of three frames which saw nothing but free space.
+/// In log odds: with the usual sensor model, the evidence of three frames that saw only free space.
 constexpr int kSurelyFree = static_cast<int>(-1.0 / common::VoxelMap::kLogOddsStep);
 
 /// From the origin of a submap to the farthest that is seen while it is drawn into: it is left 2.5 m from its origin,

@@ -24,10 +24,10 @@ struct PlacedSubmap {
   common::Pose2 T_submap_map;
   std::uint64_t first_frame = 0, last_frame = 0;  ///< As in common::Submap3d.
 
-  /// Whether all of it was seen after the last that is in the other one.
+  /// Whether all of it was seen after the last frame of the other one.
   bool isLaterThan(const PlacedSubmap& other) const { return first_frame > other.last_frame; }
-  /// Whether it has seen the voxel there to be free, and those next to it: a thin thing that is a voxel beside its
-  /// place, because two submaps differ so much, has not gone.
+  /// Whether it has seen the voxel there to be free, and those next to it: a thin thing that lies a voxel beside its
+  /// place, because two submaps differ by this much, has not gone.
   bool sawFreeAround(const Eigen::Vector3d& place_map_m) const;
   /// The same voxels at the same place.
   bool isSame(const PlacedSubmap& other) const;
@@ -36,7 +36,7 @@ struct PlacedSubmap {
 /// In the order of the layer.
 std::vector<PlacedSubmap> placedSubmaps(const common::Map3dLayer& layer);
 
-/// Those of `submaps` that are later than the submap and may reach to where it does.
+/// Those of `submaps` that are later than the submap and may overlap it.
 std::vector<PlacedSubmap> laterThan(const PlacedSubmap& submap, const std::vector<PlacedSubmap>& submaps);
 
 /// Whether one of the later submaps has seen the place free, at which an earlier one shows something.

@@ -29,7 +29,7 @@ class PlanningDesk {
   double hullRadius_m() const { return hull_radius_m_; }
   /// True if no job is outstanding, so that ask() may be called.
   bool free() const { return jobs_.idle("planning"); }
-  /// The desk knows the radius of the hull: that of the request is ignored.
+  /// The desk sets the radius of the hull: the radius of the request is ignored.
   void ask(PlanningRequest request, common::Time now);
   /// True if no job is outstanding and the last request is planning_period_s old: a request is due, if only to update
   /// the cost map.
@@ -41,14 +41,14 @@ class PlanningDesk {
   std::shared_ptr<const planning::CostMap> costMapAt(const FlightHeights& heights) const;
   /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
   bool wallsAround(const common::VehicleState& state) const;
-  /// The newest cost maps of paths at two heights; null before the first such path was asked for.
+  /// The newest cost maps of paths at two heights; null before the first request of such a path.
   std::shared_ptr<const planning::TwoHeights> heights() const { return heights_; }
   /// The newest cost map for judging goals; null before the first answer.
   std::shared_ptr<const common::GoalMap> goalMap() const { return goal_map_; }
   /// The frontiers found by the last exploration request; never null.
   std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }
   double exploredArea_m2() const { return explored_area_m2_; }
-  /// Length of the path home, as planned a few answers ago; none while there is no path.
+  /// Length of the path home, as planned a few answers ago; nullopt without a path.
   const std::optional<double>& home_m() const { return home_m_; }
   /// The planner and the explorer in use, with the number of their results so far.
   const PlanningUse& use() const { return use_; }

@@ -44,8 +44,8 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
 
 /// The path to the origin of the map, where the vehicle took off, or to the free place nearest to it, as going home
 /// plans it. It is planned at every kEach-th answer: with the default planning_period_s that is at least every 2 s, in
-/// which the vehicle flies less than 1.5 m. Somebody who stands in a door blocks it for a while: for kBelieved plans
-/// the length stays the last one, and what has been flown since.
+/// which the vehicle flies less than 1.5 m. A person in a door blocks it for a while: for kBelieved plans
+/// the length stays the last one, plus what has been flown since.
 std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
   constexpr int kEach = 8, kBelieved = 10;
   if (answers_++ % kEach != 0) return home_m_;
@@ -141,7 +141,7 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
 
 std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                                  const Eigen::Vector2d& position_map_m) {
-  // Nearer, the laser has seen the blockage as well as it can: flying there shows nothing new (decision 005).
+  // Nearer, the laser has seen the blockage as well as it can: flying there shows no more (decision 005).
   constexpr double kWorth_m = 1.5;
   const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
   // A keep-out zone stays, however near the vehicle looks at it.
@@ -169,7 +169,7 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 /// of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of path.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
-  constexpr int kEvery = 10;  // Where the best place is not held, cells so far apart are compared.
+  constexpr int kEvery = 10;  // Where the best place is not held, cells this far apart are compared.
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
   if (!escape) return std::nullopt;
   planning::CostField field;

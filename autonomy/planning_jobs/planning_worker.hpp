@@ -53,7 +53,7 @@ struct PlanningRequest {
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::shared_ptr<const common::LevelMap> levels;
   std::vector<common::Disc> discs;
-  std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null: none.
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null without zones.
   planning::Footprint footprint;
   std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without one: paths then keep their height.
   common::PlaceNames names;                         ///< For the texts of the answer.
@@ -79,11 +79,11 @@ struct PlanningAnswer {
   std::shared_ptr<const planning::CostMap> cost_map;
   /// For a GoalRequest the path to the goal, for an ExploreRequest the path to the viewpoint it found.
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
-  /// The cost maps of a path that is flown at two heights, as long as such paths are asked for; else null.
+  /// The cost maps of a path that is flown at two heights, as long as such paths are requested; else null.
   std::shared_ptr<const planning::TwoHeights> heights;
-  std::optional<DetourPlan> detour;                        ///< For a DetourRequest; none if no place was found.
+  std::optional<DetourPlan> detour;                        ///< For a DetourRequest; nullopt without a place.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
-  std::optional<double> home_m;                            ///< Length of the path home; none if there is none.
+  std::optional<double> home_m;                            ///< Length of the path home; nullopt without a path.
   PlanningUse use;                                         ///< Totals so far, including this answer.
 };
 

@@ -36,7 +36,7 @@ ColumnState VoxelColumns::at(const Eigen::Vector2d& place_map_m) const {
   return seen ? ColumnState::kFree : ColumnState::kUnknown;
 }
 
-/// Adds what one submap knows of each voxel of the column. What one submap saw free, another one may not have seen.
+/// Adds the evidence of one submap on each voxel of the column. A voxel that it saw free may be unseen in others.
 void VoxelColumns::mark(const Source& source, const Eigen::Vector2d& place_map_m,
                         std::vector<ColumnState>& states) const {
   using common::VoxelBlock;

@@ -1,4 +1,4 @@
-// What the 3D map shows at places of the map from one height to another: whether a hull that reaches from the one to
+// The 3D map at places of the map from one height to another: whether a hull that reaches from the one to
 // the other may be there.
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace swiftlet::autonomy {
 
-/// Free only where every voxel was seen to be free: a hull is not sent where nobody looked. What a later submap shows
-/// to have gone is not occupied.
+/// Free only where every voxel was seen to be free: a hull is not sent into unseen space. Voxels that a later submap
+/// shows as free are not occupied.
 enum class ColumnState { kUnknown, kFree, kOccupied };
 
 /// One thread. Reads submaps whose origin is within reach of a place.
 class VoxelColumns {
  public:
-  /// Heights are over the take-off floor; the voxels of the floor itself count as nothing. Submaps farther from
+  /// Heights are over the take-off floor; the voxels of the floor itself are ignored. Submaps farther from
   /// `around_map_m` than a camera sees beyond `reach_m` are left out.
   VoxelColumns(const common::Map3dLayer& layer, double low_m, double high_m, const Eigen::Vector2d& around_map_m,
                double reach_m);

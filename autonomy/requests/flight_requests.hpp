@@ -1,4 +1,4 @@
-// Carries out what the mission and the operator ask for beside the intents.
+// Carries out the requests of mission and operator beside the intents.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ namespace swiftlet::autonomy {
 /// One thread; called at the ticks of the behaviours.
 class FlightRequests {
  public:
-  /// `camera` may be null: then nobody photographs.
+  /// `camera` may be null: then photographs are refused.
   explicit FlightRequests(double hull_radius_m, const common::RgbdCameraConfig* camera = nullptr)
       : keep_out_(hull_radius_m), camera_(camera != nullptr ? std::optional(camera->mount.pose()) : std::nullopt) {}
 
-  /// Handles and answers commands about keep-out zones; every other one is for somebody else.
+  /// Handles and answers commands about keep-out zones; returns nullopt for any other.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, const common::World& world);
   void take(const common::MissionRequest& request, const common::World& world);
-  /// An answer of somebody else, with its event.
+  /// An answer from another part, with its event.
   void answered(common::MissionAnswer answer, common::Time now);
 
-  /// A photograph that is asked for is taken of it if it was measured after that. Only of frames that
+  /// A requested photograph is taken from this frame if it was measured after the request. Only of frames that
   /// Estimator::addFrame accepts.
   void addFrame(const std::shared_ptr<const common::RgbdFrame>& frame, const common::VehicleState& state);
 
@@ -54,7 +54,7 @@ class FlightRequests {
   void say(common::Time now, std::string text, std::string reason);
 
   KeepOutZones keep_out_;
-  std::optional<common::Pose3> camera_;  ///< T_body_camera by the data sheet; none without a camera.
+  std::optional<common::Pose3> camera_;  ///< T_body_camera by the data sheet; nullopt without a camera.
   std::optional<Pending> photograph_;
   std::vector<RunFile> files_;
   std::vector<common::MissionAnswer> answers_;

@@ -8,7 +8,7 @@ namespace {
 
 /// One cell of the shipped map: the reactive layer keeps its margin to points this dense.
 constexpr double kOutlineStep_m = 0.05;
-/// A mission in a given map that says a zone again says it with the given map's place of now.
+/// A mission in a given map that repeats a zone gives it with the given map's present place.
 constexpr double kSameCorner_m = 0.10;
 
 bool isSame(const common::Polygon& a, const common::Polygon& b) {

@@ -1,4 +1,4 @@
-// The keep-out zones of a flight: those of the mission, which stay, and those of the operator, who may take them back.
+// The keep-out zones of a flight: those of the mission, which stay, and those of the operator, which can be removed.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ class KeepOutZones {
   explicit KeepOutZones(double hull_radius_m) : hull_radius_m_(hull_radius_m) {}
 
   enum class Owner { kMission, kOperator };
-  /// A zone whose corners are all within 10 cm of one that is known takes its place: a mission in a loop says its zones
-  /// again and again. Returns why there is no such zone: it is no polygon, or the hull would reach into it at home.
+  /// A zone whose corners are all within 10 cm of a known one replaces it: a mission in a loop gives its zones
+  /// again and again. Returns why the zone is refused: it is no polygon, or the hull would reach into it at home.
   /// Empty if it holds now.
   std::string add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m,
                   const common::PlaceNames& names = {});

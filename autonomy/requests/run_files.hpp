@@ -1,4 +1,4 @@
-// What a mission asks to be written into the folder of its run.
+// Files that a mission requests in the folder of its run.
 #pragma once
 
 #include <memory>

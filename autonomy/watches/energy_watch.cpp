@@ -76,7 +76,7 @@ void EnergyWatch::watchHome(Time now, const common::EnergyLayer& energy, WatchRe
 
 /// During the flight home: the vehicle flies as far as the charge goes, and lands there.
 void EnergyWatch::watchReach(Time now, const common::EnergyLayer& energy, WatchRequest& request) {
-  // Predictions differ from the truth by some percent, and so do two of them from each other.
+  // Predictions differ from the truth, and from each other, by some percent.
   constexpr double kClearly = 0.8;
   const double left = energy.battery_remaining - std::max(config_.battery_land_share, energy.land_share);
   if (out_of_reach_said_ || !energy.home_planned || left > kClearly * *energy.home_share) return;

@@ -1,5 +1,5 @@
-// Watches charge and thrust: tells of 30 and 20 %, turns back while the charge suffices for the flight home, and lands
-// before the charge or the thrust gives out. Before the take-off it refuses what would end so at once.
+// Watches charge and thrust: reports 30 and 20 %, turns back while the charge suffices for the flight home, and lands
+// before charge or thrust are too low. Before the take-off it refuses flights that would end so at once.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace swiftlet::autonomy {
 
-/// One thread. On the ground it asks for nothing.
+/// One thread. On the ground it requests nothing.
 class EnergyWatch {
  public:
   explicit EnergyWatch(const SupervisorConfig& config) : config_(config) {}
 
-  /// It asks to go home at one tick only, and only once.
+  /// It requests a flight home at one tick only, and only once.
   WatchRequest watch(common::Time now, const VehicleCondition& condition);
   /// Why the vehicle must not take off, with the figure; empty if it may.
   std::string takeOffRefusal(const common::EnergyLayer& energy) const;
@@ -29,7 +29,7 @@ class EnergyWatch {
   void watchThrust(common::Time now, const VehicleCondition& condition, WatchRequest& request);
 
   SupervisorConfig config_;
-  double charge_said_ = 1.0;                ///< The last charge of which an event told in this flight.
+  double charge_said_ = 1.0;                ///< The charge in the last event of this flight.
   std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
   bool counted_on_said_ = false;
   bool turned_back_ = false;

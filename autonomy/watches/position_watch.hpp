@@ -23,11 +23,11 @@ class PositionWatch {
 
   /// While it is `blind`, the rules of the SightWatch come first.
   WatchRequest watch(common::Time now, const VehicleCondition& condition, bool blind);
-  /// The flight back has reached the start of the trail, or failed. Asks to land if that did not help.
+  /// The flight back has reached the start of the trail, or failed. Requests a landing if that did not help.
   WatchRequest backEnded();
 
  private:
-  /// What the vehicle does not know about its place; empty if it knows it.
+  /// Which of height and position is unknown; empty if both are known.
   std::string unknownOf(const VehicleCondition& condition, bool blind) const;
   bool knownAgain(common::Time now, const VehicleCondition& condition);
 

@@ -15,7 +15,7 @@
 
 namespace swiftlet::autonomy {
 
-/// One thread. On the ground blindness asks for nothing.
+/// One thread. On the ground blindness requests nothing.
 class SightWatch {
  public:
   explicit SightWatch(const SupervisorConfig& config) : config_(config) {}

@@ -31,8 +31,8 @@ struct SupervisorConfig {
             ///< lands; where there are no walls around it flies back up to twice as much.
   static constexpr double back_known_s =
       1.0;  ///< Flying back ends when height and position have been known again for this long.
-  static constexpr double pilot_silent_s = 1.0;  ///< When a pilot who flies has not been heard of for this long the
-                                                 ///< program has the vehicle again, and holds.
+  static constexpr double pilot_silent_s = 1.0;  ///< When a flying pilot's samples have been missing for this long, the
+                                                 ///< program is in control again, and holds.
 
   void describe(common::config::Fields& fields);
 };

@@ -1,4 +1,4 @@
-// What a watch asks of the supervisor.
+// The request of a watch to the supervisor.
 #pragma once
 
 #include <string>
@@ -27,12 +27,12 @@ struct VehicleCondition {
   bool lands = false;  ///< The vehicle is about to land where it is, and needs no path home.
 };
 
-/// The answer of a watch to one tick. Each reason is for people; it is empty if the watch does not ask for that.
+/// The answer of a watch to one tick. Each reason is for people; it is empty without such a request.
 struct WatchRequest {
   std::string hold;                   ///< Why the vehicle must stop, in this tick.
-  unsigned back = 0;                  ///< The present flight back along the trail, counted from 1; 0: none.
+  unsigned back = 0;                  ///< The present flight back along the trail, counted from 1; 0: no such flight.
   std::string home;                   ///< Why a flight home begins, in one tick only.
-  std::string land;                   ///< Why it must land. It is not taken back.
+  std::string land;                   ///< Why it must land. It is not revoked.
   std::vector<common::Event> events;  ///< What has changed since the last tick.
 
   void say(common::Time now, common::Severity severity, std::string text, std::string why = {},

@@ -113,7 +113,7 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     inner.names[port] = {.slot = slot, .passed = true, .own = true};
   };
   const auto model = documents_.subtree_models.find(*place.element->attribute("ID"));
-  // An empty attribute is as none where there is a default.
+  // Where there is a default, an empty attribute counts as missing.
   const auto hasDefault = [&](const std::string& port) {
     const bool known = model != documents_.subtree_models.end() && model->second.contains(port);
     return known && model->second.find(port)->second.has_value();
@@ -217,7 +217,7 @@ Conditions* Builder::makeConditions(const Place& place, Scope& scope, const std:
   return conditions;
 }
 
-/// The one that the Checker has made; another where a subtree is used again, because each use has entries of its own.
+/// The script that the Checker has made; another where a subtree is used again, because each use has its own entries.
 Script* Builder::scriptOf(const XmlAttribute& attribute) {
   Script* script = std::exchange(attribute.script, nullptr);
   return script != nullptr ? script : tree_->scripts.add(attribute.value).script;

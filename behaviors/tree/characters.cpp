@@ -11,8 +11,8 @@
 namespace swiftlet::tree {
 namespace {
 
-/// Characters from `first` to `last`, as Unicode names them, and what is meant by them; empty for what is to be taken
-/// out.
+/// Characters from `first` to `last`, as Unicode names them, and what is meant by them; empty for characters to be
+/// removed.
 struct Range {
   std::uint32_t first = 0, last = 0;
   std::string_view name, meant;
@@ -137,7 +137,7 @@ struct Meaning {
   std::string name, meant;
 };
 
-/// Without a name for a character that misleads nobody.
+/// Without a name for a character that is not misleading.
 Meaning lookUp(std::uint32_t code) {
   std::string name, meant;
   const auto* found = std::find_if(kMisleading.begin(), kMisleading.end(),
@@ -154,7 +154,7 @@ Meaning lookUp(std::uint32_t code) {
   return {std::move(name), std::move(meant)};
 }
 
-/// "zero width space, take it out" or "minus sign, write `-`"; empty for a character that misleads nobody.
+/// "zero width space, take it out" or "minus sign, write `-`"; empty for a character that is not misleading.
 std::string meaningOf(std::uint32_t code) {
   const auto [name, meant] = lookUp(code);
   if (name.empty()) return {};

@@ -13,11 +13,11 @@ std::size_t characterLength(std::string_view text, std::size_t offset);
 /// Whether the whole text is UTF-8.
 bool isUtf8(std::string_view text);
 
-/// "U+200B (zero width space, take it out)", "U+2212 (minus sign, write `-`)", or "U+00E9" for one that misleads
-/// nobody.
+/// "U+200B (zero width space, take it out)", "U+2212 (minus sign, write `-`)", or "U+00E9" for one that is not
+/// misleading.
 std::string nameOfCharacter(std::string_view text, std::size_t offset);
-/// The name of the first character that misleads: one that cannot be seen, that looks like a sign of ASCII, or a letter
-/// of another script beside one of ASCII. Empty if there is none.
+/// The name of the first misleading character: one that cannot be seen, that looks like a sign of ASCII, or a letter
+/// of another script beside one of ASCII. Empty without one.
 std::string misleadingCharacterIn(std::string_view text);
 
 /// The text as it is seen: without what cannot be seen, and with the signs of ASCII that others look like.

@@ -349,7 +349,7 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
           manifest.kind == NodeKind::kDecorator && children > 1 ? kIntoSequence : manifest.about_children});
 }
 
-/// Opens the elements from `from` down to `wanted`; false, with none opened, if it is not below.
+/// Opens the elements from `from` down to `wanted`; false, with nothing opened, if it is not below.
 bool Checker::openUpTo(const XmlElement& from, const XmlElement* wanted) {
   open_.push_back(&from);
   if (&from == wanted) return true;

@@ -16,7 +16,7 @@ namespace swiftlet::tree {
 
 class Checker {
  public:
-  /// Adds every script to `scripts`, and notes it at its attribute. Leniently, what is wrong in a tree that the main
+  /// Adds every script to `scripts`, and notes it at its attribute. Leniently, a problem in a tree that the main
   /// tree does not use is a warning, and so is an unknown attribute that begins with `_`, and a tree that has the name
   /// of a type which is not of the engine.
   Checker(const Documents& documents, const Registry& registry, Problems& problems, Scripts& scripts, bool lenient);

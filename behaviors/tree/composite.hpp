@@ -1,4 +1,4 @@
-// A node with children, and what all such nodes share: letting go of whatever is running below.
+// A node with children, and what all such nodes share: releasing the running nodes below.
 #pragma once
 
 #include <memory>
@@ -25,9 +25,9 @@ class Composite : public Node {
   std::size_t count() const { return children_.size(); }
   Node& child(std::size_t index = 0) const { return *children_[index]; }
 
-  /// Ends with `result` once everything below has let go. It is RUNNING until then, and the children are not asked.
+  /// Ends with `result` once everything below is released. It is RUNNING until then, and the children are not asked.
   Status endWith(TickContext& context, Status result);
-  /// Halts what is running below, except `kept`; true when all have let go.
+  /// Halts what is running below, except `kept`; true when all are released.
   bool haltOthers(TickContext& context, std::size_t kept);
 
   Release onSuspend(TickContext& context) override;

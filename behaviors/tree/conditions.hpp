@@ -4,9 +4,9 @@
 //   _while                          asked at each tick: while it is not true, the node is halted and SKIPPED
 //   _onSuccess _onFailure           run when it ended so
 //   _post                           run when it ended, after those two
-//   _onHalted                       run when it was halted, once everything below has let go
+//   _onHalted                       run when it was halted, once everything below is released
 //
-// Conditions that are asked assign nothing, so that asking changes nothing. A script that cannot be evaluated makes the
+// Conditions that are asked assign nothing, so asking has no effect. A script that cannot be evaluated makes the
 // node fail with the reason.
 #pragma once
 
@@ -36,7 +36,7 @@ inline constexpr std::size_t kConditionKinds = 8;
 std::string_view attributeOf(ConditionKind kind);
 /// As a port, for messages about the entries that it reads. Static.
 const PortManifest& portOf(ConditionKind kind);
-/// Nothing if the attribute is no condition.
+/// nullopt if the attribute is no condition.
 std::optional<ConditionKind> conditionOf(std::string_view attribute);
 
 /// What the conditions say before a node starts: the status that it has without starting, if there is one.
@@ -47,12 +47,12 @@ struct StartDecision {
 
 struct Conditions {
   std::array<Script*, kConditionKinds> scripts{};  ///< Null where the file gives none.
-  /// How the node ends when it has let go, because _while is no longer true.
+  /// How the node ends after its release, because _while is no longer true.
   std::optional<Status> leaving;
 
   bool has(ConditionKind kind) const { return scripts[static_cast<std::size_t>(kind)] != nullptr; }
   StartDecision atStart();
-  /// _while of a node that is under way; nothing if it cannot be evaluated.
+  /// _while of a node that is under way; nullopt if it cannot be evaluated.
   std::optional<bool> goesOn();
   /// Runs the scripts for the end of the node, if `status` is one. False if one cannot be evaluated.
   bool afterwards(Status status);

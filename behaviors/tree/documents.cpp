@@ -28,8 +28,8 @@ std::optional<std::string> readFromDisk(const std::string& path, std::size_t lim
   return text;
 }
 
-/// What stands in place of a text: a packed one, or what a clone has for a file of Git LFS or git-annex until it is
-/// brought. Its message and remedy, or two empty texts.
+/// What stands in place of a text: a packed one, or the pointer that a clone has until Git LFS or git-annex fetches the
+/// file. Its message and remedy, or two empty texts.
 std::pair<std::string, std::string> placeholderIn(std::string_view text) {
   if (text.starts_with("\x1f\x8b")) return {"is packed by gzip, a text was expected", "unpack it by `gunzip`"};
   if (text.starts_with("PK\x03\x04")) return {"is packed by zip, a text was expected", "unpack it by `unzip`"};

@@ -48,7 +48,7 @@ struct TreeDefinition {
 /// Ports that <TreeNodesModel> declares for a <SubTree ID>, with their defaults.
 using SubTreeModel = std::map<std::string, std::optional<std::string>, std::less<>>;
 
-/// The trees that these files define. A file that cannot be read has none.
+/// The trees that these files define. A file that cannot be read defines no tree.
 TreeFiles treeFiles(const std::vector<std::string>& paths);
 
 class Documents {
@@ -61,7 +61,7 @@ class Documents {
   std::vector<std::unique_ptr<Document>> documents;  ///< In the order they were finished reading; stable addresses.
   std::map<std::string, TreeDefinition, std::less<>> trees;
   std::map<std::string, SubTreeModel, std::less<>> subtree_models;
-  /// Null if there is none, which is then reported as a problem.
+  /// Null without a main tree, which is then reported as a problem.
   const TreeDefinition* main = nullptr;
   std::string main_id;
 
@@ -71,7 +71,7 @@ class Documents {
  private:
   /// False if this file cannot contain a tree at all.
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
-  /// False if a mistake keeps out what it would add, as in addTree().
+  /// False if a mistake prevents the addition, as in addTree().
   bool include(const Document& document, const XmlElement& element, const std::string& path);
   void warnUnescaped(const SourceText& source, const std::vector<std::size_t>& offsets);
   bool checkRoot(const Document& document);
@@ -79,7 +79,7 @@ class Documents {
   bool checkFormat(const Document& document);
   void reportVersion3(const Document& document, const std::string* format);
   void readChildren(const Document& document, const std::string& path);
-  /// Of an element or an attribute that nobody knows.
+  /// Of an unknown element or attribute.
   void reportForeign(Problem problem);
   bool addTree(const Document& document, const XmlElement& element, bool alone);
   void readModel(const Document& document, const XmlElement& element);

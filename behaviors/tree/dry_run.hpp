@@ -1,4 +1,4 @@
-// Ticks a tree without anything to fly: its leaves answer what a script says.
+// Ticks a tree without a vehicle: a script gives the answers of its leaves.
 #pragma once
 
 #include <cstdint>

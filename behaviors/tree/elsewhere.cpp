@@ -56,7 +56,7 @@ namespace {
 /// What one of the files says of trees.
 struct FileOfTrees {
   std::string path;
-  std::string main_id;                    ///< Empty: it names none.
+  std::string main_id;                    ///< Empty: it names no main tree.
   std::map<std::string, Location> trees;  ///< That it defines itself.
   std::set<std::string> uses;             ///< That its SubTrees name.
 };

@@ -10,7 +10,7 @@ namespace swiftlet::tree {
 /// `<` or the mark: XML in UTF-8 holds none. Empty for all else.
 std::string_view wideEncoding(std::string_view bytes);
 
-/// What <?xml encoding="..."?> says; empty if it says nothing.
+/// The encoding of <?xml encoding="..."?>; empty without one.
 std::string_view declaredEncoding(std::string_view text);
 
 /// The bytes of a file as UTF-8, with an <?xml encoding="UTF-8"?> that says so where it said another. Bytes that are

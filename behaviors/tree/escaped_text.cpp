@@ -34,7 +34,7 @@ char EscapedText::take() {
   return original_[at_++];
 }
 
-/// Takes what begins so here, up to its end or to that of the text; false if nothing does.
+/// Takes a stretch that begins so here, up to its end or the text's end; false if it does not begin so.
 bool EscapedText::takeThrough(std::string_view begin, std::string_view end) {
   if (!original_.substr(at_).starts_with(begin)) return false;
   const std::size_t last = original_.find(end, at_ + begin.size());
@@ -44,8 +44,8 @@ bool EscapedText::takeThrough(std::string_view begin, std::string_view end) {
   return true;
 }
 
-/// Between its marks a comment of XML has no `--`, and does not end with `-`. One without an end keeps none either, so
-/// that reading it tells of the end.
+/// Between its marks a comment of XML has no `--`, and does not end with `-`. One without an end gets no end here,
+/// so that the reader reports it.
 bool EscapedText::takeComment() {
   constexpr std::string_view kOpen = "<!--", kClose = "-->";
   const std::size_t begin = at_ + kOpen.size();

@@ -5,7 +5,7 @@
 namespace swiftlet::tree {
 namespace {
 
-/// The input from which an output gets its value unchanged: the one that takes any.
+/// The input from which an output gets its value unchanged: the input of any type.
 const PortBinding* copiedInput(const NodeSetup& setup) {
   for (const PortBinding& binding : setup.ports)
     if (binding.manifest->direction == Direction::kInput && binding.manifest->type == PortType::kAny) return &binding;

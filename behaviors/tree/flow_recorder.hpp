@@ -1,4 +1,4 @@
-// Notes where entries get their values and who reads them, while a tree is built.
+// Records the sources and the readers of each entry, while a tree is built.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A node without children. It answers SKIPPED exactly if onAsked() says that it does not want the vehicle; onTick() is
+// A node without children. It answers SKIPPED exactly if onAsked() is false; onTick() is
 // not called then, and must itself never return SKIPPED.
 #pragma once
 
@@ -11,7 +11,7 @@ class Leaf : public Node {
   using Node::Node;
 
  protected:
-  /// Starts or continues; called only if the leaf wants the vehicle.
+  /// Starts or continues; called only if onAsked() was true.
   virtual Status act(TickContext& context) = 0;
 
  private:

@@ -16,7 +16,7 @@ struct Migration {
 };
 
 /// Messages use `name` as the file. Files that it includes are not read; each of them is migrated by itself. Nodes that
-/// this engine does not have stay, for the checker to tell.
+/// this engine does not have stay, for the checker to report.
 Migration migrateToVersion4(std::string text, const std::string& name);
 
 }  // namespace swiftlet::tree

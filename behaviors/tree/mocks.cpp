@@ -70,7 +70,7 @@ class MockLeaf final : public Leaf {
   std::string problem_;                        ///< Of an input that could not be read at the start.
 };
 
-/// What the files tell about a type.
+/// What the files say about a type.
 struct MockFacts {
   std::optional<NodeKind> declared;
   std::size_t most_children = 0;
@@ -83,7 +83,7 @@ struct MockFacts {
     return most_children > 1 ? NodeKind::kControl : most_children == 1 ? NodeKind::kDecorator : NodeKind::kAction;
   }
   void addPort(const std::string& name) {
-    constexpr std::size_t kMost = 200;  // A longer list is nobody's, and each node looks through it.
+    constexpr std::size_t kMost = 200;  // Bounded for speed, because each node searches it.
     if (ports.size() < kMost && std::find(ports.begin(), ports.end(), name) == ports.end()) ports.push_back(name);
   }
 };
@@ -174,7 +174,7 @@ MockedRegistry withMocks(const std::string& path, const Registry& base, const Pa
         for (const XmlElement& child : element.children) finder.readUses(child);
 
   for (const auto& [id, facts] : finder.facts()) {
-    // The name of a tree is a mistake, a SubTree was meant: the checker says so.
+    // The name of a tree is a mistake for a SubTree: the checker reports it.
     if (!finder.isMocked(id, facts) || documents.trees.contains(id)) continue;
     const NodeManifest manifest = mockManifest(id, facts);
     mocked.mocks.push_back({id, manifest.kind, facts.missing_port});

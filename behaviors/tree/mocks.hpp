@@ -1,5 +1,5 @@
 // Mocks of node types that a registry does not have, so that trees of other programs can be read and ticked. A mock has
-// the ports that the file gives it, in <TreeNodesModel> or where it is used. What the file tells about neither its
+// the ports that the file gives it, in <TreeNodesModel> or where it is used. What the file says about neither its
 // ports' directions nor its rule is assumed: every port may read and write its entry, a mock with children is a
 // Sequence.
 #pragma once
@@ -14,7 +14,7 @@
 namespace swiftlet::tree {
 
 /// The answer of a mock without children: RUNNING, SUCCESS, FAILURE or SKIPPED. SKIPPED of a mock that is RUNNING
-/// counts as RUNNING. `ticked` is false where it is only asked whether it wants the vehicle, perhaps several times in a
+/// counts as RUNNING. `ticked` is false where it is only asked whether it would start, perhaps several times in a
 /// tick.
 using MockAnswer = std::function<Status(const Node& mock, bool ticked)>;
 
@@ -26,7 +26,7 @@ void addMockLeaf(Registry& registry, const NodeManifest& manifest, const MockAns
 struct Mock {
   std::string id;
   NodeKind kind = NodeKind::kAction;
-  /// The registry has a type of this name, but without this port of the file; empty if it has none of this name.
+  /// The registry has a type of this name, but without this port of the file; empty if it has no type of this name.
   std::string instead_of_port;
 };
 

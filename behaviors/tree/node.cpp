@@ -46,7 +46,7 @@ Status Node::followRule(TickContext& context) {
   }
 }
 
-/// A node that throws when it is asked to let go has let go.
+/// A node that throws while it is released counts as released.
 Release Node::releasedBy(Release (Node::*ask)(TickContext&), TickContext& context) {
   try {
     return (this->*ask)(context);

@@ -8,12 +8,12 @@
 //             Resume |  v
 //                  SUSPENDED --- halt (at once) --------------> IDLE
 //
-// Letting go may take several ticks: the parent calls suspend() or halt() once a tick until the answer is kReleased,
-// and hands the vehicle to no other node before. suspend() keeps the progress, halt() drops it. A node that is ticked
-// while it lets go for a suspension continues (onResume); one that is being halted finishes that first.
+// Releasing a node may take several ticks: the parent calls suspend() or halt() once a tick until the answer is
+// kReleased, and gives no other node control before. suspend() keeps the progress, halt() drops it. A node that is
+// ticked while it is being suspended continues (onResume); one that is being halted finishes that first.
 //
-// A node that throws an exception is FAILURE with that reason, and has let go; what follows is up to the tree, as after
-// any failure.
+// A node that throws an exception is FAILURE with that reason, and counts as released; the tree goes on as after any
+// failure.
 //
 // Scripted conditions of the file (see conditions.hpp) come before and after the node's own rule.
 //
@@ -34,12 +34,12 @@ namespace swiftlet::tree {
 
 class Node;
 
-/// Another child of a Priority has the vehicle, or is about to get it.
+/// Another child of a Priority takes control, or is about to.
 struct Switch {
   enum class Kind : unsigned char {
-    kLetsGo,  ///< `from` was asked to let go for `to`; it may take several ticks.
-    kTakes,   ///< `to` has the vehicle from this tick on.
-    kKeeps,   ///< `to` (which is also `from`) continues after all, because the other child no longer wants the vehicle.
+    kLetsGo,  ///< `from` is being released for `to`; it may take several ticks.
+    kTakes,   ///< `to` is in control from this tick on.
+    kKeeps,   ///< `to` (which is also `from`) continues after all, because the other child would be SKIPPED now.
   };
   Kind kind = Kind::kTakes;
   const Node* priority = nullptr;
@@ -48,7 +48,7 @@ struct Switch {
   std::string reason;
 };
 
-/// Is told what happens inside a tick, in order.
+/// Receives what happens inside a tick, in order.
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -80,21 +80,21 @@ class Node {
 
   /// Starts or continues. Returns kRunning, kSuccess, kFailure or kSkipped.
   Status tick(TickContext& context);
-  /// Called each tick until it returns kReleased: the node lets go and keeps its progress.
+  /// Called each tick until it returns kReleased: the node releases control and keeps its progress.
   Release suspend(TickContext& context);
-  /// Called each tick until it returns kReleased: the node lets go and drops its progress; it and all nodes below are
-  /// then IDLE.
+  /// Called each tick until it returns kReleased: the node releases control and drops its progress. It and all nodes
+  /// below are then IDLE.
   Release halt(TickContext& context);
 
-  /// Whether a tick now would answer something other than SKIPPED. Changes nothing. A running node always wants the
-  /// vehicle.
+  /// Whether a tick now would answer something other than SKIPPED. Changes nothing. Always true for a running
+  /// node.
   bool wants(const TickContext& context) const;
-  /// Why it wants the vehicle, for people; may be empty.
+  /// Why it would start, for people; may be empty.
   std::string reason(const TickContext& context) const;
 
-  /// Shows SKIPPED for a node that was asked and does not want the vehicle. Not for a running node.
+  /// Shows SKIPPED for a node that was asked and would not start. Not for a running node.
   void markSkipped(TickContext& context) { setStatus(context, Status::kSkipped); }
-  /// It and all nodes below become IDLE at once. Not for a running node, because nothing is let go.
+  /// It and all nodes below become IDLE at once. Not for a running node, because nothing is released.
   void reset(TickContext& context);
 
   const std::string& name() const { return name_; }

@@ -9,7 +9,7 @@
 
 namespace swiftlet::tree {
 
-/// Tells each of them, in order. They must outlive it.
+/// Notifies each of them, in order. They must outlive it.
 class Observers final : public Observer {
  public:
   explicit Observers(std::vector<Observer*> observers) : observers_(std::move(observers)) {}

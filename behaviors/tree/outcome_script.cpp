@@ -9,7 +9,7 @@
 namespace swiftlet::tree {
 namespace {
 
-/// More would not be read by anybody, and must not fill the memory.
+/// A longer script is a mistake, and must not fill the memory.
 constexpr int kMostAnswers = 100'000;
 
 std::string_view withoutBlanks(std::string_view text) {

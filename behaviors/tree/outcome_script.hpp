@@ -1,7 +1,7 @@
 // What the leaves of a tree shall answer in a dry run, as a text that people write:
 //
 //   # comment
-//   ticks: 60                                 at most so many; 100 if not given
+//   ticks: 60                                 greatest number of ticks; 100 if not given
 //   tick_ms: 100                              between two ticks; 100 if not given
 //   TakeOff: RUNNING x3, SUCCESS  # as here   one answer for each tick of the leaf; the last one stays
 //   Main/Priority/Hold: SKIPPED x5, RUNNING, SUCCESS, SKIPPED

@@ -107,7 +107,7 @@ class OutcomeJudge {
       all.success = last.success || (last.skipped && all.success);
     }
     if (id.starts_with("Parallel")) all.success = all.success || all.skipped;
-    // A Switch wants the vehicle as the child that it chooses does.
+    // A Switch is SKIPPED as the child that it chooses is.
     if (dynamic_cast<const SwitchNode*>(record.node) == nullptr) all.skipped = all_skip;
     return all;
   }

@@ -12,11 +12,11 @@
 
 namespace swiftlet::tree {
 
-/// The statuses that a node may end with; none of them: it runs forever.
+/// The statuses that a node may end with; all false: it runs forever.
 struct Outcomes {
   bool success = false;
   bool failure = false;
-  /// It may answer so when it is asked. A Delay wants the vehicle first: where its child may be SKIPPED, it may succeed
+  /// It may answer SKIPPED when it is asked. A Delay is active first: where its child may be SKIPPED, it may succeed
   /// and fail instead.
   bool skipped = false;
 
@@ -27,7 +27,7 @@ struct Outcomes {
 enum class ChainRule : unsigned char { kNone, kSequence, kFallback };
 ChainRule chainOf(const NodeRecord& record);
 
-/// What an application knows of a leaf beyond its manifest; nothing where that says all.
+/// What an application knows of a leaf beyond its manifest; nullopt where the manifest is complete.
 using LeafOutcomes = std::function<std::optional<Outcomes>(const NodeRecord& leaf)>;
 
 /// Whether every value that the port may have before the first tick is that number.

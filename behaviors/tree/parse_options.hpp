@@ -22,10 +22,10 @@ struct ParseLimits {
   int problems = 100;   ///< Further problems are counted, not listed.
 };
 
-/// Files that belong together though none includes another.
+/// Files that belong together though they do not include each other.
 struct TreeFiles {
   std::map<std::string, std::vector<std::string>, std::less<>> trees;  ///< By ID: the files that define it.
-  /// Those whose main tree a SubTree of another one uses; of a file that names none: any of its trees.
+  /// Those whose main tree a SubTree of another one uses; of a file that names no main tree: any of its trees.
   std::set<std::string, std::less<>> helpers;
   std::vector<Problem> warnings;  ///< Of a tree that is used and that several of them define.
 };
@@ -40,9 +40,9 @@ struct ParseOptions {
   FileReader read_file;  ///< Null: the file system.
   /// For files of other programs: what only BehaviorTree.CPP takes, or never looks at, is a warning.
   bool lenient = false;
-  /// The program that ticks the tree may set entries that nothing in the file sets: a warning.
+  /// The program that ticks the tree may set entries that the file does not set: a warning.
   bool host_sets_entries = false;
-  /// The tree is a helper of others, whose SubTrees give it its entries: nothing is said of those that are not set.
+  /// The tree is a helper of others, whose SubTrees give it its entries: entries that are not set are not reported.
   bool user_sets_entries = false;
   /// Of the files that are given together with this one. Leniently its SubTrees find their trees there, as in a program
   /// that registers all of them; else the hint says which <include> is missing.

@@ -109,7 +109,7 @@ std::string expectedValueOf(const PortManifest& port) {
   return text;
 }
 
-/// The text itself where any is allowed; else the one that it is, or the choice whose number it is, as of a constant.
+/// The text itself if any text is allowed; else the allowed text that it is, or the choice with this number.
 std::optional<std::string_view> choiceOf(const PortManifest& port, std::string_view text) {
   const auto& allowed = allowedTexts(port);
   if (allowed.empty() || std::find(allowed.begin(), allowed.end(), text) != allowed.end()) return text;

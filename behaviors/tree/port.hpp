@@ -26,13 +26,13 @@ struct PortManifest {
   std::vector<std::string> choices = {};
   /// Of text that is a list with `;` between: the type of each element.
   std::optional<PortType> elements = std::nullopt;
-  /// It reads news of an entry: text without braces is the name of one, too.
+  /// It waits for updates of an entry: text without braces is the name of one, too.
   bool names_entry = false;
-  /// Of an output: the input with the list whose elements it writes, one after the other; empty for any other.
+  /// Of an output: the input with the list whose elements it writes, one after the other; empty for any other port.
   std::string element_of = {};
   /// Of an output: it takes the value of its entry away; without a slot if the entry is not of the node's own tree.
   bool unsets = false;
-  /// Of a whole number: so many of the node's children; negative ones count from the end, -1 is all of them.
+  /// A whole number of the node's children; negative ones count from the end, -1 is all of them.
   bool counts_children = false;
   /// Of text: it is SUCCESS, FAILURE, RUNNING or SKIPPED.
   bool names_status = false;
@@ -58,9 +58,9 @@ struct Slot {
   std::string name;
   std::size_t id = 0;  ///< Unique in its tree.
   std::optional<Value> value;
-  /// The number that scripts see while the value is the text that a SubTree gives; nothing for any other value.
+  /// The number that scripts see while the value is the text that a SubTree gives; nullopt otherwise.
   std::optional<Value> number_of_text;
-  std::uint64_t writes = 0;  ///< How often it was written, for nodes that wait for news.
+  std::uint64_t writes = 0;  ///< How often it was written, for nodes that wait for updates.
 
   void write(Value next) {
     value = std::move(next);

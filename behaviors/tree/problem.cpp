@@ -44,7 +44,7 @@ const std::string* completed(std::string_view low, std::span<const std::string> 
 }
 
 const std::string* nearest(std::string_view word, std::span<const std::string> candidates) {
-  constexpr std::size_t kMost = 1000;  // A longer list is nobody's, and each problem looks through it.
+  constexpr std::size_t kMost = 1000;  // Bounded for speed, because each problem searches it.
   candidates = candidates.first(std::min(candidates.size(), kMost));
   for (const std::string& candidate : candidates)
     if (withoutUnit(candidate) == withoutUnit(word)) return &candidate;

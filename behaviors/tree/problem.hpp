@@ -29,7 +29,7 @@ std::string toString(const Problem& problem);
 std::string toString(const std::vector<Problem>& problems);
 
 /// "did you mean `x`?" for the candidate nearest to `word` by edit distance, else for the shortest that begins with it,
-/// or an empty string if there is none. A name that differs only in its unit (`clearance_cm`, `clearance`) counts as
+/// or an empty string without one. A name that differs only in its unit (`clearance_cm`, `clearance`) counts as
 /// nearest.
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
 /// "`red`, `blue`".

@@ -1,4 +1,4 @@
-// The text of a tree file, which knows the lines and columns of its bytes and where attributes stand.
+// The text of a tree file, with the lines and columns of its bytes and the places of its attributes.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class SourceText {
   std::size_t endOfTag(std::size_t tag_offset) const;
 
  private:
-  /// A byte whose place is known; the place of another one is counted from the last mark before it.
+  /// A byte whose place is known; other places are counted from the last mark before them.
   struct Mark {
     std::size_t offset = 0;
     int line = 1, column = 1;

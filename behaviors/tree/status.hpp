@@ -1,4 +1,4 @@
-// The words of the engine: the status of a node, and whether it has let go of what it held.
+// The words of the engine: the status of a node, and whether it has been released.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ const char* toString(Status status);
 /// The answer that a port names: SUCCESS, FAILURE, RUNNING or SKIPPED; nothing for any other text.
 std::optional<Status> answerFrom(std::string_view text);
 
-/// Under way: it keeps its progress, and a tick continues it instead of starting anew.
+/// Under way: it keeps its progress, and a tick continues it instead of starting over.
 constexpr bool isActive(Status status) { return status == Status::kRunning || status == Status::kSuspended; }
 
-/// The answer of a node that was asked to let go: not yet (ask again next tick), or done.
+/// The answer of a node that is being released: not yet (call again at the next tick), or done.
 enum class Release : unsigned char { kLettingGo, kReleased };
 
 constexpr Release both(Release a, Release b) {

@@ -40,11 +40,11 @@ class Tree {
   ~Tree();
 
   Status tick(TickContext& context);
-  /// Called each tick until it returns kReleased; the tree is then IDLE and may be ticked anew.
+  /// Called each tick until it returns kReleased; the tree is then IDLE and may be ticked again.
   Release halt(TickContext& context);
 
   /// Sets an entry of the main tree that was named in ParseOptions::host_entries. False if it was not named, or if
-  /// nothing reads it.
+  /// it has no reader.
   bool set(std::string_view entry, Value value);
 
   /// The ID of the main tree.
@@ -67,7 +67,7 @@ class Tree {
 
   /// The position of a node's element, or of one of its attributes (of the element if the attribute is missing).
   Location locationOf(int id, std::string_view attribute = {}) const;
-  /// What a script that reads no entry always is, by its attribute (`_skipIf`, `if`, `code`); nothing for any other.
+  /// The constant value of a script that reads no entry, by its attribute (`_skipIf`, `if`, `code`); else nullopt.
   std::optional<bool> constantTruth(int id, std::string_view attribute) const;
 
   /// Every value that a port may take before the first tick: its literal or default, or the texts that subtree ports

@@ -60,18 +60,18 @@ enum class PortType : unsigned char {
 /// "number", "whole number", "point" ...: for messages.
 const char* toString(PortType type);
 
-/// The unit that ends a port's name ("clearance_m" -> "m", "msec" -> "msec"); empty when there is none.
+/// The unit that ends a port's name ("clearance_m" -> "m", "msec" -> "msec"); empty without a unit.
 std::string_view unitOf(std::string_view port_name);
 /// "m" -> "metres"; empty if it is not a unit.
 std::string_view unitInWords(std::string_view unit);
 /// The name without its unit: "clearance_m" -> "clearance".
 std::string_view withoutUnit(std::string_view port_name);
 
-/// Nothing if `text` is not of that type. Numbers are finite, in the C locale, and may have blanks around them; bool is
+/// nullopt if `text` is not of that type. Numbers are finite, in the C locale, and may have blanks around them; bool is
 /// a word of truthOfWord(), 1 or 0. `unit` is that of the port and is used for kDuration only.
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
 
-/// The number that the whole text is, without blanks around it: a whole one if it can be; nothing for any other text.
+/// The number that the whole text is, without blanks around it: a whole one if it can be; nullopt for any other text.
 std::optional<Value> numberOfText(std::string_view text);
 
 /// The greatest number that durationOf() takes in a unit of time.
@@ -82,7 +82,7 @@ std::optional<Duration> durationOf(double number, std::string_view unit);
 /// Names with a number: the enumerators that an application gives to scripts.
 using Constants = std::map<std::string, std::int64_t, std::less<>>;
 
-/// Of true, True, TRUE, false, False and FALSE; nothing for any other word.
+/// Of true, True, TRUE, false, False and FALSE; nullopt for any other word.
 std::optional<bool> truthOfWord(std::string_view word);
 
 /// A text that parseValue reads back (durations: nanoseconds, for people).

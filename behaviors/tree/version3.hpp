@@ -1,5 +1,5 @@
-// What a file of BehaviorTree.CPP 3 says differently from one of version 4, and the edits that make it one of
-// version 4. Most of the language is the same in both; a file without BTCPP_format is recognized by what is not.
+// How a file of BehaviorTree.CPP 3 differs from one of version 4, and the edits that make it one of
+// version 4. Most of the language is the same in both; a file without BTCPP_format is recognized by the differences.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct Edit {
   std::string text;
 };
 
-/// One thing that version 4 writes in another way.
+/// One use of the language that differs in version 4.
 struct Version3Use {
   const XmlElement* element = nullptr;
   std::size_t offset = 0;  ///< Of the element, or of the attribute that it is about.
@@ -24,7 +24,7 @@ struct Version3Use {
   /// Both versions can read it, with another meaning: the attribute of a <SubTree> without braces.
   bool readable = false;
   std::vector<Edit> edits;
-  /// Version 4 has no words for it: the name of an entry that no script can hold.
+  /// Version 4 cannot express it: the name of an entry that no script can hold.
   bool rewritable = true;
 };
 

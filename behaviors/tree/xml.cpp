@@ -156,7 +156,7 @@ class Reader {
     return first >= 0x20 && first < 0x7F ? "" : " at " + nameOfCharacter(text, offset());
   }
 
-  /// Empty for what is rare or says all by itself.
+  /// Empty for rare errors and those that need no explanation.
   std::string remedyFor(XML_Error code) const {
     const bool about_itself = code == XML_ERROR_UNCLOSED_TOKEN || code == XML_ERROR_MISPLACED_XML_PI;
     if (!about_itself && source_.text().find('<') >= offset()) return "a file begins with <root BTCPP_format=\"4\">";
@@ -190,7 +190,7 @@ class Reader {
            ", and </" + element.name + "> closes it";
   }
 
-  /// By what is written where expat stopped, or just before; empty if that tells nothing.
+  /// By what is written where expat stopped, or just before; empty if that is no clue.
   std::string remedyForToken() const {
     const std::string& text = source_.text();
     const std::size_t at = offset();

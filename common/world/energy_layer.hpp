@@ -12,12 +12,12 @@ struct EnergyLayer {
   /// Greatest thrust over the weight at the present voltage, as learned in flight: at 1 the vehicle can only just
   /// hover.
   double thrust_margin = 0.0;
-  /// Charge at which the vehicle will have to land, because it is too low or carries the weight no longer.
+  /// Charge at which the vehicle will have to land, because it is too low or can no longer carry the weight.
   double land_share = 0.0;
-  /// Time until that charge, at the present consumption; none before the consumption of the flight is
+  /// Time until that charge, at the present consumption; nullopt before the consumption of the flight is
   /// known, some seconds after the take-off.
   std::optional<double> seconds_left;
-  std::optional<double> home_m;  ///< Length of the path home; none before it is known or assumed.
+  std::optional<double> home_m;  ///< Length of the path home; nullopt before it is known or assumed.
   bool home_planned = false;     ///< The length home is that of a path; else a conservative one, as no path is known.
   std::optional<double> home_share;  ///< Charge, as a share of the full battery, that it takes to fly home and land.
 

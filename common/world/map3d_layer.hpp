@@ -23,7 +23,7 @@ struct CameraEstimate {
 
 /// Only `fused` and `frame` may be null.
 struct Map3dLayer {
-  /// In the order of their making; the one that grows is another object at each change.
+  /// In the order of their making; the growing one is another object at each change.
   std::shared_ptr<const std::vector<Submap3d>> submaps;
   std::shared_ptr<const KeyPoses> keys;  ///< The key scans that `submaps` refer to.
   /// All submaps in the frame `map`, made in the background; null before the first.

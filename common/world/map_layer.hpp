@@ -22,8 +22,8 @@ struct MapLayer {
   std::shared_ptr<const LevelMap> levels;
   std::shared_ptr<const std::vector<Frontier>> frontiers;
   double explored_area_m2 = 0.0;             ///< Area of known free cells at the last choice of a viewpoint; 0 before.
-  std::optional<Localization> localization;  ///< None: the flight was given no map.
-  /// The frame of the given map. None without one, and while the vehicle is not localized in it.
+  std::optional<Localization> localization;  ///< nullopt: the flight was given no map.
+  /// The frame of the given map. nullopt without one, and while the vehicle is not localized in it.
   std::optional<Pose2> T_map_given;
   std::shared_ptr<const std::vector<Polygon>> keep_out = std::make_shared<const std::vector<Polygon>>();
   std::shared_ptr<const OccupancyGrid> flown;  ///< What this flight has seen; without a given map the same as `grid`.

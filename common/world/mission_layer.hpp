@@ -22,7 +22,7 @@ struct FlightEnding {
 struct MissionLayer {
   MissionStatus status;
   IntentStatus intent;
-  std::optional<Eigen::Vector2d> goal_map_m;  ///< While the mission is held also that of `waiting`.
+  std::optional<Eigen::Vector2d> goal_map_m;  ///< Set to that of `waiting` while the mission is held.
   std::optional<FlightEnding> ending;         ///< Only in the last snapshot of a flight.
   std::string waiting;  ///< While the mission is held: the operator's command that it flies next; else empty.
 

@@ -12,8 +12,8 @@ enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed, kStopped };
 const char* toString(MissionState state);
 bool isOver(MissionState state);
 
-/// What flies the vehicle: the mission, or what comes before it. kOperator: a hold, a flight home or a landing that the
-/// operator asked for. kSupervisor: what nobody asked for.
+/// What controls the vehicle: the mission, or what overrides it. kOperator: a hold, a flight home or a landing that the
+/// operator requested. kSupervisor: the supervisor, without a request.
 enum class FlownBy { kMission, kOperator, kSupervisor, kPilot };
 const char* toString(FlownBy by);
 

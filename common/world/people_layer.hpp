@@ -18,7 +18,7 @@ struct Person {
 
 struct PeopleLayer {
   std::vector<Person> people;
-  std::optional<Eigen::Vector2d> followed_map_m;  ///< Where the person that is being followed is believed.
+  std::optional<Eigen::Vector2d> followed_map_m;  ///< Estimated place of the followed person.
 
   bool operator==(const PeopleLayer&) const = default;
 };

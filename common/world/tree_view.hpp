@@ -7,7 +7,7 @@
 
 namespace swiftlet::common {
 
-/// A port of a node with what it has now.
+/// A port of a node with its present value.
 struct TreePortView {
   std::string name;
   std::string entry;                 ///< The blackboard entry that it is bound to; empty for a literal or a script.
@@ -23,9 +23,9 @@ struct TreeNodeView {
   std::string status;                     ///< IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED, SUSPENDED.
   std::string type = {};                  ///< "Sequence", "MoveToGoal", "SubTree" ...
   std::vector<TreePortView> ports = {};   ///< Ports that are bound.
-  std::string reason = {};                ///< Why it failed, or why it has the vehicle; the last one that was told.
+  std::string reason = {};                ///< Why it failed, or why it is active; the last one reported.
   std::optional<double> began_s = {};     ///< When its present or last run began, in the time of the snapshots.
-  std::optional<double> duration_s = {};  ///< Of its last run; none while it is under way, or before it.
+  std::optional<double> duration_s = {};  ///< Of its last run; nullopt while it is under way, or before it.
 
   bool operator==(const TreeNodeView&) const = default;
 };

@@ -24,7 +24,7 @@ struct AxisWeights {
 };
 
 /// The gains on x = (integral of e, e, de/dt, acceleration taken up) with e = position less reference, for the input
-/// w = k u + b, the acceleration that the command asks for: so neither k nor b is in the gains.
+/// w = k u + b, the commanded acceleration: so neither k nor b is in the gains.
 LqrGains gainsOf(const AxisModel& axis, const AxisWeights& weights) {
   const double dt_s = common::kControlPeriod.seconds();
   AxisMatrix A = AxisMatrix::Zero();
@@ -106,7 +106,7 @@ Eigen::Vector3d Lqr::wanted(const ControlErrors& errors) const {
   return wanted_m_s2;
 }
 
-/// Equation 1 solved for the commands: u = (acceleration - b) / k. `given_m_s2` is what they ask for within the limits.
+/// Equation 1 solved for the commands: u = (acceleration - b) / k. `given_m_s2`: the acceleration within the limits.
 common::Setpoint Lqr::command(const Eigen::Vector3d& wanted_m_s2, const ControlInput& input,
                               const ControlErrors& errors, const ThrustModel& thrust,
                               Eigen::Vector3d& given_m_s2) const {
@@ -119,7 +119,7 @@ common::Setpoint Lqr::command(const Eigen::Vector3d& wanted_m_s2, const ControlI
   if (input.on_ground) tilt_rad.setZero();
   setpoint.pitch_rad = tilt_rad.x();
   setpoint.roll_rad = tilt_rad.y();
-  // What the integral makes up for is not bounded as an acceleration: it is that of a model that errs.
+  // The integral's part is not bounded as an acceleration, because it corrects the model.
   const double integral_m_s2 = gains_[2][0] * integral_m_s_.z(), most_m_s2 = limits_.max_acceleration_up_m_s2;
   const double most_up_m_s2 = input.on_ground ? std::numeric_limits<double>::infinity() : most_m_s2;
   const double up_m_s2 = integral_m_s2 + std::clamp(wanted_m_s2.z() - integral_m_s2, -most_m_s2, most_up_m_s2);
@@ -152,20 +152,20 @@ common::Setpoint Lqr::tick(const ControlInput& input, ThrustModel& thrust) {
 void Lqr::advance(const ControlErrors& errors, const Eigen::Vector3d& wanted_m_s2, const Eigen::Vector3d& given_m_s2,
                   double dt_s) {
   for (int axis = 0; axis < 3; ++axis) {
-    // The integral balances what the model does not know, so that it accelerates nothing.
+    // The integral only balances errors of the model, so its part accelerates nothing.
     const double integral_gain = gains_[static_cast<std::size_t>(axis)][0];
     const double balance_m_s2 = errors.acceleration_odom_m_s2[axis] + integral_gain * integral_m_s_[axis];
     const double share = lag_s_[axis] > dt_s ? 1.0 - std::exp(-dt_s / lag_s_[axis]) : 1.0;
     taken_up_m_s2_[axis] += share * (given_m_s2[axis] - balance_m_s2 - taken_up_m_s2_[axis]);
     const double refused_m_s2 = wanted_m_s2[axis] - given_m_s2[axis];
     if (integral_gain <= 0.0 || refused_m_s2 * errors.position_odom_m[axis] > 1e-9) continue;
-    // Vertically it also makes up for a thrust that is far from that of the identified flight.
+    // The vertical one also compensates a thrust that is far from that of the identified flight.
     const double most_m_s = (axis == 2 ? common::kGravity_m_s2 : limits_.max_integral_m_s2) / integral_gain;
     integral_m_s_[axis] = std::clamp(integral_m_s_[axis] + dt_s * errors.position_odom_m[axis], -most_m_s, most_m_s);
   }
 }
 
-/// Vertically it counts from the learned hover command, as that of the other controllers: what the model errs by at a
+/// The vertical trim counts from the learned hover command, as that of the other controllers: the model's error at a
 /// hover, k + b, is a part of it.
 Eigen::Vector3d Lqr::trim_odom_m_s2(const ThrustModel&) const {
   Eigen::Vector3d trim_m_s2;

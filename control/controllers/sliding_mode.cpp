@@ -38,7 +38,7 @@ common::Setpoint SlidingMode::tick(const ControlInput& input, ThrustModel& thrus
       yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
   advanceSurface(nominal_m_s2, wanted_m_s2 - actuation.given_odom_m_s2, errors, input.dt_s);
   estimateDisturbance(input, actuation.given_odom_m_s2);
-  // A thrust that has been learned is a disturbance no longer.
+  // A thrust that has been learned is no longer a disturbance.
   if (!input.on_ground) disturbance_m_s2_.z() += thrust.learn(trim_odom_m_s2(thrust).z(), input.dt_s);
   return actuation.setpoint;
 }

@@ -30,7 +30,7 @@ common::Setpoint VoltagePid::tick(const ControlInput& input, ThrustModel& thrust
   common::Setpoint setpoint;
 
   // Grzonka 2012, equation 3: u = Kp (x - x*) + Ki e + Kd v, for x and y. Its signs are those of the autopilot; the
-  // velocity is taken relative to that of the reference, which rests in the paper's hover.
+  // velocity is taken relative to the reference's, which is zero in the paper's hover.
   const Eigen::Vector2d tilt_odom_rad =
       kp * errors.position_odom_m.head<2>() + integral_.head<2>() + kd * errors.velocity_odom_m_s.head<2>();
   const Eigen::Vector2d given_rad = input.on_ground ? Eigen::Vector2d(Eigen::Vector2d::Zero())

@@ -77,7 +77,7 @@ struct Solution {
   double residual_square = std::numeric_limits<double>::infinity();
 };
 
-/// How much fewer the windows count whose residuals are correlated with their neighbours' (a first-order process).
+/// Factor by which windows count less if their residuals are correlated with their neighbours' (a first-order process).
 double inflation(const Eigen::VectorXd& residuals) {
   double product = 0.0;
   for (Eigen::Index i = 1; i < residuals.size(); ++i) product += residuals[i] * residuals[i - 1];

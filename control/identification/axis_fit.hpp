@@ -40,7 +40,7 @@ struct AxisFitOptions {
 tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flights, bool damped,
                                              const AxisFitOptions& options = {});
 
-/// Whether the residual was least at the longest lag that was tried: the lag may be longer, or cannot be told.
+/// Whether the residual was least at the longest lag that was tried: the lag may be longer, or cannot be determined.
 bool lagIsAtBound(const AxisModel& axis, double longest_lag_s, const AxisFitOptions& options = {});
 
 /// As fitAxis without damping for a rate that follows its command: angle(t + T) - angle(t) = k int(u) + b T.

@@ -25,7 +25,7 @@ struct GainSearch {
 /// for each set.
 using GainCost = std::function<double(const std::vector<Gain>& gains)>;
 
-/// Each gain is tried larger, then smaller; what costs less is kept. The direction that helped is tried first the next
+/// Each gain is tried larger, then smaller; the cheaper one is kept. The direction that helped is tried first the next
 /// time. After a sweep over all gains in which none helped, the factor becomes its square root; below 1.05 the search
 /// ends. Deterministic.
 GainSearch searchGains(const std::vector<Gain>& start, const GainSearchOptions& options, const GainCost& cost);

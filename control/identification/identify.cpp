@@ -54,7 +54,7 @@ struct LevelVelocity {
   }
 };
 
-/// C(U) between the rows, and that of the nearest beyond them.
+/// C(U), interpolated between the rows and constant beyond them.
 double hoverAt(const ThrustPoints& points, double voltage_v) {
   const auto above = std::find_if(points.begin(), points.end(),
                                   [voltage_v](const ThrustPoint& point) { return point.voltage_v >= voltage_v; });
@@ -65,7 +65,7 @@ double hoverAt(const ThrustPoints& points, double voltage_v) {
                    (voltage_v - below->voltage_v) / (above->voltage_v - below->voltage_v));
 }
 
-/// C(U), or why there is none that a flight of the vehicle could start from.
+/// C(U), or why it has no value that a flight of the vehicle could start from.
 tl::expected<ThrustEm, std::string> usableThrust(const std::vector<FlightSamples>& flights,
                                                  const common::VehicleConfig& vehicle) {
   auto thrust = thrustByVoltage(flights, vehicle);

@@ -10,9 +10,9 @@
 namespace swiftlet::control {
 
 struct Identification {
-  VehicleModel model;                 ///< Its axes are those of equation 1; C(U) is in it if it was found.
+  VehicleModel model;                 ///< Its axes are those of equation 1; it contains C(U) if that was found.
   std::vector<std::string> problems;  ///< "forward: why it was not identified"; such an axis has the gain 0.
-  std::vector<std::string> doubts;    ///< "yaw: what of it was not told well", of axes that are used all the same.
+  std::vector<std::string> doubts;    ///< "yaw: what of it is uncertain", of axes that are used nevertheless.
   // The axes with damping, equation 2, for the report: whether k2 differs from 0.
   AxisModel damped_forward;
   AxisModel damped_left;
@@ -20,7 +20,7 @@ struct Identification {
   ThrustEm thrust;
 };
 
-/// All flights are of that vehicle. Never fails as a whole: what cannot be told is listed.
+/// All flights are of that vehicle. Never fails as a whole: what cannot be determined is listed.
 Identification identify(const std::vector<FlightSamples>& flights, const common::VehicleConfig& vehicle,
                         const AxisFitOptions& options = {});
 

@@ -18,7 +18,7 @@ struct HoverSample {
   double period_s;
 };
 
-/// The commands of one flight, each divided by what it did: u cos(tilt) / (1 + a / g).
+/// The commands of one flight, each divided by its effect: u cos(tilt) / (1 + a / g).
 void addHovers(const FlightSamples& flight, const ThrustEmOptions& options, std::vector<HoverSample>& hovers) {
   if (flight.size() < 2) return;
   const double period_s = periodOf_s(flight);

@@ -16,7 +16,7 @@ namespace swiftlet::control {
 struct ThrustEmOptions {
   int knots = 9;             ///< Over the voltages that were flown.
   double shortest_s = 20.0;  ///< Less flight is not enough.
-  double smooth_s = 0.5;     ///< The vertical acceleration is that over such a time.
+  double smooth_s = 0.5;     ///< The vertical acceleration is averaged over this time.
   double settled = 1e-5;     ///< The offset counts as settled when no knot moves by more.
   int most_rounds = 200;
 };

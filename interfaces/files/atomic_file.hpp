@@ -16,7 +16,7 @@ namespace swiftlet::interfaces {
 /// Why a file could not be written, for people: "out/map.pgm: No space left on device".
 struct FileError {
   std::string message;
-  std::error_code why = {};  ///< None where another than the system refused.
+  std::error_code why = {};  ///< Empty if the system is not the cause.
 };
 using Written = tl::expected<void, FileError>;
 

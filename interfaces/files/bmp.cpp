@@ -32,7 +32,7 @@ struct Header {
   bool top_down = false;
   std::size_t bits = 0;
   std::uint32_t packing = kPlain;
-  std::uint32_t red = 0, green = 0, blue = 0, alpha = 0;  ///< Which bits of a pixel are whose; of 16 bits or more.
+  std::uint32_t red = 0, green = 0, blue = 0, alpha = 0;  ///< The bits of each channel in a pixel of 16 bits or more.
 };
 
 void readMasks(std::string_view bytes, Header& header) {

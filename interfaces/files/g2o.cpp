@@ -138,7 +138,7 @@ class Reading {
       warning.message = fmt::format("unknown tag, {} left out", count);
       std::vector<std::string> used = {"FIX"};
       for (const auto& element : kElements) used.push_back(element.first);
-      // What follows the colon says how a motion is written: another way may be its inverse, and is no slip.
+      // The text after the colon defines how a motion is written: another one may be its inverse, and is no slip.
       const std::size_t colon = tag.find(':');
       if (colon == std::string::npos || common::nearestWord(tag.substr(colon), std::vector<std::string>{":QUAT"}))
         warning.hint = common::didYouMean(tag, used);

@@ -24,7 +24,7 @@ class G2oFields {
 
   std::string tag() const { return std::string(words_[0].text); }
   std::size_t left() const { return words_.size() - next_; }
-  /// Column of the next word, or of the last one if none is left.
+  /// Column of the next word, or of the last one at the end.
   int column() const { return words_[std::min(next_, words_.size() - 1)].column; }
 
   void expectNumbers(std::size_t count) const;

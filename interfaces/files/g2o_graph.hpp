@@ -33,7 +33,7 @@ struct G2oGraph {
 using G2oGraph2D = G2oGraph<common::Pose2, 3>;
 using G2oGraph3D = G2oGraph<common::Pose3, 6>;
 
-/// Whose elements a line is one of.
+/// The format whose element a line is.
 enum class GraphFormat { kG2o, kToro };
 
 struct G2oOptions {

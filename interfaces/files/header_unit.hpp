@@ -12,7 +12,7 @@ struct HeaderUnit {
   double metres = 1.0;
 };
 
-/// That of "units: centimeters", "length_unit=mm" and, for words that mean nothing else, of "inches" alone. None of
+/// The unit of "units: centimeters", "length_unit=mm" and, for unambiguous words, of "inches" alone. nullopt for
 /// other texts: "scanned in 5 m steps" says nothing about the coordinates.
 std::optional<HeaderUnit> unitIn(std::string_view comment);
 

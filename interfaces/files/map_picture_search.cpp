@@ -47,7 +47,7 @@ fs::path localPath(const std::string& address) {
 /// The last part of a path as any system writes it.
 std::string lastPart(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
 
-/// The picture beside the YAML that is most probably meant; empty if there is none.
+/// The picture beside the YAML that is most probably meant; empty without one.
 std::string likelyPicture(const fs::path& yaml_file, const std::string& named) {
   const std::string wanted = common::lowerCase(lastPart(named));
   std::string best;

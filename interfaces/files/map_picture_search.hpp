@@ -15,8 +15,8 @@ struct FoundPicture {
   std::optional<common::Problem> note;  ///< If it is not where the YAML says.
 };
 
-/// The picture that a YAML names: relative to the YAML, from the root, from `~` or as a file:// address. If there is
-/// none, the file of that name beside the YAML. `location` is that of the name, for messages. Throws InputError, with
+/// The picture that a YAML names: relative to the YAML, from the root, from `~` or as a file:// address. If it is
+/// missing, the file of that name beside the YAML. `location`: of the name, for messages. Throws InputError, with
 /// the picture that is probably meant.
 FoundPicture findPicture(const std::filesystem::path& yaml_file, const std::string& named,
                          const common::SourceLocation& location);

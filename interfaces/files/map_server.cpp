@@ -35,7 +35,7 @@ constexpr char kUnknownPixel = static_cast<char>(205);
 /// Of a picture that toPgm makes: more than its header takes.
 constexpr std::size_t kMostHeaderBytes = 4096;
 
-/// The cells of the picture; one cell if nothing is known.
+/// The cells of the picture; one cell if all are unknown.
 CellRect pictured(const OccupancyGrid& grid) {
   const CellRect known = knownExtent(grid);
   return known.empty() ? CellRect{{0, 0}, {1, 1}} : known;

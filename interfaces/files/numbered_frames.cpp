@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using common::InputError;
 using common::Problem;
 
-/// The number in "frame-000123.pose.txt", "000123.pose.txt" or "123.txt"; none in other names.
+/// The number in "frame-000123.pose.txt", "000123.pose.txt" or "123.txt"; nullopt for other names.
 std::optional<std::int64_t> poseFrame(std::string_view name) {
   for (const std::string_view prefix : {"frame-", "frame_", "frame"})
     if (name.starts_with(prefix)) {

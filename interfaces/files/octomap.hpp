@@ -3,7 +3,7 @@
 //
 // A codec of our own instead of OctoMap's: it goes straight between blocks and bytes, where a tree of nodes would take
 // forty times the memory, and its recursion is bounded whatever the file holds, where OctoMap's ends the program by a
-// full stack. Tests let OctoMap read what is written, and write what is read.
+// stack overflow. Tests let OctoMap read what is written, and write what is read.
 #pragma once
 
 #include <array>

@@ -148,7 +148,7 @@ class ElementReader {
 
 bool isNamed(const Element& element, std::string_view name) { return common::lowerCase(element.name) == name; }
 
-/// Finds out which properties of the points are of use, and says which are not.
+/// Assigns the roles of the points' properties, and notes those that are not used.
 void assignRoles(const Cursor& cursor, Element& element, bool binary, Builder& builder) {
   std::vector<std::string_view> names, scalars;
   for (const Property& property : element.properties) {
@@ -197,7 +197,7 @@ StoredCloud parsePly(std::string_view bytes, const std::string& name, const Clou
     reader.read(element, points ? &builder : nullptr);
     if (points && isLast(header, element))
       noteSurplus(cursor, header.encoding == Encoding::kText, element, before, builder);
-    // What follows the points is of no use here.
+    // Elements behind the points are not used here.
     if (points) {
       noteOtherElements(header, builder);
       return builder.take();

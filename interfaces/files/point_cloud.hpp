@@ -22,7 +22,7 @@ namespace swiftlet::interfaces {
 
 enum class CloudFormat { kPly, kPcd };
 
-/// By the ending of the name; none for any other ending, also for that of a packed file.
+/// By the ending of the name; nullopt for any other ending, also that of a packed file.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
 /// The bytes of a file, binary and little-endian. Normals and colours are written if any is known. Equal points give

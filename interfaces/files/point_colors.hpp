@@ -15,7 +15,7 @@ using RawColor = std::array<float, 3>;
 /// How the numbers of colours are usually read where their type is known.
 enum class ColorType { kByte, kShort, kFloat };
 
-/// Sets the colours of the points, one raw colour each, as 0 to 255. The type of a column does not tell the range: 16
+/// Sets the colours of the points, one raw colour each, as 0 to 255. The type of a column does not fix the range: 16
 /// bits often hold 0 to 255, and so do floats. So the greatest number of all decides: the range is the least one that
 /// reaches half as far or farther, because interpolated colours go a little beyond their range. What is beyond is cut
 /// off. Colours that are not finite, and all colours where no range fits, are common::kUnknownColor.

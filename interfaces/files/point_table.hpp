@@ -80,7 +80,7 @@ std::vector<std::string_view> words(std::string_view line);
 /// more usual name. Red, green and blue come together. Throws InputError through the cursor without x, y and z.
 std::vector<Role> rolesOf(const Cursor& cursor, const std::vector<std::string_view>& names);
 
-/// "columns left out: ring, time" for those of kOther, without padding; empty if there are none.
+/// "columns left out: ring, time" for those of kOther, without padding; empty without one.
 std::string leftOutColumns(const std::vector<std::string_view>& names, const std::vector<Role>& roles);
 
 /// Makes points from rows: set() for each column, then finish(). A point whose position is not finite is left out.
@@ -92,7 +92,7 @@ class Builder {
   void finish();
   /// Takes the unit that a comment of the header names, if it is the first that does.
   void comment(const Cursor& cursor, std::string_view text);
-  /// Notes that are empty are none.
+  /// Empty notes are ignored.
   void note(const std::string& text);
   /// Notes how many points the file has behind those that its header promises.
   void noteSurplus(std::size_t surplus, std::size_t promised);

@@ -16,7 +16,7 @@ namespace {
 
 using Rows = std::array<double, 16>;
 
-/// Files have four digits or more; nothing else than a rotation is so near to one.
+/// Files have four digits or more; only a rotation is this near to one.
 constexpr double kRotationWithin = 0.02;
 constexpr double kLastRowWithin = 1e-3;
 constexpr double kGreatestFrame = 1e9;
@@ -44,9 +44,9 @@ class Matrix {
     }
   }
 
-  /// None if not one of its numbers is finite. Throws InputError if it is no pose.
+  /// nullopt if none of its numbers is finite. Throws InputError if it is no pose.
   std::optional<common::Pose3> pose(const LineReader& reader) const {
-    const std::size_t upper = size_ == 16 && finite_ == 1 ? 1 : 0;  // The 1 of the last row may be there all the same.
+    const std::size_t upper = size_ == 16 && finite_ == 1 ? 1 : 0;  // The 1 of the last row may be there nevertheless.
     if (finite_ == upper) return std::nullopt;
     const auto refuse = [&](const std::string& message, const std::string& hint) {
       throw reader.problemAt(column_, "pose", message, hint);

@@ -18,11 +18,11 @@
 
 namespace swiftlet::interfaces {
 
-/// What tells which poses of two files belong together.
+/// The key by which poses of two files are paired.
 enum class PoseOrder {
   kStamps,   ///< Stamps, in seconds.
   kNumbers,  ///< Frame numbers: frame n has the stamp n seconds.
-  kLines,    ///< Nothing but the order of the poses: the n-th has the stamp n seconds, counted from 0.
+  kLines,    ///< Only the order of the poses: the n-th has the stamp n seconds, counted from 0.
 };
 
 struct RecordedPoses {

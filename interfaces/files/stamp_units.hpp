@@ -1,4 +1,4 @@
-// Stamps in another unit than seconds, which files of other programs have: nothing converts them, but the messages say
+// Stamps in another unit than seconds, which files of other programs have: they are not converted, but the messages say
 // what they look like.
 #pragma once
 

@@ -34,7 +34,7 @@ bool parseNumber(std::string_view word, double& value);
 /// What to do where a decimal comma keeps the word from being a number; empty for anything else.
 std::string decimalCommaHint(std::string_view word);
 
-/// Seconds, exact for plain decimals; a double of seconds since 1970 would not be exact. None for anything else.
+/// Seconds, exact for plain decimals; a double of seconds since 1970 would not be exact. nullopt for anything else.
 std::optional<common::Time> parseStamp(std::string_view word);
 /// Seconds with nine decimals, computed from the nanoseconds, so that they read back exactly.
 std::string stampText(common::Time stamp);

@@ -12,8 +12,8 @@
 
 namespace swiftlet::interfaces {
 
-/// The poses in the order of the file, plain or compressed. The number of words on the first line tells the format. Of
-/// a folder: those of its trajectory.tum, groundtruth.txt or trajectory.log, else of its numbered frames. Throws
+/// The poses in the order of the file, plain or compressed. The number of words on line 1 decides the format. Of
+/// a folder: its trajectory.tum, groundtruth.txt or trajectory.log, or else its numbered frames. Throws
 /// InputError with file, line and column for anything that is not a pose, and if there is not a single one.
 RecordedPoses readRecordedPoses(const std::filesystem::path& path);
 

@@ -25,7 +25,7 @@ fs::path nearestThere(const fs::path& folder) {
   return there;
 }
 
-/// Of a file system whose files are not files: no right and no name helps there.
+/// Whether it is a pseudo file system of the kernel: no right and no name helps there.
 bool isOfTheKernel(const fs::path& there) {
   constexpr std::array<long, 5> kOfTheKernel{PROC_SUPER_MAGIC, SYSFS_MAGIC, CGROUP2_SUPER_MAGIC, DEBUGFS_MAGIC,
                                              SECURITYFS_MAGIC};

@@ -1,4 +1,4 @@
-// Why files cannot be written where a user says, in words that lead out of it.
+// Why files cannot be written in a user's folder, with a remedy.
 #pragma once
 
 #include <filesystem>

@@ -18,7 +18,7 @@ struct CarmenScan {
   common::Pose2 T_odom_laser, T_odom_robot;
 };
 
-/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. An old line does not describe its laser: 180
+/// The scan of a FLASER or ROBOTLASER1 line; nullopt for any other line. An old line does not describe its laser: 180
 /// degrees are spread over its beams, as for SICK lasers, and 49.9 m or more is no return.
 tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::string_view line);
 

@@ -20,7 +20,7 @@ struct LoggedScan {
   /// stamp are equal. The time between two beams is negative where the last beam was the first in time.
   common::LaserScan scan;
   common::Pose2 T_robot_laser;
-  std::optional<common::Pose2> T_odom_robot;  ///< The robot's own odometry; none if the log has none.
+  std::optional<common::Pose2> T_odom_robot;  ///< The robot's own odometry; nullopt if the log has no odometry.
 };
 
 struct LaserLogOptions {
@@ -42,7 +42,7 @@ class LaserLog {
  public:
   virtual ~LaserLog() = default;
 
-  /// The next scan that can be read; none at the end. A record that cannot be read is skipped and counted. Throws
+  /// The next scan that can be read; nullopt at the end. A record that cannot be read is skipped and counted. Throws
   /// InputError with file and line if the file itself cannot be read on (a damaged archive).
   [[nodiscard]] virtual std::optional<LoggedScan> next() = 0;
   virtual const LaserLogCounts& counts() const = 0;

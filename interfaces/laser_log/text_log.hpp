@@ -20,7 +20,7 @@ namespace swiftlet::interfaces {
 class LogFormat {
  public:
   virtual ~LogFormat() = default;
-  /// The scan of the line; nothing if it has none.
+  /// The scan of the line; nullopt for a line without one.
   virtual tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) = 0;
   virtual std::string name() const = 0;
   virtual bool hasMicroseconds() const { return false; }

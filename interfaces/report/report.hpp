@@ -44,7 +44,7 @@ struct TrialPicture {
 struct TrialReport {
   std::string title;
   std::string subtitle;
-  std::optional<bool> passed;  ///< None: there was nothing to pass.
+  std::optional<bool> passed;  ///< nullopt: without criteria.
   std::vector<common::Table> tables;
   std::vector<TrialPicture> pictures;
   std::vector<std::string> plots_svg = {};  ///< Above the tables.

@@ -39,7 +39,7 @@ std::optional<FrameFault> faultOf(const common::DepthCodes& depth, double units_
   return std::nullopt;
 }
 
-/// The bytes of an image file; none with the reason in `skipped`.
+/// The bytes of an image file; nullopt with the reason in `skipped`.
 std::optional<std::string> bytesOf(const fs::path& file, SkippedFrame& skipped) {
   try {
     return common::readBytes(file, kMostImageBytes);

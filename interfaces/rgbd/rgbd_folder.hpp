@@ -41,7 +41,7 @@ class RgbdFolder {
   /// Frames are made with the calibration of the listing.
   explicit RgbdFolder(RgbdListing listing) : listing_(std::move(listing)) {}
 
-  /// The next usable frame, in the order of the stamps; none at the end.
+  /// The next usable frame, in the order of the stamps; nullopt at the end.
   std::optional<common::RgbdFrame> next();
 
   const RgbdListing& listing() const { return listing_; }
@@ -54,7 +54,7 @@ class RgbdFolder {
   const std::string& firstDetail(FrameFault fault) const { return first_[static_cast<std::size_t>(fault)]; }
 
  private:
-  /// A frame or why it is none.
+  /// A frame, or the reason why it cannot be used.
   std::optional<common::RgbdFrame> read(const RgbdListing::Pair& pair, SkippedFrame& skipped);
 
   RgbdListing listing_;

@@ -149,7 +149,7 @@ void associate(const std::vector<StampedFile>& colors, const std::vector<Stamped
   listing.unpaired += colors.size() + depths.size() - 2 * depth_of.size();
 }
 
-/// The number in "frame-000123.color.png"; none for any other name.
+/// The number in "frame-000123.color.png"; nullopt for any other name.
 std::optional<std::int64_t> frameNumber(const std::string& name) {
   constexpr std::string_view kPrefix = "frame-";
   if (!name.starts_with(kPrefix)) return std::nullopt;

@@ -20,7 +20,7 @@ struct RgbdListing {
   std::string format;           ///< For people: "TUM RGB-D".
   RgbdCalibration calibration;  ///< Calibration of the format.
   std::vector<Pair> pairs;
-  /// The stamps in its lists are so many times those of the pairs: 1, or the frame rate where its lists number the
+  /// Factor from the pairs' stamps to those in its lists: 1, or the frame rate where its lists number the
   /// frames.
   double stamps_per_s = 1.0;
   std::uint64_t unpaired = 0;  ///< Images of which the other one is not listed, or not at the same time.

@@ -36,7 +36,7 @@ constexpr float kFarthest_m = 1e5F;
 constexpr int kPlaneNeighbours = 10;
 /// Cubes that must grow do so by at least this factor, so that it does not take many trials.
 constexpr double kLeastGrowth = 1.1;
-/// A noisy point has this many large cubes with points around it, up to so many cubes away. At the end of a row of them
+/// A noisy point has this many large cubes with points around it, up to kAroundCubes away. At the end of a row of them
 /// it has two; errors seldom lie three together.
 constexpr int kFewestAround = 2;
 constexpr int kAroundCubes = 2;
@@ -128,7 +128,7 @@ std::size_t sizeOf(const std::vector<Piece>& pieces) {
 /// One point a cube, made tile by tile: PCL's points take twice the memory of the map's.
 std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, float cube_m) {
   std::vector<SurfacePoint> all;
-  all.reserve(sizeOf(pieces));  // What is not used of it is never touched, so that it takes no memory.
+  all.reserve(sizeOf(pieces));  // The unused part is never touched, so that it takes no memory.
   for (const auto& [tile, shares] : tilesOf(pieces, cube_m)) {
     pcl::VoxelGrid<PclPoint> grid;
     grid.setLeafSize(cube_m, cube_m, cube_m);
@@ -142,8 +142,8 @@ std::vector<SurfacePoint> thinned(const std::vector<Piece>& pieces, float cube_m
   return all;
 }
 
-/// Points of small cubes and noisy ones of large cubes. Averaged together, the noise would move what was seen well, and
-/// by the spacing of the one kind all points of the other are outliers.
+/// Points of small cubes and noisy ones of large cubes. Averaged together, the noise would move the better points; by
+/// the spacing of one kind all points of the other are outliers.
 template <typename Points>
 struct Kinds {
   Points fine, coarse;
@@ -191,7 +191,7 @@ void removeLone(Kinds<std::vector<SurfacePoint>>& cloud) {
 /// A part of a cloud with the points around it, for searches: a tree of a whole large cloud takes as much memory as the
 /// cloud. A small one is one part.
 struct Part {
-  std::vector<std::uint32_t> points;  ///< Their indices in the cloud: first those of the part itself.
+  std::vector<std::uint32_t> points;  ///< Their indices in the cloud: the part's own points first.
   std::size_t own = 0;
   pcl::PointCloud<pcl::PointXYZ>::Ptr positions = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;

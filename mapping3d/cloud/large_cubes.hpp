@@ -21,7 +21,7 @@ inline LargeCube largeCubeOf(const common::SurfacePoint& point, float side_m) {
 
 /// Cubes with equal keys are a hundred kilometres apart. Cubes above each other have consecutive keys.
 inline std::uint64_t keyOf(const LargeCube& cube) {
-  constexpr std::int64_t kOrigin = 1 << 20;  // So that the ground is not where the numbers begin anew.
+  constexpr std::int64_t kOrigin = 1 << 20;  // So that the numbers do not wrap around near the ground.
   const auto part = [](std::int64_t number) { return static_cast<std::uint64_t>(number + kOrigin) & 0x1fffffU; };
   return part(cube.x()) << 42U | part(cube.y()) << 21U | part(cube.z());
 }

@@ -28,7 +28,7 @@ float depthOf(std::uint32_t code, Kind kind) {
   return kind == kMillimetres ? static_cast<float>(code / 1000.0) : 0.001F * static_cast<float>(code);
 }
 
-/// None if there is a depth that is not a whole number of millimetres of that kind.
+/// nullopt if a depth is not a whole number of millimetres of that kind.
 std::optional<std::vector<std::uint32_t>> inMillimetres(const DepthImage& depth, Kind kind) {
   std::vector<std::uint32_t> codes;
   codes.reserve(depth.depth_m.size());

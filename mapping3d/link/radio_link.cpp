@@ -73,7 +73,7 @@ Duration RadioLink::timeFor(const FramePacket& packet) const {
   return Duration::fromSeconds(static_cast<double>(packet.bytes()) / (1000.0 * config_.link_kB_s));
 }
 
-/// As large as it may be to arrive in time; the smallest, if none does.
+/// As large as possible to arrive in time; the smallest if none would.
 FramePacket RadioLink::fitting(const RgbdFrame& frame, Time start) {
   const Time latest = frame.stamps.measured + Duration::fromSeconds(config_.oldest_s);
   RgbdFrame small = frame;

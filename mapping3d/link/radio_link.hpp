@@ -37,7 +37,7 @@ struct RadioCounts {
   std::uint64_t bytes = 0;      ///< Bytes that went over the radio.
 };
 
-/// A function of the frames and the times at which it is asked. One thread.
+/// A function of the frames and the times of the calls. One thread.
 class RadioLink {
  public:
   /// The link must be used.
@@ -45,8 +45,8 @@ class RadioLink {
 
   /// A frame whose images have the size of its camera, arrived at its stamp.
   void offer(std::shared_ptr<const common::RgbdFrame> frame);
-  /// The next frame that has come through by `now`; null without one. Ask until there is none, with a `now` that never
-  /// goes back. The stamp of the arrival is that on this side of the radio.
+  /// The next frame that has arrived by `now`; null without one. Call it until it returns null, with a `now` that never
+  /// decreases. The stamp of the arrival is that on this side of the radio.
   std::shared_ptr<const common::RgbdFrame> take(common::Time now);
 
   const RadioCounts& counts() const { return counts_; }

@@ -1,7 +1,7 @@
 // The pose graph of key frames where no laser makes a 2D map: nodes are key frames, edges are alignments between them.
 //
 // A loop closure is checked twice before it may bend the map. First, it must agree with the path between its key frames
-// as far as that path can have drifted; two places that look alike in all they show are told apart by nothing else.
+// as far as that path can have drifted; nothing else distinguishes two places that look alike in all they show.
 // Second, when the graph has been optimized with all its edges, a loop closure that the others do not confirm has a
 // large error, is taken out, and the graph is optimized again.
 #pragma once
@@ -35,8 +35,8 @@ struct KeyFrameGraphConfig {
       0.05;  ///< Difference of a loop closure's attitude from the path that is accepted however little the path turns.
   static constexpr double drift_turn_share = 0.05;  ///< Further difference of a loop closure's attitude from the path
                                                     ///< that is accepted, as a share of all turns along the path.
-  double greatest_error = 25.0;  ///< A loop closure whose squared error in the optimized graph is greater is taken out;
-                                 ///< that of a right one is chi-squared with 6 degrees of freedom.
+  double greatest_error = 25.0;  ///< A loop closure whose squared error in the optimized graph is greater is removed;
+                                 ///< the squared error of a right one is chi-squared with 6 degrees of freedom.
   optimization::PoseGraphConfig optimization;
 };
 

@@ -12,7 +12,7 @@ namespace swiftlet::mapping3d {
 
 struct LoopSearchConfig {
   int candidates = 5;  ///< Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.
-  static constexpr int apart = 5;  ///< The last so many key frames are no candidates: the track connects them.
+  static constexpr int apart = 5;  ///< This many of the newest key frames are no candidates: the track connects them.
   static constexpr double least_overlap = 0.4;  ///< Part of a candidate's points that must lie in the picture.
 };
 
@@ -20,9 +20,9 @@ struct LoopSearchConfig {
 bool isOld(int scan, int newest, const LoopSearchConfig& config);
 
 /// The edge by which the track connects a new key frame, which gets this number: from the one that it overlaps most of
-/// those that it was aligned to, an old one only where there is no other; none for the first. A frame is aligned to all
-/// of its key frames together, so its pose tells nothing of the drift between old and new ones; findLoops measures
-/// that.
+/// those that it was aligned to, an old one only if there is no other; empty for the first. A frame is aligned to all
+/// of its key frames together, so its pose contains no information on the drift between old and new ones; findLoops
+/// measures that.
 std::vector<KeyFrameEdge> trackEdges(const RgbdPose& pose, int number, const KeyFrameMap& keys,
                                      const LoopSearchConfig& config);
 

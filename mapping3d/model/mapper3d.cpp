@@ -28,7 +28,7 @@ RgbdFrame withoutPeople(RgbdFrame frame, const Pose3& T_map_camera, std::span<co
   return frame;
 }
 
-/// Depths so far tell of turns, and little of the place; beyond, they are mostly wrong.
+/// Depths this far away determine turns, and the place only little; beyond, they are mostly wrong.
 constexpr double kFarthestOfRecordings_m = 9.0;
 
 }  // namespace

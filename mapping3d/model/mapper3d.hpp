@@ -47,9 +47,9 @@ Mapper3dConfig configOfRecordings();
 struct FrameContext {
   std::optional<CameraSeed> seed;
   /// With at least one key scan. Null where there is no 2D map: then key frames take the place of key scans, and loops
-  /// are closed by what they look like. A map has scans in all of its frames or in none.
+  /// are closed by appearance. A map has scans in all of its frames or in none.
   std::shared_ptr<const common::KeyPoses> scans;
-  std::span<const common::Disc> people;  ///< In `map`. What is seen of them is left out.
+  std::span<const common::Disc> people;  ///< In `map`. Their pixels are left out.
 };
 
 struct MappedFrame {

@@ -9,7 +9,7 @@ namespace {
 
 /// Bits of each coordinate of a cube: a million cubes each way.
 constexpr int kBits = 21;
-/// A large cube with so many times less weight than one beside it has the noise of that one's points.
+/// A large cube with this many times less weight than one beside it has the noise of that one's points.
 constexpr float kMostlyBeside = 5.0F;
 
 std::uint64_t part(float coordinate) {

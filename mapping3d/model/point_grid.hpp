@@ -24,7 +24,7 @@ namespace swiftlet::mapping3d {
 struct WeightedPoints {
   std::shared_ptr<const std::vector<common::SurfacePoint>> points;  ///< Never null.
   std::vector<float> weights;                                       ///< One for each point.
-  std::size_t fine = 0;                                             ///< So many have small cubes; the others follow.
+  std::size_t fine = 0;                                             ///< Points of small cubes; the others follow.
 };
 
 /// One thread. The same points in the same order give the same bits.

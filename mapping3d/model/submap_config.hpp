@@ -20,8 +20,8 @@ struct SubmapConfig {
 
 /// Of submaps from depth images, which have far more pixels than a map needs points.
 struct ImageSubmapConfig : SubmapConfig {
-  static constexpr int pixel_step = 2;  ///< Every so many pixels of a row and of a column make a point.
-  static constexpr int frame_step = 3;  ///< Every so many frames make points; all of them change the occupancy.
+  static constexpr int pixel_step = 2;  ///< Every n-th pixel of a row and of a column makes a point.
+  static constexpr int frame_step = 3;  ///< Every n-th frame makes points; all frames change the occupancy.
 
   void describe(common::config::Fields& fields);
 };

@@ -108,7 +108,7 @@ std::vector<Submap3d> SubmapStore::snapshot() {
   return submaps;
 }
 
-/// The nearest within reach of those whose key scans place the frame.
+/// The nearest one within reach, among the submaps whose key scans place the frame.
 std::optional<std::size_t> SubmapStore::known(const Eigen::Vector3d& sensor_map_m, int scan,
                                               const common::KeyPoses& scans) const {
   std::optional<std::size_t> nearest;
@@ -123,7 +123,7 @@ std::optional<std::size_t> SubmapStore::known(const Eigen::Vector3d& sensor_map_
   return nearest;
 }
 
-/// An empty one. Its voxels are those of the map as long as no correction moves it, so that fusing loses nothing.
+/// Adds an empty submap. Its voxels coincide with the map's as long as no correction moves it, so fusing loses nothing.
 std::size_t SubmapStore::add(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) {
   if (static_cast<int>(kept_.size()) >= config_.submaps_max) kept_.erase(kept_.begin());
   Pose3 T_map_submap;

@@ -1,4 +1,4 @@
-// The submaps of a 3D map: one that grows, and those that were left. Where one was left it goes on when the sensor
+// The submaps of a 3D map: the growing one, and those that were left. A left submap is continued when the sensor
 // comes back, so that the map grows with the building and not with the flight. It does so only while the 2D map places
 // the frame by the submap's own key scans or by neighbours of them: after a long path the drift would be drawn into it,
 // where no loop closure could take it out again.
@@ -23,7 +23,7 @@
 
 namespace swiftlet::mapping3d {
 
-/// A frame with what is known of it.
+/// A frame with its pose and context.
 struct PlacedFrame {
   const common::RgbdFrame& frame;
   const common::RgbdFrame& still;  ///< The frame without the depths that lie on people.
@@ -81,7 +81,7 @@ class SubmapStore {
   ImageSubmapConfig config_;
   VoxelConfig voxels_;
   vision::DepthNoiseConfig noise_;
-  std::uint64_t frames_ = 0;  ///< Drawn so far.
+  std::uint64_t frames_ = 0;  ///< Number of frames drawn.
   std::vector<Kept> kept_;
   std::optional<Growing> growing_;
 };

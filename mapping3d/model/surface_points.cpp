@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The normal comes from the pixels so far to each side: over fewer the noise of the depth turns it too much.
+/// The normal comes from the pixels this far to each side: over fewer the noise of the depth turns it too much.
 constexpr int kReach_px = 3;
 /// Neighbours belong to the same surface within kSigmas standard deviations, and kSteepest times their distance: a
 /// slope of 75 degrees. The same as in surface_fit.cpp.

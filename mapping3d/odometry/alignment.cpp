@@ -22,7 +22,7 @@ constexpr double kSmallStep_rad = 5e-5;
 /// The iterations begin with this many times the standard deviation that grey values have in an exact fit, and never
 /// assume more: where the views differ, texture does not repeat.
 constexpr double kWidest = 5.0;
-/// Fewer textured points do not tell a right pose from a wrong one.
+/// Fewer textured points do not distinguish a right pose from a wrong one.
 constexpr int kLeastTextured = 50;
 /// A surface point counts as agreeing within this many standard deviations.
 constexpr double kAgreeing = 3.0;

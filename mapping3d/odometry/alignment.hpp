@@ -64,7 +64,7 @@ struct Alignment {
   double overlap = 0.0;    ///< Part of the points that lie in the picture.
   double agreement = 0.0;  ///< Part of those, where the depth was measured, whose depth agrees with it.
   /// Correlation of the grey values of textured points with those of the frame: near 1 at the right pose, near 0 at a
-  /// wrong one, whatever the exposure. 1 if too few are textured to tell.
+  /// wrong one, whatever the exposure. 1 if too few points are textured.
   double correlation = 1.0;
   int points = 0;    ///< Points whose depth agrees, at the finest level.
   int measured = 0;  ///< Points of which the frame measured a depth, at the finest level.

@@ -116,7 +116,7 @@ CameraCalibration::Vector6d CameraCalibration::residual(const CameraMotion& moti
   return residual;
 }
 
-/// By differences. Rotations tell the mount's yaw against the gyroscopes and translations tell it against the laser,
+/// By differences. Rotations determine the mount's yaw against the gyroscopes and translations against the laser,
 /// whose own mount may be turned. The map has the laser's axes, so only translations count.
 CameraCalibration::Jacobian CameraCalibration::jacobian(const CameraMotion& motion,
                                                         const CameraErrors::Vector7d& at) const {

@@ -3,9 +3,9 @@
 // The camera's motion between two key frames and the body's motion between the same times are the same motion, seen in
 // two frames (hand-eye calibration): B X = X C, with the mount X = T_body_camera. A wrong mount turns and shifts X C
 // X^-1 against B; a clock that is late by tau gives the body's poses of another time. A Kalman filter of these seven
-// unknowns takes each pair of key frames once. Turns about the vertical tell roll and pitch of the mount, its x and y,
-// and, where they begin and end, the clock. Straight flight tells its yaw. What no motion has told keeps the spread of
-// the prior.
+// unknowns takes each pair of key frames once. Turns about the vertical determine roll, pitch, x and y of the mount,
+// and, where they begin and end, the clock. Straight flight determines its yaw. What no motion has observed keeps the
+// spread of the prior.
 //
 // Sources: R. Tsai, R. Lenz, "A new technique for fully autonomous and efficient 3D robotics hand/eye calibration", TRA
 // 1989 (rotation about its axis); M. Li, A. Mourikis, "Online temporal calibration for camera-IMU systems", IJRR 2014

@@ -1,7 +1,7 @@
-// What other sensors know of the camera's pose, where Saeedi's Algorithm 1 begins (its line 2), and how it keeps frames
+// The camera's pose by other sensors, where Saeedi's Algorithm 1 begins (its line 2), and how it keeps frames
 // and key frames near the 2D map.
 //
-// A bare wall tells nothing of the motion along it. There the frames follow the motion of the seeds, which is known
+// A bare wall does not constrain the motion along it. There the frames follow the motion of the seeds, which is known
 // much better than their place. From key frame to key frame the errors of the alignment add up, so that a 3D map of its
 // own would leave the 2D map, whose loop closures correct it. Each new key frame is therefore placed by a Kalman
 // update: the alignment predicts its pose, with an uncertainty that grew since the last seed, and the seed measures it.
@@ -42,7 +42,7 @@ struct CameraSeedConfig {
   static constexpr double step_sigma_rad =
       0.002;  ///< Error of the attitude that an alignment adds from key frame to key frame, at least.
   static constexpr int unfit_frames =
-      5;  ///< After so many frames that do not fit, the key frames begin anew at the seed.
+      5;  ///< After this many frames that do not fit, the key frames restart at the seed.
 };
 
 /// Whether an aligned pose is as near to the seed as the gate demands.
@@ -62,7 +62,7 @@ struct AlignedFrame {
 /// and the seed itself if it is a pose in the map.
 PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config);
 
-/// Adds to what is known of a frame's pose the step of a seed that is not in the map, with the weight that its
+/// Adds the step of a seed that is not in the map to the prior of a frame's pose, with the weight that its
 /// rate_covariance allows. A step that contradicts the rest is left out, and so is one of unknown covariance.
 PosePrior withSeedStep(const PosePrior& motion, const AlignedFrame& last, const CameraSeed& seed, double gap_s);
 

@@ -7,7 +7,7 @@
 namespace swiftlet::mapping3d {
 namespace {
 
-/// Fewer pairs of views do not tell.
+/// Fewer pairs of views are no evidence.
 constexpr int kLeastAdded = 3;
 /// With a right focal length another one leaves at least 0.95 of what it leaves, on the recordings of decision 041.
 constexpr int kManyAdded = 8;

@@ -22,10 +22,10 @@ class FocalCheck {
 
   /// Whether it has seen enough.
   bool isDone() const { return added_ >= kMostAdded; }
-  /// Whether enough was seen to tell.
+  /// Whether enough was seen for a result.
   bool canTell() const;
-  /// By what the focal length would have to be multiplied to fit clearly better; none if it fits well, or if too little
-  /// was seen to tell.
+  /// The factor by which the focal length would fit clearly better; nullopt if it fits well, or if too little
+  /// was seen.
   std::optional<double> betterFactor() const;
 
  private:

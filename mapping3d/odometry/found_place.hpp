@@ -13,7 +13,7 @@ bool isInReach(const common::Pose3& last, const common::Pose3& found, double gap
 bool isSamePlace(const common::Pose3& a, const common::Pose3& b);
 
 /// Whether a frame that fits shows enough of its key frames, and looks enough like them, to be found by it: with at
-/// least so many points of texture, since surfaces alone are alike in many places.
+/// least this many points of texture, since surfaces alone are alike in many places.
 bool isRecognized(const Alignment& fit, int least_textured);
 
 /// A weak fit, far from where the bounds of the acceleration allow the camera to be: mostly of a blurred picture.

@@ -1,4 +1,4 @@
-// What a frame itself tells of its pose, for a filter that the prior came from.
+// What a frame itself measures of its pose, without its prior, for the filter that the prior came from.
 //
 // A prior from a filter must not return to it as a measurement: its information would count twice. An alignment with a
 // prior solves (H + L) x = H m + L p, with the information H of the frame and L of the prior p. So the measurement is
@@ -18,7 +18,7 @@ namespace swiftlet::mapping3d {
 
 struct MeasuredPoseConfig {
   double least_share = 0.02;  ///< A direction counts as seen with this share of the information of the one seen best.
-                              ///< On a wall the noise of normals seems to tell 0.3 % of it along the wall.
+                              ///< The noise of normals on a wall seems to give 0.3 % of it along the wall.
   static constexpr double most_noise = 0.5;  ///< A direction of whose information more than this share may be the noise
                                              ///< of grey values counts as not seen.
   double sigma_factor = 1.0;  ///< Standard deviation of a measured pose, in those that follow from independent points.
@@ -34,7 +34,7 @@ struct MeasuredPose {
 };
 
 /// `gradient_variance` is that of the frame's noise (vision::gradientNoiseVariance). `depth_m` is a typical depth of
-/// what is seen: so far away a turn moves points as much as a step does.
+/// the scene: at that distance a turn moves points as much as a step does.
 MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const PosePrior& prior, double depth_m,
                           const MeasuredPoseConfig& config);
 

@@ -17,17 +17,17 @@ namespace {
 
 using common::Pose3;
 
-/// A frame that is less certain of its pose along some direction tells nothing of a seed.
+/// A frame that is less certain of its pose along some direction is not compared with a seed.
 constexpr double kLeastCertain_m = 0.01;
 constexpr double kLeastCertain_rad = 0.005;
-/// Learning anew after each frame would cost more than it gives.
+/// Learning after each frame would cost more than it gains.
 constexpr std::uint64_t kLearnEvery = 10;
 
 /// Errors of neighbouring points are alike, so that an alignment is less certain than independent points would make it.
 constexpr double kSigmaFactor = 5.0;
 
 constexpr double kJudgedStretch_s = 1.0;
-/// Poses of other sensors may well be off by so much after a stretch, and by a part of the motion.
+/// Poses of other sensors may be off by this much after a stretch, and by a part of the motion.
 constexpr double kTolerated_m = 0.1;
 constexpr double kTolerated_rad = 0.1;
 constexpr double kToleratedPart = 0.5;

@@ -1,6 +1,6 @@
-// Poses of the camera from other sensors, as a file has them, and how good they are. Nobody says how noisy and how late
-// such poses are, so they are compared with the track: over the steps between frames that tell their pose in all
-// directions by themselves.
+// Poses of the camera from other sensors, as a file has them, and how good they are. Their noise and lateness are not
+// given, so they are compared with the track: over the steps between frames whose pose is measured in all
+// directions.
 //
 //   poses --> read later by the lateness --> steps --> spread against the tracked steps, each axis of the map by itself
 //
@@ -48,14 +48,14 @@ class RecordedSeeds {
   /// `poses` are those of the camera (axes of `camera`), in a map with z upwards if they know the vertical.
   RecordedSeeds(common::Trajectory poses, const RecordedSeedsConfig& config);
 
-  /// What the poses say of a frame's time, between two of them at most `longest_gap_s` apart; none elsewhere.
+  /// The seed at a frame's time, between two poses at most `longest_gap_s` apart; nullopt elsewhere.
   std::optional<CameraSeed> at(common::Time stamp) const;
   /// Learns from a frame that was placed. Frames come in the order of their stamps.
   void compare(const RgbdPose& pose);
 
   /// How late the poses are, by their stamps. 0 until it is known.
   double lateness_s() const { return lateness_s_; }
-  /// Of the last tracked frames; none if they are too few.
+  /// Of the last tracked frames; nullopt if they are too few.
   std::optional<SeedDisagreement> disagreement() const;
 
  private:

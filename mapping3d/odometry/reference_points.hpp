@@ -26,7 +26,7 @@ struct ReferenceConfig {
   static constexpr int points_across =
       40;  ///< Cells in a row of the picture, each of which gives up to two points to align later frames to.
   static constexpr double least_gradient = 4.0;  ///< Gradient of a textured point, in grey levels per pixel.
-  static constexpr double plane_reach_m = 0.04;  ///< A surface's plane is fitted to points so near, in each direction.
+  static constexpr double plane_reach_m = 0.04;  ///< A surface's plane is fitted to points this near in each direction.
 };
 
 /// The level is divided into cells, `points_across` in a row of it. Each gives its pixel of the greatest gradient and

@@ -23,17 +23,17 @@ constexpr double kLeastGap_s = 0.01;
 constexpr double kJitter_s = 0.045;
 /// Key frames that are tried for each frame while lost: each costs a millisecond or two.
 constexpr std::size_t kTriedPerFrame = 8;
-/// For so long after its last frame, a lost camera is also aligned from where it was.
+/// For this long after its last frame, a lost camera is also aligned from where it was.
 constexpr double kLongestAlignedGap_s = 1.0;
-/// Where nothing but the texture tells whether a pose is right, it must fit well: right ones correlate by 0.9 and more,
+/// Where the texture alone decides whether a pose is right, it must fit well: right ones correlate by 0.9 and more,
 /// wrong ones by less than 0.5.
 constexpr double kLeastCorrelationAlone = 0.8;
 /// Errors of neighbouring points are alike, so that a motion without a prior is less certain than independent points
-/// would make it. What a bare wall seems to tell along itself then counts little.
+/// would make it. The apparent information of a bare wall along itself then counts little.
 constexpr double kMotionSigmaFactor = 5.0;
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
-/// What the bounds of the acceleration tell of a motion that was predicted over a gap, as PosePrior::information.
+/// The information on a predicted motion over a gap from the bounds of the acceleration, as PosePrior::information.
 Matrix6d motionInformation(double gap_s, const RgbdOdometryConfig& config) {
   const double squared_s2 = std::pow(gap_s < kLeastGap_s ? kJitter_s : gap_s, 2);
   const double sigma_m = 0.5 * config.acceleration_m_s2 * squared_s2;
@@ -247,7 +247,7 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   remember(pose, seed);
 }
 
-/// The places of several key frames follow the seeds, and with them the mount that is believed in. One alone does not.
+/// The places of several key frames follow the seeds, and with them the assumed mount. One alone does not.
 /// Without texture nothing is known of the motion along a wall.
 std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid,
                                                                 double gradient_variance) const {
@@ -273,7 +273,7 @@ KeyFramePlace RgbdOdometry::newPlace(const Fit& fit, const RgbdPose& pose,
   return placeOfNew(from, fit.alignment, *seed, config_.seed);
 }
 
-/// Where the seed tells the place, a part of the map that has changed must not keep it lost for good.
+/// Where the seed gives the place, a part of the map that has changed must not keep the camera lost forever.
 void RgbdOdometry::lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed) {
   is_lost_ = true;
   ++unfit_frames_;

@@ -10,7 +10,7 @@
 //                lost +
 //
 // The first frame with enough surfaces makes the model. While lost, it does not change, unless seeds in the map tell
-// where the camera is: then key frames begin anew there. Deterministic; one thread.
+// where the camera is: then key frames restart there. Deterministic; one thread.
 #pragma once
 
 #include <memory>
@@ -56,7 +56,7 @@ struct RgbdOdometryConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Whether an aligned frame shows what its key frames show, as far as the frame itself can tell.
+/// Whether an aligned frame agrees with its key frames, as far as the frame itself can show.
 bool isGoodFit(const Alignment& fit, const RgbdOdometryConfig& config);
 
 enum class TrackState {
@@ -65,7 +65,7 @@ enum class TrackState {
   kLost,        ///< The pose is only predicted, or that of the seed.
 };
 
-/// The motion since a key frame, aligned to that one alone and without a prior: what only the pictures tell.
+/// The motion since a key frame, aligned to that one alone and without a prior: measured by the pictures alone.
 struct KeyFrameMotion {
   common::Time from;  ///< The key frame's stamp.
   common::Pose3 T_from_to;
@@ -80,9 +80,9 @@ struct RgbdPose {
   /// Covariance of the error (x, y, z, rotation vector), in the axes of the camera; meaningless while lost.
   Matrix6d covariance = Matrix6d::Zero();
   int scan = 0;  ///< The key scan next to it; see CameraSeed.
-  /// What the frame alone tells of its pose; none if it was not aligned.
+  /// The pose as the frame alone measures it; nullopt if it was not aligned.
   std::optional<MeasuredPose> measured;
-  /// Of a frame that became a key frame: the motion since the one before. None if they do not overlap, or if there is
+  /// Of a frame that became a key frame: the motion since the one before. nullopt without overlap, or if there is
   /// too little texture.
   std::optional<KeyFrameMotion> motion;
   Alignment fit;
@@ -150,8 +150,8 @@ class RgbdOdometry {
   std::optional<Last> last_;
   std::uint64_t scans_version_ = 0;
   bool is_lost_ = false;
-  int unfit_frames_ = 0;  ///< In a row, just before.
-  int tracks_ = 0;        ///< How often key frames began anew.
+  int unfit_frames_ = 0;  ///< Number of consecutive ones up to the last frame.
+  int tracks_ = 0;        ///< How often key frames restarted.
   std::uint64_t frames_ = 0;
 };
 

@@ -16,8 +16,8 @@ struct SurfaceFit {
 };
 
 /// Fits the inverse depth, which on a plane is linear in the pixel, by least squares over the square of pixels at most
-/// `reach_px` away that belong to the pixel's surface. None at the border, at an edge, on a curved surface, or on one
-/// that is seen too obliquely.
+/// `reach_px` away that belong to the pixel's surface. nullopt at the border, at an edge, on a curved surface, or on a
+/// surface that is seen too obliquely.
 std::optional<SurfaceFit> fitSurface(const common::DepthImage& depth, const common::PinholeCamera& camera, int u_px,
                                      int v_px, int reach_px, const vision::DepthNoiseConfig& noise);
 

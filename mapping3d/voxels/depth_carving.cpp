@@ -102,7 +102,7 @@ void DepthCarving::follow(const common::PinholeCamera& camera, const common::Pos
   rotation_camera_map_ = rotation_map_camera_.transpose().cast<float>();
   half_extent_m_ = 0.5F * static_cast<float>(resolution_m_) * rotation_camera_map_.cwiseAbs().rowwise().sum();
 
-  // A point (x, y, z) is to the left of the plane of the rays at u if fu y > (cu - u) x: by so much at most in a voxel.
+  // A point (x, y, z) is to the left of the plane of the rays at u if fu y > (cu - u) x: by at most this in a voxel.
   const auto extent_m = [this](const Vector3f& normal_camera) {
     return kBeside * 0.5F * static_cast<float>(resolution_m_) *
            (rotation_camera_map_.transpose() * normal_camera).lpNorm<1>();

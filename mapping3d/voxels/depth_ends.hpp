@@ -15,7 +15,7 @@ namespace swiftlet::mapping3d {
 /// its arguments.
 class DepthEnds {
  public:
-  /// So many pixels of a row are looked at together.
+  /// Number of pixels of a row that are processed together.
   static constexpr int kChunk = 64;
   /// For each pixel the numbers of the voxel, counted from the first one; kUnknown or kTooFar in `x` where the ray has
   /// no end within the range.

@@ -1,4 +1,4 @@
-// What one frame tells of the voxels around its sensor, before it changes the map.
+// The evidence of one frame on the voxels around its sensor, before it changes the map.
 #pragma once
 
 #include <array>

@@ -152,7 +152,7 @@ void VoxelMapper::mark(const DepthEnds::Chunk& chunk, int count, InsertionCounts
   }
 }
 
-/// The depths at the end of the range, anew for another camera only.
+/// The depths at the end of the range; computed again only for another camera.
 void VoxelMapper::followCamera(const common::PinholeCamera& camera) {
   if (camera == camera_) return;
   camera_ = camera;

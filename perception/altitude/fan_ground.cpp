@@ -9,17 +9,17 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Points of a cell that are older are left out: the error of the attitude and of the position is the same for so long.
+/// Older points of a cell are left out: the error of attitude and position stays the same for about this long.
 constexpr double kTogether_s = 3.0;
 /// Every n-th end point is enough for a plane; farther ones have a height that is wrong by the attitude.
 constexpr std::size_t kEveryPoint = 2;
 constexpr double kFanRange_m = 12.0;
 /// Nearer hits are obstacles, also on ground: below 27 cm over a slope of 15 degrees.
 constexpr double kObstacle_m = 1.0;
-/// An end point is on a slope if it is so near to its plane, m, and to the points that it is known from.
+/// An end point is on a slope if it is this near, m, to its plane and to the points that define the plane.
 constexpr double kOnPlane_m = 0.08, kBeside_m = 0.8;
 constexpr int kBesideCells = 2;
-/// So many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
+/// This many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
 /// branches and rocks may lie on a plane in a single one.
 constexpr int kLeastPlanes = 2;
 /// A plane that lies higher above the ground below the vehicle does not go on from it. The gradients of cells are wrong

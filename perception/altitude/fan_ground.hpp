@@ -22,8 +22,8 @@ namespace swiftlet::perception {
 /// One thread. In the frame `odom`, whose z is the height over the take-off floor.
 class FanGround {
  public:
-  /// Learns from a scan, taken from that pose and height, `surface_height_m` being that of the ground below. What moves
-  /// is left out.
+  /// Learns from a scan, taken from that pose and height; `surface_height_m` is the height of the ground below. Points
+  /// that move are left out.
   void add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m, double surface_height_m);
 
   /// Makes floor hits of the end points that lie on ground that is known to slope.

@@ -12,7 +12,7 @@ namespace swiftlet::perception::altitude {
 /// One thread.
 class FloorReturn {
  public:
-  /// Begins anew: the floor itself is below, where it is expected, or nothing below says where it is.
+  /// Resets: the floor itself is below, where it is expected, or nothing below says where it is.
   void reset() { cells_ = 0; }
   /// A level other than the floor was measured in a cell that was seen to be floor before; call it once for each cell
   /// and level. Returns true if the level is the floor.

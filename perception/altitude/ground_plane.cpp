@@ -11,7 +11,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Three points make a plane; so many average their noise. Whether they tell its gradient is decided by kSpread_m.
+/// Three points make a plane; this many average their noise. kSpread_m decides whether they determine its gradient.
 constexpr int kLeastPoints = 20;
 /// Least spread of the points in each direction, and greatest of their distances from the plane.
 constexpr double kSpread_m = 0.07, kFlat_m = 0.03;

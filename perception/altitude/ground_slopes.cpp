@@ -12,7 +12,7 @@ namespace {
 
 /// Every n-th pixel in both directions.
 constexpr int kEvery_px = 3;
-/// Points from so far below the camera on may be ground.
+/// Points this far below the camera and lower may be ground.
 constexpr double kBelow_m = 0.3;
 /// Farther away the depths of structured-light cameras are too noisy for a gradient [Khoshelham 2012].
 constexpr double kRange_m = 4.0;

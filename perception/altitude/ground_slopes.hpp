@@ -1,6 +1,6 @@
 // How the ground slopes where a depth camera saw it. The beams that a mirror deflects down meet one place at a time:
 // whether the ground rises or the vehicle sinks is the same to them. A camera sees some square metres at once, and its
-// attitude is known to about a degree, so that a ramp of some degrees is told from level ground.
+// attitude is known to about a degree, so it distinguishes a ramp of some degrees from level ground.
 //
 //   depth image --> points below the hull, in the map --> a plane in each cell --> minus what level ground seems to
 //                   slope, as attitude and mount are wrong --> mean gradient of the cell

@@ -14,7 +14,7 @@ using common::square;
 /// Long enough for a rate of some cm/s from the noise below, and short enough that what drifts at half a metre per
 /// second squared is noticed before it has drifted by 0.15 m.
 constexpr double kWindow_s = 0.5;
-constexpr std::size_t kLeastSamples = 5;  ///< Of ten scans a second, those of the window.
+constexpr std::size_t kLeastSamples = 5;  ///< The scans of the window, at ten scans a second.
 /// The noise of the median distance down of one scan: a UTM-30LX has 0.01 m a beam.
 constexpr double kNoise_m = 0.01;
 /// More than that from scan to scan is no drift: at 10 scans a second it would be 0.6 m/s.

@@ -27,7 +27,7 @@ struct HeightState {
 struct VerticalSpeed {
   double up_m_s = 0.0;
   double variance_m2_s2 = 0.0;
-  double change_m_s = 0.0;  ///< By how much it differs from the speed that was believed.
+  double change_m_s = 0.0;  ///< Change from the previously estimated speed.
 };
 
 /// One measurement of the height above the take-off floor, made from all beams whose level is known.

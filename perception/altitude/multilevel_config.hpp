@@ -30,7 +30,7 @@ struct MultilevelConfig {
       4.0;  ///< A surface that rises or falls by more standard deviations than this is a slope and no level.
   static constexpr double hold_off_s = 0.3;  ///< Time for which a level is not used after it behaved like a slope.
   static constexpr double enter_after_s =
-      0.3;  ///< A level that was not seen for this long is entered anew when it is seen again.
+      0.3;  ///< A level that was not seen for this long counts as entered again when it is seen.
   static constexpr double unknown_per_m =
       1.0;  ///< Unknown surfaces to be expected, for each metre of height and each known one.
   static constexpr double floor_weight =
@@ -38,7 +38,7 @@ struct MultilevelConfig {
   bool one_floor = true;  ///< Whether the take-off floor may be met again anywhere, not only in the neighbourhood of
                           ///< where it was seen.
   static constexpr double least_step_down_m = 0.25;  ///< Nothing is less than this below the take-off floor.
-  double publish_delay_s = 0.15;  ///< A measurement to which nothing was objected for this long is given out.
+  double publish_delay_s = 0.15;  ///< A measurement is published when nothing has contradicted it for this long.
 
   void describe(common::config::Fields& fields);
 };

@@ -2,8 +2,8 @@
 // (Grzonka 2012, section IV-C, Algorithm 1; Grzonka 2009, section V-E).
 //
 // Stage 1 is a Kalman filter over (z, v_z). It starts each scan from the fusion filter's estimate, where the paper
-// predicts with the vertical acceleration alone (docs/decisions/altitude.md#097). The known levels nearby that explain a beam give
-// one virtual measurement of the height above the take-off floor, as if nothing else were below.
+// predicts with the vertical acceleration alone (docs/decisions/altitude.md#097). The known levels nearby that explain
+// a beam give one virtual measurement of the height above the take-off floor, as if nothing else were below.
 // Stage 2 is one Kalman filter per level. Surfaces that no level explains become new levels. A level is re-estimated
 // only when the vehicle enters or leaves it; otherwise the errors of level and height would drift together. A level
 // grows by the cells where it was measured. Two levels that meet and agree are merged:
@@ -50,7 +50,7 @@ struct AltitudeUpdate {
   std::optional<double> height_above_ground_m;
   int levels_added = 0;
   int levels_joined = 0;
-  /// What was taken for a level is the floor: by so much the height has been corrected.
+  /// The correction of the height, where the assumed level turned out to be the floor.
   std::optional<double> floor_regained_m;
 };
 

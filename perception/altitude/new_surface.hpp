@@ -50,7 +50,7 @@ double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surf
 /// After this time a surface is no slope, as slopes in rooms are short, and no longer new.
 double longestSight_s(const MultilevelConfig& config);
 /// Whether the surface is flat: measured at a constant height, unlike a slope, or rising or falling evenly because the
-/// vertical speed is wrong. Two things speak for the latter: that it is seen for long, and that a level is known at its
+/// vertical speed is wrong. Two things support the latter: that it is seen for long, and that a level is known at its
 /// height (`explained_by`, kNoLevel for none). The more of them, the greater the error of the speed may be.
 bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now, double speed_variance_m2_s2,
             int explained_by);

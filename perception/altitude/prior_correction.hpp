@@ -19,11 +19,11 @@ struct EnteredLevel {
   double height_m = 0.0;  ///< To be added to the prior's height.
   double velocity_m_s = 0.0;
   Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
-  bool confirmed = false;      ///< The level was seen for so long before that leaving it does not call it in question.
+  bool confirmed = false;      ///< The level was seen for so long before that leaving it does not make it doubtful.
 };
 
-/// What was taken for a level is the floor. The prior is not used until it agrees: the fusion filter resists at first,
-/// and a part of the correction would pass by the right height.
+/// The assumed level turned out to be the floor. The prior is not used until it agrees: the fusion filter resists at
+/// first, and a part of the correction would pass by the right height.
 struct RegainedFloor {
   common::Time since;
   Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
@@ -47,7 +47,7 @@ class PriorCorrection {
   const std::optional<RegainedFloor>& regained() const { return regained_; }
   /// Leaving what is below does not call the correction in question.
   bool isConfirmed() const { return regained_ || (entered_ && entered_->confirmed); }
-  /// Of the vertical speed after the correction; none while none is under way.
+  /// Variance of the vertical speed after the correction; nullopt while no correction is under way.
   std::optional<double> speedVariance_m2_s2() const;
 
   /// The height and speed to start a scan from. Ends the correction by a regained floor once the prior agrees with the

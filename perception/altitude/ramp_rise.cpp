@@ -10,7 +10,7 @@ namespace {
 
 /// A slope has ended when the ground was level along a path of this length: the cells of the gradients are as long.
 constexpr double kEnds_m = 0.4;
-/// Along this much path without a gradient the slope is believed to go on.
+/// Along this much path without a gradient the slope is assumed to continue.
 constexpr double kUnseen_m = 0.8;
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Notices that what was taken for level ground may slope, where no camera sees the ground: a surface that seems to rise
 // evenly while the vehicle flies along is a ramp, or the vehicle sinks unnoticed. The multilevel filter takes it for
 // level and corrects the vertical speed. A correction that is larger than the errors of the vertical speed in flights
-// over furniture speaks for a ramp; the height is then wrong by what the ramp rises (docs/decisions/altitude.md#061).
+// over furniture indicates a ramp; the height is then wrong by what the ramp rises (docs/decisions/altitude.md#061).
 #pragma once
 
 #include <optional>

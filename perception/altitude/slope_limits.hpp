@@ -1,4 +1,4 @@
-// What tells slopes of the ground from level ground.
+// Limits that distinguish slopes of the ground from level ground.
 #pragma once
 
 namespace swiftlet::perception {

@@ -19,8 +19,8 @@ struct ConsistencyFigure {
   double lower = 0.0;  ///< Bounds of 95 % for the mean over the flights at one instant.
   double upper = 0.0;
   double inside_share = 0.0;  ///< Share of the instants at which that mean is within the bounds.
-  /// Standard deviation that the filter believes, in the mean, over the best constant one: that of the errors that it
-  /// made. 0 for innovations.
+  /// Mean standard deviation by the filter over the best constant one, which is that of its actual errors. 0 for
+  /// innovations.
   double sigma_ratio = 0.0;
 
   /// The mean is within the bounds.
@@ -40,8 +40,8 @@ struct Consistency {
   std::vector<ConsistencyFigure> innovations;  ///< NIS of relative poses and heights, over a second each.
 };
 
-/// Replays what the filters were told, and compares once a second, from the first truth on. The truth's frame must be
-/// that of the filter's start, as that of a take-off is.
+/// Replays the filters' inputs, and compares once a second, from the first truth on. The truth's frame must be
+/// the frame of the filter's start, as that of a take-off is.
 Consistency consistencyOf(const std::vector<TapedFlight>& flights, const FusionConfig& config);
 
 /// Bounds of 95 %, two-sided, of a chi-squared variable over its degrees of freedom (Wilson and Hilferty 1931).

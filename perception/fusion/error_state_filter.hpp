@@ -64,7 +64,7 @@ class ErrorStateFilter {
   void setAtRest(bool at_rest);
   bool atRest() const;
   /// While true, the samples are not measured but predicted from the vehicle's commands: they count as uncertain as
-  /// FusionConfig says, and tell nothing of the drag.
+  /// FusionConfig says, and do not measure the drag.
   void setPredicted(bool predicted);
   bool predicted() const;
 

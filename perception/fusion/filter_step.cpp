@@ -15,8 +15,8 @@ namespace {
 
 /// Beyond this Mahalanobis distance the AHRS is trusted more than the filter.
 constexpr double kAhrsGate = 3.0;
-/// The vehicle's own acceleration, which is what the force differs from gravity by, lasts for about this long: that of
-/// the attitude loop and of the position loop of a small quadrotor.
+/// The vehicle's own acceleration, the difference between force and gravity, lasts for about this long: the time scale
+/// of the attitude loop and of the position loop of a small quadrotor.
 constexpr double kOwnAcceleration_s = 0.5;
 /// Across a longer gap between samples the specific force is unknown.
 constexpr double kLongestDragStep_s = 0.05;

@@ -1,5 +1,5 @@
-// Everything that a fusion filter is told, in order: a listener gets it in flight, and another filter that is told the
-// same has the same state. By this the noise parameters are learned from recorded flights (Bachrach 2009, 5.2).
+// All inputs of a fusion filter, in order: a listener gets them in flight, and another filter with the same inputs has
+// the same state. By this the noise parameters are learned from recorded flights (Bachrach 2009, 5.2).
 #pragma once
 
 #include <optional>
@@ -57,12 +57,12 @@ using FilterInput = std::variant<common::ImuSample, TapedStart, TapedRest, Taped
 class FilterListener {
  public:
   virtual ~FilterListener() = default;
-  /// Called in the filter's thread, before the filter is told.
+  /// Called in the filter's thread, before the filter gets the input.
   virtual void heard(const FilterInput& input) = 0;
 };
 
-/// Tells the filter. Returns what became of a measurement or a clone, and kTaken for other inputs; the reason if the
-/// filter was to start and did not.
+/// Gives the input to the filter. Returns what became of a measurement or a clone, and kTaken for other inputs; the
+/// reason if the filter was to start and did not.
 tl::expected<Insertion, std::string> tell(ErrorStateFilter& filter, const FilterInput& input);
 
 /// One line with its newline: a word that names the input, and its numbers, times in nanoseconds.

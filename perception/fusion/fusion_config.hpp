@@ -40,7 +40,7 @@ struct FusionConfig {
   static constexpr double drag_sigma_1_s = 0.2;  ///< Standard deviation of drag_1_s at the start.
   static constexpr double drag_walk_1_s_rts =
       0.002;  ///< Random walk of the drag, which changes with speed, battery and height.
-  /// Noise of the drag by draughts of 0.3 m/s that last for 2 s (Gauss-Markov), as slower motion feels them: drag *
+  /// Noise of the drag by draughts of 0.3 m/s that last for 2 s (Gauss-Markov), as they act on slower motion: drag *
   /// sigma * sqrt(2 tau).
   double drag_noise_m_s2_rthz = 0.1;
   static constexpr double wind_sigma_m_s = 0.3;  ///< Standard deviation of each component of the wind at the start.
@@ -65,7 +65,7 @@ struct FusionConfig {
       0.4;  ///< The gate of heights, or of a camera's poses, that was closed for this long is opened by force.
   static constexpr double pose_recovery_s =
       1.5;  ///< A gate of the laser's relative poses that was closed for this long is opened by force; until then
-            ///< inertia is believed, which a slope ahead does not mislead.
+            ///< inertia is used alone, which a slope ahead does not mislead.
   static constexpr int max_recoveries =
       3;  ///< More forced openings than this within recovery_window_s are a divergence.
   static constexpr double recovery_window_s = 5.0;  ///< Time within which forced openings are counted.

@@ -18,8 +18,8 @@ struct Linearized {
   Eigen::Matrix<double, K, kLaserSize> by_laser = Eigen::Matrix<double, K, kLaserSize>::Zero();
 };
 
-/// Planar pose of the body in the level frame of the body at a clone, by a laser that may be mounted otherwise than is
-/// believed: it measures E^-1 T E of a motion T, E being the error of its mount, at a time that its clock is off.
+/// Planar pose of the body in the level frame of the body at a clone, by a laser whose mount may differ from the data
+/// sheet: it measures E^-1 T E of a motion T, E being the error of its mount, at a time that its clock is off.
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance);
 /// Relative pose where the scene does not constrain the position along one direction (a unit vector in the level frame

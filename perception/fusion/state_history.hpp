@@ -61,7 +61,7 @@ class StateHistory {
   std::vector<Slot> ring_;
   std::size_t oldest_ = 0, count_ = 0;
   MeasurementHistory measurements_;
-  /// Index of the first slot whose state must be recomputed, counted from the oldest; count_ if there is none.
+  /// Index of the first slot whose state must be recomputed, counted from the oldest; count_ if all states are valid.
   std::size_t dirty_from_ = 0;
   common::Time last_attitude_;
   double accelerometer_noise2_m2_s3_ = 0.0;  ///< Square of the noise density that the samples show.

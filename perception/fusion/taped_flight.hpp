@@ -20,21 +20,21 @@ struct TrueMotion {
   Eigen::Vector3d position_map_m = Eigen::Vector3d::Zero();  ///< Of the body origin; z above the take-off floor.
 };
 
-/// What one flight's filter was told, and the truth while it flew, in the order of time.
+/// The inputs of one flight's filter, and the truth while it flew, in the order of time.
 struct TapedFlight {
   std::vector<FilterInput> inputs;
   std::vector<TrueMotion> truth;
 };
 
-/// A filter that is told a flight from one instant of its truth to the next. One thread; the flight must outlive it.
+/// Replays a flight to a filter, from one instant of its truth to the next. One thread; the flight must outlive it.
 class TapedReplay {
  public:
   using Told = std::function<void(const FilterInput&)>;
 
   TapedReplay(const TapedFlight& flight, const FusionConfig& config) : flight_(flight), filter_(config) {}
 
-  /// Tells the filter what arrived until the next instant of the truth, and returns that instant; null when there is
-  /// none. `told`, if there is one, gets each input after the filter.
+  /// Gives the filter its inputs until the next instant of the truth, and returns that instant; null at the end.
+  /// `told`, if it is set, gets each input after the filter.
   const TrueMotion* next(const Told& told = nullptr);
   /// The truth at the time of the filter's state, which is that of its newest sample: samples arrive late. Only after
   /// next().

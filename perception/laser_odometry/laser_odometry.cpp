@@ -33,7 +33,7 @@ void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
 /// At this many half windows from the guess, the guess no longer supports a match.
 constexpr double kFarWindows = 6.0;
 
-/// Matches that the estimate has refused for so long are compared with its own pose: single outliers are not.
+/// Matches that the estimate has refused for this long are compared with its own pose; single outliers are not.
 constexpr double kRefused_s = 0.2;
 
 /// How far an offset lies beyond its window: 0 inside, 1 far away.
@@ -124,7 +124,7 @@ struct LaserOdometry::Impl {
   common::Time last_seen_whole;  ///< The last match that fixed the position in all directions.
   Pose2 last_T_odom_body;        ///< The predicted pose at the last match.
   Pose2 last_T_local_body;       ///< The matched pose at the last match.
-  Pose2 held_T_local_body;       ///< The one that the estimate had then, after the last match that it took.
+  Pose2 held_T_local_body;       ///< The estimate's pose at that time, after the last match that it accepted.
   std::optional<common::Time> refused_since;
   int failures = 0;
 };
@@ -142,7 +142,7 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
     matcher->addReference(scan, T_local_body);
     return;
   }
-  // Half of the key scans are dropped at once, so that the map is rarely drawn anew.
+  // Half of the key scans are dropped at once, so that the map is rarely redrawn.
   const auto kept = static_cast<std::size_t>(config.local_map_scans) / 2 + 1;
   while (key_scans.size() > kept) key_scans.pop_front();
   drawLocalMap();
@@ -242,7 +242,7 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, 
   return best;
 }
 
-/// The match where the estimate has the vehicle, if it fits better than the one that was found.
+/// The match at the pose of the estimate, if it fits better than the one that was found.
 LaserOdometry::Impl::Found LaserOdometry::Impl::findWhereHeld(const ProjectedScan& scan, const Found& found,
                                                               const Guess& held) {
   if (held.covers(found.match.T_reference_body)) return found;

@@ -82,7 +82,7 @@ struct LaserOdometryCounts {
   std::uint64_t gauss_newton_searches = 0;
   std::uint64_t point_to_line_searches = 0;
   std::uint64_t references = 0;    ///< Key scans that joined the local map.
-  std::uint64_t restarts = 0;      ///< Times the odometry was lost and started anew.
+  std::uint64_t restarts = 0;      ///< Times the odometry was lost and restarted.
   std::uint64_t out_of_order = 0;  ///< Scans not newer than the previous one; ignored.
 };
 
@@ -101,7 +101,7 @@ class LaserOdometry {
   /// taken in that match must give it, or its correction counts twice. The default is the prediction of that scan,
   /// which suits an odometry that is never corrected (wheels, a simulator).
   /// `first_window`: replaces the default window of the first search, for a caller that knows how good its prediction
-  /// is. If that search fails, the window is widened all the same.
+  /// is. If that search fails, the window is widened anyway.
   /// `other`: tried when the first search fails. If it fits better, it replaces the prediction.
   [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan,
                                                 const std::optional<common::Pose2>& T_odom_last = std::nullopt,
@@ -109,7 +109,7 @@ class LaserOdometry {
                                                 const std::optional<OtherGuess>& other = std::nullopt);
 
   /// Whether the estimate that predicts refused the last match. While it goes on refusing them, one of the two is
-  /// wrong, and scans are also sought where the estimate has the vehicle: what fits better there is the match.
+  /// wrong, and scans are also searched at the estimate's pose: the better fit is the match.
   void refused(bool by_estimate);
 
   /// The stamp of the last scan that matched.

@@ -12,7 +12,7 @@
 namespace swiftlet::perception {
 
 struct MotionPredictionConfig {
-  static constexpr double memory_steps = 30;      ///< Over about so many steps the error of a prediction is averaged.
+  static constexpr double memory_steps = 30;      ///< Number of steps over which the error of a prediction is averaged.
   static constexpr double first_error_m = 0.10;   ///< Error of position that is expected of the first predictions.
   static constexpr double first_error_deg = 5.0;  ///< Error of heading that is expected of the first predictions.
   static constexpr double least_error_m =
@@ -40,7 +40,7 @@ class MotionPrediction {
     common::Pose2 T_reference_robot;
     double step_sigma_m = 0.0, step_sigma_rad = 0.0;
   };
-  /// None when there is only one source.
+  /// nullopt when there is only one source.
   std::optional<Alternative> alternative() const;
   /// Repeats the prediction with the other source, because it was right. There must be an alternative.
   void takeAlternative();
@@ -67,7 +67,7 @@ class MotionPrediction {
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
   struct Source {
-    std::optional<common::Pose2> step;  ///< The predicted step, T_before_now; none if not available.
+    std::optional<common::Pose2> step;  ///< The predicted step, T_before_now; nullopt if not available.
     double variance_m2 = 0.0, variance_rad2 = 0.0;
   };
   const Source& best() const;

@@ -13,9 +13,9 @@ using common::Duration;
 constexpr std::uint64_t kDistrusts = 3;
 /// No laser turns faster. If stamps are closer to each other, one of the scans was delayed in transit.
 constexpr Duration kLeastInterval = Duration::fromMilliseconds(5);
-/// The interval for stamps that are all the same. It is long enough for any step of a robot to be plausible.
+/// The interval for stamps that are all equal. It is long enough for any step of a robot to be plausible.
 constexpr Duration kUnknownInterval = Duration::fromMilliseconds(1000);
-/// Longer intervals are cut to this, also those of absurd stamps. In such a pause a robot may go anywhere in any case.
+/// Longer intervals, also those of absurd stamps, are cut to this. In such a pause a robot may go anywhere in any case.
 constexpr double kLongestInterval_s = 3600.0;
 
 /// The difference of two stamps, cut to the longest interval. The stamps may be too far apart to be subtracted.

@@ -8,7 +8,7 @@ namespace {
 
 /// A scan counts when the robot turns by as much until the next one.
 constexpr double kTurned_rad = 2.0 * common::kRadPerDeg;
-/// So many scans that count tell.
+/// Least number of such scans for a result.
 constexpr int kLeastScans = 8;
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr double kRatePenalty_s = 0.02;
 /// The track is lost at a sweep that fits worse. Those of the recorded logs fit by 0.98 and more, and by 0.5
 /// and less from where it is lost.
 constexpr double kLeastFit = 0.8;
-/// A pause between two sweeps longer than this many sweeps tells nothing of the velocity after it.
+/// After a pause longer than this many sweeps, the velocity before it says nothing of the velocity after it.
 constexpr double kLongestPause = 3.0;
 
 Pose2 moved(const Pose2& pose, const Eigen::Vector3d& velocity, double seconds) {
@@ -88,7 +88,7 @@ OrientedPoints SweepTracker::referenceWithout(std::size_t index) const {
   return reference;
 }
 
-/// What the sweep before tells of the beginning of one.
+/// What the previous sweep says of the beginning of this one.
 std::optional<SweepEnd> SweepTracker::before(std::size_t index) const {
   if (index == 0) return std::nullopt;
   const Timed &last = sweeps_[index - 1], &now = sweeps_[index];
@@ -110,7 +110,7 @@ std::optional<SweepEnd> SweepTracker::after(std::size_t index) const {
 void SweepTracker::refit(std::size_t index, bool with_next) {
   Sweep& sweep = sweeps_[index].sweep;
   const std::optional<SweepEnd> next = with_next ? after(index) : std::nullopt;
-  // Nothing comes before the first sweep, which defines the frame: it goes on as it begins.
+  // No sweep precedes the first one, which defines the frame: its own first pose and mean velocity stand in.
   const SweepEnd last = before(index).value_or(SweepEnd{sweep.motion.knots.front(), sweep.meanVelocity()});
   fitSweep(referenceWithout(index), last, next, sweep);
 }

@@ -43,7 +43,7 @@ class SweepTracker {
   std::optional<SweepEnd> after(std::size_t index) const;
 
   std::deque<Timed> sweeps_;  ///< Those that were taken, as far as they are needed, and those that were not.
-  std::size_t taken_ = 0;     ///< So many of them were taken.
+  std::size_t taken_ = 0;     ///< Number of sweeps that were taken.
   std::size_t lost_ = 0;      ///< Sweeps before them that were not taken, and at which the track was lost.
   bool begun_ = false, finished_ = false;
 };

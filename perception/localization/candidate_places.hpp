@@ -31,7 +31,7 @@ class CandidatePlaces {
   }
 
  private:
-  /// More than an operator tells apart; hundreds may fit in a large building, nearly all of them unlikely.
+  /// More than an operator can distinguish; hundreds may fit in a large building, nearly all of them unlikely.
   static constexpr std::size_t kMost = 20;
 
   std::vector<LikelyPlace> places_;

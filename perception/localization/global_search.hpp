@@ -35,8 +35,7 @@ struct GlobalSearchConfig {
       0.5;  ///< Places nearer than this are one, if they are also turned less than distinct_deg.
   static constexpr double distinct_deg =
       15.0;  ///< Places turned less than this are one, if they are also nearer than distinct_m.
-  static constexpr int max_places =
-      400;                     ///< More places than this are not told apart, as the pose is ambiguous anyway.
+  static constexpr int max_places = 400;  ///< More places than this are not kept, as the pose is ambiguous anyway.
   int max_blocks = 1'000'000;  ///< Blocks of poses after which the search is given up; it keeps twice as many.
 };
 

@@ -91,7 +91,7 @@ class Localizer {
 
   /// Processes one scan without the search.
   LocalizationEstimate follow(const LocalizationInput& input);
-  /// The search requested by the last scan; nullopt if there is none, or while the result of an earlier one is pending.
+  /// The search requested by the last scan; nullopt without a request, or while an earlier result is pending.
   std::optional<LocalizationTask> takeTask();
   /// Applies the result of a search, to the state after the last scan. A result that is out of date, because the
   /// vehicle was carried or given a pose in the meantime, is ignored.

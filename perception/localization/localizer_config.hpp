@@ -21,8 +21,8 @@ struct LocalizerConfig {
   LostTestConfig lost;
 
   static constexpr double generation_distance_m =
-      0.20;  ///< Distance after which the particles are weighed and drawn anew.
-  static constexpr double generation_turn_deg = 15.0;  ///< Turn after which the particles are weighed and drawn anew.
+      0.20;  ///< Distance after which the particles are weighted and resampled.
+  static constexpr double generation_turn_deg = 15.0;  ///< Turn after which the particles are weighted and resampled.
   double odometry_share = 0.02;                        ///< Least error of the odometry, as a share of the distance.
   static constexpr double odometry_deg_per_m = 0.5;    ///< Least error of the odometry's heading for each metre.
   double max_sigma_m = 1.0;                            ///< A pose less certain than this is not known.
@@ -37,15 +37,14 @@ struct LocalizerConfig {
   static constexpr double point_weight =
       0.15;  ///< Weight of a point of the local map in the likelihood, as particles.beam_weight is of a beam.
   static constexpr double ambiguity =
-      0.01;  ///< A pose is not believed while all other places together have more than this probability.
+      0.01;  ///< A pose is not accepted while all other places together have more than this probability.
   static constexpr double least_explained =
-      0.70;  ///< A pose is not believed while the map explains a smaller share of the local map.
-  static constexpr double confirm_distance_m = 1.0;  ///< Distance over which a pose must hold before it is believed.
-  static constexpr double refuted_after_m =
-      2.5;  ///< Path length over which no place fits, in excess of that over which one is convincing, after which the
-            ///< map is called that of another place.
-  static constexpr double fitting = 0.75;  ///< Mean value of the likelihood field at the local map from which on a
-                                           ///< place fits it, however many others do.
+      0.70;  ///< A pose is not accepted while the map explains a smaller share of the local map.
+  static constexpr double confirm_distance_m = 1.0;  ///< Distance over which a pose must hold before it is accepted.
+  static constexpr double refuted_after_m = 2.5;  ///< Path length without a fitting place, less that with a convincing
+                                                  ///< one, from which on the map counts as that of another place.
+  static constexpr double fitting = 0.75;         ///< Mean value of the likelihood field at the local map at which a
+                                                  ///< place fits it, however many others do.
   static constexpr double misfitting =
       0.65;  ///< Mean value of the likelihood field at the local map below which no place fits, however probable it is
              ///< among those that were found; at most fitting.

@@ -14,8 +14,8 @@
 namespace swiftlet::perception {
 
 /// Page's cumulative sum test (1954), as LostTest is, over metres of path: the path to each search counts against the
-/// map if no place fits, and for it if one is convincing. Rooms that look alike fit equally well, which counts neither
-/// way. A vehicle that hovers asks for no search, so nothing is counted. The path flown while the map explained what
+/// map if no place fits, and for it if one is convincing. Rooms that look alike fit equally well and count as neither.
+/// A hovering vehicle requests no search, so nothing is counted. The path flown while the map explained what
 /// was seen counts for it as well: a vehicle that is lost afterwards must find no place for as long a path and more.
 class MapDoubt {
  public:
@@ -24,7 +24,7 @@ class MapDoubt {
   void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, bool complete, double path_length_m,
            common::Time now) {
     const double step_m = stepTo(path_length_m, now);
-    // A search that was given up before it found any place says nothing.
+    // A search that was given up before it found any place is no evidence.
     if (places.empty() && !complete) return;
     // If nothing comes near, that says more than a place that almost fits.
     if (places.empty()) return count(config, 2.0 * step_m);
@@ -41,7 +41,7 @@ class MapDoubt {
     last_ = Search{path_length_m, now};
   }
   void reset() { *this = {}; }
-  /// From the moment when all is against the map, until nothing is.
+  /// Becomes true when the evidence against the map is at its limit, and false when none is left.
   bool refuted() const { return refuted_; }
 
  private:
@@ -51,13 +51,13 @@ class MapDoubt {
   };
 
   void count(const LocalizerConfig& config, double against_m) {
-    // Searches alone never count for more than nothing, but they take nothing of the path on which it was believed.
+    // Searches alone never make the sum negative, but they keep the credit of the path on which the map was accepted.
     const double least_m = std::min(against_m_, 0.0);
     against_m_ = std::clamp(against_m_ + against_m, least_m, config.refuted_after_m);
     refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
   }
 
-  /// The path since the last search. It counts for more if the vehicle was slow, in narrow rooms for example, because
+  /// The path since the last search. It counts more if the vehicle was slow, in narrow rooms for example, because
   /// it looked around meanwhile: so the time is bounded, too. When searches have become rare, a single one must not
   /// decide.
   double stepTo(double path_length_m, common::Time now) {
@@ -68,8 +68,7 @@ class MapDoubt {
     return std::clamp(std::max(path_length_m - before.path_length_m, slow_m), 0.0, kMost_m);
   }
 
-  /// Path over which no place fitted, in excess of that over which one did; negative after a path on which the map was
-  /// believed.
+  /// Path length without a fitting place, less that with one; negative after a path on which the map was accepted.
   double against_m_ = 0.0;
   std::optional<Search> last_;
   bool refuted_ = false;

@@ -11,7 +11,7 @@ namespace swiftlet::perception {
 
 namespace {
 
-/// What one beam says about the piece of the map that it meets.
+/// What one beam says about the piece of the map that it hits.
 struct Witness {
   Eigen::Vector2i piece;
   /// A wall of the map; something that the map lacks, before its walls; a wall of the map that is not there.
@@ -22,7 +22,7 @@ struct Witness {
   bool operator==(const Witness& other) const { return key() == other.key(); }
 };
 
-/// None if the beam ends where the map is unknown.
+/// nullopt if the beam ends where the map is unknown.
 std::optional<Witness> witnessOf(const MapField& map, const Eigen::Vector2d& from_m, const Eigen::Vector2d& end_m,
                                  const ScanSupportConfig& config) {
   const double range_m = (end_m - from_m).norm();

@@ -40,11 +40,11 @@ struct LostTestConfig {
       -17.6;  ///< Change of the log-odds with the share explained (from the same regression as at_none).
   static constexpr double most = 3.0;  ///< Greatest log-odds that one scan adds, for or against.
   static constexpr double scans_per_s =
-      2.0;  ///< Rate of scans that count as independent: nearer ones see the same person in front.
+      2.0;  ///< Rate of scans that count as independent: scans closer in time see the same person in front.
   static constexpr double distrust_explained =
-      0.75;  ///< While the map explains less than this share, the pose is also sought elsewhere.
+      0.75;  ///< While the map explains less than this share, other poses are searched as well.
   static constexpr double threshold = 5.0;   ///< Log-odds from which the pose counts as lost.
-  static constexpr int least_evidence = 15;  ///< A scan that tells of fewer pieces of wall or free space is left out.
+  static constexpr int least_evidence = 15;  ///< A scan that covers fewer pieces of wall or free space is left out.
 };
 
 /// Page's cumulative sum test (1954): adds up the log-odds of the scans, never below zero. It detects a wrong pose

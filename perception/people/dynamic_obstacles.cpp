@@ -47,8 +47,8 @@ bool isGiven(const GivenBackground* given, const Point& point_map_m, double with
 /// What the beams beside a cluster of end points show, in order of bearing.
 enum class Beside {
   kBehind,   ///< They end well behind it, or return nothing: it ends there.
-  kJoined,   ///< Something of which it may be a part.
-  kNothing,  ///< There are none: the edge of the field of view.
+  kJoined,   ///< A surface of which the cluster may be a part.
+  kNothing,  ///< No beams: the edge of the field of view.
 };
 
 /// `edge` is the cluster's first or last point, and `step` leads away from it. The nearest beams may be split between

@@ -17,7 +17,7 @@
 
 namespace swiftlet::perception {
 
-/// The end points of a scan, in order of bearing, and where it was taken; NaN for beams that tell nothing.
+/// The end points of a scan, in order of bearing, and where it was taken; NaN for beams without information.
 struct SeenPoints {
   Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2f> points_map_m;
@@ -45,11 +45,11 @@ class DynamicObstacles {
     static constexpr double moved_within_s =
         1.0;  ///< An obstacle that has not come as far as moved_m in this time is standing.
     static constexpr double followed_s =
-        0.15;  ///< An obstacle that was followed for a shorter time is not said to move.
-    static constexpr double followed_share = 0.5;  ///< An obstacle that was in a smaller share of the scans is not said
-                                                   ///< to move: furniture that a tilting laser meets comes and goes.
+        0.15;  ///< An obstacle that was followed for a shorter time does not count as moving.
+    static constexpr double followed_share = 0.5;  ///< An obstacle that was in a smaller share of the scans does not
+                                                   ///< count as moving: furniture under a tilting laser comes and goes.
     static constexpr double reaches_m =
-        -0.02;  ///< An obstacle of which nothing so high above the body was seen while it is kept is not said to move:
+        -0.02;  ///< An obstacle that was never seen this high above the body while it is kept does not count as moving:
                 ///< a dipping laser meets the top of a table now nearer, now farther.
     static constexpr double smoothing_s = 0.15;  ///< Time constant of the filter on position and velocity.
     static constexpr double keep_out_m =

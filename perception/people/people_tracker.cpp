@@ -75,8 +75,8 @@ std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {
 }
 
 std::vector<Disc> PeopleTracker::movingAt(common::Time stamp) const {
-  // How somebody who is not seen turns is not known, so the disc grows at this speed. The value is not measured: a disc
-  // that is too large only keeps end points below the laser, near somebody who has moved, out of the map.
+  // The turns of a person out of sight are unknown, so the disc grows at this speed. The value is not measured: a disc
+  // that is too large only keeps end points below the laser, near a person who has moved, out of the map.
   constexpr double kMayTurn_m_s = 0.3;
   std::vector<Disc> result;
   for (const common::DynamicObstacle& o : obstacles()) {

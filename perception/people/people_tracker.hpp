@@ -37,7 +37,7 @@ class PeopleTracker {
 
   /// Takes in a scan at its pose in the map. `grid` is the map that includes this scan. When `T_map_odom` jumps, the
   /// whole map was corrected, and the history of the background restarts. `given` is part of the background, too.
-  /// `below_map_m`: so much lower than the height of the map is the body.
+  /// `below_map_m`: how much lower than the height of the map the body is.
   void update(const ProjectedScan& scan, const common::Pose2& T_map_body, const common::Pose2& T_map_odom,
               std::shared_ptr<const common::OccupancyGrid> grid,
               const std::optional<GivenBackground>& given = std::nullopt, double below_map_m = 0.0);

@@ -19,7 +19,7 @@ constexpr int kIntervals = 8;
 /// Vandapel, Hebert 2005). It differs from both by more than three times the noise of a small laser.
 constexpr double kMixedJump_m = 0.10;
 /// The spots of small lasers are as wide as their beams are apart, up to 0.36 deg. Where beams are farther apart, three
-/// neighbours often meet three things, so a range between the others tells nothing.
+/// neighbours often meet three things, so a range between the others is no evidence of one.
 constexpr double kMixedSpacing_rad = 0.4 * common::kRadPerDeg;
 /// On a slanted wall neighbouring ranges differ as much, but evenly.
 constexpr double kEvenShare = 0.25;

@@ -20,7 +20,7 @@ constexpr std::size_t kCoarseStride = 4;
 constexpr double kSmallStep_cells = 0.05;
 /// A last step larger than this share of a cell means that the search did not converge.
 constexpr double kConverged_cells = 0.5;
-/// A step that lowers the score is halved up to so often. If an eighth of it lowers the score too, the level ends.
+/// A step that lowers the score is halved at most this often. If an eighth of it lowers the score too, the level ends.
 constexpr int kHalvings = 3;
 
 }  // namespace

@@ -17,14 +17,14 @@
 namespace swiftlet::perception {
 
 struct LeastSquaresMatcherConfig {
-  static constexpr int points = 400;                            ///< Points of a scan that are matched, spread evenly along its contour.
+  static constexpr int points = 400;           ///< Points of a scan that are matched, spread evenly along its contour.
   static constexpr double max_range_m = 20.0;  ///< Points farther than this are not used.
   static constexpr double max_gap_m = 0.3;     ///< Neighbouring end points nearer than this are joined to a contour.
-  static constexpr double support_m = 0.06;                     ///< A point farther than this from the reference has no support.
+  static constexpr double support_m = 0.06;    ///< A point farther than this from the reference has no support.
   static constexpr double min_quality = 0.35;  ///< Below this mean score the match failed.
   static constexpr double min_direction_support =
       0.25;  ///< The match failed when a smaller share of the contour facing some direction has support: the other
-             ///< walls fit, and these were taken for outliers.
+             ///< walls fit, and these were rejected as outliers.
   static constexpr int min_points = 30;  ///< With fewer points the match failed.
   static constexpr double covariance_scale =
       2.0;  ///< Factor on the covariance of independent points, calibrated by the tests of the covariance.

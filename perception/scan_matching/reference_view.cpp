@@ -19,11 +19,11 @@ constexpr int kJoinedBins = 5;
 constexpr int kEndBins = 20;
 /// Points up to this far behind the end points count as seen, because walls are rough and poses err.
 constexpr double kBehind_m = 0.15;
-/// A normal is that of the line between the nearest points on either side that are so far away, over steps along one
+/// A normal is that of the line between the nearest points on either side that are this far away, over steps along one
 /// surface. Shorter lines are noise; a point that lies farther off its line than this share of its length is a corner.
 constexpr double kNormalReach_m = 0.10, kLongestStep_m = 0.6, kLeastLine_m = 0.08, kBend = 0.25;
 /// A surface is the back of one that a reference scan saw if it faces the other way, by more than 120 deg, and lies
-/// beside it: so far off its plane, as a wall is thick, and so far from its nearest end point. Over a grazing stretch
+/// beside it: this far off its plane, as a wall is thick, and from its nearest end point. Over a grazing stretch
 /// of wall range noise turns a normal by tens of degrees, so one that merely faces away from the scan is no evidence.
 constexpr double kOpposite = -0.5, kThickest_m = 0.5, kNearby_m = 1.0;
 

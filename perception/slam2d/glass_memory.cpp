@@ -12,7 +12,7 @@ namespace {
 // The two sides of a pane have the same direction.
 constexpr int kSectors = 16;
 constexpr std::uint8_t kSectorBits = 0x0F, kOneHit = 0x10, kHitBits = 0x70, kOpaque = 0x80;
-/// So often must it have been hit; a stray return is no pane.
+/// It must have been hit this many times; a stray return is no pane.
 constexpr std::uint8_t kEnoughHits = 4 * kOneHit;
 /// Hits along one normal are up to 10 deg off it on either side, and so are the directions noted for them.
 constexpr int kSameNormal = 3;

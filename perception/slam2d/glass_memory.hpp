@@ -13,8 +13,8 @@ namespace swiftlet::perception {
 /// How a beam met the surface that it ended on, by the returns beside it.
 enum class Incidence : std::uint8_t { kUnknown, kAlongNormal, kAslant };
 
-/// One byte a cell. A cell that was hit several times along one normal, and never aslant, may be glass. What was hit
-/// aslant is none. Not thread-safe; a snapshot may go to another thread.
+/// One byte a cell. A cell that was hit several times along one normal, and never aslant, may be glass. A cell that was
+/// hit aslant is no glass. Not thread-safe; a snapshot may go to another thread.
 class GlassMemory {
  public:
   explicit GlassMemory(double resolution_m) : cells_(resolution_m, 0) {}

@@ -17,7 +17,7 @@ struct LaserSlam::Impl {
   LaserFrontEnd front_end;
   std::unique_ptr<PlanarSlam> slam;
   TrackPieces pieces;
-  std::vector<ProjectedScan> key_scans;  ///< With nothing but the points that are matched.
+  std::vector<ProjectedScan> key_scans;  ///< Reduced to the points that are matched.
 };
 
 LaserSlam::LaserSlam(const LaserSlamConfig& config) : impl_(std::make_unique<Impl>(config)) {}

@@ -20,7 +20,7 @@ std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<in
                                     const common::Pose2& T_map_body, const Slam2dConfig& config);
 
 /// Matches scans to a set of key scans. The drawing is kept between matches: new key scans are added to it, and it is
-/// drawn anew only when a key scan has left the set or has moved.
+/// redrawn only when a key scan has left the set or has moved.
 class LocalReference {
  public:
   explicit LocalReference(const CorrelativeMatcherConfig& config) : matcher_(config) {}

@@ -8,15 +8,15 @@ namespace {
 /// Furniture is met, passed above, and met again; people are met at the height of the laser as well. With three
 /// sightings a flight touched a table again (decision 084).
 constexpr int kSightings = 2;
-/// What beams pass, and none meets for so long times its sightings, is no longer certain.
+/// An obstacle stays certain for this time, times its sightings, while beams pass it and none meets it.
 constexpr double kKept_s = 30.0;
-/// A tilt lasts for some tenths of a second; what is met again after this time is met by another one.
+/// A tilt lasts for some tenths of a second; a hit after this time is from another tilt.
 constexpr double kApart_s = 0.5;
 /// Beams this many slices below the top go through; nearer ones may pass above, as their height is not known better.
 constexpr int kThrough = 2;
-/// So many scans whose beams went through, without one that ended here, show that it is gone.
+/// It is gone after this many scans whose beams went through, without one that ended here.
 constexpr int kGone = 6;
-/// So many beams at the height of the laser in a row are no error of their heights.
+/// This many beams at the height of the laser in a row are no error of their heights.
 constexpr int kLevel = 3;
 
 }  // namespace
@@ -60,7 +60,7 @@ bool LowObstacles::passed(common::CellIndex cell, int slice, common::Time now) {
     next.passed = true;
     next.level = 0;
   } else if (slice >= old.bottom && slice <= old.top - kThrough) {
-    // Below the top of a table beams pass under it; where it was met at several heights, they go through.
+    // Below a table top, beams pass under it. Between the heights at which it was hit, they go through it.
     if (++next.through >= kGone) next = Cell{};
   } else {
     return false;

@@ -1,7 +1,7 @@
 // Remembers obstacles that end below the beams: a table, a counter, the back of a chair. Only a tilted beam meets them,
 // for a fraction of a second each time, and level beams pass above them in between. The height of a beam is known to
-// some 2 % of its range, so that beams which pass just above seem to go through, and would erase what was seen. What
-// beams met, passed above, and met again in the same place stays there, the longer the more often it was met. People do
+// some 2 % of its range, so that beams which pass just above seem to go through, and would erase the obstacle. What
+// beams hit, pass above, and hit again in the same place is kept, the longer the more often it was hit. People are
 // not: they reach as high as the beams.
 #pragma once
 
@@ -20,8 +20,8 @@ class LowObstacles {
 
   /// A beam ended in the cell at that height, below that of the laser. Returns true if top() of the cell has changed.
   bool hit(common::CellIndex cell, int slice, common::Time now);
-  /// A beam ended in the cell at the height of the laser. After some of them, what was met there before belonged to
-  /// something that reaches up, unless it is certain.
+  /// A beam ended in the cell at the height of the laser. After some of them, earlier hits there belong to something
+  /// that reaches up, unless it is certain.
   void reachesUp(common::CellIndex cell);
   /// A beam crossed the cell at that height. Returns true if top() of the cell has changed.
   bool passed(common::CellIndex cell, int slice, common::Time now);

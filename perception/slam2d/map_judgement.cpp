@@ -11,7 +11,7 @@ constexpr std::size_t kStretch = MapJudgement::kStretch;
 /// other one.
 constexpr double kSamePlace_m = 6.0;
 constexpr double kLeastObserved = 0.2;
-/// Two stretches contradict each other when they violate each other's free space by so much more than each violates its
+/// Two stretches contradict each other when they violate each other's free space by this much more than each one its
 /// own, as people, doors and errors of the laser do.
 constexpr double kMostViolation = 0.10;
 

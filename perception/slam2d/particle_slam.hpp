@@ -35,7 +35,7 @@ struct ParticleSlamConfig {
   static constexpr double motion_sigma_deg =
       0.06;  ///< Least standard deviation of the rotation between two scans that are taken in.
   static constexpr double news_share =
-      0.25;  ///< Share of what a scan says of a map that counts: the scans before it said the rest already.
+      0.25;  ///< Share of a scan's log-likelihood that counts: earlier scans already said the rest.
   static constexpr double min_effective_share =
       0.5;  ///< The particles are resampled when the effective ones are a smaller share of all.
   static constexpr int min_points = 30;  ///< The map does not begin with a scan of fewer points.

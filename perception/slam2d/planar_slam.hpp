@@ -35,7 +35,7 @@ struct SlamUpdate {
   bool key_scan = false;     ///< The scan became a key scan; older ones may have moved.
   bool drawn = false;        ///< The map changed.
   common::Pose2 T_map_body;  ///< The corrected pose of the scan.
-  /// The newest of the key scans of an earlier pass to which alone the scan was matched, in every direction; -1: none.
+  /// Newest of the key scans of an earlier pass, if the scan was matched in every direction to these alone; else -1.
   /// The scan is then as uncertain relative to the first one as that key scan is.
   int known_key = -1;
 };
@@ -89,8 +89,8 @@ class PlanarSlam {
   virtual bool setFlightHeight(double height_m) = 0;
   /// What may touch the hull at flight height, as known now. Shares its tiles with the method's own map.
   virtual common::OccupancyGrid snapshot() = 0;
-  /// Whether something that ends below the plane of the laser certainly stands in the cell: beams that pass say nothing
-  /// of it. A method whose map has no heights knows of none.
+  /// Whether something that ends below the plane of the laser certainly stands in the cell, whatever beams pass above
+  /// it. Always false for a method whose map has no heights.
   virtual bool isLowObstacle(common::CellIndex) const { return false; }
 
   virtual const SlamCounts& counts() const = 0;
@@ -102,7 +102,7 @@ class PlanarSlam {
 
   /// Heavy work, if there is any and no task is outstanding.
   [[nodiscard]] virtual std::optional<SlamTask> takeTask() { return std::nullopt; }
-  /// The last tasks, to be taken one after the other when no more scans come, until there is none. None may be
+  /// The last tasks, to be taken one after the other when no more scans come, until it returns nullopt. No task may be
   /// outstanding.
   [[nodiscard]] virtual std::optional<SlamTask> takeLastTask() { return std::nullopt; }
   /// Applies the result of the outstanding task. Returns true when T_map_odom or the map has changed.

@@ -192,7 +192,7 @@ void Slam2d::Impl::connectPasses(int other, const MatchResult& match) {
   passes_connected = true;
 }
 
-/// The local match: corrects the estimate by the older key scans around it. Returns false when the scan was of no use.
+/// The local match: corrects the estimate by the older key scans around it. False if the scan was not used.
 bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   const std::vector<int> connected = connectedKeys(graph, anchor, T_map_body(), config);
   std::vector<int> keys = localReferenceKeys(graph, connected, anchor, T_map_body(), config);

@@ -4,7 +4,7 @@
 //
 // In flight each scan costs a fraction of a millisecond: a key scan is matched to the older key scans around it, which
 // bounds the drift inside known area, and is drawn into the grid. The heavy work (loop search, optimization, drawing
-// the grid anew) is a value: takeTask() gives it out, run() computes it on any thread, apply() takes in the result.
+// the grid again) is a value: takeTask() returns it, run() computes it on any thread, apply() uses the result.
 //
 // T_map_odom jumps with a local correction (by millimetres, at a key scan) and with a loop closure (in apply()).
 #pragma once

@@ -57,8 +57,7 @@ struct Slam2dConfig {
   static constexpr double draw_rotation_deg = 6.0;  ///< Between key scans, a scan is drawn after this rotation.
   static constexpr double draw_time_s = 0.25;       ///< Between key scans, a scan is drawn after this time.
   bool live_map = true;
-  static constexpr int scans_per_key =
-      16;  ///< Drawn scans, the newest, that are kept with a key scan for drawing the grid anew.
+  static constexpr int scans_per_key = 16;  ///< Newest drawn scans that are kept with a key scan, to redraw the grid.
   static constexpr double local_radius_m =
       4.0;                      ///< Key scans within this distance are the reference of the local match.
   double local_sigma_m = 0.10;  ///< A key scan with a greater projected uncertainty is left to the loop closures.

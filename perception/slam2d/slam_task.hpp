@@ -1,4 +1,4 @@
-// The heavy work of graph SLAM as a value: loop search, optimization, drawing the grid anew.
+// The heavy work of graph SLAM as a value: loop search, optimization, redrawing the grid.
 #pragma once
 
 #include <memory>

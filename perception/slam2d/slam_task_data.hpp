@@ -28,11 +28,11 @@ struct SlamTask::Data {
 
 struct SlamResult::Data {
   std::uint64_t id = 0;
-  std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing changed.
+  std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when no pose changed.
   std::vector<SlamEdge> closures;
   std::vector<FoundLoop> rejected;  ///< Loop closures rejected now and before; the newest.
   std::vector<int> rejected_edges;  ///< Indices of edges of the task's graph, ascending.
-  std::optional<SlicedMap> map;     ///< Drawn anew, if the poses moved visibly.
+  std::optional<SlicedMap> map;     ///< The redrawn map, if the poses moved visibly.
 };
 
 }  // namespace swiftlet::perception

@@ -171,7 +171,7 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
     const Eigen::Vector3f& end = scan.hits_level_m[i];
     const Eigen::Vector2d to = inCells(end);
     ended_.push_back(cellOf(to));
-    // Who moves is met by level beams, too, which see when the place is free again; a tilted beam leaves a trace below.
+    // Level beams hit moving people too, and see when the place is free again; a tilted beam leaves a trace below.
     const bool moves = i < scan.moves.size() && scan.moves[i];
     if (moves && sliceAt(scan.body_height_m + static_cast<double>(end.z())) < laser_slice_) continue;
     add(to, end.z(), true, i < scan.incidences.size() ? scan.incidences[i] : Incidence::kUnknown);
@@ -238,7 +238,7 @@ void SlicedMap::apply(int slice) {
   }
 }
 
-/// Whether what the cell holds is kept from the beams of this scan that cross it. What is no glass, such as a person
+/// Whether the beams of this scan that cross the cell do not clear it. What is no glass, such as a person
 /// who has left, is cleared by beams along its normal, and slowly by all others.
 bool SlicedMap::isGlass(CellIndex cell) const {
   if (drawn_ % config_.glass_fade_scans == 0 || !occupancy::isOccupied(combined_.at(cell))) return false;

@@ -93,7 +93,7 @@ class SlicedMap {
   int drawn_ = 0;  ///< Number of drawn scans.
   // Working memory for the scan being drawn.
   common::Time stamp_;
-  int laser_slice_ = 0;  ///< The one of the laser.
+  int laser_slice_ = 0;  ///< The slice of the laser.
   std::map<int, std::vector<Ray>> rays_;
   std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
   Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.

@@ -1,6 +1,6 @@
 // The map that scans are matched to: a grid of cells that hold how certainly they are occupied, and the position and
 // normal of the surface in them. So a scan can be matched more finely than the cells are wide. The confidence of a cell
-// is capped and the newest observations count most, so that a place that has changed is soon mapped anew (Bachrach
+// is capped and the newest observations count most, so that a place that has changed is soon mapped again (Bachrach
 // 2009, section 5.3). Copies share their tiles.
 //
 // Unlike SlicedMap it covers one height band. Only what is within the band is drawn. What was drawn at another height
@@ -26,7 +26,7 @@ namespace swiftlet::perception {
 struct SurfaceMapConfig {
   /// Size and confidence of the cells. makeSlam() sets it to that of the published map.
   GridDrawingConfig grid;
-  static constexpr int max_hits = 10;       ///< The surface in a cell is the mean of about so many of its last hits.
+  static constexpr int max_hits = 10;       ///< The surface in a cell is the mean of about this many of its last hits.
   static constexpr double max_gap_m = 0.3;  ///< Neighbouring end points nearer than this are of one surface.
 };
 

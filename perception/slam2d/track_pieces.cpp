@@ -39,13 +39,13 @@ constexpr std::uint64_t kOneLostOf = 100;
 /// Mean violation (MapJudgement) of a map that is not trusted: decision 026 has the figures.
 constexpr double kMostViolation = 0.05;
 
-/// Places that two pieces must have seen in common to be connected by them, and contradictions among so many of these
-/// at most.
+/// Places that two pieces must have seen in common to be connected by them, and the number of places among which one
+/// contradiction is allowed.
 constexpr int kLeastAgreeing = 3;
 constexpr int kOneContradictingOf = 5;
 
-/// A match that so many others followed is confirmed. One that surprised, soon before the track was lost, may have been
-/// the cause: the motion until then is not known better than what it took back of the prediction.
+/// A match that this many others followed is confirmed. A surprising one, soon before the track was lost, may have been
+/// the cause: the motion until then is known no better than the correction that it made to the prediction.
 constexpr std::size_t kConfirming = 10;
 
 std::string times(std::uint64_t count) { return count == 1 ? "once" : fmt::format("{} times", count); }

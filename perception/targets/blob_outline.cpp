@@ -10,7 +10,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// The ring begins so far outside, as the pixels at the edge of a thing mix two depths, and is so wide.
+/// The ring begins this far outside, as the pixels at the edge of a thing mix two depths, and is this wide.
 constexpr int kGap_px = 2, kWidth_px = 2;
 
 /// Three standard deviations of an inverse depth of a structured-light camera, noise and steps together: Khoshelham and

@@ -2,7 +2,7 @@
 //
 // A mount that is turned by half a degree shifts every sighting from one side alike, so that averaging them would make
 // the estimate sure of a wrong place. Such errors are not estimated for a single point, but considered: the filter
-// keeps their correlation with its error, and so knows that a look from another side tells more than ten from the same.
+// keeps their correlation with its error, and so a look from another side counts more than ten from the same.
 // Source: S. Schmidt, "Application of state-space methods to navigation problems", Advances in Control Systems 1966.
 #pragma once
 

@@ -22,15 +22,15 @@ struct TargetClassConfig {
 };
 
 struct TargetDetectorConfig {
-  static constexpr int pixels_min = 40;              ///< Least pixels of a target; smaller ones are too far to be told.
+  static constexpr int pixels_min = 40;              ///< Least pixels of a target; smaller ones are too far away.
   static constexpr double diameter_min_m = 0.08;     ///< Least diameter of a target of unknown diameter.
   static constexpr double diameter_max_m = 0.5;      ///< Greatest diameter of a target of unknown diameter.
   static constexpr double diameter_tolerance = 0.5;  ///< Greatest difference from a known diameter, as a share of it.
   static constexpr double fill_min = 0.5;  ///< Least share of the rectangle around a target that it fills: a disc fills
                                            ///< 0.79, a strip on the slant little.
   static constexpr double relief_m =
-      0.04;  ///< What is next to a target in the picture counts as behind it if it is so much farther than the target's
-             ///< surface continued. On a picture of a target, nothing is.
+      0.04;  ///< What is next to a target in the picture counts as behind it if it is farther by this than the target's
+             ///< surface continued. On a picture of a target, no neighbour is.
   static constexpr double outline_share_min = 0.5;  ///< Least share of a target's outline with something behind it.
   static constexpr double hidden_share_max =
       0.4;  ///< Greatest share of a target's outline with something in front of it, as the floor before a target is.
@@ -49,7 +49,7 @@ struct TargetTrackerConfig {
   static constexpr double time_sigma_s = 0.004;  ///< Standard deviation of the time of a picture: it matters in turns.
   static constexpr double gate_sigma = 4.0;      ///< Greatest Mahalanobis distance of a sighting from its target.
   static constexpr int misses_max =
-      6;  ///< A candidate is dropped after so many pictures with a free-space violation of its place.
+      6;  ///< A candidate is dropped after this many pictures with a free-space violation of its place.
 };
 
 }  // namespace swiftlet::perception

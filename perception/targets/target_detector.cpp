@@ -13,7 +13,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Less of a ring with depth tells nothing.
+/// A ring of which a smaller share has a depth is not judged.
 constexpr double kKnownShare = 0.25;
 /// The mean depth of the visible half of a ball is two thirds of its radius in front of its middle; the face of a box
 /// is a whole half side in front, and a flat plate none. So the middle is a third of the diameter behind what is seen,

@@ -15,12 +15,12 @@ namespace {
 
 using common::Pose3;
 
-/// So many of the places from which a target was seen are compared with the next one.
+/// This many of the places from which a target was seen are compared with the next one.
 constexpr std::size_t kPlacesKept = 64;
 /// A sighting nearer to a target of its class than this share of their diameter is of that target, even if the
-/// estimates differ: two things do not stand in each other.
+/// estimates differ: two things cannot be in one place.
 constexpr double kSameShare = 0.8;
-/// A depth so much greater than that of a target is a free-space violation of its place.
+/// A depth this much greater than that of a target is a free-space violation of its place.
 constexpr double kThrough_m = 0.4;
 /// The rim of the picture, where a target need not be whole, as a share of its width.
 constexpr double kRim = 0.1;
@@ -161,7 +161,7 @@ void TargetTracker::dropViolated(const TargetView& view) {
   });
 }
 
-/// What two targets of a class stand in each other's place is one, seen before and after the map was corrected. The
+/// Two targets of a class in each other's place are one, seen before and after the map was corrected. The
 /// one with more views stays.
 void TargetTracker::mergeDuplicates(const common::KeyPoses& keys) {
   const auto inMap = [&](const Track& track) -> Eigen::Vector3d {

@@ -173,8 +173,8 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   return result;
 }
 
-/// Whether braking as firmly as the limit of the speed counts on would not keep the hull from the point. An intent that
-/// obeys the limit has begun to brake before, so no latency is added.
+/// Whether braking with the deceleration that the speed limit assumes would not keep the hull from the point. An intent
+/// that obeys the limit has begun to brake before, so no latency is added.
 bool Avoidance::cannotStopBefore(const Point& point_level_m, const Point& velocity_level_m_s) const {
   const double speed_m_s = velocity_level_m_s.norm();
   if (speed_m_s <= kStill_m_s) return false;

@@ -29,14 +29,14 @@ struct AvoidanceInput {
   common::Time stamp;
   std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are ignored.
   Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
-  /// The velocity that the intent asks for; zero asks for a stop.
+  /// The velocity that the intent requests; zero requests a stop.
   Eigen::Vector2d wanted_level_m_s = Eigen::Vector2d::Zero();
   common::Pose2 T_map_level;
   const CostMap* cost_map = nullptr;                   ///< May be null: then only `obstacles` are reasons to retreat.
   std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
   double age_s = 0.0;  ///< Of the scan when it was processed; the vehicle has moved on since.
-  /// Standard deviation of the position in the map. Where it exceeds `mapped_within_m`, the map tells nothing of what
-  /// is near, and the velocity may be wrong, too: the vehicle also retreats from what the map has, when it is very
+  /// Standard deviation of the position in the map. Where it exceeds `mapped_within_m`, the map does not show what
+  /// is near, and the velocity may be wrong, too: the vehicle also retreats from mapped obstacles, when they are very
   /// near.
   double position_sigma_m = 0.0;
   /// Obstacles that only the 3D map has, where the beams pass above or below them. Each stands alone among the returns
@@ -72,7 +72,7 @@ struct Bin {
 ///
 /// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
 /// hull, or a moving one would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. For mapped,
-/// static obstacles it only brakes, unless it flies at them too fast to stop, which no intent asks for: it does so
+/// static obstacles it only brakes, unless it flies at them too fast to stop, which no intent requests: it does so
 /// where its position is corrected, or a gust pushes it. All distances are from the hull.
 class Avoidance {
  public:

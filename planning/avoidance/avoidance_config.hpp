@@ -14,7 +14,7 @@ enum class AvoidanceBinRange { kMean, kRobustMinimum };
 
 /// How the course of a retreat is chosen.
 enum class RetreatRule {
-  kClearCourse,     ///< Of many courses that end at rest and clear of everything the one farthest from people.
+  kClearCourse,     ///< Of many courses that end at rest and clear of everything, the one farthest from people.
   kOpposite,        ///< 180 deg from the bin of the collision (Saeedi, III-G).
   kPotentialField,  ///< The sum of repulsive forces of all returns (Grzonka 2012, IV-E, after Khatib 1986).
 };
@@ -52,7 +52,7 @@ struct AvoidanceConfig {
 
   void describe(common::config::Fields& fields);
   /// Conflicts between these distances and the clearance that the planner may use: a distance is refused if it would
-  /// stop the vehicle, or make it retreat, on a path that the planner may take. Empty if there are none.
+  /// stop the vehicle, or make it retreat, on a path that the planner may take. Empty without conflicts.
   std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
 };
 

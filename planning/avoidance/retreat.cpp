@@ -86,8 +86,8 @@ class Retreat {
   }
 
  private:
-  /// Prefers a course across the path of a person who passes to one along it, and straight away from a person who comes
-  /// straight on.
+  /// Prefers a course across the path of a passing person to one along it, and a course straight away from a person who
+  /// comes straight on.
   static Point awayFrom(const Threat& threat) {
     // Two half widths of a person and the vehicle: a person whose line passes farther off does not meet the vehicle.
     constexpr double kPasses_m = 0.5;

@@ -41,7 +41,7 @@ struct RetreatInput {
 };
 
 /// The velocity to fly until the next scan, in the level frame; zero if stopping is best. If it is flown with the
-/// `deceleration_m_s2` of the configuration and computed anew at each scan, the hull comes no nearer to a static
+/// `deceleration_m_s2` of the configuration and computed again at each scan, the hull comes no nearer to a static
 /// obstacle than `retreat_margin_m`, or than it would by stopping at once. A pure function.
 Eigen::Vector2d retreatVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input);
 

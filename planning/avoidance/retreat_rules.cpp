@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kNearest_m = 0.02;  // A force at no distance has no limit.
+constexpr double kNearest_m = 0.02;  // At distance zero the force would be infinite.
 
 /// The repulsive force of one point at that place of the level frame.
 Vector2d force(const Vector2d& place_m, double gap_m, double range_m) {

@@ -1,4 +1,4 @@
-// The courses of a retreat by the rules of two papers. Neither asks what lies on its course: they are here to be
+// The courses of a retreat by the rules of two papers. Neither checks what lies on its course: they are here to be
 // compared with `retreatVelocity`, which does.
 #pragma once
 

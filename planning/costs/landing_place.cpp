@@ -19,9 +19,9 @@ using common::CellIndex;
 using Eigen::Vector2d;
 
 constexpr double kUnseen_m = std::numeric_limits<double>::quiet_NaN();
-/// Beyond the hull and its margin, so far cells are looked for that show the surface to go on.
+/// Beyond the hull and its margin, cells within this distance must show that the surface continues.
 constexpr double kBeyond_m = 0.2;
-/// Where the way straight on is not free, as beside a wall, the vehicle looks past what is in the way.
+/// Where straight on is not free, as beside a wall, the vehicle looks past the obstacle.
 constexpr std::array kLooks_deg = {0.0, 30.0, -30.0, 60.0, -60.0};
 /// A cell counts from this much overlap on, far above the rounding of its place.
 constexpr double kTouching_m = 1e-6;

@@ -33,7 +33,7 @@ struct ExplorationAttempt {
 struct ExplorationInput {
   std::shared_ptr<const CostMap> cost_map;  ///< Not null. Built with the clearance to be flown; has the grid's states.
   common::Pose2 pose_map;
-  std::optional<Viewpoint> current;  ///< The one being flown to; kept unless another is clearly better.
+  std::optional<Viewpoint> current;  ///< The viewpoint being flown to; kept unless another is clearly better.
   std::vector<ExplorationAttempt> attempts;
   std::optional<common::MapBounds> bounds;  ///< Frontiers outside are not explored, nor looked at from outside.
   /// Targets during whose approach the position became uncertain; frontiers near them are not explored.
@@ -43,8 +43,8 @@ struct ExplorationInput {
 };
 
 struct ExplorationResult {
-  std::vector<common::Frontier> frontiers;  ///< All, each with its reason; the open ones first, best first.
-  std::optional<Viewpoint> next;            ///< None when done, or when the vehicle cannot leave its place.
+  std::vector<common::Frontier> frontiers;  ///< All frontiers, each with its reason; the open ones first, best first.
+  std::optional<Viewpoint> next;            ///< nullopt when done, or when the vehicle cannot leave its place.
   bool done = false;                        ///< No frontier is open.
   bool kept_current = false;                ///< `next` is the viewpoint that was given as current.
   double explored_area_m2 = 0.0;            ///< Area of the known free cells.

@@ -8,9 +8,9 @@ namespace swiftlet::planning {
 struct ExplorationConfig {
   static constexpr double min_frontier_m = 0.30;  ///< Shorter frontiers are left as too small.
   static constexpr double segment_m = 1.5;        ///< Longer frontiers are cut into pieces of at most this length.
-  double laser_range_m = 12.0;                    ///< Range within which a viewpoint counts on seeing.
-  double laser_field_of_view_deg = 270.0;      ///< Angle centred on the heading in which a viewpoint counts on seeing.
-  static constexpr double gain_depth_m = 2.0;  ///< Depth of the unknown that a beam is expected to see.
+  double laser_range_m = 12.0;                    ///< Range within which a viewpoint is expected to see.
+  double laser_field_of_view_deg = 270.0;         ///< Angle centred on the heading that a viewpoint is expected to see.
+  static constexpr double gain_depth_m = 2.0;     ///< Depth of the unknown that a beam is expected to see.
   static constexpr double gain_exponent =
       0.6;  ///< Utility grows with the gain to this power; at 0 only the travel time counts.
   static constexpr double min_gain_m2 = 0.03;       ///< A frontier behind which less is expected is left as too small.

@@ -36,7 +36,7 @@ class FrontierSurvey {
   const FrontierRun& run(std::size_t number) const { return runs_[number]; }
 
   /// The open frontiers that are seen from a reachable place, the nearest first. The others are closed, as unreachable
-  /// or because there is nothing around them to match a scan with.
+  /// or because there are no walls around them to match a scan with.
   std::vector<SeenFrontier> seenBy(const Scout& scout);
   /// Closes a frontier for a reason: it will not be explored.
   void leave(std::size_t number, common::FrontierReason reason, const std::string& detail);

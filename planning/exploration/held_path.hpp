@@ -11,7 +11,7 @@
 namespace swiftlet::planning {
 
 /// Whether the share of walls around a place is at least `least_wall_share`; see wallShareAt. A place outside the map
-/// is held: nothing is known of it.
+/// counts as held, because it is unknown.
 bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const ExplorationConfig& config);
 
 /// Whether the path ends at a held place, without a stretch of more than `max_unheld_m` that is not. The stretch that

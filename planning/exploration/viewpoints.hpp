@@ -29,7 +29,7 @@ struct Lookout {
 /// Casts rays over one map. Refers to its arguments, which must outlive it. Not thread-safe.
 class Scout {
  public:
-  /// Nobody looks from outside of `bounds`; null: there are none.
+  /// Places outside of `bounds` are no viewpoints; null: no bounds.
   Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config,
         const common::MapBounds* bounds);
 

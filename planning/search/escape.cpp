@@ -17,7 +17,7 @@ using common::CellIndex;
 using common::CellRect;
 
 /// The cheapest chain of cells within the window from the start to the first cell with isEnd(cell). `price` is that of
-/// a straight step from a cell to its neighbour; none: the step is forbidden. A diagonal step costs sqrt(2) times as
+/// a straight step from a cell to its neighbour; nullopt: the step is forbidden. A diagonal step costs sqrt(2) times as
 /// much.
 std::optional<CellPath> cheapest(const CellRect& window, CellIndex start,
                                  const std::function<std::optional<double>(CellIndex, CellIndex)>& price,
@@ -106,7 +106,7 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
         if (!lethal) return std::nullopt;
         return kUnknown;
       case CellState::kOccupied:
-        // The hull is at this cell, so nothing else can be: the map is wrong.
+        // The hull is at this cell, so it cannot be occupied: the map is wrong.
         if (lethal && from_start_m <= map.footprint().hull_radius_m) return kOccupied;
     }
     return std::nullopt;

@@ -9,7 +9,7 @@
 namespace swiftlet::planning {
 
 /// A view: the cost map must outlive it. At the clearance that the cost map was made for, a place is free exactly where
-/// the planners may go, or could if nobody stood there: people move on, and what is taken for a person may be none. At
+/// the planners may go, or could without the people there: people move on, and an assumed person may be none. At
 /// a smaller clearance only obstacles count. At a greater one, obstacles farther than CostMap::reach_m() are ignored. A
 /// goal accepted too easily in these cases is refused later by the planner.
 class CostGoalMap final : public common::GoalMap {

@@ -19,7 +19,7 @@ namespace swiftlet::planning {
 /// The cost maps by which a plan is judged.
 struct PlanMaps {
   const CostMap& costs;                 ///< Of the height of flight.
-  const TwoHeights* heights = nullptr;  ///< By which plans with lowered lines are judged; null: none are offered.
+  const TwoHeights* heights = nullptr;  ///< Judges plans with lowered lines; null: such plans are not offered.
 
   // Implicit, as most plans are flown at one height.
   PlanMaps(const CostMap& map, const TwoHeights* two = nullptr) : costs(map), heights(two) {}

@@ -20,10 +20,10 @@ struct Path {
   std::vector<Eigen::Vector2d> points_map_m;  ///< At least two, or one when start and goal coincide.
   double length_m = 0.0;
   double cost_m = 0.0;  ///< Equivalent length in open space: the integral of the cost, which is 1 there.
-  /// So many points after the start are the escape: the lines up to them may lead through the lethal zone.
+  /// Number of points after the start that are the escape: the lines up to them may lead through the lethal zone.
   std::size_t escape_points = 0;
   /// Of each line between two points, whether it is flown at `lower_height_m` instead of the height of flight
-  /// (two_heights.hpp); empty: none is.
+  /// (two_heights.hpp); empty: no line is.
   std::vector<bool> lowered = {};
   double lower_height_m = 0.0;  ///< Over the take-off floor.
 
@@ -36,7 +36,7 @@ struct PlanFailure {
   enum class Reason { kStartBlocked, kGoalBlocked, kGoalUnseen, kGoalKeptOut, kUnreachable, kOutsideMap };
   Reason reason = Reason::kUnreachable;
   std::string text;  ///< For people, with values.
-  /// The place nearest to a blocked goal where the centre may be; none when there is no such place within 3 m.
+  /// The place nearest to a blocked goal where the centre may be; nullopt when there is no such place within 3 m.
   std::optional<Eigen::Vector2d> nearest_free_map_m;
 };
 
@@ -58,18 +58,18 @@ using CellPath = std::vector<common::CellIndex>;
 /// within `reach_m`; out of a keep-out zone it may be longer. It avoids occupied cells. A pocket of passable cells from
 /// which no path leads farther than that counts as lethal if there is a way out with half of the clearance: in a narrow
 /// place single cells, or those that the vehicle's own trail makes passable, may touch no others. The escape is the
-/// start alone when that is not lethal, and none when there is no such chain.
+/// start alone when that is not lethal, and nullopt when there is no such chain.
 std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, double reach_m = 1.0);
 /// The path of escapeFrom() as points: the start itself and the centres of the cells after it. The start alone when
 /// there is no escape.
 std::vector<Eigen::Vector2d> escapePoints_map_m(const CostMap& map, const Eigen::Vector2d& start_map_m);
 
 /// Where the path to a goal is blocked. Of the path that would be taken without the obstruction: the first lethal cell,
-/// and the last one before it with room to stop (Footprint::stopRadius_m), or the one just before it if none has.
+/// and the last one before it with room to stop (Footprint::stopRadius_m), or else the one just before it.
 struct BlockedPath {
   common::CellIndex outlook, first_lethal;
 };
-/// Returns nothing when the start cannot escape, when nothing blocks the path, or when there is no path even without
+/// Returns nullopt when the start cannot escape, when nothing blocks the path, or when there is no path even without
 /// the obstruction.
 std::optional<BlockedPath> blockedPath(const CostMap& map, common::CellIndex start, common::CellIndex goal);
 
@@ -89,7 +89,7 @@ struct SegmentCost {
 };
 SegmentCost segmentCost(const CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
 
-/// The path over these points, with its length and cost: the escape costs its length, the rest what the map says.
+/// The path over these points, with its length and cost: the escape costs its length, the rest the cost of the map.
 Path pathThrough(const CostMap& map, std::vector<Eigen::Vector2d> points_map_m, std::size_t escape_points);
 
 /// The cells as a polyline with line-of-sight shortcuts. A shortcut may neither cost more than what it replaces nor

@@ -124,7 +124,7 @@ tl::expected<Path, PlanFailure> planAtTwoHeights(const TwoHeights& maps, const T
   const CellIndex goal = maps.upper.cellAt(question.goal_map_m);
   const bool ends_lower = maps.upper.costAt(goal) == CostMap::kLethal;
   if (ends_lower && maps.lower.costAt(goal) == CostMap::kLethal) {
-    // The refusal of the height of flight says more: there the laser has seen the map.
+    // The refusal at the height of flight explains more: there the laser has seen the map.
     auto refused = admit(maps.upper, question.start_map_m, question.goal_map_m);
     return tl::make_unexpected(refused ? unreachable(maps.upper, question.goal_map_m) : refused.error());
   }

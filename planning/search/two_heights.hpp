@@ -26,7 +26,7 @@ struct TwoHeightsQuestion {
   Eigen::Vector2d start_map_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   bool starts_lower = false;   ///< The vehicle is at the lower height.
-  double change_cost_m = 1.0;  ///< A change of height is worth so many metres of open space.
+  double change_cost_m = 1.0;  ///< A change of height costs as much as this length of open space.
 };
 
 /// The cheapest path (exact on the cells, with a metre at the lower height half as expensive again, so that the vehicle

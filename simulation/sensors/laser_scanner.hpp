@@ -57,7 +57,7 @@ class LaserScanner {
   void mixPixels(std::uint64_t frame);
   bool towardsSun(const Ray& ray) const;
   void noteGlass();
-  /// Numbers that only this beam of this scan draws, so that beams that need none cost none.
+  /// Random numbers of this beam of this scan alone, so that beams that need none take no time.
   common::RandomStream randomOf(const char* what, std::uint64_t frame, std::size_t beam) const;
   void addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const;
 

@@ -15,7 +15,7 @@ class Link {
   /// `name` names the random stream.
   Link(const LinkConfig& config, std::uint64_t seed, std::string name);
 
-  /// The arrival time of measurement number `frame`, ready at `ready`; none if it is lost. Call it in the order of
+  /// The arrival time of measurement number `frame`, ready at `ready`; nullopt if it is lost. Call it in the order of
   /// frames. Leaving out a frame does not change the random draws of the others.
   std::optional<common::Time> arrival(std::uint64_t frame, common::Time ready);
 
@@ -27,7 +27,7 @@ class Link {
 
   common::Time last_;
   std::uint64_t outage_ = 0;                 ///< Number of the next outage.
-  std::optional<common::Time> next_outage_;  ///< Its beginning; none before the first measurement.
+  std::optional<common::Time> next_outage_;  ///< Its beginning; nullopt before the first measurement.
 };
 
 }  // namespace swiftlet::simulation

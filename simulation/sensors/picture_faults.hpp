@@ -8,7 +8,7 @@
 
 namespace swiftlet::simulation {
 
-/// The frame of either camera with that fault of its pictures; none if the fault is of another kind.
+/// The frame of either camera with that fault of its pictures; nullopt if the fault is of another kind.
 std::optional<common::SensorEvent> withPictureFault(FaultKind kind, const common::SensorEvent& event);
 
 }  // namespace swiftlet::simulation

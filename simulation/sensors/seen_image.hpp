@@ -12,7 +12,7 @@ namespace swiftlet::simulation {
 struct SeenImage {
   int width_px = 0;
   int height_px = 0;
-  std::vector<float> depth_m;         ///< Along the view; infinite where nothing is.
+  std::vector<float> depth_m;         ///< Along the view; infinite without a surface.
   std::vector<std::uint8_t> is_weak;  ///< 1 where the surface returns too little of the projected pattern.
   std::vector<Eigen::Array4f> light;  ///< Red, green, blue, unused; white under the lamp is about 1.
   /// How far the image of the surface moves while the shutter is open; empty when nothing blurs.

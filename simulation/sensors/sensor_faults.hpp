@@ -12,7 +12,7 @@ namespace swiftlet::simulation {
 /// The measurement with other stamps.
 common::SensorEvent restamped(common::SensorEvent event, const common::Stamps& stamps);
 
-/// The measurement as it arrives, none if it does not. The event's kind belongs to the fault's sensor, and its stamps
+/// The measurement as it arrives, or nullopt. The event's kind belongs to the fault's sensor, and its stamps
 /// are set. `last_good` is the sensor's last measurement without a fault, if there was one.
 std::optional<common::SensorEvent> withFault(const FaultConfig& fault, const common::SensorEvent& event,
                                              const std::optional<common::SensorEvent>& last_good,

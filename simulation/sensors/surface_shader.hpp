@@ -42,7 +42,7 @@ class SurfaceShader {
     Eigen::Matrix3f R_shape_world;
     Eigen::Vector3f origin_world_m;
     std::array<const Texture*, 3> patterns{};  ///< Of what faces down, sideways, up in its own frame; null if blank.
-    const Texture* image = nullptr;            ///< Stretched over each side; null if there is none.
+    const Texture* image = nullptr;            ///< Stretched over each side; null without an image.
     Eigen::Vector3f low_m, size_m;             ///< Of the box around the shape, in its own frame.
     std::vector<const Texture*> images;        ///< Of the materials; null without a picture.
   };

@@ -5,7 +5,7 @@ import { forVehicle } from './vehicle.js';
 
 /** Several vehicles' pages may lie below one host, each in its folder and with its token. */
 const kKey = `swiftlet-token ${folder()}`;
-/** The server answers a command within two seconds also if the vehicle does not; on a dead link nobody does. */
+/** The server answers a command within two seconds, even without the vehicle; a dead link gives no answer. */
 const kPatience_ms = 2000;
 
 /** The token moves from the address to this tab's storage, so that it is not shared with a copied address. */
@@ -31,7 +31,7 @@ export class Commands {
     return Boolean(this.token);
   }
 
-  /** Asks the server whether the token is the operator's. Without an answer nothing is known, and nothing changes. */
+  /** Asks the server whether the token is the operator's. Without an answer the state stays as it is. */
   async check() {
     if (!this.token) return;
     try {

@@ -1,5 +1,5 @@
 // Draws a keep-out zone on the map: the taps are its corners, and a second press of the button sends it. Corners are
-// dropped only when the operator wants it, or with a word of it.
+// dropped only when the operator wants it, or with a message.
 
 const kLeastCorners = 3;
 

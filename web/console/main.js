@@ -108,7 +108,7 @@ const kOldToken = 'The token of this page is wrong, or of an earlier start: open
 const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing', go_on: 'Going on',
   clear_keep_out: 'Zones cleared' };
 
-/** What is not accepted stays on the page for long enough to be read, and "refused" is said only of an answer. */
+/** A command that is not accepted is shown long enough to be read; "refused" appears only after an answer. */
 function showAnswer(name, title, { outcome, reason }) {
   if (outcome === 'accepted') toast(title, reason, true);
   else toast(outcome === 'refused' ? `${name} refused` : `${name}: no answer`, commands.refused ? kOldToken : reason, false);
@@ -216,7 +216,7 @@ offerStream('depth', 'Picture of the depth camera, near in red, far in blue', 's
 
 // --- how old is what is shown -------------------------------------------------------------------------------------
 
-/** Of the last state, on its way and here; null before the first. */
+/** Age of the last state, on its way and here; null before the first. */
 const dataAge_s = () => (store.state ? store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000 : null);
 
 /** {level, text} of the pill, and {banner} over the map. */

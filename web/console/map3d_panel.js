@@ -10,7 +10,7 @@ import { inverse } from './pose2.js';
 
 /** Without a first message after this time the page shows the stream until it comes. */
 const kPatience_ms = 1200;
-/** While a hand turns the stream's view, it is asked for so often. */
+/** Period of the stream's requests while a hand turns its view. */
 const kStreamRestart_ms = 250;
 
 export class Map3dPanel {
@@ -60,7 +60,7 @@ export class Map3dPanel {
     this.endStream();
   }
 
-  /** The page's own link had to connect again: that of the 3D map has died with it, or will not tell. */
+  /** The page's own link had to connect again: the 3D map's link has failed with it, perhaps without an error. */
   reconnect() {
     this.link?.reconnect();
   }

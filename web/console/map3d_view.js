@@ -8,7 +8,7 @@ import { composed, inverse } from './pose2.js';
 
 const kNear_m = 0.05, kFar_m = 1000;
 
-/** The corners of what the submaps hold, in the frame that is shown; null if they hold nothing. */
+/** The corners of the submaps' points, in the frame that is shown; null without points. */
 function boundsOf(map3d, shownFromMap) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const [number, submap] of map3d.submaps) {

@@ -91,8 +91,8 @@ export class MapStore {
   }
 
   /**
-   * The frame that the page shows, in which places are sent: the given map's while the vehicle knows its place there,
-   * else `map`. Everything on the page that shows or takes places asks here; rendering/shown_frame.hpp is the same rule
+   * The frame that the page shows, in which places are sent: the given map's while the vehicle is localized in it,
+   * else `map`. Everything on the page that shows or takes places uses this; rendering/shown_frame.hpp is the same rule
    * for the pictures that the server draws.
    */
   shown() {

@@ -12,7 +12,7 @@ export function fliesItsOwnGoals({ mission }) {
 /** What the vehicle does while it obeys a command of the operator. */
 const kObeyed = { hold: 'hold', home: 'fly home', land: 'land' };
 
-/** Whether the vehicle does now what that button asks for. */
+/** Whether the vehicle is carrying out that button's command. */
 export function isObeyed(command, { mission }) {
   return mission.flown_by === 'operator' && mission.phase === kObeyed[command];
 }
@@ -24,7 +24,7 @@ export function endText({ ending }) {
 
 /**
  * The reason of the mission, or else of its intent; what the mission flies to after a hold; the cause of braking.
- * Repeats nothing of the phase.
+ * Does not repeat the phase.
  */
 export function reasonText({ mission, intent, avoidance }, reacts) {
   const next = mission.waiting && `next, after Resume: ${mission.waiting}`;

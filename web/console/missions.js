@@ -86,7 +86,7 @@ export class MissionsCard {
     return changed.map((control) => [control.name, control.value]);
   }
 
-  /** Fills new fields with what was typed into the old ones, and says what the mission no longer takes. */
+  /** Fills new fields with what was typed into the old ones, and reports what the mission no longer takes. */
   retype(typed, sameFile) {
     const lost = typed.filter(([key, value]) => {
       const control = sameFile ? this.form.elements.namedItem(key) : null;

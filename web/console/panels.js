@@ -26,7 +26,7 @@ function placeText({ state, x_m, y_m }) {
   return state === 'localized' ? `(${x_m.toFixed(1)}, ${y_m.toFixed(1)}) m` : state;
 }
 
-/** Who flies instead of the mission, as a chip. */
+/** What controls the vehicle instead of the mission, as a chip. */
 const kFliers = { operator: ['operator', 'chip'], supervisor: ['supervisor', 'chip bad'], pilot: ['pilot', 'chip warn'] };
 
 export function showState(state) {
@@ -68,7 +68,7 @@ export function showState(state) {
   setText('realtime', state.realtime_factor === null ? '–' : `${state.realtime_factor.toFixed(1)} ×`);
 }
 
-/** How old all of it is; it grows while nothing comes. */
+/** The age of the whole state; it grows while no state arrives. */
 export function showAge(age_s) {
   setText('age', age_s === null ? '–' : age_s < 10 ? `${Math.round(1000 * age_s)} ms` : `${age_s.toFixed(0)} s`);
 }

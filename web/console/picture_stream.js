@@ -1,5 +1,5 @@
-// A live picture: reads an MJPEG stream by itself, so that it knows how old the picture is and comes back by itself
-// after a dropped link. (An image element shows the last picture for ever, and says nothing.)
+// A live picture: reads an MJPEG stream by itself, so that the age of the picture is known and it comes back by itself
+// after a dropped link. (An image element shows the last picture for ever, without an error.)
 
 /** The server repeats a picture after a second without a new one; longer silence is a dead link. */
 const kMostSilence_ms = 3500;

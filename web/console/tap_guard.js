@@ -1,4 +1,4 @@
-// What comes, moves or goes under a finger is not what the finger meant: a second tap on "Read" would send a goal, and
+// A control that appears, moves or disappears under a finger was not meant: a second tap on "Read" would send a goal, and
 // one on the map would say "Go on". For a moment, taps there do nothing.
 
 const kSettle_ms = 600;

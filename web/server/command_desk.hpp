@@ -14,7 +14,7 @@ namespace swiftlet::web {
 class CommandDesk {
  public:
   using Kind = decltype(common::OperatorCommand::kind);
-  /// Nothing: no answer came in time. The command may still be executed.
+  /// nullopt: no answer came in time. The command may still be executed.
   using Answer = std::function<void(std::uint64_t id, const std::optional<common::CommandResult>& result)>;
 
   /// `patience` in ticks.
@@ -22,7 +22,7 @@ class CommandDesk {
               common::LosslessQueue<common::CommandResult>& results, int patience)
       : commands_(commands), results_(results), patience_(patience) {}
 
-  /// False if too many commands wait for their answer; nothing is handed over then.
+  /// False if too many commands wait for their answer; the command is not handed over then.
   [[nodiscard]] bool give(const Kind& kind, Answer answer);
   /// Delivers the answers that have come.
   void tick();

@@ -120,8 +120,8 @@ void Core::tick() {
   schedule();
 }
 
-/// The operators first, then the viewers in turn until their bandwidth is used up; the turn goes on behind the last one
-/// that was drawn for. A watcher may close while it is told, and another may come.
+/// The operators first, then the viewers in turn until their bandwidth is used up; the turn continues behind the one
+/// that was drawn for. A watcher may close during its call, and another may come.
 void Core::tickWatchers(common::Time now) {
   refill(now);
   std::vector<std::shared_ptr<Connection>> viewers;

@@ -1,4 +1,4 @@
-// What all connections of one server share, and the tick that drives the connections that receive data without asking.
+// What all connections of one server share, and the tick that drives the connections that receive data unasked.
 // The tick runs only while there is such a connection, so that an unused server costs nothing. Everything runs on the
 // one thread of the event loop, except what WebServer says.
 #pragma once
@@ -107,7 +107,7 @@ class Core : public std::enable_shared_from_this<Core> {
   boost::asio::steady_timer timer_;
   std::vector<std::weak_ptr<Connection>> connections_;
   std::vector<std::weak_ptr<Connection>> watchers_;
-  std::size_t first_viewer_ = 0;  ///< The one whose turn is next.
+  std::size_t first_viewer_ = 0;  ///< The viewer whose turn is next.
   double viewer_credit_bytes_;
   double viewer_credit_s_;        ///< Of drawing.
   bool drew_for_viewer_ = false;  ///< Since the last tick.
@@ -131,7 +131,7 @@ class Beat {
 
 /// Bytes in the kernel that the client has not taken yet.
 int unsentBytes(int native_socket);
-/// A client with more bytes waiting gets nothing new, which would only grow old in the buffer.
+/// A client with more bytes waiting gets no new data, which would only grow old in the buffer.
 inline constexpr int kMostUnsentBytes = 32 * 1024;
 /// Bound of the kernel's own buffer; without it the buffer would hold seconds of old pictures.
 inline constexpr int kSendBufferBytes = 128 * 1024;

@@ -66,7 +66,7 @@ std::shared_ptr<FrameHub::View> FrameHub::watch(const PictureView& asked) {
   return view;
 }
 
-/// What lies ahead was before the clock was set back: nobody waits until it has caught up.
+/// Times ahead are from before the clock was set back: they count as long ago, so that no client waits for them.
 common::Duration FrameHub::since(common::Time then) const {
   const common::Duration age = telemetry_.now() - then;
   return age < common::Duration{} ? kLongAgo : age;

@@ -33,7 +33,7 @@ class FrameHub {
   class View;
   std::shared_ptr<View> watch(const PictureView& view);
 
-  /// Someone who watches a view at a rate, and the frame that was sent last; null before the first.
+  /// A client that watches a view at a rate, and the frame that was sent last; null before the first.
   struct Watcher {
     std::shared_ptr<const StreamFrame> last = nullptr;
     common::Duration period;

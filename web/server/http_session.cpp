@@ -36,8 +36,8 @@ constexpr const char* kContentPolicy =
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
-/// A proxy that was not told of WebSockets passes all of a handshake on but Upgrade and Connection, perhaps by
-/// HTTP/1.0. nginx makes a tunnel all the same if the answer is 101. The key shows what is meant: no script can set a
+/// A proxy without WebSocket settings drops Upgrade and Connection from a handshake and passes the rest on, perhaps by
+/// HTTP/1.0. nginx makes a tunnel nevertheless if the answer is 101. The key shows the intent: no script can set a
 /// header Sec-.
 void completeHandshake(http::request<http::string_body>& request) {
   if (request.method() != http::verb::get || request[http::field::sec_websocket_key].empty()) return;
@@ -96,7 +96,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     request.method = text(request_.method_string());
     request.target = text(request_.target());
     request.host = text(request_[http::field::host]);
-    // Proxies that speak HTTP/1.0 may send none. Browsers do, so that DNS rebinding is refused all the same.
+    // Proxies that speak HTTP/1.0 may send no Host. Browsers do, so DNS rebinding is still refused.
     if (request_.version() < 11 && request_.count(http::field::host) == 0) request.host = "localhost";
     completeHandshake(request_);
     request.origin = text(request_[http::field::origin]);
@@ -172,7 +172,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
       startPage(core_, socket.vehicle, stream_.release_socket(), request_, byOperator());
   }
 
-  /// Otherwise the client is told.
+  /// Sends an error to the client if it may not.
   bool mayWatch() {
     const bool may = byOperator() || core_->roomForViewer();
     if (!may) sendError(503, "too many viewers; close some pages, or use the operator's link");

@@ -100,7 +100,7 @@ PictureQuery cameraQuery(const Target& target, PictureView::Source source) {
   return {view, framesPerSecond(parameters)};
 }
 
-/// What a kind of viewpoint has no use for is refused, so that nobody wonders why it changes nothing.
+/// Parameters that a kind of viewpoint does not use are refused, so that their lack of effect is no surprise.
 void refuseUnused(const Parameters& parameters, std::initializer_list<const char*> keys, const char* needs) {
   for (const char* key : keys)
     if (parameters.has(key)) refuse(400, fmt::format("{}: only for {}", key, needs));

@@ -15,7 +15,7 @@ struct Origin {
   int port = 0;
   bool operator==(const Origin&) const = default;
 };
-/// Nothing for "null" and all else that is not a host of http or https.
+/// nullopt for "null" and for any text that is not a host of http or https.
 std::optional<Origin> parseOrigin(std::string_view text);
 /// As browsers write it: without the port that its scheme implies.
 std::string toString(const Origin& origin);

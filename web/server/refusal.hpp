@@ -1,4 +1,4 @@
-// How a check of a request ends it: by throwing what the client is told.
+// How a check of a request refuses it: by throwing the message to the client.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@ struct Request {
   std::string method;  ///< "GET", "POST" ...
   std::string target;  ///< Path and query as sent: "/api/goal?token=x".
   std::string host;    ///< The Host header.
-  std::string origin;  ///< The Origin header; empty if there is none, as from a program that is not a browser.
+  std::string origin;  ///< The Origin header; empty without one, as from a program that is not a browser.
   std::string authorization;
   std::string body;
   bool wants_websocket = false;

@@ -220,7 +220,7 @@ Action read(const Request& request, const Target& target, std::size_t vehicle, c
   if (target.path == "/api/map.png" || target.path == "/api/state")
     checkGetOrHead(request);
   else
-    checkMethod(request, "GET");  // What has no end has no length to tell.
+    checkMethod(request, "GET");  // An endless stream has no length for HEAD.
   const auto stream = [&](const PictureQuery& asked) { return StreamPictures{asked.view, asked.fps, vehicle}; };
   if (target.path == "/stream/map.mjpg") return stream(mapStream(target));
   if (target.path == "/stream/camera.mjpg") return stream(cameraStream(target));

@@ -24,9 +24,9 @@ namespace swiftlet::web {
 struct Observation {
   std::uint64_t sequence = 0;             ///< Number of the world.
   double world_age_s = 0.0;               ///< Time since the server first saw the world.
-  std::optional<double> camera_age_s;     ///< None if there is no camera picture yet.
-  std::optional<double> depth_age_s;      ///< None if there is no depth image yet.
-  std::optional<double> realtime_factor;  ///< Simulated seconds per second; none until two worlds were seen.
+  std::optional<double> camera_age_s;     ///< nullopt before the first camera picture.
+  std::optional<double> depth_age_s;      ///< nullopt before the first depth image.
+  std::optional<double> realtime_factor;  ///< Simulated seconds per second; nullopt until two worlds were seen.
 };
 
 /// An event with its number in the flight's list.

@@ -9,7 +9,7 @@ namespace {
 
 using PointSpan = std::span<const common::SurfacePoint>;
 
-/// Points of one message: 48 KiB, so that nothing waits long behind it on a slow link.
+/// Points of one message: 48 KiB, so that no message waits long behind it on a slow link.
 constexpr std::size_t kPartPoints = 4096;
 constexpr std::size_t kPointBytes = 12;
 /// Positions are exact to half of this as long as the submap reaches no farther than 16 m; else the step is doubled.
@@ -17,7 +17,7 @@ constexpr float kLeastStep_m = 0.0005F;
 constexpr float kMostSteps = 32767.0F;
 /// Averaging moves a point within its cube, and cubes are smaller than this.
 constexpr float kSamePoint_m = 0.05F;
-/// So many points are compared to tell whether a list continues another.
+/// Number of points that are compared to decide whether a list continues another.
 constexpr std::size_t kCompared = 64;
 
 void put(std::string& bytes, std::uint32_t value, int count) {
@@ -173,7 +173,7 @@ SharedText SubmapReader::nextPart() {
 
 std::vector<SharedText> SubmapReader::next(const SubmapFeed& feed, common::Time now, std::size_t most_bytes) {
   std::vector<SharedText> messages;
-  if (now < asked_) refresh_ = refresh_noisy_ = now;  // The clock was set back: nothing waits until it has caught up.
+  if (now < asked_) refresh_ = refresh_noisy_ = now;  // The clock was set back: the refresh timers restart.
   asked_ = now;
   has_.resize(feed.lists().size());
   if (transfer_ && transfer_->number >= has_.size()) transfer_.reset();

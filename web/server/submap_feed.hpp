@@ -64,7 +64,7 @@ class SubmapFeed {
   SharedText poses_, camera_;
 };
 
-/// What one page has. New points come at once, those of the newest submap first. The points of a submap that has
+/// The lists of one page. New points come at once, those of the newest submap first. The points of a submap that has
 /// settled are sent once more when they have moved since, and so are those of one that was thinned; that takes at most
 /// kRefreshBytesPerSecond. The noisy points of the newest submap are sent again each kNoisyPeriod_s at most.
 class SubmapReader {

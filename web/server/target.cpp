@@ -52,7 +52,7 @@ bool climbs(std::string_view path) {
 
 std::string malformed(std::string_view target) { return fmt::format("the address {} is malformed", shown(target)); }
 
-/// Of ":8080"; 0 where none is named, nothing where it is malformed.
+/// Of ":8080"; 0 without a port, nullopt where it is malformed.
 std::optional<int> portIn(std::string_view text) {
   if (text.empty() || text == ":") return 0;
   int port = 0;

@@ -24,7 +24,7 @@ struct AbsoluteTarget {
   std::string authority;  ///< "localhost:8080", which takes the place of the Host header.
   std::string target;     ///< "/api/state", as parseTarget() takes it.
 };
-/// Nothing for a target in another form.
+/// nullopt for a target in another form.
 std::optional<AbsoluteTarget> absoluteTarget(std::string_view target);
 
 /// A host and perhaps a port, as in a Host header: "[::1]:8080" is {"::1", 8080}.
@@ -32,7 +32,7 @@ struct Authority {
   std::string host;  ///< Lower case; an IPv6 address without its brackets and in its shortest form.
   std::optional<int> port;
 };
-/// Nothing if malformed.
+/// nullopt if malformed.
 std::optional<Authority> parseAuthority(std::string_view text);
 
 /// Whether the host of an Authority is an IPv4 or IPv6 address in digits, which no foreign name server can control.

@@ -56,7 +56,7 @@ void Telemetry::look() {
   while (clock_.size() > 2 && unix_s - clock_[1].first > kClockWindow_s) clock_.pop_front();
 }
 
-/// Of a clock that was set back: what was seen counts as seen now, and ages from now on.
+/// After the clock was set back: seen values count as seen now, and age from now on.
 void Telemetry::startAgain(common::Time at) {
   clock_.clear();
   camera_.unix_time = world_.unix_time = depth_.unix_time = at;

@@ -55,7 +55,7 @@ class Telemetry {
       : sources_(sources), unix_time_(std::move(unix_time)) {}
 
   common::Time now() const { return unix_time_(); }
-  /// Checks for new values; cheap if there are none.
+  /// Checks for new values; cheap without one.
   void look();
 
   const Seen<common::World>& world() const { return world_; }

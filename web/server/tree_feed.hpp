@@ -1,4 +1,4 @@
-// The tree of the mission for many pages: each page gets the nodes that have changed since it was told last.
+// The tree of the mission for many pages: each page gets the nodes that have changed since its last message.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class TreeFeed {
   /// Rises when anything changed.
   std::uint64_t version() const { return version_; }
   /// What a page that has `version` lacks, as JSON: {"type": "tree", "whole": true, "nodes": [...]}. Of a page that has
-  /// the nodes of this tree only what may change is told: id, status, ports, reason, began_s, duration_s. Empty if it
+  /// the nodes of this tree only what may change is sent: id, status, ports, reason, began_s, duration_s. Empty if it
   /// has everything.
   std::string since(std::uint64_t version) const;
 

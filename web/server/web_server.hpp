@@ -18,7 +18,7 @@
 //   GET  /api/map3d               WebSocket: the points of the 3D map and their poses, see web/server/submap_feed.hpp
 //   GET  /api/missions            the missions that may be started, with their parameters; with the token
 //   POST /api/mission             starts one, or another in its place: {"file": "...", "parameters": {"KEY": "VALUE"}}
-//   POST /api/stop                the mission lets go; the vehicle holds until one is started, or it lands
+//   POST /api/stop                the mission releases control; the vehicle holds until one is started, or it lands
 //   GET  /api/token               200 if the token shown is the operator's, else 401
 //   POST /api/goal|hold|resume|home|land|keep_out|clear_keep_out|go_on
 //                                 with the token: `Authorization: Bearer TOKEN`, `X-Swiftlet-Token: TOKEN` or
@@ -31,12 +31,12 @@
 // the operator's with ?token=.
 //
 // Streams: a picture is encoded once for all clients that asked for the same; each client has at most one frame under
-// way and gets the newest when it is ready again, so that a slow client costs and delays nobody, and its own picture
+// way and gets the newest when it is ready again, so that a slow client delays no other, and its own picture
 // is never older than one frame. Requests whose Host is neither an address nor a name of this machine or of a public
 // URL, or whose Origin is foreign, are refused (no DNS rebinding, no CSRF).
 //
 // A proxy may stand in front: by HTTP/1.0 or 1.1, with the Host or with another one, below a path that it takes off or
-// leaves on. Nothing is believed of X-Forwarded-*, which any client can send: the public URLs say what is outside.
+// leaves on. X-Forwarded-* is ignored, because any client can send it: the public URLs define the outside addresses.
 #pragma once
 
 #include <memory>
@@ -55,7 +55,7 @@ class WebServer {
   using Sources = WebServerSources;
 
   /// Starts to listen at once. Throws common::InputError if the address cannot be used, the port is taken or a public
-  /// URL is none.
+  /// URL is invalid.
   WebServer(IoContext& io, const Options& options, const Sources& sources);
   /// Serves several vehicles: one of `sources` each, at least one. If there are several, each must have a name.
   WebServer(IoContext& io, const Options& options, const std::vector<Sources>& sources);

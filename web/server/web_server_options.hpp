@@ -30,7 +30,7 @@ struct WebServerOptions {
   double stall_timeout_s = 10.0;      ///< A stream's client that takes nothing for this long is dropped.
   int max_connections = 256;          ///< Viewers that watch at the same time; operators are not counted.
   double viewers_bytes_per_s = 16e6;  ///< For all viewers together, so that the operator's page is not starved.
-  MissionShelf* missions = nullptr;   ///< Missions that a page may start; null: none. Outlives IoContext::run().
+  MissionShelf* missions = nullptr;   ///< Missions that a page may start; null: no missions. Outlives IoContext::run().
   /// The present time since 1970, for the age of frames only. Called from the thread that runs the IoContext.
   std::function<common::Time()> unix_time;
 };

@@ -1,5 +1,5 @@
-// A WebSocket that sends what is new at a steady beat. Nothing is queued for a slow client: it is asked for what it
-// should get only when everything before has left the machine.
+// A WebSocket that sends what is new at a steady beat. Nothing is queued for a slow client: its next message is
+// made only when everything before has left the machine.
 #pragma once
 
 #include <deque>

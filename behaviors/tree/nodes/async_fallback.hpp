@@ -1,5 +1,5 @@
 // AsyncFallback: as Fallback, but a child that starts and ends in a tick ends that tick, unless it is the last one, so
-// that what stands above may act in between.
+// that nodes above may act in between.
 #pragma once
 
 #include "behaviors/tree/node_manifest.hpp"

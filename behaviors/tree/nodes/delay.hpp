@@ -1,6 +1,6 @@
 // Delay: waits delay_msec (RUNNING), then has the status of the child. The clock starts at the first tick and stands
 // still from the tick that suspends this node to the one that resumes it. The child is asked only when the time is
-// over. Until then the Delay wants the vehicle, whatever the child would answer.
+// over. Until then the Delay is active, whatever the child would answer.
 #pragma once
 
 #include "behaviors/tree/composite.hpp"

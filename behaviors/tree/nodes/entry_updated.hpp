@@ -46,7 +46,7 @@ class UnlessUpdated : public Composite {
   bool onAsked(const TickContext& context) const final;
 
   EntryNews news_;
-  Status without_;  ///< The answer without news.
+  Status without_;  ///< The answer if the entry was not updated.
 };
 
 class SkipUnlessUpdated final : public UnlessUpdated {

@@ -2,7 +2,7 @@
 //   child SUCCESS  -> the next cycle; SUCCESS after the last
 //   child FAILURE  -> FAILURE
 //   child RUNNING  -> RUNNING
-//   child SKIPPED  -> SKIPPED; the count starts anew
+//   child SKIPPED  -> SKIPPED; the count starts over
 // A cycle that started in this tick and ended in it ends the tick (RUNNING), so that no tick is endless.
 #pragma once
 

@@ -3,7 +3,7 @@
 //   child FAILURE  -> the next attempt; FAILURE after the last
 //   child SUCCESS  -> SUCCESS
 //   child RUNNING  -> RUNNING
-//   child SKIPPED  -> SKIPPED; the count starts anew
+//   child SKIPPED  -> SKIPPED; the count starts over
 // An attempt that started in this tick and ended in it ends the tick (RUNNING), so that no tick is endless.
 #pragma once
 

@@ -16,7 +16,7 @@ class SwitchNode final : public Composite {
  public:
   SwitchNode(const NodeSetup& setup, std::size_t cases);
   static NodeManifest manifest(std::size_t cases);
-  /// The only child that it can choose, because the file fixes the variable and the cases; nothing if it may choose
+  /// The only child that it can choose, because the file fixes the variable and the cases; nullopt if it may choose
   /// more.
   std::optional<std::size_t> alwaysChosen() const;
 

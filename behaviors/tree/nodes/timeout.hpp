@@ -1,7 +1,7 @@
 // Timeout: runs the child for at most msec; 0: no limit.
 //   child ends or is SKIPPED in time -> the same
 //   child RUNNING, time left         -> RUNNING
-//   no time left at a tick           -> the child is halted without another tick (RUNNING while it lets go),
+//   no time left at a tick           -> the child is halted without another tick (RUNNING until it is released),
 //                                       then FAILURE
 // The clock starts at the first tick and stands still from the tick that suspends this node to the one that resumes it.
 #pragma once

@@ -14,7 +14,7 @@ NodeManifest WhileDoElse::manifest() {
 }
 
 Status WhileDoElse::run(TickContext& context) {
-  // A child that was halted lets go before anything else is asked.
+  // A halted child is released before anything else is asked.
   if (chosen_ == 0 && !haltOthers(context, 0)) return Status::kRunning;
   const Status condition = child().tick(context);
   if (condition == Status::kRunning) return Status::kRunning;

@@ -5,7 +5,7 @@
 //   condition FAILURE, no third child  -> FAILURE, what runs is halted
 //   else                               -> the status of the second or third child; SUCCESS where that is SKIPPED,
 //                                         because the condition has been ticked
-// While a halted child lets go (it may take several ticks) the node is RUNNING and ticks no other child.
+// While a halted child is released (it may take several ticks) the node is RUNNING and ticks no other child.
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
@@ -23,7 +23,7 @@ class WhileDoElse final : public Composite {
   void clear(TickContext&) override { chosen_ = 0; }
   bool onAsked(const TickContext& context) const override { return child().wants(context); }
 
-  std::size_t chosen_ = 0;  ///< The child that the condition chose last; 0: none.
+  std::size_t chosen_ = 0;  ///< The child that the condition chose last; 0: no child.
 };
 
 }  // namespace swiftlet::tree

@@ -57,7 +57,7 @@ std::string place(std::string_view text, const Token& token) {
   return where + (ascii ? "" : ", which is " + nameOfCharacter(token.text, 0) + ": only texts may hold it");
 }
 
-/// For those who write the operators of other languages: `and` and `or` stand where a sign is expected, and what
+/// For people who write the operators of other languages: `and` and `or` stand where a sign is expected, and what
 /// follows `not` does.
 std::string_view wordHint(const Token& before, const Token& token) {
   if (before.kind == TokenKind::kName && before.text == "not") return "; write ! for `not`";

@@ -30,7 +30,7 @@ std::size_t numberEnd(std::string_view text) {
   return end;
 }
 
-/// Of the sign that `text` begins with; 0 if that is none.
+/// Length of the sign that `text` begins with; 0 if it begins with no sign.
 std::size_t signLength(std::string_view text) {
   constexpr std::string_view kSingle = "=+-*/<>!~&|^?:();", kBeforeEqual = ":+-*/=!<>", kDoubled = "&|.";
   const char first = text[0], second = text.size() > 1 ? text[1] : '\0';

@@ -11,7 +11,7 @@
 
 namespace swiftlet::tree {
 
-/// Text and other values are not copied: they are those of an entry or of the script, and valid until it is written.
+/// Text and other values are not copied: they belong to an entry or to the script, and are valid until it is written.
 using Operand = std::variant<double, std::int64_t, bool, std::string_view, const Value*>;
 
 /// "number", "text", "point" ...: for messages.
@@ -27,7 +27,7 @@ std::optional<std::int64_t> wholeOf(const Operand& operand);
 /// Numbers are true unless they are 0, text is `true` or `false`, also `True` and `TRUE`; nothing for all else.
 std::optional<bool> truthOf(const Operand& operand);
 
-/// The number that a text is beside a number: as it is written, the word `true` as 1, a constant as what it stands for.
+/// The number that a text is beside a number: a numeral, the word `true` as 1, a constant as its number.
 std::optional<double> numberNamed(std::string_view text, const Constants* constants);
 
 /// Two texts as text, numbers as numbers (the words `true` and `false` are 1 and 0 beside one), other values only if

@@ -78,7 +78,7 @@ struct ScriptPairing {
   ScriptSide left, right;
 };
 
-/// What scripts do, one behind the other: a few long lists are made and freed faster than lists for each of thousands
+/// The code of all scripts in a row: a few long lists are made and freed faster than lists for each of thousands
 /// of scripts. All indices are those of these lists, unless it says otherwise.
 struct ScriptCode {
   std::vector<ScriptExpression> expressions;

@@ -50,10 +50,10 @@ class Script {
   const Slot& slot(std::size_t entry) const;
   const Value& constant(std::size_t index) const;
 
-  /// The value of the last statement, valid until the next run or a write to an entry. Nothing if it cannot be
+  /// The value of the last statement, valid until the next run or a write to an entry. nullopt if it cannot be
   /// evaluated; then `problem` says why. Statements before the one that fails have been carried out.
   std::optional<Operand> run();
-  /// Runs the script as a condition: the value of the last statement. Nothing if the script cannot be evaluated or the
+  /// Runs the script as a condition: the value of the last statement. nullopt if the script cannot be evaluated or the
   /// value is not true or false.
   std::optional<bool> holds();
   const std::string& problem() const { return problem_; }

@@ -1,11 +1,11 @@
-// What Groot2 asks of a running tree, and the answers: its monitor protocol, version 2, without the socket.
+// The requests of Groot2 to a running tree, and the answers: its monitor protocol, version 2, without the socket.
 //
 //   request   u8 protocol = 2, u8 type, u32 id (little endian); then, for some types, a second part
 //   reply     the six bytes of the request, 16 bytes that identify the tree; then a second part
 //
 //   T  the tree as XML, each node with its _uid            S  u16 uid, u8 status for each node
 //   B  names of blackboards with `;` between -> msgpack    r  "start" recording -> microseconds of the start; or "stop"
-//   D  breakpoints, always none                            t  u48 microseconds since the start, u16 uid, u8 status for
+//   D  breakpoints, always empty                           t  u48 microseconds since the start, u16 uid, u8 status for
 //                                                             each change since it was asked last
 //   A, X  remove or disable all breakpoints: there are none
 //

@@ -21,7 +21,7 @@ class GrootServer {
   GrootServer& operator=(const GrootServer&) = delete;
 
   int port() const;
-  /// Waits for a request, at most so long, and answers it. False if none came.
+  /// Waits for a request, at most for `patience_ms`, and answers it. False if none came.
   bool serve(GrootMonitor& monitor, int patience_ms);
 
  private:

@@ -49,7 +49,7 @@ class Matching {
   /// How the scan fits the map at one pose.
   struct View {
     NormalEquations equations;
-    double log_sum = 0.0;          ///< Of the log-likelihoods of the evaluated points.
+    double log_sum = 0.0;          ///< Sum over the evaluated points.
     double beams_per_point = 1.0;  ///< Beams that each evaluated point stands for.
   };
 

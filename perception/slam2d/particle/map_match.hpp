@@ -22,23 +22,21 @@ struct MapMatchConfig {
       60;  ///< Points that are matched while they are still far from the surfaces they belong to.
   static constexpr double max_range_m = 20.0;  ///< Points farther than this are not used.
   static constexpr double reach_m =
-      0.30;  ///< Where the motion may have slipped, a surface is looked for so far along the normal of a point.
+      0.30;  ///< Where the motion may have slipped, a surface is searched this far along the normal of a point.
   static constexpr double support_m =
-      0.08;  ///< Where the motion has not slipped, a surface is looked for so near a point.
+      0.08;  ///< Where the motion has not slipped, a surface is searched this near a point.
   static constexpr double enough_support =
       0.7;                               ///< With a greater share of points on a surface the motion has not slipped.
   static constexpr int iterations = 10;  ///< Greatest number of steps.
-  static constexpr double residual_m =
-      0.02;  ///< Distances of the points from the surfaces are taken for at least so large.
+  static constexpr double residual_m = 0.02;  ///< Least distance of a point from its surface that the weights assume.
   static constexpr double covariance_scale =
       2.0;  ///< Factor on the covariance of independent points, which neighbouring ones are not.
   static constexpr double motion_freedom = 3.0;  ///< Degrees of freedom of the Student t distribution of the motion:
-                                                 ///< the motion's covariance does not know of slips.
+                                                 ///< the motion's covariance does not include slips.
   static constexpr double beam_sigma_m =
       0.05;  ///< Spread, in the likelihood, of end points about the surfaces of a good map.
-  static constexpr double outlier_share = 0.1;  ///< Share of end points on what is not in the map.
-  static constexpr double independent_beams =
-      20.0;  ///< A scan says as much as so many beams that know nothing of each other.
+  static constexpr double outlier_share = 0.1;       ///< Share of end points on what is not in the map.
+  static constexpr double independent_beams = 20.0;  ///< Number of independent beams that a scan counts for.
 };
 
 /// The predicted pose of a scan, and the covariance of its additive errors (x_m, y_m, yaw_rad), axes of the map.
