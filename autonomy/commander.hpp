@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/feedback.hpp"
+#include "autonomy/decision.hpp"
 #include "autonomy/map_shelf.hpp"
 #include "autonomy/mission_desk.hpp"
 #include "autonomy/percept.hpp"
@@ -31,17 +31,6 @@ namespace swiftlet::autonomy {
 struct AutonomyConfig;
 struct AutonomySetup;
 class Navigator;
-
-/// What is to be flown. Between the ticks of the behaviours it stays.
-struct Decision {
-  common::Intent intent;
-  std::string take_off_refusal;          ///< Why the vehicle must not take off; empty if it may.
-  double max_height_m = 0.0;             ///< Over the take-off floor.
-  bool mission_over = false;             ///< The vehicle lands, and stays on the ground.
-  bool pilot_flies = false;              ///< Setpoints have no effect, or only assist the pilot.
-  bool unseen = false;                   ///< No sensor sees the surroundings.
-  std::vector<GivenMapOrder> given_map;  ///< Of this tick.
-};
 
 /// One thread.
 class Commander {

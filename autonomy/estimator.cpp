@@ -53,7 +53,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
       localizer_(given, config.localization, jobs),
-      space_(config, camera, vertical_laser, jobs),
+      space_({config.rgbd, config.vertical_laser, config.targets}, camera, vertical_laser, jobs),
       poses_(*filter_),
       uncertainty_(*filter_) {}
 

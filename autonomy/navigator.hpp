@@ -17,13 +17,14 @@
 #include <tl/expected.hpp>
 
 #include "autonomy/camera_obstacles.hpp"
-#include "autonomy/commander.hpp"
+#include "autonomy/decision.hpp"
 #include "autonomy/executor.hpp"
 #include "autonomy/feedback.hpp"
 #include "autonomy/percept.hpp"
 #include "autonomy/pilot_assist.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/readiness.hpp"
+#include "autonomy/requests/keep_out_zones.hpp"
 #include "autonomy/vehicle_memory.hpp"
 #include "common/event.hpp"
 #include "common/rgbd_camera_config.hpp"

@@ -208,8 +208,7 @@ struct YamlReader::Impl {
                fmt::format("it is in line {} too: leave out one of the two", first->second));
       const auto& known_keys = level.known_keys;
       if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) continue;
-      const std::string path = level.path.empty() ? key : level.path + "." + key;
-      if (const auto former = what_became_of ? what_became_of(path) : std::nullopt) {
+      if (const auto former = what_became_of ? what_became_of(pathOf(key)) : std::nullopt) {
         report(entry.first, "", fmt::format("`{}` {}", key, *former), "leave it out");
         continue;
       }
@@ -360,7 +359,6 @@ bool YamlReader::beginSection(std::string_view name, std::string_view) {
   impl_->levels.push_back({*node, path, {}});
   return true;
 }
-
 void YamlReader::endSection(std::vector<std::string> problems) { impl_->closeLevel(problems); }
 
 std::optional<int> YamlReader::beginList(std::string_view name, int, std::string_view) {
@@ -387,7 +385,6 @@ void YamlReader::endList() {
 }
 
 void YamlReader::explainFormerKeys(WhatBecameOf what_became_of) { impl_->what_became_of = std::move(what_became_of); }
-
 void YamlReader::keepUnknownKeys() { impl_->keeps_unknown_keys = true; }
 std::vector<Problem> YamlReader::unknownKeys() const { return impl_->kept_keys; }
 

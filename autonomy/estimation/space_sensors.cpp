@@ -3,13 +3,11 @@
 #include <iterator>
 #include <utility>
 
-#include "autonomy/estimator.hpp"
-
 namespace swiftlet::autonomy {
 
 using common::Time;
 
-SpaceSensors::SpaceSensors(const EstimatorConfig& config, const common::RgbdCameraConfig* camera,
+SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera,
                            const common::LaserConfig* vertical_laser, common::JobRunner& jobs)
     : rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr),
       vertical_laser_(vertical_laser && !camera

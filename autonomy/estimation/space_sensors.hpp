@@ -25,8 +25,6 @@
 
 namespace swiftlet::autonomy {
 
-struct EstimatorConfig;
-
 /// Further data of the estimator at a tick.
 struct MapSituation {
   const PoseTrack& poses;
@@ -38,9 +36,14 @@ struct MapSituation {
 /// One thread. Its jobs refer to it.
 class SpaceSensors {
  public:
+  struct Config {
+    const RgbdPipelineConfig& rgbd;
+    const VerticalLaserPipelineConfig& vertical_laser;
+    const TargetPipelineConfig& targets;
+  };
   /// Data sheets; null without that sensor. With a camera an upright laser is not used.
-  SpaceSensors(const EstimatorConfig& config, const common::RgbdCameraConfig* camera,
-               const common::LaserConfig* vertical_laser, common::JobRunner& jobs);
+  SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser,
+               common::JobRunner& jobs);
 
   /// Whether the frame can be used; false without a camera.
   [[nodiscard]] bool add(std::shared_ptr<const common::RgbdFrame> frame);

@@ -131,10 +131,9 @@ TEST_F(BadInput, AMissionThatTheSystemCannotFlyIsRefused) {
 }
 
 TEST_F(BadInput, AProfileWithContradictoryDistancesIsRefused) {
-  const std::string system =
-      write("shy.yaml", "autonomy:\n  reactive:\n    avoidance:\n      retreat_distance_m: 0.45\n");
+  const std::string system = write("shy.yaml", "autonomy:\n  reactive:\n    avoidance:\n      margin_m: 0.2\n");
   expectRefused(runSwiftlet({"check", hop(), "--system", system}),
-                "shy\\.yaml:4:27: autonomy\\.reactive\\.avoidance\\.retreat_distance_m: 0\\.45 m .*forbids passing");
+                "shy\\.yaml:4:17: autonomy\\.reactive\\.avoidance\\.margin_m: 0\\.20 m forbids the clearance");
 }
 
 TEST_F(BadInput, AllMistakesAreReportedTogether) {
@@ -320,8 +319,8 @@ TEST_P(FullDisk, IsReportedWithTheFileAndEndsNoFlight) {
   }
 }
 
-// The configuration is written first and has about 75 kB; a report with pictures has more than 90.
-INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 110'000));
+// The configuration is written first and has about 20 kB; a report with pictures has more than 90.
+INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 60'000));
 
 TEST_F(BadInput, AnOutputFolderThatCannotBeCreatedIsRefused) {
   const ProgramEnd end =

@@ -40,9 +40,12 @@ TEST_F(BadTrial, ABadTrialOfAFolderIsRefusedBeforeTheFirstFlight) {
 
 /// The kind of a file is told by its keys, wherever they are in it and however it is encoded.
 TEST_F(BadTrial, ALargeFileOrOneInUtf16IsToldByItsKeys) {
-  const std::string text = std::string(1 << 21, '#') + "\nmission: missions/explore_and_return.xml\nsystem: swiftled\n";
+  const std::string text =
+      std::string(1 << 21, '#') +
+      "\nmission: missions/explore_and_return.xml\nsystem: swiftled\nscenario: {world: worlds/unb_case1.sdf}\n";
   std::string utf16 = "\xff\xfe";
-  for (const char letter : std::string("mission: missions/explore_and_return.xml\r\nsystem: swiftled\r\n"))
+  for (const char letter : std::string("mission: missions/explore_and_return.xml\r\nsystem: swiftled\r\n"
+                                       "scenario: {world: worlds/unb_case1.sdf}\r\n"))
     utf16 += {letter, '\0'};
   expectRefused(runSwiftlet({"trial", write("t.yaml", text), "--out", path("run")}), "t\\.yaml:3:9: system: ");
   const std::string narrow = write("u.yaml", utf16);

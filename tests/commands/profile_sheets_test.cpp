@@ -48,7 +48,7 @@ TEST_F(ProfileSheets, FormerSettingsAreRefusedWithWhatTheyAreNow) {
   const std::string one = write("one.yaml", "based_on: swiftlet\nautonomy: {estimator: {altitude: {gate_sigma: 4}}}\n");
   expectRefused(
       runSwiftlet({"config", "--system", one}),
-      "one\\.yaml:2:37: autonomy\\.estimator\\.altitude: `gate_sigma` is no longer a setting: it is 3\\.5: Half "
+      "one\\.yaml:2:35: autonomy\\.estimator\\.altitude: `gate_sigma` is no longer a setting: it is 3\\.5: Half "
       "width of all confidence regions, in standard deviations\\., leave it out");
   const std::string all = write("all.yaml", "based_on: swiftlet\nautonomy:\n  inertial_check: {rate_deg_s: 30}\n");
   expectRefused(

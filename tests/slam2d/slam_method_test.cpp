@@ -31,7 +31,8 @@ using common::Pose2;
 /// The configuration with the method of that name, as in a profile.
 SlamMethodConfig configOf(const std::string& method) {
   SlamMethodConfig config;
-  common::config::YamlReader::fromText("{method: " + method + ", particles: {count: 10}}", method).read(config);
+  common::config::YamlReader::fromText("{method: " + method + "}", method).read(config);
+  config.particles.count = 10;
   return config;
 }
 
