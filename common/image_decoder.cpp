@@ -49,7 +49,7 @@ constexpr std::size_t kMostUnpacked = 1032;
 
 enum class Wanted { kRgb, kGray16, kGrey };
 
-/// A PNG while it is read. libpng leaves by longjmp to `readPng`, which has no objects with destructors.
+/// A PNG while it is read. libpng leaves by longjmp to `readPixels`, which has no objects with destructors.
 struct PngRead {
   std::string_view bytes;
   std::size_t at = 0;
@@ -100,19 +100,15 @@ void placeRows(PngRead& read) {
     read.rows.push_back(read.pixels.data() + i * row_bytes);
 }
 
-bool isTooLarge(PngRead& read, int most_px) {
+/// Not inlined into `readPixels`, whose objects longjmp would leave behind.
+[[gnu::noinline]] bool isTooLarge(PngRead& read, int most_px) {
   auto fault = tooLarge(read.width_px, read.height_px, most_px);
   if (fault) read.fault = *std::move(fault);
   return fault.has_value();
 }
 
-/// False with `read.fault`.
-bool readPng(PngRead& read, Wanted wanted) {
-  read.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &read, onError, onWarning);
-  if (read.png == nullptr) {
-    read.fault = {"cannot be read for lack of memory"};
-    return false;
-  }
+/// False with `read.fault`. Not inlined into its caller, whose objects longjmp would leave behind.
+[[gnu::noinline]] bool readPixels(PngRead& read, Wanted wanted) {
   if (setjmp(png_jmpbuf(read.png)) != 0) return false;
   read.info = png_create_info_struct(read.png);
   png_set_user_limits(read.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
@@ -132,6 +128,14 @@ bool readPng(PngRead& read, Wanted wanted) {
   png_read_image(read.png, read.rows.data());
   png_read_end(read.png, nullptr);
   return true;
+}
+
+/// False with `read.fault`.
+bool readPng(PngRead& read, Wanted wanted) {
+  read.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &read, onError, onWarning);
+  if (read.png != nullptr) return readPixels(read, wanted);
+  read.fault = {"cannot be read for lack of memory"};
+  return false;
 }
 
 tl::expected<Image, ImageFault> colorFromPng(std::string_view bytes) {
