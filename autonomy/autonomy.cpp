@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "autonomy/snapshot.hpp"
+#include "common/append_events.hpp"
 #include "control/flight_state_machine.hpp"
 
 namespace swiftlet::autonomy {
@@ -25,7 +26,7 @@ Autonomy::Autonomy(AutonomySetup setup)
 Autonomy::~Autonomy() = default;
 
 std::optional<common::Setpoint> Autonomy::process(const Input& input) {
-  if (feedback_) senses_.hear(*std::exchange(feedback_, std::nullopt));
+  if (!std::exchange(heard_, true)) senses_.hear(navigator_.feedback());
   if (const auto* timer = std::get_if<Tick>(&input)) return tick(timer->now);
   if (const auto* event = std::get_if<common::SensorEvent>(&input)) take(*event);
   if (const auto* order = std::get_if<CommandInput>(&input))
@@ -51,7 +52,7 @@ common::Setpoint Autonomy::tick(Time now) {
   // So that the last snapshot shows how the mission ended.
   if (percept.around && decision.mission_over) world_ = snapshot(percept);
   const common::Setpoint setpoint = navigator_.fly(decision, percept, commander_.keepOut());
-  feedback_ = navigator_.feedback();
+  heard_ = false;
   return setpoint;
 }
 
@@ -74,8 +75,8 @@ AutonomyCounts Autonomy::counts() const {
 
 std::vector<common::Event> Autonomy::takeEvents() {
   std::vector<common::Event> events = commander_.takeEvents();
-  std::ranges::move(senses_.takeEvents(), std::back_inserter(events));
-  std::ranges::move(navigator_.takeEvents(), std::back_inserter(events));
+  append(events, senses_.takeEvents());
+  append(events, navigator_.takeEvents());
   std::ranges::stable_sort(events, {}, &common::Event::stamp);
   return events;
 }

@@ -93,7 +93,7 @@ class Autonomy {
   Navigator navigator_;
   std::unique_ptr<common::JobRunner> jobs_;
 
-  std::optional<Feedback> feedback_;  ///< Of the last tick, until the next input.
+  bool heard_ = true;  ///< The senses have heard the feedback of the last tick.
   WorldBuilder world_builder_;
   std::shared_ptr<const common::World> world_;
 };

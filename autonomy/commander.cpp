@@ -8,6 +8,7 @@
 #include "autonomy/navigator.hpp"
 #include "autonomy/trail_back.hpp"
 #include "behaviors/named_places.hpp"
+#include "common/append_events.hpp"
 #include "common/check.hpp"
 #include "common/segment.hpp"
 #include "common/world/map_layer.hpp"
@@ -37,10 +38,6 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
             const std::string why = maps.problemOf(map);
             return why.empty() ? std::nullopt : std::optional(common::Problem{{}, "", why, ""});
           }};
-}
-
-void append(std::vector<common::Event>& events, std::vector<common::Event> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(events));
 }
 
 }  // namespace

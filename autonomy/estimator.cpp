@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "autonomy/estimation/camera_support.hpp"
+#include "common/append_events.hpp"
 #include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
@@ -92,13 +93,15 @@ void Estimator::updateMap3d(Time now) {
 }
 
 /// While the vehicle stands still, its first scans start the filter.
-std::optional<ScanOutcome> Estimator::begin(const common::LaserScan& scan) {
+void Estimator::begin(const common::LaserScan& scan) {
   if (const auto height_m = start_.start(scan, laser_, filter_)) altitude_.initialize(filter_->newest(), *height_m);
-  return std::nullopt;
 }
 
 std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
-  if (!filter_->initialized()) return begin(scan);
+  if (!filter_->initialized()) {
+    begin(scan);
+    return std::nullopt;
+  }
   if (!start_.isCovered(scan)) return std::nullopt;
   if (filter_->atRest()) start_.look(scan, filter_->state().T_odom_body.rotation);
   ScanOutcome outcome;
@@ -176,13 +179,10 @@ EstimatedMaps Estimator::maps() {
 
 std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names) {
   std::vector<common::Event> events = map_.takeEvents();
-  const auto append = [&](std::vector<common::Event> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(events));
-  };
-  append(start_.takeEvents());
-  append(std::exchange(events_, {}));
-  if (localizer_) append(localizer_->takeEvents());
-  append(space_.takeEvents(names));
+  append(events, start_.takeEvents());
+  append(events, std::exchange(events_, {}));
+  if (localizer_) append(events, localizer_->takeEvents());
+  append(events, space_.takeEvents(names));
   return events;
 }
 

@@ -159,7 +159,7 @@ class Estimator {
     std::optional<common::Time> camera_doubted;  ///< When the beams down last contradicted the camera.
   };
 
-  std::optional<ScanOutcome> begin(const common::LaserScan& scan);
+  void begin(const common::LaserScan& scan);
   perception::ProjectedScan project(const common::LaserScan& scan) const;
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
   void measureHeight(ScanOutcome& outcome, const common::Pose2& T_odom_body, common::Time now);

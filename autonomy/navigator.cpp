@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "autonomy/autonomy_config.hpp"
+#include "common/append_events.hpp"
 #include "control/controller_choice.hpp"
 #include "control/flight_state_machine.hpp"
 
@@ -193,8 +194,8 @@ InertialContext Navigator::inertialContext(const control::FlightTick& flight, co
 
 std::vector<common::Event> Navigator::takeEvents() {
   std::vector<common::Event> events = readiness_.takeEvents();
-  for (common::Event& event : executor_.takeEvents()) events.push_back(std::move(event));
-  for (common::Event& event : controller_.takeEvents()) events.push_back(std::move(event));
+  append(events, executor_.takeEvents());
+  append(events, controller_.takeEvents());
   return events;
 }
 

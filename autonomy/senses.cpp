@@ -6,18 +6,11 @@
 #include <fmt/format.h>
 
 #include "autonomy/autonomy_config.hpp"
+#include "common/append_events.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::Time;
-
-namespace {
-
-void append(std::vector<common::Event>& events, std::vector<common::Event> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(events));
-}
-
-}  // namespace
 
 Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup)
     : behavior_period_s_(1.0 / config.behavior_rate_hz),

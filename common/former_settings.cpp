@@ -4,13 +4,13 @@
 
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
+#include "common/yaml_problem.hpp"
 
 namespace swiftlet::common {
 
 FormerSettings::FormerSettings(const std::string& file) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
   try {
-    texts_ = YAML::Load(readText(file, kMostBytes)).as<std::map<std::string, std::string>>();
+    texts_ = loadYaml(yamlText(readText(file, kMostYamlBytes)), file).as<std::map<std::string, std::string>>();
   } catch (const YAML::Exception& error) {
     throw InputError(Problem{{file}, "", error.what(), "it is a part of the program: install it again"});
   }

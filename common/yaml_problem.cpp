@@ -305,8 +305,7 @@ std::string yamlText(std::string bytes) {
   return bytes;
 }
 
-YAML::Node loadYaml(const std::string& given, const std::string& file) {
-  const std::string text = yamlText(given);
+YAML::Node loadYaml(const std::string& text, const std::string& file) {
   try {
     // The mark for the end of a document makes the library notice a quote that is open there.
     const std::vector<YAML::Node> documents = YAML::LoadAll(isUtf32(text) ? text : text + "\n...\n");

@@ -21,8 +21,9 @@ inline constexpr std::size_t kMostYamlBytes = std::size_t{8} << 20;
 /// The places that loadYaml() and others tell are places in it.
 std::string yamlText(std::string bytes);
 
-/// The only document of a text; null for an empty one. Throws InputError with place, cause and remedy for a text that
-/// is not YAML, and for what the library would take in silence: a quote that is never closed, a second document.
+/// The only document of a text that yamlText() made; null for an empty one. Throws InputError with place, cause and
+/// remedy for a text that is not YAML, and for what the library would take in silence: a quote that is never closed, a
+/// second document.
 YAML::Node loadYaml(const std::string& text, const std::string& file);
 
 /// "line 3 has a no-break space (U+00A0) in column 5: write a plain blank": of the first character of a line, outside

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/geometry.hpp"
 #include "control/actuation.hpp"
 
 namespace swiftlet::control {
-
-using common::config::kPositive;
 
 ControlErrors errorsOf(const ControlInput& input, const ControlLimits& limits) {
   ControlErrors errors;

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/gravity.hpp"
 #include "common/square.hpp"
 
 namespace swiftlet::control {
 
-using common::config::kPositive;
 namespace {
 
 constexpr double kStill_m_s = 0.10;            ///< A descent is faster: only the ground explains less.

@@ -4,8 +4,6 @@
 
 namespace swiftlet::control {
 
-using common::config::kPositive;
-
 void FlightController::Config::describe(common::config::Fields& fields) {
   fields("climb_m_s", climb_m_s, {0.05, 3}, "Climb speed when taking off.");
   fields("descent_m_s", descent_m_s, {0.05, 3}, "Descent speed when landing.");

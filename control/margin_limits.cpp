@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/first_order_lag.hpp"
-#include "common/validation.hpp"
 
 namespace swiftlet::control {
-
-using common::config::kPositive;
 
 double MarginLimits::shareAt(double margin) const {
   const double span = std::max(1e-6, config_.full_margin - config_.least_margin);

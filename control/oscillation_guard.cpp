@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
 
 namespace swiftlet::control {
-
-using common::config::kPositive;
 
 void OscillationGuard::reset() {
   mean_rad_.reset();

@@ -7,8 +7,6 @@
 
 namespace swiftlet::control {
 
-using common::config::kPositive;
-
 void SurfaceClearance::Config::describe(common::config::Fields& fields) {
   fields("least_m", least_m, {0.2, 5},
          "Least height of the body over what is below; a path that is nearer to the floor itself stays so.");

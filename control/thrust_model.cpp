@@ -9,8 +9,6 @@
 
 namespace swiftlet::control {
 
-using common::config::kPositive;
-
 ThrustModel::ThrustModel(const Config& config, const common::VehicleConfig& vehicle)
     : config_(config), vehicle_(vehicle), table_(config.table, vehicle), voltage_v_(vehicle.battery_full_v) {}
 

@@ -11,8 +11,6 @@
 
 namespace swiftlet::control {
 
-using common::config::kPositive;
-
 std::vector<std::string> problemsOf(const ThrustPoints& points) {
   std::vector<std::string> problems;
   for (std::size_t i = 1; i < points.size(); ++i) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::vision {
 namespace {
 

@@ -9,7 +9,6 @@
 
 namespace swiftlet::autonomy {
 
-using common::config::kPositive;
 namespace {
 
 /// From this drop of the gauge on, the gauge shows the capacity better than the data sheet.

@@ -1,7 +1,8 @@
 #include "autonomy/estimation/space_sensors.hpp"
 
-#include <iterator>
 #include <utility>
+
+#include "common/append_events.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -84,12 +85,9 @@ std::vector<common::Target> SpaceSensors::targets(const common::KeyPoses& keys) 
 
 std::vector<common::Event> SpaceSensors::takeEvents(const common::PlaceNames& names) {
   std::vector<common::Event> events;
-  const auto append = [&](std::vector<common::Event> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(events));
-  };
-  if (rgbd_) append(rgbd_->takeEvents());
-  if (vertical_laser_) append(vertical_laser_->takeEvents());
-  if (targets_) append(targets_->takeEvents(names));
+  if (rgbd_) append(events, rgbd_->takeEvents());
+  if (vertical_laser_) append(events, vertical_laser_->takeEvents());
+  if (targets_) append(events, targets_->takeEvents(names));
   return events;
 }
 

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::autonomy {
 
 using common::ImuSample;
 using common::Time;
-using common::config::kPositive;
 
 namespace {
 

@@ -8,18 +8,15 @@
 #include <Eigen/Geometry>
 
 #include "autonomy/inertial/imu_watch.hpp"
-#include "common/config_fields.hpp"
 #include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
 #include "common/gravity.hpp"
-#include "common/validation.hpp"
 #include "control/thrust_table.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::ImuSample;
 using common::Time;
-using common::config::kPositive;
 using Eigen::Vector3d;
 
 namespace {

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::autonomy {
 
 using common::ImuSample;

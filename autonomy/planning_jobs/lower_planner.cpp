@@ -59,7 +59,6 @@ TwoGrids gridsOf(const OccupancyGrid& grid, const VoxelColumns& upper_columns, c
 }  // namespace
 
 void LowerFlightConfig::describe(common::config::Fields& fields) {
-  using common::config::kPositive;
   fields("enabled", enabled, "Whether paths may lead below things that the camera sees at the height of flight.");
 }
 

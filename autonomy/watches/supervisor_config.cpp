@@ -1,11 +1,8 @@
 #include "autonomy/watches/supervisor_config.hpp"
 
 #include "common/config_fields.hpp"
-#include "common/validation.hpp"
 
 namespace swiftlet::autonomy {
-
-using common::config::kPositive;
 
 void SupervisorConfig::describe(common::config::Fields& fields) {
   fields("battery_land_share", battery_land_share, {0, 0.9},

@@ -8,7 +8,6 @@
 #include <Eigen/LU>
 
 #include "common/check.hpp"
-#include "common/config_fields.hpp"
 #include "optimization/pose_graph_3d.hpp"
 
 namespace swiftlet::mapping3d {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/config_fields.hpp"
 #include "mapping3d/odometry/frame_pyramid.hpp"
 #include "mapping3d/odometry/point_registration.hpp"
 

@@ -5,8 +5,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::mapping3d {
 namespace {
 

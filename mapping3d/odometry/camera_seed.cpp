@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::mapping3d {
 namespace {
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::mapping3d {
 namespace {
 

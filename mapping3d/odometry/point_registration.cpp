@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "common/config_fields.hpp"
 #include "common/random.hpp"
 
 namespace swiftlet::mapping3d {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "common/config_fields.hpp"
 #include "mapping3d/odometry/surface_fit.hpp"
 
 namespace swiftlet::mapping3d {

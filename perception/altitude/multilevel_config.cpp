@@ -1,7 +1,6 @@
 #include "perception/altitude/multilevel_config.hpp"
 
 #include "common/config_fields.hpp"
-#include "common/validation.hpp"
 
 namespace swiftlet::perception {
 

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "common/check.hpp"
-#include "common/config_fields.hpp"
 #include "perception/localization/block_queue.hpp"
 
 namespace swiftlet::perception {

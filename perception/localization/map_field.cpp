@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/config_fields.hpp"
-
 namespace swiftlet::perception {
 namespace {
 

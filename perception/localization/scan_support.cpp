@@ -4,7 +4,6 @@
 #include <optional>
 #include <tuple>
 
-#include "common/config_fields.hpp"
 #include "perception/localization/evenly_spread.hpp"
 
 namespace swiftlet::perception {

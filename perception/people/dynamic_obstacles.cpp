@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/occupied_near.hpp"
 
 namespace swiftlet::perception {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
-#include "common/validation.hpp"
 #include "perception/scan_matching/interpolated_field.hpp"
 
 namespace swiftlet::perception {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/small_matrices.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 

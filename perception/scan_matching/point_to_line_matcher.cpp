@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "common/normal_distribution.hpp"
-#include "common/validation.hpp"
 #include "perception/scan_matching/oriented_points.hpp"
 
 namespace swiftlet::perception {

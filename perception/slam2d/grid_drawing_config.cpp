@@ -2,7 +2,6 @@
 
 #include "common/config_fields.hpp"
 #include "common/occupancy_grid.hpp"
-#include "common/validation.hpp"
 
 namespace swiftlet::perception {
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "common/config_fields.hpp"
 #include "common/random.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/grid_update.hpp"

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "common/config_fields.hpp"
-#include "common/validation.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/progress.hpp"
 #include "perception/slam2d/sliced_map.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "common/config_fields.hpp"
 #include "perception/slam2d/grid_ray.hpp"
 
 namespace swiftlet::perception {

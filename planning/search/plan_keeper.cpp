@@ -6,12 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "common/config_fields.hpp"
 #include "common/segment.hpp"
 
 namespace swiftlet::planning {
 
-using common::config::kPositive;
 namespace {
 
 using Point = Eigen::Vector2d;

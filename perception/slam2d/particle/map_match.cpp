@@ -7,8 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "common/config_fields.hpp"
-#include "common/validation.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 
 namespace swiftlet::perception {
