@@ -9,6 +9,7 @@ namespace swiftlet::apps {
 void addFly(Command& program);
 void addCheck(Command& program);
 void addNodes(Command& program);
+void addFailsafe(Command& program);
 void addTrial(Command& program);
 void addMap(Command& program);
 void addMap3d(Command& program);

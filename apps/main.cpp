@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   apps::addFly(top);
   apps::addCheck(top);
   apps::addNodes(top);
+  apps::addFailsafe(top);
   apps::addMigrate(top);
   apps::addTrial(top);
   apps::addMap(top);

@@ -290,7 +290,7 @@ std::vector<common::Problem> problemsOfSensors(const System& system) {
   const autonomy::AutonomyConfig& config = system.config.autonomy;
   const autonomy::ScanNeeds needs = {
       .least_beams = config.estimator.laser.odometry.matcher.minPoints(),
-      .longest_silence_s = config.supervisor.unseen_hold_s,
+      .longest_silence_s = autonomy::kUnseenHold_s,
       .longest_age_s =
           std::min(config.estimator.fusion.horizontal_timeout_s, config.estimator.fusion.vertical_timeout_s),
       .delay_s = config.scans.latency_s + config.scans.reorder_wait_s,

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "autonomy/snapshot.hpp"
-#include "common/append_events.hpp"
 #include "control/flight_state_machine.hpp"
 
 namespace swiftlet::autonomy {
@@ -15,9 +14,9 @@ using common::Time;
 Autonomy::Autonomy(AutonomySetup setup)
     : vehicle_name_(std::move(setup.vehicle_name)),
       vehicle_kind_(setup.vehicle.name),
-      senses_(setup.config, setup),
-      commander_(setup.config, setup),
-      navigator_(setup.config, setup),
+      senses_(setup.config, setup, log_),
+      commander_(setup.config, setup, log_),
+      navigator_(setup.config, setup, log_),
       jobs_(std::move(setup.jobs)),
       world_builder_(vehicle_name_) {
   world_ = snapshot(senses_.start(navigator_.feedback()));
@@ -74,9 +73,7 @@ AutonomyCounts Autonomy::counts() const {
 }
 
 std::vector<common::Event> Autonomy::takeEvents() {
-  std::vector<common::Event> events = commander_.takeEvents();
-  append(events, senses_.takeEvents());
-  append(events, navigator_.takeEvents());
+  std::vector<common::Event> events = log_.take();
   std::ranges::stable_sort(events, {}, &common::Event::stamp);
   return events;
 }

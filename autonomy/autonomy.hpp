@@ -20,7 +20,7 @@
 #include "autonomy/vehicle_memory.hpp"
 #include "autonomy/world_builder.hpp"
 #include "common/command.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/jobs.hpp"
 #include "common/vehicle.hpp"
 #include "common/world.hpp"
@@ -73,6 +73,7 @@ class Autonomy {
   const common::Intent& intent() const { return commander_.decision().intent; }
   const common::IntentStatus& intentStatus() const { return navigator_.executor().status(); }
 
+  /// The events since the last call, by their stamps.
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults() { return commander_.takeResults(); }
   /// The files that the mission requested since the last call.
@@ -87,6 +88,7 @@ class Autonomy {
 
   std::string vehicle_name_;  ///< Also identifies the data sheet, for what is learned.
   std::string vehicle_kind_;
+  common::EventLog log_;
   // The results of jobs refer to these members. jobs_ follows them, so that it is destroyed first.
   Senses senses_;
   Commander commander_;

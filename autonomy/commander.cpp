@@ -8,7 +8,6 @@
 #include "autonomy/navigator.hpp"
 #include "autonomy/trail_back.hpp"
 #include "behaviors/named_places.hpp"
-#include "common/append_events.hpp"
 #include "common/check.hpp"
 #include "common/segment.hpp"
 #include "common/world/map_layer.hpp"
@@ -42,12 +41,13 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
 
 }  // namespace
 
-Commander::Commander(const AutonomyConfig& config, AutonomySetup& setup)
+Commander::Commander(const AutonomyConfig& config, AutonomySetup& setup, common::EventLog& log)
     : config_(config.supervisor),
+      log_(log),
       vehicle_max_height_m_(setup.vehicle.max_height_m),
-      supervisor_(config.supervisor),
+      supervisor_(config.supervisor, log),
       supervisor_intents_(config.execution.clearance_m),
-      requests_(setup.vehicle.hullRadius_m(), setup.camera),
+      requests_(setup.vehicle.hullRadius_m(), setup.camera, log),
       missions_(std::move(setup.mission), limitsOf(config, setup, map_shelf_)),
       map_given_(setup.given != nullptr) {
   followMission();
@@ -133,8 +133,8 @@ std::optional<common::CommandResult> Commander::takeMission(const common::Operat
 /// Every command leaves an event, whether it was accepted or refused.
 void Commander::answer(const common::OperatorCommand& command, common::CommandResult result, Time now,
                        const common::PlaceNames& names) {
-  events_.push_back({now, result.accepted ? Severity::kInfo : Severity::kWarning, "operator",
-                     toString(command, names) + (result.accepted ? " accepted" : " refused"), result.reason});
+  log_.add({now, result.accepted ? Severity::kInfo : Severity::kWarning, "operator",
+            toString(command, names) + (result.accepted ? " accepted" : " refused"), result.reason});
   results_.push_back(std::move(result));
 }
 
@@ -162,11 +162,11 @@ const Decision& Commander::decide(const Percept& percept, const std::shared_ptr<
     context_.world = world;
     context_.now = percept.now;
     if (navigator.prepared()) decision_.intent = nextIntent(percept, navigator);
-    decision_.take_off_refusal = supervisor_.takeOffRefusal(*world->energy);
+    decision_.take_off_refusal = supervisor_.supervision().take_off_refusal;
   }
   decision_.mission_over = missionOver();
   decision_.pilot_flies = supervisor_.pilotFlies();
-  decision_.unseen = supervisor_.seesNothing();
+  decision_.unseen = supervisor_.supervision().unseen;
   return decision_;
 }
 
@@ -201,10 +201,10 @@ VehicleCondition Commander::condition(const Percept& percept, const Navigator& n
   const common::VehicleState& state = percept.state;
   condition.vertical_age_s = state.verticalAge_s(percept.now);
   const double age_s = std::max(state.horizontalAge_s(percept.now), condition.vertical_age_s);
-  condition.position_measured = state.horizontal_valid && state.vertical_valid && age_s < config_.unseen_hold_s;
+  condition.position_measured = state.horizontal_valid && state.vertical_valid && age_s < kUnseenHold_s;
   condition.sensor_lies = percept.must_land;
   condition.drift_m = percept.drift_m;
-  if (percept.drift_m > config_.drift_land_m) condition.walls_around = navigator.executor().desk().wallsAround(state);
+  if (percept.drift_m > kDriftLand_m) condition.walls_around = navigator.executor().desk().wallsAround(state);
   return condition;
 }
 
@@ -270,7 +270,7 @@ void Commander::endMission(const std::string& reason) {
     answer(command, {command.id, false, "the vehicle is landing: " + reason}, context_.now,
            context_.world->map->names());
   if (releasing_mission_) releasing_mission_ = !missions_.mission().letGo(context_);
-  append(events_, std::exchange(context_.events, {}));
+  for (common::Event& event : std::exchange(context_.events, {})) log_.add(std::move(event));
 }
 
 void Commander::tickMission(bool airborne) {
@@ -279,7 +279,7 @@ void Commander::tickMission(bool airborne) {
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
   for (const common::MissionRequest& request : std::exchange(context_.requests, {})) carryOut(request);
-  append(events_, std::exchange(context_.events, {}));
+  for (common::Event& event : std::exchange(context_.events, {})) log_.add(std::move(event));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i)
@@ -290,13 +290,8 @@ void Commander::tickMission(bool airborne) {
   status_.reason = result.reason;
   status_.question = missions_.mission().question();
   if (result.state == MissionState::kFailed && airborne)
-    events_.push_back({context_.now,
-                       Severity::kWarning,
-                       "mission",
-                       "the mission has failed: the vehicle lands",
-                       result.reason,
-                       {},
-                       common::Concern::kLanding});
+    log_.warn(context_.now, "mission", "the mission has failed: the vehicle lands", result.reason,
+              common::Concern::kLanding);
 }
 
 void Commander::carryOut(const common::MissionRequest& request) {
@@ -319,13 +314,6 @@ common::MissionLayer Commander::missionLayer(const common::World* last) const {
   const auto* goal = std::get_if<common::GoalCommand>(&command->kind);
   layer.goal_map_m = goal != nullptr ? goal->goal_map_m : last->vehicle->home_map.position_m();
   return layer;
-}
-
-std::vector<common::Event> Commander::takeEvents() {
-  std::vector<common::Event> events = std::exchange(events_, {});
-  append(events, supervisor_.takeEvents());
-  append(events, requests_.takeEvents());
-  return events;
 }
 
 }  // namespace swiftlet::autonomy

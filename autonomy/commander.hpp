@@ -19,7 +19,7 @@
 #include "autonomy/supervisor_intents.hpp"
 #include "behaviors/context.hpp"
 #include "common/command.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/intent.hpp"
 #include "common/time.hpp"
 #include "common/world.hpp"
@@ -36,7 +36,7 @@ class Navigator;
 class Commander {
  public:
   /// Takes the mission of the setup.
-  Commander(const AutonomyConfig& config, AutonomySetup& setup);
+  Commander(const AutonomyConfig& config, AutonomySetup& setup, common::EventLog& log);
 
   /// See Autonomy::waitForStart.
   void waitForStart() { missions_.waitForStart(); }
@@ -63,7 +63,6 @@ class Commander {
   /// True if the mission ended by the operator's land command.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
 
-  std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults() { return std::exchange(results_, {}); }
   /// The files that the mission requested since the last call.
   std::vector<RunFile> takeFiles() { return requests_.takeFiles(); }
@@ -86,6 +85,7 @@ class Commander {
   void followMission();
 
   SupervisorConfig config_;
+  common::EventLog& log_;
   double vehicle_max_height_m_;
   Supervisor supervisor_;
   SupervisorIntents supervisor_intents_;
@@ -97,7 +97,6 @@ class Commander {
   common::MissionStatus status_;
   bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   Decision decision_;
-  std::vector<common::Event> events_;
   std::vector<common::CommandResult> results_;
 };
 

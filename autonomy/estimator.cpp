@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "autonomy/estimation/camera_support.hpp"
-#include "common/append_events.hpp"
 #include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
@@ -46,15 +45,17 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
                      const common::VehicleConfig& vehicle, const GivenMap* given, common::JobRunner& jobs,
-                     const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser)
-    : filter_(config.fusion),
-      start_(config.laser, laser, 0.5 * vehicle.hull_height_m, config.fusion.use_ahrs),
+                     common::EventLog& log, const common::RgbdCameraConfig* camera,
+                     const common::LaserConfig* vertical_laser)
+    : log_(log),
+      filter_(config.fusion),
+      start_(config.laser, laser, 0.5 * vehicle.hull_height_m, config.fusion.use_ahrs, log),
       people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       laser_(config.laser, laser),
       altitude_(config.altitude, vehicle.hullRadius_m()),
-      map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
-      localizer_(given, config.localization, jobs),
-      space_({config.rgbd, config.vertical_laser, config.targets}, camera, vertical_laser, jobs),
+      map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs, log),
+      localizer_(given, config.localization, jobs, log),
+      space_({config.rgbd, config.vertical_laser, config.targets}, camera, vertical_laser, jobs, log),
       poses_(*filter_),
       uncertainty_(*filter_) {}
 
@@ -87,9 +88,9 @@ bool Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
   return true;
 }
 
-void Estimator::updateMap3d(Time now) {
+void Estimator::updateMap3d(Time now, const common::PlaceNames& names) {
   if (const auto step = space_.takeStep(map_.keyPoses(), now)) fuse(*step, now);
-  space_.map({poses_, map_.keyPoses(), people_, uncertainty_.drift_m()}, now);
+  space_.map({poses_, map_.keyPoses(), people_, uncertainty_.drift_m(), names}, now);
 }
 
 /// While the vehicle stands still, its first scans start the filter.
@@ -177,15 +178,6 @@ EstimatedMaps Estimator::maps() {
   return maps;
 }
 
-std::vector<common::Event> Estimator::takeEvents(const common::PlaceNames& names) {
-  std::vector<common::Event> events = map_.takeEvents();
-  append(events, start_.takeEvents());
-  append(events, std::exchange(events_, {}));
-  if (localizer_) append(events, localizer_->takeEvents());
-  append(events, space_.takeEvents(names));
-  return events;
-}
-
 // ------------------------------------------------------------------------------------------------------ the steps
 
 perception::ProjectedScan Estimator::project(const common::LaserScan& scan) const {
@@ -248,14 +240,14 @@ void Estimator::reportHealth(Time now) {
   const Severity severity = health.status == perception::FusionStatus::kOk         ? Severity::kInfo
                             : health.status == perception::FusionStatus::kDiverged ? Severity::kError
                                                                                    : Severity::kWarning;
-  say(now, severity, "fusion", fmt::format("estimate {}", perception::toString(health.status)), health.reason,
-      common::Concern::kEstimate);
+  log_.add({now,
+            severity,
+            "fusion",
+            fmt::format("estimate {}", perception::toString(health.status)),
+            health.reason,
+            {},
+            common::Concern::kEstimate});
   last_health_ = health.status;
-}
-
-void Estimator::say(Time now, Severity severity, std::string source, std::string text, std::string reason,
-                    common::Concern concern) {
-  events_.push_back({now, severity, std::move(source), std::move(text), std::move(reason), {}, concern});
 }
 
 // ------------------------------------------------------------------------------------------- the height, and the
@@ -278,24 +270,24 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
     if (m->speed) filter_.tell(perception::TapedClimb{m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2});
   }
   if (step.doubt_m_s)
-    say(stamp, Severity::kWarning, "altitude", "height doubtful: the ground may slope",
-        fmt::format(
-            "what is below was taken for level, and the vertical speed corrected by {:+.2f} m/s in flight; on a "
-            "ramp the height is then wrong by what it rises",
-            *step.doubt_m_s));
-  if (step.slope_began) say(stamp, Severity::kInfo, "altitude", "the ground slopes", "as the camera saw it");
+    log_.warn(stamp, "altitude", "height doubtful: the ground may slope",
+              fmt::format(
+                  "what is below was taken for level, and the vertical speed corrected by {:+.2f} m/s in flight; on a "
+                  "ramp the height is then wrong by what it rises",
+                  *step.doubt_m_s));
+  if (step.slope_began) log_.info(stamp, "altitude", "the ground slopes", "as the camera saw it");
   if (step.slope_ended_rise_m)
-    say(stamp, Severity::kInfo, "altitude", "the slope has ended",
-        fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
+    log_.info(stamp, "altitude", "the slope has ended",
+              fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
   if (step.floor_regained_m) {
     seen_.camera_doubted = stamp;
-    say(stamp, Severity::kWarning, "altitude", "the floor is below again",
+    log_.warn(
+        stamp, "altitude", "the floor is below again",
         fmt::format("what was taken for a level covers the floor that was seen before: the height is corrected by "
                     "{:+.2f} m",
                     *step.floor_regained_m));
   }
-  if (step.levels_joined > 0)
-    say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
+  if (step.levels_joined > 0) log_.info(stamp, "altitude", fmt::format("{} levels joined", step.levels_joined));
 }
 
 /// The camera is the only sensor beside the beams that measures the height. Where it takes a climb for rest, the levels
@@ -304,7 +296,8 @@ void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stam
   const auto vertical = filter_->verticalAt(stamp);
   if (!space_.hasCamera() || !vertical) return;
   if (!isCameraDoubted(stamp))
-    say(stamp, Severity::kWarning, "altitude", "the beams down contradict the height",
+    log_.warn(
+        stamp, "altitude", "the beams down contradict the height",
         fmt::format("over one place the distance down grows by {:+.2f} m/s more than the height; the camera is not "
                     "used for {:.0f} s",
                     drift.speed_m_s, kCameraDoubted_s));

@@ -28,11 +28,12 @@
 #include "autonomy/feedback.hpp"
 #include "autonomy/inertial/horizon_offset.hpp"
 #include "common/config_fwd.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
@@ -105,8 +106,8 @@ class Estimator {
   /// `given` is a map to localize in, or null; `camera` or else `vertical_laser` makes the 3D map, or both are null.
   /// All are read only here.
   Estimator(const EstimatorConfig& config, const common::LaserConfig& laser, const common::VehicleConfig& vehicle,
-            const GivenMap* given, common::JobRunner& jobs, const common::RgbdCameraConfig* camera = nullptr,
-            const common::LaserConfig* vertical_laser = nullptr);
+            const GivenMap* given, common::JobRunner& jobs, common::EventLog& log,
+            const common::RgbdCameraConfig* camera = nullptr, const common::LaserConfig* vertical_laser = nullptr);
   Estimator(const Estimator&) = delete;
   Estimator& operator=(const Estimator&) = delete;
 
@@ -127,9 +128,9 @@ class Estimator {
   [[nodiscard]] bool addFrame(std::shared_ptr<const common::RgbdFrame> frame);
   /// Without an upright laser the sweep is ignored.
   void addSweep(std::shared_ptr<const common::VerticalScan> sweep) { space_.add(std::move(sweep)); }
-  /// Maps frames and sweeps that wait as soon as the poses at their times are known, and looks for targets in frames.
-  /// To be called after the scans of every tick.
-  void updateMap3d(common::Time now);
+  /// Maps frames and sweeps that wait as soon as the poses at their times are known, and looks for targets in frames,
+  /// which are reported by these names of places. To be called after the scans of every tick.
+  void updateMap3d(common::Time now, const common::PlaceNames& names = {});
 
   bool ready() const { return filter_->initialized(); }
   /// Why a flight from where the vehicle stands would not know its height or position; empty if it would. See
@@ -148,8 +149,6 @@ class Estimator {
   /// See AltitudePipeline::seenSurfaces.
   common::LevelMap seenSurfaces() const { return altitude_.seenSurfaces(); }
   EstimatorCounts counts() const { return {laser_.counts(), map_.counts(), space_.counts(), space_.radioCounts()}; }
-
-  std::vector<common::Event> takeEvents(const common::PlaceNames& names = {});
 
  private:
   /// When a sensor last measured each; time of processing, not of measuring.
@@ -174,9 +173,8 @@ class Estimator {
   bool isCameraDoubted(common::Time now) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
-  void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {},
-           common::Concern concern = common::Concern::kNone);
 
+  common::EventLog& log_;
   HeardFilter filter_;
   FlightStart start_;
   perception::PeopleTracker people_;
@@ -191,7 +189,6 @@ class Estimator {
   Feedback flown_;  ///< In the last tick.
   Seen seen_;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;
-  std::vector<common::Event> events_;
 };
 
 }  // namespace swiftlet::autonomy

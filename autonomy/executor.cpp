@@ -28,14 +28,15 @@ using common::IntentState;
 using common::Time;
 
 Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
-                   control::FlightController& controller, common::JobRunner& jobs,
+                   control::FlightController& controller, common::JobRunner& jobs, common::EventLog& log,
                    const common::RgbdCameraConfig* camera)
     : config_(config),
       camera_(camera),
       controller_(controller),
       desk_(config.planning, vehicle, grid_resolution_m, jobs,
             [this](const PlanningAnswer& answer, Time now) { receive(answer, now); }),
-      retreat_(controller) {
+      retreat_(controller),
+      memory_(log) {
   begin({});
 }
 
@@ -110,8 +111,6 @@ std::optional<Eigen::Vector2d> Executor::wantsToSee_map_m() const {
 std::optional<Eigen::Vector2d> Executor::followedPerson_map_m() const {
   return maneuver_ ? maneuver_->followedPerson_map_m() : std::nullopt;
 }
-
-std::vector<common::Event> Executor::takeEvents() { return std::exchange(memory_.events, {}); }
 
 Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const {
   const auto map = costMapHere();

@@ -13,7 +13,7 @@
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
 #include "autonomy/planning_jobs/planning_desk.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/intent.hpp"
 #include "common/jobs.hpp"
 #include "common/rgbd_camera_config.hpp"
@@ -27,7 +27,7 @@ class Executor {
  public:
   /// `camera` is its data sheet, which outlives the executor, or null without one.
   Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
-           control::FlightController& controller, common::JobRunner& jobs,
+           control::FlightController& controller, common::JobRunner& jobs, common::EventLog& log,
            const common::RgbdCameraConfig* camera = nullptr);
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
@@ -59,8 +59,6 @@ class Executor {
   std::shared_ptr<const planning::CostMap> costMapHere() const { return desk_.costMapAt(lowered_.heights()); }
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
-
-  std::vector<common::Event> takeEvents();
 
  private:
   void begin(const common::Intent& intent);

@@ -153,8 +153,7 @@ void SensorCheck::checkRate() {
   const bool silent = silence_s > needs_.longest_silence_s;
   add(fmt::format("{} measures too seldom: its scans come every {:.2f} s (rate_hz: {}), and {}", laser_.name, period_s,
                   laser_.rate_hz,
-                  silent ? fmt::format("after {} s without one the vehicle holds (autonomy.supervisor.unseen_hold_s)",
-                                       needs_.longest_silence_s)
+                  silent ? fmt::format("after {} s without one the vehicle holds", needs_.longest_silence_s)
                          : fmt::format("a position older than {} s is lost "
                                        "(autonomy.estimator.fusion.horizontal_timeout_s)",
                                        needs_.longest_age_s)),

@@ -12,7 +12,7 @@ namespace swiftlet::autonomy {
 /// What the rest of the autonomy needs of a laser. The defaults are those of the settings that they come from.
 struct ScanNeeds {
   int least_beams = 30;            ///< Of a match.
-  double longest_silence_s = 0.3;  ///< SupervisorConfig::unseen_hold_s: after it the vehicle holds.
+  double longest_silence_s = 0.3;  ///< kUnseenHold_s of autonomy/health: after it the vehicle holds.
   double longest_age_s = 0.5;      ///< FusionConfig::horizontal_timeout_s: older matches and heights are too old.
   double delay_s = 0.034;          ///< ScanQueueConfig: from the arrival of a scan to its use, at most.
   double max_rise_m = 1.0;         ///< ScanProjectionConfig: what is higher above the laser counts as ceiling.

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "autonomy/autonomy_config.hpp"
-#include "common/append_events.hpp"
+#include "autonomy/health/checks.hpp"
 #include "control/controller_choice.hpp"
 #include "control/flight_state_machine.hpp"
 
@@ -31,15 +31,16 @@ std::shared_ptr<const common::LaserPoints> pointsOf(const ScanOutcome& outcome) 
 
 }  // namespace
 
-Navigator::Navigator(const AutonomyConfig& config, const AutonomySetup& setup)
+Navigator::Navigator(const AutonomyConfig& config, const AutonomySetup& setup, common::EventLog& log)
     : camera_(setup.camera != nullptr ? std::optional(*setup.camera) : std::nullopt),
-      controller_(config.control, setup.vehicle, setup.model),
-      executor_(config.execution, setup.vehicle, config.estimator.slam.grid.resolution_m, controller_, *setup.jobs,
+      controller_(config.control, setup.vehicle, log, setup.model),
+      executor_(config.execution, setup.vehicle, config.estimator.slam.grid.resolution_m, controller_, *setup.jobs, log,
                 camera_ ? &*camera_ : nullptr),
       reactive_(config.reactive, setup.vehicle.hullRadius_m()),
       camera_obstacles_(setup.vehicle.hull_height_m),
       lower_obstacles_(setup.vehicle.hull_height_m),
-      assist_(config.assist, setup.vehicle.max_tilt_deg, config.reactive.avoidance) {
+      assist_(config.assist, setup.vehicle.max_tilt_deg, config.reactive.avoidance),
+      readiness_(log) {
   if (setup.memory != nullptr) controller_.recallThrust(setup.memory->thrust);
   flown_.thrust_margin = controller_.thrustMargin();
 }
@@ -93,7 +94,7 @@ void Navigator::carryOut(const Decision& decision, const Percept& percept, const
                   &estimator.people().seen(), keep_out.zones(), common::PlaceNames::in(around.T_map_given),
                   around.map3d, [&estimator, now = percept.now] { return estimator.whyUnready(now); }});
   // With more drift the walls are not where the map has them.
-  const bool knows_walls = percept.drift_m < SupervisorConfig::drift_back_m;
+  const bool knows_walls = percept.drift_m < kDriftBack_m;
   controller_.setEscape(knows_walls ? executor_.escape_map_m(percept.state) : Eigen::Vector2d(Eigen::Vector2d::Zero()));
   restMotors(decision, percept.now);
 }
@@ -111,16 +112,10 @@ void Navigator::updateCameraObstacles(const Percept& percept) {
 /// A vehicle that stands and is not to take off has its motors off, also while its mission waits for a person
 /// who changes the battery.
 void Navigator::restMotors(const Decision& decision, Time now) {
-  // A take-off right after a landing should not find them off.
-  constexpr double kUntilRest_s = 1.0;
   const bool takes_off = std::holds_alternative<common::TakeOffIntent>(decision.intent.kind);
-  if (controller_.state() != FlightState::kLanded || (takes_off && !decision.mission_over)) {
-    stands_since_.reset();
-    return;
-  }
-  if (!stands_since_) stands_since_ = now;
-  if (decision.mission_over || (now - *stands_since_).seconds() >= kUntilRest_s)
-    (void)controller_.command(control::DisengageMotors{});
+  const bool stands = controller_.state() == FlightState::kLanded && (!takes_off || decision.mission_over);
+  rests_.update(stands, now);
+  if (stands && (decision.mission_over || rests_.active())) (void)controller_.command(control::DisengageMotors{});
 }
 
 // ----------------------------------------------------------------------------------------------------- at every tick
@@ -190,13 +185,6 @@ InertialContext Navigator::inertialContext(const control::FlightTick& flight, co
                    state.verticalAge_s(setpoint.stamp) > control::EmergencyDescent::Config::blind_after_s;
   return {control::isAirborne(controller_.state()), low && controller_.state() != FlightState::kFlying,
           flight.thrust_applies && !flight.pilot_flies, setpoint.thrust / controller_.carryingCommand()};
-}
-
-std::vector<common::Event> Navigator::takeEvents() {
-  std::vector<common::Event> events = readiness_.takeEvents();
-  append(events, executor_.takeEvents());
-  append(events, controller_.takeEvents());
-  return events;
 }
 
 }  // namespace swiftlet::autonomy

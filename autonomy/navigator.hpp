@@ -26,7 +26,8 @@
 #include "autonomy/readiness.hpp"
 #include "autonomy/requests/keep_out_zones.hpp"
 #include "autonomy/vehicle_memory.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/time.hpp"
 #include "common/vehicle.hpp"
@@ -42,7 +43,7 @@ struct AutonomySetup;
 /// One thread. Outlives the jobs it submits.
 class Navigator {
  public:
-  Navigator(const AutonomyConfig& config, const AutonomySetup& setup);
+  Navigator(const AutonomyConfig& config, const AutonomySetup& setup, common::EventLog& log);
 
   void pilotArrived(const common::PilotSample& sample) { assist_.pilotArrived(sample); }
   /// Fails, with the reason, for a controller that there is not, or that lacks its model.
@@ -69,9 +70,9 @@ class Navigator {
   /// Height over the take-off floor of the slice of the map that is shown.
   double mapHeight_m() const { return map_height_m_; }
 
-  std::vector<common::Event> takeEvents();
-
  private:
+  /// A take-off right after a landing should not find the motors off.
+  static constexpr double kUntilRest_s = 1.0;
   void carryOut(const Decision& decision, const Percept& percept, const KeepOutZones& keep_out);
   void updateCameraObstacles(const Percept& percept);
   const CameraObstacles& obstaclesOfCamera() const {
@@ -92,7 +93,7 @@ class Navigator {
   PilotAssist assist_;
   bool assisted_ = false;  ///< At the last tick.
   Readiness readiness_;
-  std::optional<common::Time> stands_since_;  ///< Start of standing with the motors on; empty while it does not stand.
+  common::Hysteresis rests_{kUntilRest_s};  ///< Standing with the motors on, and no take-off wanted.
   double map_height_m_ = 0.0;
   std::shared_ptr<const common::LaserPoints> laser_points_;
   Feedback flown_;  ///< Of the last tick.

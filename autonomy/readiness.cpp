@@ -12,15 +12,13 @@ void Readiness::watch(const Percept& percept, control::FlightController& control
     tellUnprepared(percept);
 }
 
-/// The mission begins with a prepared vehicle: if a sensor never sends, this is the only message about it.
 void Readiness::tellUnprepared(const Percept& percept) {
-  constexpr double kUntilTold_s = 5.0;
-  if (!unprepared_since_) unprepared_since_ = percept.now;
-  if (said_ || (percept.now - *unprepared_since_).seconds() < kUntilTold_s) return;
+  unprepared_.update(true, percept.now);
+  if (told_ || !unprepared_.active()) return;
   const std::string why = percept.estimator->whyUnready(percept.now);
   if (why.empty()) return;
-  said_ = true;
-  events_.push_back({percept.now, common::Severity::kWarning, "flight", "the vehicle is not ready to fly", why});
+  told_ = true;
+  log_.warn(percept.now, "flight", "the vehicle is not ready to fly", why);
 }
 
 }  // namespace swiftlet::autonomy

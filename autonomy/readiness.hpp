@@ -2,12 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "autonomy/percept.hpp"
-#include "common/event.hpp"
-#include "common/time.hpp"
+#include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 
 namespace swiftlet::control {
 class FlightController;
@@ -18,20 +16,22 @@ namespace swiftlet::autonomy {
 /// One thread. Ready once, it stays so.
 class Readiness {
  public:
+  explicit Readiness(common::EventLog& log) : log_(log) {}
+
   /// Prepares the controller once height and position are known. To be called at each tick.
   void watch(const Percept& percept, control::FlightController& controller);
 
   bool prepared() const { return prepared_; }
-  /// Why the vehicle is not ready after some seconds, once.
-  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
 
  private:
+  /// The mission begins with a prepared vehicle: if a sensor never sends, one event after this time tells of it.
+  static constexpr double kUntilTold_s = 5.0;
   void tellUnprepared(const Percept& percept);
 
   bool prepared_ = false;
-  std::optional<common::Time> unprepared_since_;
-  bool said_ = false;
-  std::vector<common::Event> events_;
+  common::Hysteresis unprepared_{kUntilTold_s};
+  bool told_ = false;  ///< Why it is not ready, once.
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

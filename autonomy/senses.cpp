@@ -6,19 +6,22 @@
 #include <fmt/format.h>
 
 #include "autonomy/autonomy_config.hpp"
-#include "common/append_events.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::Time;
 
-Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup)
+Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup, common::EventLog& log)
     : behavior_period_s_(1.0 / config.behavior_rate_hz),
-      estimator_(config.estimator, setup.laser, setup.vehicle, setup.given, *setup.jobs, setup.camera,
+      log_(log),
+      estimator_(config.estimator, setup.laser, setup.vehicle, setup.given, *setup.jobs, log, setup.camera,
                  setup.vertical_laser),
+      stamps_(log),
       scans_(config.scans, 1.0 / setup.laser.rate_hz),
-      inertial_(config.inertial, config.control.position.attitude_lag_s),
-      given_map_(setup.given),
+      scan_watch_(log),
+      inertial_(config.inertial, config.control.position.attitude_lag_s, log),
+      given_map_(setup.given, log),
+      battery_check_(log),
       consumption_(config.energy, setup.vehicle, config.control.position.thrust.table.voltage_exponent) {}
 
 bool Senses::sense(const common::SensorEvent& event) {
@@ -41,11 +44,10 @@ bool Senses::sense(const common::SensorEvent& event) {
 void Senses::take(const std::shared_ptr<const common::LaserScan>& scan) {
   if (scans_.add(scan) || scans_.lateScans() > 1) return;
   const common::Stamps& stamps = scan->stamps;
-  events_.push_back(
-      {stamps.arrived, common::Severity::kWarning, "laser", "a scan came too late to be used",
-       fmt::format("{:.0f} ms after it was measured, {:.0f} ms behind a later one; further ones are only counted",
-                   1e3 * (stamps.arrived - stamps.measured).seconds(),
-                   1e3 * (scans_.lastMeasured() - stamps.measured).seconds())});
+  log_.warn(stamps.arrived, "laser", "a scan came too late to be used",
+            fmt::format("{:.0f} ms after it was measured, {:.0f} ms behind a later one; further ones are only counted",
+                        1e3 * (stamps.arrived - stamps.measured).seconds(),
+                        1e3 * (scans_.lastMeasured() - stamps.measured).seconds()));
 }
 
 void Senses::take(const common::BatterySample& sample) {
@@ -67,7 +69,7 @@ void Senses::hear(const Feedback& feedback) {
 Percept Senses::sense(Time now) {
   while (const auto sample = inertial_.predicted(now)) estimator_.addImu(*sample, true);
   std::vector<SeenScan> scans = processScans(now);
-  estimator_.updateMap3d(now);
+  estimator_.updateMap3d(now, common::PlaceNames::in(given_map_.T_map_given()));
   Percept percept = this->percept(now);
   percept.scans = std::move(scans);
   percept.frames = std::exchange(frames_, {});
@@ -130,17 +132,6 @@ Surroundings Senses::surroundings(Time now, const common::VehicleState& state) {
   around.map3d = std::move(maps.map3d);
   around.targets = std::move(maps.targets);
   return around;
-}
-
-std::vector<common::Event> Senses::takeEvents() {
-  std::vector<common::Event> events = std::exchange(events_, {});
-  append(events, stamps_.takeEvents());
-  append(events, inertial_.takeEvents());
-  append(events, scan_watch_.takeEvents());
-  append(events, estimator_.takeEvents(common::PlaceNames::in(given_map_.T_map_given())));
-  append(events, given_map_.takeEvents());
-  append(events, battery_check_.takeEvents());
-  return events;
 }
 
 }  // namespace swiftlet::autonomy

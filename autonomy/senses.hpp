@@ -17,7 +17,7 @@
 #include "autonomy/given_map/given_map_overlay.hpp"
 #include "autonomy/inertial/inertial_input.hpp"
 #include "autonomy/percept.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 
@@ -29,7 +29,7 @@ struct AutonomySetup;
 /// One thread.
 class Senses {
  public:
-  Senses(const AutonomyConfig& config, const AutonomySetup& setup);
+  Senses(const AutonomyConfig& config, const AutonomySetup& setup, common::EventLog& log);
 
   /// The percept before the first input. `standing`: of the vehicle that has not flown.
   Percept start(const Feedback& standing);
@@ -45,7 +45,6 @@ class Senses {
   void setFilterListener(perception::FilterListener* listener) { estimator_.setFilterListener(listener); }
   /// Scans that came after a later one had been used, and were left out.
   std::uint64_t lateScans() const { return scans_.lateScans(); }
-  std::vector<common::Event> takeEvents();
 
  private:
   void take(const std::shared_ptr<const common::LaserScan>& scan);
@@ -55,6 +54,7 @@ class Senses {
   Surroundings surroundings(common::Time now, const common::VehicleState& state);
 
   double behavior_period_s_;
+  common::EventLog& log_;
   Estimator estimator_;
   StampCheck stamps_;
   ScanQueue scans_;
@@ -68,7 +68,6 @@ class Senses {
   double thrust_margin_ = 0.0;
   std::vector<SeenFrame> frames_;               ///< Since the last tick.
   std::optional<common::Time> last_behaviors_;  ///< The last tick with the surroundings.
-  std::vector<common::Event> events_;
 };
 
 }  // namespace swiftlet::autonomy

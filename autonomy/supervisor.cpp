@@ -1,6 +1,6 @@
 #include "autonomy/supervisor.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,8 +9,30 @@
 
 namespace swiftlet::autonomy {
 
-using common::Severity;
 using common::Time;
+using control::FindingKind;
+using control::Response;
+
+namespace {
+
+constexpr const char* kSupervisor = "supervisor";
+
+/// The event of a finding, with what is done about it.
+std::string headlineOf(const Finding& finding, Response response) {
+  if (response == Response::kFlyHome) return "turn back";
+  if (response != Response::kWarn) return std::string(control::toString(response));
+  switch (finding.what) {
+    case FindingKind::kChargeBelow30:
+    case FindingKind::kChargeBelow20:
+      return fmt::format("{:.0f} % of the battery left", 100.0 * finding.reading.value);
+    case FindingKind::kChargeCountedOn:
+      return "the charge is counted on by the current";
+    default:
+      return std::string(control::toString(finding.what));
+  }
+}
+
+}  // namespace
 
 std::string_view phaseOf(const Supervision& supervision) {
   if (supervision.land) return "land";
@@ -67,8 +89,8 @@ void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
   operator_holds_ = home_.then == AtHome::kHold;
   const std::string holds = operator_holds_ ? "the vehicle holds until Resume or Land"
                                             : "the vehicle holds until a mission is started, or it lands";
-  say(now, reached ? Severity::kInfo : Severity::kWarning, reached ? "home reached" : "home not reached",
-      reached ? holds : std::move(reason), reached ? common::Concern::kNone : common::Concern::kHome);
+  if (reached) return log_.info(now, kSupervisor, "home reached", holds);
+  log_.warn(now, kSupervisor, "home not reached", std::move(reason), common::Concern::kHome);
 }
 
 std::string Supervisor::refusal(const common::OperatorCommand& command) const {
@@ -86,54 +108,96 @@ void Supervisor::pilotArrived(Time now, bool takes_over) {
   pilot_heard_ = now;
   if (takes_over == pilot_flies_) return;
   pilot_flies_ = takes_over;
-  say(now, Severity::kWarning, takes_over ? "hold" : "resume",
-      takes_over ? "the pilot took over" : "the pilot gave control back", common::Concern::kPilot);
+  log_.warn(now, kSupervisor, takes_over ? "hold" : "resume",
+            takes_over ? "the pilot took over" : "the pilot gave control back", common::Concern::kPilot);
 }
 
-/// After the pilot's last sample it is unknown who flies. A hold is right for both: a pilot's sticks override it, and
-/// without a pilot the vehicle stays where it is, instead of going on with the mission that the pilot took it from.
-void Supervisor::watchPilot(Time now) {
-  if (!pilot_flies_ || (now - pilot_heard_).seconds() <= pilot_silent_s_) return;
-  pilot_flies_ = false;
-  operator_holds_ = true;
-  say(now, Severity::kWarning, "hold",
-      fmt::format("the pilot has not been heard of for {:.1f} s; it holds until Resume or Land", pilot_silent_s_),
-      common::Concern::kPilot);
-}
-
-const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition) {
+const Supervision& Supervisor::tick(Time now, VehicleCondition condition) {
   flight_ = condition.flight;
-  watchPilot(now);
-  blind_ = obey(now, sight_.watch(now, condition)).hold;
-  if (control::isAirborne(flight_) && !condition.sensor_lies.empty()) land(now, condition.sensor_lies);
-  obey(now, energy_.watch(now, condition));
-  back_ = supervision_.land ? 0 : obey(now, position_.watch(now, condition, !blind_.empty())).back;
+  if (last_sight_ && control::isAirborne(flight_)) condition.unseen_s = (now - *last_sight_).seconds();
+  if (pilot_flies_) condition.pilot_silent_s = (now - pilot_heard_).seconds();
+  health_.update(now, condition);
+  for (const Finding& finding : health_.entered()) begin(now, finding);
+  for (const FindingKind what : health_.left()) end(now, what);
+  followPlace(now);
 
-  supervision_.unseen = !blind_.empty();
+  supervision_.unseen = !blindness().empty();
   supervision_.hold_reason = holdReason();
   supervision_.hold = !supervision_.hold_reason.empty();
-  const bool may_fly = blind_.empty() && !pilot_flies_;
-  supervision_.back = may_fly && !operator_holds_ ? back_ : 0;
-  supervision_.home = home_.active && may_fly && !operator_holds_ && back_ == 0 ? home_.count : 0;
+  const bool may_fly = !supervision_.unseen && !pilot_flies_ && !operator_holds_;
+  supervision_.back = may_fly && flies_back_ ? flights_back_ : 0;
+  supervision_.home = home_.active && may_fly && !flies_back_ ? home_.count : 0;
+  supervision_.take_off_refusal = takeOffRefusal();
   supervision_.flown_by = flownBy();
   return supervision_;
 }
 
-void Supervisor::backEnded(Time now) { back_ = obey(now, position_.backEnded()).back; }
+/// A vehicle that lands for good does not begin anything else.
+void Supervisor::begin(Time now, const Finding& finding) {
+  const Response response = control::failsafeFor(finding.what, control::phaseOf(flight_))->response;
+  if (response == Response::kLand) return land(now, finding.why);
+  if (response == Response::kFlyBack) return;  // Of two that are unknown one begins the flight: followPlace.
+  if (response == Response::kFlyHome) startHome(finding.why);
+  // After the pilot's last sample it is unknown who flies. A hold is right for both: a pilot's sticks override it, and
+  // without a pilot the vehicle stays where it is, instead of going on with the mission that the pilot took it from.
+  if (finding.what == FindingKind::kPilotSilent) {
+    pilot_flies_ = false;
+    operator_holds_ = true;
+  }
+  log_.warn(now, kSupervisor, headlineOf(finding, response), finding.why, finding.concern);
+}
 
-WatchRequest Supervisor::obey(Time now, WatchRequest request) {
-  for (common::Event& event : std::exchange(request.events, {})) events_.push_back(std::move(event));
-  if (!request.home.empty()) startHome(request.home);
-  if (!request.land.empty()) land(now, request.land);
-  return request;
+void Supervisor::end(Time now, FindingKind what) {
+  if (what == FindingKind::kSurroundingsUnseen) log_.info(now, kSupervisor, "scans are back");
+  if (what == FindingKind::kChargeCountedOn) log_.info(now, kSupervisor, "the battery's gauge is believed again");
+}
+
+/// A flight back begins when height or position is unknown, and ends when both have been known for some time.
+void Supervisor::followPlace(Time now) {
+  const bool known = health_.find(FindingKind::kHeightUnmeasured) == nullptr &&
+                     health_.find(FindingKind::kPositionUncertain) == nullptr;
+  if (std::exchange(flies_back_, flies_back_ && !known && !supervision_.land) && known && !supervision_.land &&
+      flight_ == common::FlightState::kFlying)
+    log_.info(now, kSupervisor, "height and position are known again");
+  const Finding* unknown = unknownPlace();
+  if (unknown == nullptr || flies_back_ || supervision_.land) return;
+  flies_back_ = true;
+  ++flights_back_;
+  log_.warn(now, kSupervisor, std::string(control::toString(Response::kFlyBack)), unknown->why, unknown->concern);
+}
+
+/// What is beyond its bound of height and position; null if neither is.
+const Finding* Supervisor::unknownPlace() const {
+  for (const FindingKind what : {FindingKind::kHeightUnmeasured, FindingKind::kPositionUncertain})
+    if (const Finding* finding = health_.find(what); finding != nullptr && finding->reading.beyond) return finding;
+  return nullptr;
+}
+
+/// Why the vehicle must stop where it is, because it sees nothing; empty if it need not.
+std::string Supervisor::blindness() const {
+  return health_.find(FindingKind::kSurroundingsUnseen) != nullptr ? "the laser is silent" : "";
+}
+
+std::string Supervisor::takeOffRefusal() const {
+  if (control::isAirborne(flight_)) return {};
+  for (const control::Failsafe& row : control::failsafes()) {
+    if (row.response != Response::kRefuseTakeOff) continue;
+    if (const Finding* finding = health_.find(row.finding)) return finding->why;
+  }
+  return {};
+}
+
+void Supervisor::backEnded(Time now) {
+  flies_back_ = false;
+  if (const Finding* unknown = unknownPlace()) land(now, unknown->why + ", also after flying back");
 }
 
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
-  if (!blind_.empty()) return blind_;
+  if (const std::string blind = blindness(); !blind.empty()) return blind;
   if (operator_holds_)
-    return back_ > 0 ? "the operator holds, and it would fly back along its trail" : "the operator holds";
-  if (back_ > 0) return "it flies back along its trail";
+    return flies_back_ ? "the operator holds, and it would fly back along its trail" : "the operator holds";
+  if (flies_back_) return "it flies back along its trail";
   if (home_.active) return home_.reason.empty() ? "the operator wants it home" : home_.reason;
   return "";
 }
@@ -142,23 +206,17 @@ std::string Supervisor::holdReason() const {
 common::FlownBy Supervisor::flownBy() const {
   if (supervision_.land) return landed_by_operator_ ? common::FlownBy::kOperator : common::FlownBy::kSupervisor;
   if (pilot_flies_) return common::FlownBy::kPilot;
-  if (!blind_.empty()) return common::FlownBy::kSupervisor;
+  if (supervision_.unseen) return common::FlownBy::kSupervisor;
   if (operator_holds_) return common::FlownBy::kOperator;
-  if (back_ > 0 || home_.forced()) return common::FlownBy::kSupervisor;
+  if (flies_back_ || home_.forced()) return common::FlownBy::kSupervisor;
   return home_.active ? common::FlownBy::kOperator : common::FlownBy::kMission;
 }
-
-std::vector<common::Event> Supervisor::takeEvents() { return std::exchange(events_, {}); }
 
 void Supervisor::land(Time now, std::string reason, common::Concern concern) {
   if (supervision_.land) return;
   supervision_.land = true;
   supervision_.land_reason = reason;
-  say(now, Severity::kWarning, "land", std::move(reason), concern);
-}
-
-void Supervisor::say(Time now, Severity severity, std::string text, std::string reason, common::Concern concern) {
-  events_.push_back({now, severity, "supervisor", std::move(text), std::move(reason), {}, concern});
+  log_.warn(now, kSupervisor, "land", std::move(reason), concern);
 }
 
 }  // namespace swiftlet::autonomy

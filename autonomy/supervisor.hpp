@@ -1,5 +1,5 @@
-// The supervisor above the mission: hold, home and land from the operator, and the requests of its watches: of the
-// sight, of the energy, and of what is known of height and position. These work whatever the mission does.
+// The supervisor above the mission: hold, home and land from the operator, and what the table of fail-safes says about
+// what is found (control/failsafe, autonomy/health). Both work whatever the mission does.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "autonomy/watches/energy_watch.hpp"
-#include "autonomy/watches/position_watch.hpp"
-#include "autonomy/watches/sight_watch.hpp"
-#include "autonomy/watches/supervisor_config.hpp"
-#include "autonomy/watches/watch_request.hpp"
+#include "autonomy/health/checks.hpp"
+#include "autonomy/health/health_monitor.hpp"
+#include "autonomy/health/supervisor_config.hpp"
 #include "common/command.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 #include "common/world/mission_status.hpp"
@@ -24,7 +22,8 @@ namespace swiftlet::autonomy {
 struct Supervision {
   bool hold = false;
   std::string hold_reason;
-  bool unseen = false;  ///< No sensor sees the surroundings.
+  bool unseen = false;           ///< No sensor sees the surroundings.
+  std::string take_off_refusal;  ///< Why the vehicle must not take off; empty if it may, and in the air.
   /// The flight home, counted from 1; the mission holds meanwhile. 0: no such flight.
   unsigned home = 0;
   /// The flight back along the trail until the vehicle knows its height and position again, counted from 1; the mission
@@ -44,18 +43,17 @@ enum class AtHome { kHold, kWaitForMission };
 
 /// One thread.
 ///
-///             hold command, SightWatch, the pilot takes over
+///             hold command, surroundings unseen, the pilot takes over
 ///   watching --------------------------------------------------------------> holding <-----------+
 ///     |^  resume command, seen again, the pilot gives control back              | home command   | home is reached,
 ///     |+------------------------------------------------------------------------+--> going home -+ or not, or hold
 ///     |+---------------------------------------------------+                             ^       |
-///     |  PositionWatch                         known again |                 EnergyWatch |       | for the charge
+///     |  height or position unknown            known again |             charge for home |       | for the charge
 ///     +-------------------------------------> flying back -+                             |       v
-///   any -- land command, any watch, not known again after flying back -------------------------> landing (stays)
+///   any -- land command, kLand in the table, not known again after flying back ----------------> landing (stays)
 class Supervisor {
  public:
-  explicit Supervisor(const SupervisorConfig& config)
-      : pilot_silent_s_(config.pilot_silent_s), sight_(config), energy_(config), position_(config) {}
+  Supervisor(const SupervisorConfig& config, common::EventLog& log) : health_(config), log_(log) {}
 
   /// Handles and answers hold, resume and land; every other command is for the mission.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
@@ -70,23 +68,20 @@ class Supervisor {
   std::string refusal(const common::OperatorCommand& command) const;
   /// Why the mission holds, or would; empty if it does not.
   std::string holdReason() const;
-  /// Why the vehicle must not take off, with the figure; empty if it may.
-  std::string takeOffRefusal(const common::EnergyLayer& energy) const { return energy_.takeOffRefusal(energy); }
   /// A sensor of obstacles saw the surroundings: today a usable scan of the laser.
-  void surroundingsSeen(common::Time now) { sight_.surroundingsSeen(now); }
+  void surroundingsSeen(common::Time now) { last_sight_ = now; }
   void pilotArrived(common::Time now, bool takes_over);
   bool pilotFlies() const { return pilot_flies_; }
-  /// No sensor of obstacles sees the surroundings, as of the last tick.
-  bool seesNothing() const { return supervision_.unseen; }
 
-  /// On the ground a fault does not cause a landing.
-  const Supervision& tick(common::Time now, const VehicleCondition& condition);
+  /// What is unseen or silent in the condition is filled in here.
+  const Supervision& tick(common::Time now, VehicleCondition condition);
+  /// Of the last tick.
+  const Supervision& supervision() const { return supervision_; }
 
   bool landedByOperator() const { return landed_by_operator_; }
-  std::vector<common::Event> takeEvents();
 
  private:
-  /// A flight home, requested by the operator or, with a reason, by the EnergyWatch. The latter ends in a landing.
+  /// A flight home, requested by the operator or, with a reason, for the charge. The latter ends in a landing.
   struct FlightHome {
     bool active = false;
     std::string reason;
@@ -95,31 +90,30 @@ class Supervisor {
 
     bool forced() const { return active && !reason.empty(); }
   };
-  /// Does the immediate part of a request, and returns it for the rest.
-  WatchRequest obey(common::Time now, WatchRequest request);
+  void begin(common::Time now, const Finding& finding);
+  void end(common::Time now, control::FindingKind what);
+  void followPlace(common::Time now);
+  const Finding* unknownPlace() const;
+  std::string blindness() const;
+  std::string takeOffRefusal() const;
   void startHome(std::string reason, AtHome then = AtHome::kHold);
   common::CommandResult resume(std::uint64_t id);
-  void watchPilot(common::Time now);
   common::FlownBy flownBy() const;
   /// `concern`: kNone if the operator requested it.
   void land(common::Time now, std::string reason, common::Concern concern = common::Concern::kLanding);
-  void say(common::Time now, common::Severity severity, std::string text, std::string reason,
-           common::Concern concern = common::Concern::kNone);
 
-  double pilot_silent_s_;
-  SightWatch sight_;
-  EnergyWatch energy_;
-  PositionWatch position_;
+  HealthMonitor health_;
+  common::EventLog& log_;
+  std::optional<common::Time> last_sight_;
   common::FlightState flight_ = common::FlightState::kPreparation;
   bool operator_holds_ = false;
   bool pilot_flies_ = false;
   common::Time pilot_heard_;  ///< When the last of the pilot's samples arrived.
   FlightHome home_;
-  unsigned back_ = 0;  ///< The flight back that the PositionWatch requests.
-  std::string blind_;  ///< Why the SightWatch holds; empty if it does not.
+  unsigned flights_back_ = 0;
+  bool flies_back_ = false;  ///< Along the trail, because height or position is unknown.
   bool landed_by_operator_ = false;
   Supervision supervision_;
-  std::vector<common::Event> events_;
 };
 
 }  // namespace swiftlet::autonomy

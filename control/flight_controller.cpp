@@ -32,7 +32,7 @@ Eigen::Vector3d inFrame(const common::Pose2& T, const Eigen::Vector3d& point_m) 
 
 }  // namespace
 
-FlightController::FlightController(const Config& config, const common::VehicleConfig& vehicle,
+FlightController::FlightController(const Config& config, const common::VehicleConfig& vehicle, common::EventLog& log,
                                    const VehicleModel* model)
     : config_(config),
       margin_(config.margin),
@@ -41,6 +41,7 @@ FlightController::FlightController(const Config& config, const common::VehicleCo
       emergency_(config.emergency),
       clearance_(config.clearance),
       oscillation_(config.oscillation),
+      log_(log),
       dt_s_(common::kControlPeriod.seconds()),
       max_height_m_(vehicle.max_height_m) {}
 
@@ -378,10 +379,8 @@ bool FlightController::stopped() const {
          last_state_.velocity_odom_m_s.norm() < config_.stopped_speed_m_s;
 }
 
-std::vector<common::Event> FlightController::takeEvents() { return std::exchange(events_, {}); }
-
 void FlightController::say(Severity severity, std::string text, std::string reason, common::Concern concern) {
-  events_.push_back({now_, severity, "flight", std::move(text), std::move(reason), {}, concern});
+  log_.add({now_, severity, "flight", std::move(text), std::move(reason), {}, concern});
 }
 
 }  // namespace swiftlet::control

@@ -12,7 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "common/config_fwd.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
@@ -117,7 +117,8 @@ class FlightController {
   };
 
   /// `model` is what was identified of the vehicle, or null; it is read only here.
-  FlightController(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel* model = nullptr);
+  FlightController(const Config& config, const common::VehicleConfig& vehicle, common::EventLog& log,
+                   const VehicleModel* model = nullptr);
 
   tl::expected<void, std::string> command(const FlightCommand& command);
   /// Allowed only while flying (Table 1). An empty path stops.
@@ -179,8 +180,6 @@ class FlightController {
   /// The reference has reached the goal of the last path.
   bool pathFinished() const { return follower_.finished(); }
   const Reference& reference() const { return follower_.reference(); }
-  /// The events since the last call.
-  std::vector<common::Event> takeEvents();
 
  private:
   /// An input that the present state does not accept changes nothing.
@@ -220,7 +219,7 @@ class FlightController {
   SurfaceClearance clearance_;
   OscillationGuard oscillation_;
   double lift_m_ = 0.0;  ///< Lift of the last reference.
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
   std::string grounded_reason_;
 
   common::Time now_;

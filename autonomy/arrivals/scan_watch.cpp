@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace swiftlet::autonomy {
 namespace {
@@ -17,19 +16,15 @@ bool ScanWatch::repeats(const common::LaserScan& scan) {
     return range_m >= scan.range_min_m && range_m < scan.range_max_m;
   });
   const bool same = any_return && scan.ranges_m == last_ranges_m_;
-  const auto say = [&](common::Severity severity, std::string text) {
-    events_.push_back({scan.stamps.arrived, severity, "laser", std::move(text), {}});
-  };
   if (same) {
-    if (++repeated_ == kRun) say(common::Severity::kWarning, "the laser repeats its last scan, which counts as none");
+    if (++repeated_ == kRun)
+      log_.warn(scan.stamps.arrived, "laser", "the laser repeats its last scan, which counts as none");
     return true;
   }
-  if (repeated_ >= kRun) say(common::Severity::kInfo, "the laser measures again");
+  if (repeated_ >= kRun) log_.info(scan.stamps.arrived, "laser", "the laser measures again");
   repeated_ = 0;
   last_ranges_m_ = scan.ranges_m;
   return false;
 }
-
-std::vector<common::Event> ScanWatch::takeEvents() { return std::exchange(events_, {}); }
 
 }  // namespace swiftlet::autonomy

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 
 namespace swiftlet::autonomy {
@@ -13,15 +13,15 @@ namespace swiftlet::autonomy {
 /// noise; it never counts as repeated.
 class ScanWatch {
  public:
+  explicit ScanWatch(common::EventLog& log) : log_(log) {}
+
   /// Whether this scan repeats the one before it.
   bool repeats(const common::LaserScan& scan);
-  /// The begin and the end of a run of repeated scans, since the last call.
-  std::vector<common::Event> takeEvents();
 
  private:
   std::vector<float> last_ranges_m_;
   int repeated_ = 0;  ///< Scans in a row that repeat.
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::autonomy {
@@ -14,14 +14,13 @@ namespace swiftlet::autonomy {
 class SilenceWatch {
  public:
   /// For people: "camera" sends a "frame".
-  SilenceWatch(std::string sensor, std::string measurement, double silent_s);
+  SilenceWatch(std::string sensor, std::string measurement, double silent_s, common::EventLog& log);
 
-  /// The event that ends a silence.
-  std::optional<common::Event> usableArrived(common::Time now);
+  void usableArrived(common::Time now);
   /// `fault`: why it cannot be used, for people.
   void unusableArrived(common::Time now, const char* fault);
-  /// The event that begins a silence. To be called at every tick.
-  std::optional<common::Event> watch(common::Time now);
+  /// To be called at every tick.
+  void watch(common::Time now);
 
   bool isDue(common::Time now) const { return since_ && now - *since_ >= silence_; }
   /// Start of the silence; nullopt before the first measurement.
@@ -33,7 +32,8 @@ class SilenceWatch {
   common::Duration silence_;
   std::optional<common::Time> since_, unusable_at_;
   std::string fault_;  ///< Of the last measurement that could not be used.
-  bool said_ = false;
+  bool silent_ = false;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

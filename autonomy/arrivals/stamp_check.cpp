@@ -24,9 +24,8 @@ bool StampCheck::accepts(const common::SensorEvent& event) {
   const double ahead_s = (stamps.measured - stamps.arrived).seconds();
   const bool refused = stampFault(stamps, std::nullopt) != nullptr;
   if (refused && !refused_[event.index()])
-    events_.push_back({stamps.arrived, common::Severity::kWarning, "sensors",
-                       "a measurement is refused: " + std::visit(SensorName{}, event),
-                       fmt::format("its stamp lies {:.3g} s in the future", ahead_s)});
+    log_.warn(stamps.arrived, "sensors", "a measurement is refused: " + std::visit(SensorName{}, event),
+              fmt::format("its stamp lies {:.3g} s in the future", ahead_s));
   refused_[event.index()] = refused;
   return !refused;
 }

@@ -4,11 +4,9 @@
 
 #include <array>
 #include <optional>
-#include <utility>
 #include <variant>
-#include <vector>
 
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 #include "common/stamps.hpp"
 #include "common/time.hpp"
@@ -30,12 +28,13 @@ inline const char* stampFault(const common::Stamps& stamps, const std::optional<
 /// one.
 class StampCheck {
  public:
+  explicit StampCheck(common::EventLog& log) : log_(log) {}
+
   bool accepts(const common::SensorEvent& event);
-  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
 
  private:
   std::array<bool, std::variant_size_v<common::SensorEvent>> refused_{};  ///< The last measurement of each sensor.
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

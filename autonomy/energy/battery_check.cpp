@@ -18,10 +18,9 @@ constexpr double kJump = 0.1;
 bool BatteryCheck::accepts(const common::BatterySample& sample) {
   std::string problem = problemWith(sample);
   const bool refused = !problem.empty();
-  if (refused != refused_)
-    events_.push_back(
-        {sample.stamps.arrived, refused ? common::Severity::kWarning : common::Severity::kInfo, "supervisor",
-         refused ? "the battery's last good values are kept" : "the battery is measured again", std::move(problem)});
+  if (refused && !refused_)
+    log_.warn(sample.stamps.arrived, "supervisor", "the battery's last good values are kept", std::move(problem));
+  if (!refused && refused_) log_.info(sample.stamps.arrived, "supervisor", "the battery is measured again");
   refused_ = refused;
   return !refused;
 }

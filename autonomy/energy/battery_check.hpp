@@ -3,10 +3,8 @@
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 
 namespace swiftlet::autonomy {
@@ -14,17 +12,18 @@ namespace swiftlet::autonomy {
 /// One thread. The current may be missing, see EnergyMonitor.
 class BatteryCheck {
  public:
+  explicit BatteryCheck(common::EventLog& log) : log_(log) {}
+
   /// Whether the sample is used. A charge that jumps is used once the next sample confirms it. The first sample that is
   /// not used leaves an event, and so does the first good one after it.
   bool accepts(const common::BatterySample& sample);
-  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
 
  private:
   std::string problemWith(const common::BatterySample& sample);
 
   std::optional<double> used_, jumped_to_;  ///< Charges, in [0, 1].
   bool refused_ = false;                    ///< The last sample.
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -17,8 +17,13 @@ void FlightLocalizerConfig::describe(common::config::Fields& fields) {
   fields("search_latency_s", search_latency_s, {0.01, 10}, "Declared time for a search of the whole map.");
 }
 
-FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs)
-    : config_(config), jobs_(jobs), map_(map), localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed) {}
+FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs,
+                                 common::EventLog& log)
+    : config_(config),
+      jobs_(jobs),
+      map_(map),
+      localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed),
+      log_(log) {}
 
 void FlightLocalizer::load(const GivenMap& map) {
   localizer_ = perception::Localizer(*map.grid, map.T_given_grid, config_.localizer, map.seed);
@@ -69,21 +74,21 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.places = estimate.places;
   localization_.candidates = estimate.candidates;
   if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
-    events_.push_back({now, common::Severity::kWarning, "localization", "this is not the map of this place",
-                       "many of its places fit a part of what is seen, and none of them fits all of it"});
+    log_.warn(now, "localization", "this is not the map of this place",
+              "many of its places fit a part of what is seen, and none of them fits all of it");
   if (!estimate.event) return;
   const bool lost = estimate.event->state == LocalizationState::kLost;
   std::string text = toString(estimate.event->state);
   if (localization_.localized())
     text += fmt::format(" at {}, heading {:.0f} deg", common::nameOfGivenPlace(localization_.T_given_body.position_m()),
                         localization_.T_given_body.yaw_rad / common::kRadPerDeg);
-  events_.push_back({now,
-                     lost ? common::Severity::kWarning : common::Severity::kInfo,
-                     "localization",
-                     std::move(text),
-                     estimate.event->reason,
-                     {},
-                     common::Concern::kPosition});
+  log_.add({now,
+            lost ? common::Severity::kWarning : common::Severity::kInfo,
+            "localization",
+            std::move(text),
+            estimate.event->reason,
+            {},
+            common::Concern::kPosition});
 }
 
 void FlightLocalizer::submitSearch(Time now) {
@@ -97,7 +102,5 @@ void FlightLocalizer::submitSearch(Time now) {
                  };
                });
 }
-
-std::vector<common::Event> FlightLocalizer::takeEvents() { return std::exchange(events_, {}); }
 
 }  // namespace swiftlet::autonomy

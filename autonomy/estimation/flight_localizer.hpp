@@ -8,10 +8,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "common/config_fwd.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/given_map.hpp"
 #include "common/jobs.hpp"
 #include "common/localization.hpp"
@@ -44,7 +43,8 @@ struct LocatedScan {
 /// One thread; searches are submitted to `jobs`. Deterministic.
 class FlightLocalizer {
  public:
-  FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs);
+  FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs,
+                  common::EventLog& log);
 
   /// Replaces the present map: the state is that of a new localizer.
   void load(const GivenMap& map);
@@ -61,7 +61,6 @@ class FlightLocalizer {
   const common::Localization& localization() const { return localization_; }
   /// The given map in the frame `map`; nullopt while the vehicle is not localized in it.
   std::optional<perception::GivenBackground> background(const common::Pose2& T_map_odom) const;
-  std::vector<common::Event> takeEvents();
 
  private:
   void take(const perception::LocalizationEstimate& estimate, common::Time now);
@@ -78,7 +77,7 @@ class FlightLocalizer {
     bool interrupted = false;
   } since_last_;  ///< Accumulated from the odometry since the last scan that was used.
   common::Localization localization_;
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -1,6 +1,7 @@
 #include "autonomy/estimation/flight_start.hpp"
 
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -11,7 +12,6 @@
 namespace swiftlet::autonomy {
 
 using common::Pose3;
-using common::Severity;
 using common::Time;
 
 common::ImuSample FlightStart::withAttitude(const common::ImuSample& sample,
@@ -51,8 +51,7 @@ std::optional<double> FlightStart::start(const common::LaserScan& scan, const La
     return std::nullopt;
   }
   started_ = filter->newest();
-  events_.push_back({scan.stamps.arrived, Severity::kInfo, "fusion",
-                     fmt::format("initialized, body {:.3f} m above the floor", height_m), ""});
+  log_.info(scan.stamps.arrived, "fusion", fmt::format("initialized, body {:.3f} m above the floor", height_m));
   return height_m;
 }
 
@@ -67,8 +66,8 @@ std::string FlightStart::problem(Time now, bool position_known) const {
 }
 
 void FlightStart::sayWaiting(Time now, std::string reason) {
-  if (!std::exchange(waiting_said_, true))
-    events_.push_back({now, Severity::kInfo, "fusion", "waiting until the vehicle stands still", std::move(reason)});
+  if (!std::exchange(waits_, true))
+    log_.info(now, "fusion", "waiting until the vehicle stands still", std::move(reason));
 }
 
 }  // namespace swiftlet::autonomy

@@ -3,13 +3,11 @@
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "autonomy/estimation/heard_filter.hpp"
 #include "autonomy/estimation/laser_pipeline.hpp"
 #include "autonomy/estimation/start_view.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_config.hpp"
@@ -21,8 +19,11 @@ class FlightStart {
  public:
   /// `standing_height_m`: that of the body over the floor, if the mirror sees none.
   FlightStart(const LaserPipelineConfig& config, const common::LaserConfig& laser, double standing_height_m,
-              bool uses_ahrs)
-      : uses_ahrs_(uses_ahrs), standing_height_m_(standing_height_m), view_(config, laser, standing_height_m) {}
+              bool uses_ahrs, common::EventLog& log)
+      : uses_ahrs_(uses_ahrs),
+        standing_height_m_(standing_height_m),
+        view_(config, laser, standing_height_m),
+        log_(log) {}
 
   /// See Estimator::withAttitude.
   common::ImuSample withAttitude(const common::ImuSample& sample, const perception::ErrorStateFilter& filter) const;
@@ -38,8 +39,6 @@ class FlightStart {
   /// StartView::problem.
   std::string problem(common::Time now, bool position_known) const;
 
-  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
-
  private:
   void sayWaiting(common::Time now, std::string reason);
 
@@ -48,9 +47,9 @@ class FlightStart {
   StartView view_;
   std::optional<common::ImuSample> last_imu_;  ///< The last one with an attitude.
   bool imu_seen_ = false;
-  bool waiting_said_ = false;
+  bool waits_ = false;    ///< An event has said that the filter cannot start yet.
   common::Time started_;  ///< Time at which the filter started.
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "autonomy/estimation/flight_localizer.hpp"
+#include "common/event_log.hpp"
 #include "common/jobs.hpp"
 
 namespace swiftlet::autonomy {
@@ -12,8 +13,9 @@ namespace swiftlet::autonomy {
 class GivenMapPlace {
  public:
   /// `given` may be null and is read only here.
-  GivenMapPlace(const GivenMap* given, const FlightLocalizerConfig& config, common::JobRunner& jobs)
-      : config_(config), jobs_(jobs) {
+  GivenMapPlace(const GivenMap* given, const FlightLocalizerConfig& config, common::JobRunner& jobs,
+                common::EventLog& log)
+      : config_(config), jobs_(jobs), log_(log) {
     if (given != nullptr) load(*given);
   }
 
@@ -21,7 +23,7 @@ class GivenMapPlace {
     if (localizer_)
       localizer_->load(given);
     else
-      localizer_ = std::make_unique<FlightLocalizer>(given, config_, jobs_);
+      localizer_ = std::make_unique<FlightLocalizer>(given, config_, jobs_, log_);
   }
   explicit operator bool() const { return localizer_ != nullptr; }
   FlightLocalizer* operator->() { return localizer_.get(); }
@@ -30,6 +32,7 @@ class GivenMapPlace {
  private:
   FlightLocalizerConfig config_;
   common::JobRunner& jobs_;
+  common::EventLog& log_;
   std::unique_ptr<FlightLocalizer> localizer_;
 };
 

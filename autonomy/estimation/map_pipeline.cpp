@@ -12,13 +12,14 @@ using common::Pose2;
 using common::Time;
 
 MapPipeline::MapPipeline(const perception::SlamMethodConfig& config, common::Duration job_latency,
-                         common::JobRunner& jobs)
+                         common::JobRunner& jobs, common::EventLog& log)
     : job_latency_(job_latency),
       jobs_(jobs),
       slam_(makeSlam(config)),
       published_grid_(std::make_shared<common::OccupancyGrid>(slam_->snapshot())),
       published_keys_(std::make_shared<common::KeyPoses>()),
-      clears_vacated_places_(config.grid.glass_fade_scans == 1) {}
+      clears_vacated_places_(config.grid.glass_fade_scans == 1),
+      log_(log) {}
 
 MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
   covariance_since_map_ += mapped.step_covariance;
@@ -64,8 +65,6 @@ std::shared_ptr<const common::KeyPoses> MapPipeline::keyPoses() {
   return published_keys_;
 }
 
-std::vector<common::Event> MapPipeline::takeEvents() { return std::exchange(events_, {}); }
-
 void MapPipeline::submitTask(Time now) {
   if (!jobs_.idle("slam")) return;
   auto task = slam_->takeTask();
@@ -81,9 +80,8 @@ void MapPipeline::take(const perception::SlamResult& result, Time delivered) {
     ++keys_version_;
   }
   for (const auto& loop : result.accepted)
-    events_.push_back({delivered, common::Severity::kInfo, "slam2d",
-                       fmt::format("loop closed between key scans {} and {}", loop.from, loop.to),
-                       fmt::format("quality {:.2f}, {:.3f} m from the predicted pose", loop.quality, loop.shift_m)});
+    log_.info(delivered, "slam2d", fmt::format("loop closed between key scans {} and {}", loop.from, loop.to),
+              fmt::format("quality {:.2f}, {:.3f} m from the predicted pose", loop.quality, loop.shift_m));
 }
 
 }  // namespace swiftlet::autonomy

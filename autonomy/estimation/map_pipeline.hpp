@@ -8,12 +8,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "autonomy/estimation/vacated_places.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/geometry.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
@@ -47,7 +46,8 @@ struct MapStep {
 /// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
 class MapPipeline {
  public:
-  MapPipeline(const perception::SlamMethodConfig& config, common::Duration job_latency, common::JobRunner& jobs);
+  MapPipeline(const perception::SlamMethodConfig& config, common::Duration job_latency, common::JobRunner& jobs,
+              common::EventLog& log);
   MapPipeline(const MapPipeline&) = delete;
   MapPipeline& operator=(const MapPipeline&) = delete;
 
@@ -69,8 +69,6 @@ class MapPipeline {
   std::shared_ptr<const common::KeyPoses> keyPoses();
   const perception::SlamCounts& counts() const { return slam_->counts(); }
 
-  std::vector<common::Event> takeEvents();
-
  private:
   void submitTask(common::Time now);
   void take(const perception::SlamResult& result, common::Time delivered);
@@ -86,7 +84,7 @@ class MapPipeline {
   std::shared_ptr<const common::KeyPoses> published_keys_;
   VacatedPlaces vacated_;
   bool clears_vacated_places_;  ///< Not where the map keeps glass, which beams pass after they ended on it.
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

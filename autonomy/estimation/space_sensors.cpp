@@ -2,20 +2,18 @@
 
 #include <utility>
 
-#include "common/append_events.hpp"
-
 namespace swiftlet::autonomy {
 
 using common::Time;
 
 SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera,
-                           const common::LaserConfig* vertical_laser, common::JobRunner& jobs)
-    : rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr),
+                           const common::LaserConfig* vertical_laser, common::JobRunner& jobs, common::EventLog& log)
+    : rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs, log) : nullptr),
       vertical_laser_(vertical_laser && !camera
-                          ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs)
+                          ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs, log)
                           : nullptr),
       targets_(camera && !config.targets.classes.empty()
-                   ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m)
+                   ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m, log)
                    : nullptr) {}
 
 bool SpaceSensors::add(std::shared_ptr<const common::RgbdFrame> frame) {
@@ -31,7 +29,7 @@ void SpaceSensors::add(std::shared_ptr<const common::VerticalScan> sweep) {
 std::optional<CameraStep> SpaceSensors::takeStep(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   if (!rgbd_) return std::nullopt;
   rgbd_->watch(keys, now);
-  return rgbd_->takeStep();
+  return rgbd_->steps().take();
 }
 
 void SpaceSensors::map(const MapSituation& situation, Time now) {
@@ -57,6 +55,7 @@ void SpaceSensors::mapFrame(const MapSituation& situation, Time now) {
 }
 
 void SpaceSensors::lookForTargets(const MapSituation& situation, Time now) {
+  targets_->reportFound(situation.names);
   const common::CameraEstimate camera = rgbd_->camera();
   const auto time = targets_->next(camera.clock_offset_s);
   if (time && situation.poses.isKnown(*time, now, targets_->waitUntil()))
@@ -81,14 +80,6 @@ std::shared_ptr<const common::Map3dLayer> SpaceSensors::layer(const std::shared_
 
 std::vector<common::Target> SpaceSensors::targets(const common::KeyPoses& keys) const {
   return targets_ ? targets_->targets(keys) : std::vector<common::Target>();
-}
-
-std::vector<common::Event> SpaceSensors::takeEvents(const common::PlaceNames& names) {
-  std::vector<common::Event> events;
-  if (rgbd_) append(events, rgbd_->takeEvents());
-  if (vertical_laser_) append(events, vertical_laser_->takeEvents());
-  if (targets_) append(events, targets_->takeEvents(names));
-  return events;
 }
 
 }  // namespace swiftlet::autonomy

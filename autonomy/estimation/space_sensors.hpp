@@ -11,9 +11,10 @@
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
 #include "autonomy/estimation/vertical_laser_pipeline.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
+#include "common/place_names.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/sensor_event.hpp"
@@ -31,6 +32,7 @@ struct MapSituation {
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
   const perception::PeopleTracker& people;
   double drift_m = 0.0;  ///< See DriftMonitor.
+  common::PlaceNames names;
 };
 
 /// One thread. Its jobs refer to it.
@@ -43,7 +45,7 @@ class SpaceSensors {
   };
   /// Data sheets; null without that sensor. With a camera an upright laser is not used.
   SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser,
-               common::JobRunner& jobs);
+               common::JobRunner& jobs, common::EventLog& log);
 
   /// Whether the frame can be used; false without a camera.
   [[nodiscard]] bool add(std::shared_ptr<const common::RgbdFrame> frame);
@@ -55,8 +57,8 @@ class SpaceSensors {
   common::CameraEstimate camera() const { return rgbd_->camera(); }
   /// The measurement of the camera for the filter, at every tick before `map`; nullopt without a new one.
   std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
-  /// See RgbdPipeline::forgetClone.
-  void forgetClone() { rgbd_->forgetClone(); }
+  /// See CameraSteps::forgetClone.
+  void forgetClone() { rgbd_->steps().forgetClone(); }
   /// Maps what has waited long enough, at every tick.
   void map(const MapSituation& situation, common::Time now);
 
@@ -67,7 +69,6 @@ class SpaceSensors {
   std::optional<RgbdCounts> counts() const { return rgbd_ ? std::optional(rgbd_->counts()) : std::nullopt; }
   /// nullopt without a camera whose frames come over a radio.
   std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
-  std::vector<common::Event> takeEvents(const common::PlaceNames& names);
 
  private:
   static FrameSituation situationAt(common::Time time, const MapSituation& situation, common::Time now);

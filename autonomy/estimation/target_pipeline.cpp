@@ -39,11 +39,13 @@ std::vector<std::string> TargetPipelineConfig::names() const {
   return names;
 }
 
-TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs, double range_m)
+TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs, double range_m,
+                               common::EventLog& log)
     : config_(config),
       jobs_(jobs),
       detector_(std::make_shared<const perception::TargetDetector>(config.classes, config.detector)),
-      tracker_(config.tracker, config.classes, range_m) {}
+      tracker_(config.tracker, config.classes, range_m),
+      log_(log) {}
 
 void TargetPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
   if (last_taken_ && frame->stamps.measured < *last_taken_ + Duration::fromSeconds(config_.period_s)) return;
@@ -82,17 +84,15 @@ void TargetPipeline::take(const std::vector<perception::TargetSighting>& sightin
     if (target.state != common::TargetState::kFound) continue;
     if (std::find(found_.begin(), found_.end(), target.id) != found_.end()) continue;
     found_.push_back(target.id);
-    unsaid_.push_back({delivered, target});
+    unreported_.push_back({delivered, target});
   }
 }
 
-std::vector<common::Event> TargetPipeline::takeEvents(const common::PlaceNames& names) {
-  std::vector<common::Event> events;
-  for (const Found& found : std::exchange(unsaid_, {}))
-    events.push_back({found.at, common::Severity::kInfo, "targets", labelOf(found.target) + " found",
-                      fmt::format("at {} +- {:.2f} m, seen from {} places", names.of(found.target.position_map_m),
-                                  found.target.sigma_m(), found.target.views)});
-  return events;
+void TargetPipeline::reportFound(const common::PlaceNames& names) {
+  for (const Found& found : std::exchange(unreported_, {}))
+    log_.info(found.at, kTargets, labelOf(found.target) + " found",
+              fmt::format("at {} +- {:.2f} m, seen from {} places", names.of(found.target.position_map_m),
+                          found.target.sigma_m(), found.target.views));
 }
 
 }  // namespace swiftlet::autonomy

@@ -13,7 +13,7 @@
 
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 #include "common/config_fwd.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
 #include "common/place_names.hpp"
@@ -41,7 +41,7 @@ struct TargetPipelineConfig {
 class TargetPipeline {
  public:
   /// `range_m` is that of the camera.
-  TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs, double range_m);
+  TargetPipeline(const TargetPipelineConfig& config, common::JobRunner& jobs, double range_m, common::EventLog& log);
   TargetPipeline(const TargetPipeline&) = delete;
   TargetPipeline& operator=(const TargetPipeline&) = delete;
 
@@ -56,7 +56,8 @@ class TargetPipeline {
   void look(const FrameSituation& situation, const common::CameraEstimate& camera, double drift_m, common::Time now);
 
   std::vector<common::Target> targets(const common::KeyPoses& keys) const { return tracker_.targets(keys); }
-  std::vector<common::Event> takeEvents(const common::PlaceNames& names);
+  /// Reports those that were found since the last call, by these names of places.
+  void reportFound(const common::PlaceNames& names);
 
  private:
   /// Where a frame was taken.
@@ -81,7 +82,8 @@ class TargetPipeline {
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_taken_;            ///< When the last frame that was looked at was measured.
   std::vector<int> found_;                            ///< The ids of those that were reported.
-  std::vector<Found> unsaid_;                         ///< For the next events.
+  std::vector<Found> unreported_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

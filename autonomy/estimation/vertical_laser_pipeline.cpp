@@ -14,7 +14,6 @@ namespace swiftlet::autonomy {
 namespace {
 
 using common::Duration;
-using common::Severity;
 using common::Time;
 
 constexpr const char* kDrawing = "mapping3d";
@@ -39,25 +38,27 @@ void VerticalLaserPipelineConfig::describe(common::config::Fields& fields) {
 }
 
 VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& config,
-                                             const common::LaserConfig& laser, common::JobRunner& jobs)
+                                             const common::LaserConfig& laser, common::JobRunner& jobs,
+                                             common::EventLog& log)
     : config_(config),
       laser_(laser),
       jobs_(jobs),
-      silence_("upright laser", "sweep", config.silent_s),
+      silence_("upright laser", "sweep", config.silent_s, log),
       submaps_(std::make_shared<mapping3d::SubmapStore>(config.submaps, config.voxels)),
-      publisher_(config.publisher, config.voxels.resolution_m, jobs) {}
+      publisher_(config.publisher, config.voxels.resolution_m, jobs),
+      log_(log) {}
 
 void VerticalLaserPipeline::add(std::shared_ptr<const common::VerticalScan> sweep) {
   const common::Stamps& stamps = sweep->stamps;
   if (const char* fault = stampFault(stamps, last_measured_)) {
     silence_.unusableArrived(stamps.arrived, fault);
     ++counts_.skipped;
-    if (!std::exchange(fault_said_, true))
-      say(stamps.arrived, Severity::kWarning, "a sweep of the upright laser cannot be used",
-          std::string(fault) + "; further ones are only counted");
+    if (!std::exchange(any_fault_, true))
+      log_.warn(stamps.arrived, kDrawing, "a sweep of the upright laser cannot be used",
+                std::string(fault) + "; further ones are only counted");
     return;
   }
-  keep(silence_.usableArrived(stamps.arrived));
+  silence_.usableArrived(stamps.arrived);
   ++counts_.sweeps;
   last_measured_ = stamps.measured;
   waiting_.push_back(std::move(sweep));
@@ -95,7 +96,7 @@ void VerticalLaserPipeline::place(const std::optional<SweepSituation>& situation
 }
 
 void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
-  keep(silence_.watch(now));
+  silence_.watch(now);
   publisher_.fuse(keys, now);
   if (!jobs_.idle(kDrawing) || (placed_.empty() && !publisher_.beginLate(now))) return;
   counts_.drawn += placed_.size();
@@ -108,15 +109,5 @@ void VerticalLaserPipeline::draw(const std::shared_ptr<const common::KeyPoses>& 
         return [this, snapshot = submaps->snapshot()](Time) { publisher_.setSubmaps(snapshot); };
       });
 }
-
-void VerticalLaserPipeline::say(Time now, Severity severity, std::string text, std::string reason) {
-  events_.push_back({now, severity, "mapping3d", std::move(text), std::move(reason)});
-}
-
-void VerticalLaserPipeline::keep(std::optional<common::Event> event) {
-  if (event) events_.push_back(std::move(*event));
-}
-
-std::vector<common::Event> VerticalLaserPipeline::takeEvents() { return std::exchange(events_, {}); }
 
 }  // namespace swiftlet::autonomy

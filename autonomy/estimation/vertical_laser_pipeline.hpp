@@ -19,7 +19,7 @@
 #include "autonomy/estimation/map3d_publisher.hpp"
 #include "common/config_fwd.hpp"
 #include "common/disc.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
 #include "common/sensor_event.hpp"
@@ -60,7 +60,7 @@ struct VerticalLaserCounts {
 class VerticalLaserPipeline {
  public:
   VerticalLaserPipeline(const VerticalLaserPipelineConfig& config, const common::LaserConfig& laser,
-                        common::JobRunner& jobs);
+                        common::JobRunner& jobs, common::EventLog& log);
   VerticalLaserPipeline(const VerticalLaserPipeline&) = delete;
   VerticalLaserPipeline& operator=(const VerticalLaserPipeline&) = delete;
 
@@ -84,12 +84,9 @@ class VerticalLaserPipeline {
     return publisher_.layer(keys);
   }
   const VerticalLaserCounts& counts() const { return counts_; }
-  std::vector<common::Event> takeEvents();
 
  private:
   using Sweeps = std::vector<mapping3d::PlacedSweep>;
-  void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
-  void keep(std::optional<common::Event> event);
 
   VerticalLaserPipelineConfig config_;
   common::LaserConfig laser_;
@@ -100,9 +97,9 @@ class VerticalLaserPipeline {
   std::deque<std::shared_ptr<const common::VerticalScan>> waiting_;  ///< In the order of their times.
   Sweeps placed_;
   std::optional<common::Time> last_measured_;
-  bool fault_said_ = false;
+  bool any_fault_ = false;  ///< An event has said that a sweep cannot be used.
   VerticalLaserCounts counts_;
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

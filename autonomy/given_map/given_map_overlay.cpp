@@ -60,7 +60,8 @@ std::optional<occupancy::Cell> beforeFace(const OccupancyGrid& grid, CellIndex c
 
 }  // namespace
 
-GivenMapOverlay::GivenMapOverlay(const GivenMap* given) : laid_(common::makeOccupancyGrid(1.0)) {
+GivenMapOverlay::GivenMapOverlay(const GivenMap* given, common::EventLog& log)
+    : laid_(common::makeOccupancyGrid(1.0)), changes_(log) {
   if (given != nullptr) given_ = std::make_shared<const GivenMap>(*given);
 }
 

@@ -23,7 +23,7 @@ using common::GivenMap;
 class GivenMapOverlay {
  public:
   /// `given` may be null and is read only here.
-  explicit GivenMapOverlay(const GivenMap* given);
+  GivenMapOverlay(const GivenMap* given, common::EventLog& log);
 
   /// Another map is the given one from the next update on.
   void load(const GivenMap& given);
@@ -45,8 +45,6 @@ class GivenMapOverlay {
   /// The frame of the given map, smoothed, and moved in steps of some centimetres at the vehicle, so that plans live
   /// longer than a scan. nullopt while the vehicle is not localized.
   const std::optional<common::Pose2>& T_map_given() const { return T_map_given_; }
-  /// What has changed since the given map was made.
-  std::vector<common::Event> takeEvents() { return changes_.takeEvents(); }
 
  private:
   bool follow(common::Time now, const common::Pose2& T_map_body, const common::Pose2& T_map_given);

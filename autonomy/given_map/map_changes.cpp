@@ -60,17 +60,17 @@ void MapChanges::judge(common::Time now, Change change, const std::map<Square, i
     evidence.said = true;
     to_say.push_back(square);
   }
-  if (!to_say.empty()) say(now, change, to_say);
+  if (!to_say.empty()) report(now, change, to_say);
 }
 
-void MapChanges::say(common::Time now, Change change, const std::vector<Square>& squares) {
+void MapChanges::report(common::Time now, Change change, const std::vector<Square>& squares) {
   std::string places;
   for (const Square& square : squares)
     places += fmt::format("{}({:.1f}, {:.1f})", places.empty() ? "" : ", ", square.first + 0.5, square.second + 0.5);
-  events_.push_back({now, common::Severity::kInfo, "localization",
-                     change == Change::kNew ? "something stands here that the given map does not have"
-                                            : "something of the given map is not there at this height",
-                     "within half a metre of " + places + " in the given map"});
+  log_.info(now, "localization",
+            change == Change::kNew ? "something stands here that the given map does not have"
+                                   : "something of the given map is not there at this height",
+            "within half a metre of " + places + " in the given map");
 }
 
 }  // namespace swiftlet::autonomy

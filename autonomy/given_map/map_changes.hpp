@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
@@ -18,12 +18,13 @@ namespace swiftlet::autonomy {
 /// One thread. Both grids have the same cells.
 class MapChanges {
  public:
+  explicit MapChanges(common::EventLog& log) : log_(log) {}
+
   /// Compares the two grids, at most every few seconds. `laid` is the given map in the cells of the flight's map.
   void update(common::Time now, const common::OccupancyGrid& flown, const common::OccupancyGrid& laid,
               const common::Pose2& T_map_given);
   /// The place is lost, or the given map was replaced: changes that have not been reported are forgotten.
   void forget() { seen_.clear(); }
-  std::vector<common::Event> takeEvents() { return std::exchange(events_, {}); }
 
  private:
   enum class Change { kNew, kGone };
@@ -33,11 +34,11 @@ class MapChanges {
     bool said = false;
   };
   void judge(common::Time now, Change change, const std::map<Square, int>& cells);
-  void say(common::Time now, Change change, const std::vector<Square>& squares);
+  void report(common::Time now, Change change, const std::vector<Square>& squares);
 
   std::optional<common::Time> checked_;
   std::map<std::pair<Change, Square>, Evidence> seen_;
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

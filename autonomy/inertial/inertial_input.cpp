@@ -1,11 +1,8 @@
 #include "autonomy/inertial/inertial_input.hpp"
 
-#include <utility>
-
 namespace swiftlet::autonomy {
 
 using common::ImuSample;
-using common::Severity;
 using common::Time;
 
 /// On the ground a faulty sample goes to the filter as it is, which starts only if it makes sense.
@@ -15,10 +12,8 @@ std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
   const bool before = check_.contradicted();
   const ImuSample used = check_.checked(sample);
   const bool contradicted = check_.contradicted();
-  if (contradicted != before)
-    events_.push_back({sample.stamps.arrived, contradicted ? Severity::kWarning : Severity::kInfo, "imu",
-                       contradicted ? "inertial samples are replaced" : "the inertial samples fit again",
-                       check_.fault()});
+  if (contradicted && !before) log_.warn(sample.stamps.arrived, "imu", "inertial samples are replaced", check_.fault());
+  if (!contradicted && before) log_.info(sample.stamps.arrived, "imu", "the inertial samples fit again");
   if (used.rotation_ahrs_body.coeffs().allFinite()) substitute_.measured(used);
   return used;
 }
@@ -34,7 +29,5 @@ void InertialInput::flown(const common::Setpoint& setpoint, const InertialContex
   check_.vehicleIs(context);
   substitute_.flown(setpoint, context.thrust_over_hover);
 }
-
-std::vector<common::Event> InertialInput::takeEvents() { return std::exchange(events_, {}); }
 
 }  // namespace swiftlet::autonomy

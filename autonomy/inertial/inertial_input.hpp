@@ -5,13 +5,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "autonomy/inertial/imu_substitute.hpp"
 #include "autonomy/inertial/imu_watch.hpp"
 #include "autonomy/inertial/inertial_check.hpp"
 #include "common/config_fwd.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 #include "common/vehicle.hpp"
@@ -27,8 +26,9 @@ struct InertialInputConfig {
 class InertialInput {
  public:
   /// The lag of the attitude that the controllers assume.
-  InertialInput(const InertialInputConfig& config, double attitude_lag_s)
-      : watch_(config.imu),
+  InertialInput(const InertialInputConfig& config, double attitude_lag_s, common::EventLog& log)
+      : log_(log),
+        watch_(config.imu),
         check_(config.inertial_check),
         substitute_({attitude_lag_s, config.inertial_check.thrust_lag_s}) {}
 
@@ -46,16 +46,14 @@ class InertialInput {
   bool contradicted() const { return check_.contradicted(); }
   /// Why the vehicle must come down although samples arrive; empty if it need not.
   std::string mustLandFor(common::Time now) const { return check_.mustLand(now) ? check_.fault() : std::string(); }
-  /// The events since the last call.
-  std::vector<common::Event> takeEvents();
 
  private:
+  common::EventLog& log_;
   ImuWatch watch_;
   InertialCheck check_;
   ImuSubstitute substitute_;
   bool airborne_ = false;
   bool setpoints_apply_ = true;
-  std::vector<common::Event> events_;
 };
 
 }  // namespace swiftlet::autonomy

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/time.hpp"
 #include "planning/exploration/exploration.hpp"
 
@@ -33,6 +33,9 @@ struct FollowMemory {
 struct TourState;
 
 struct FlightMemory {
+  explicit FlightMemory(common::EventLog& events) : log(events) {}
+
+  common::EventLog& log;
   /// Height of paths over the take-off floor: the height of the take-off until a goal names another.
   double cruise_height_m = 1.0;
   /// The lower height of the plan that leads below something; nullopt once the vehicle is back at the height of paths.
@@ -47,10 +50,9 @@ struct FlightMemory {
   FollowMemory follow;
   std::vector<std::shared_ptr<TourState>> tours;  ///< Those that have not ended, see Tour; the newest last.
   std::optional<Eigen::Vector2d> person_map_m;    ///< Last estimated place of the person who is, or was, followed.
-  std::vector<common::Event> events;
 
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {}) {
-    events.push_back({now, severity, "flight", std::move(text), std::move(reason)});
+    log.add({now, severity, "flight", std::move(text), std::move(reason)});
   }
 };
 

@@ -12,6 +12,7 @@ namespace {
 
 /// Ten frames of a camera at 5 Hz, the slowest that is flown.
 constexpr double kFrameComes_s = 2.0;
+constexpr const char* kFlight = "flight";
 
 }  // namespace
 
@@ -41,7 +42,7 @@ void FlightRequests::take(const common::MissionRequest& request, const common::W
 }
 
 void FlightRequests::answered(common::MissionAnswer answer, common::Time now) {
-  if (answer.done) say(now, answer.reason, "the mission asked for it");
+  if (answer.done) log_.info(now, kFlight, answer.reason, "the mission asked for it");
   answers_.push_back(std::move(answer));
 }
 
@@ -52,7 +53,7 @@ common::MissionAnswer FlightRequests::answerTo(const common::MissionRequest& req
   }
   if (const auto* map = std::get_if<common::SaveMapRequest>(&request.kind)) {
     files_.push_back(SavedMap{map->name, world.map->grid});
-    say(world.stamp, "map saved as map-" + map->name, "");
+    log_.info(world.stamp, kFlight, "map saved as map-" + map->name);
     return {request.id, true, {}};
   }
   return {request.id, false, "the vehicle has no RGB-D camera"};
@@ -62,7 +63,7 @@ void FlightRequests::addFrame(const std::shared_ptr<const common::RgbdFrame>& fr
                               const common::VehicleState& state) {
   if (!photograph_ || frame->stamps.measured < photograph_->asked) return;
   files_.push_back(Photo{photograph_->name, frame, state.T_map_body() * *camera_});
-  say(frame->stamps.arrived, "photograph " + photograph_->name, "");
+  log_.info(frame->stamps.arrived, kFlight, "photograph " + photograph_->name);
   answers_.push_back({photograph_->id, true, {}});
   photograph_.reset();
 }
@@ -73,8 +74,8 @@ std::string FlightRequests::addZone(const common::Polygon& zone, KeepOutZones::O
   const common::PlaceNames names = world.map->names();
   std::string refusal = keep_out_.add(zone, owner, world.vehicle->home_map.position_m(), names);
   if (refusal.empty())
-    say(world.stamp, "keep-out zone with " + toString(zone, names),
-        owner == KeepOutZones::Owner::kMission ? "of the mission" : "of the operator");
+    log_.info(world.stamp, kFlight, "keep-out zone with " + toString(zone, names),
+              owner == KeepOutZones::Owner::kMission ? "of the mission" : "of the operator");
   return refusal;
 }
 
@@ -87,10 +88,4 @@ std::vector<common::MissionAnswer> FlightRequests::takeAnswers(common::Time now)
   return std::exchange(answers_, {});
 }
 std::vector<RunFile> FlightRequests::takeFiles() { return std::exchange(files_, {}); }
-std::vector<common::Event> FlightRequests::takeEvents() { return std::exchange(events_, {}); }
-
-void FlightRequests::say(common::Time now, std::string text, std::string reason) {
-  events_.push_back({now, common::Severity::kInfo, "flight", std::move(text), std::move(reason)});
-}
-
 }  // namespace swiftlet::autonomy

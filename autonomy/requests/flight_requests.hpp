@@ -10,7 +10,7 @@
 #include "autonomy/requests/keep_out_zones.hpp"
 #include "autonomy/requests/run_files.hpp"
 #include "common/command.hpp"
-#include "common/event.hpp"
+#include "common/event_log.hpp"
 #include "common/mission_request.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/rgbd_frame.hpp"
@@ -24,8 +24,10 @@ namespace swiftlet::autonomy {
 class FlightRequests {
  public:
   /// `camera` may be null: then photographs are refused.
-  explicit FlightRequests(double hull_radius_m, const common::RgbdCameraConfig* camera = nullptr)
-      : keep_out_(hull_radius_m), camera_(camera != nullptr ? std::optional(camera->mount.pose()) : std::nullopt) {}
+  FlightRequests(double hull_radius_m, const common::RgbdCameraConfig* camera, common::EventLog& log)
+      : keep_out_(hull_radius_m),
+        camera_(camera != nullptr ? std::optional(camera->mount.pose()) : std::nullopt),
+        log_(log) {}
 
   /// Handles and answers commands about keep-out zones; returns nullopt for any other.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, const common::World& world);
@@ -41,7 +43,6 @@ class FlightRequests {
   /// Gives up photographs for which no usable frame came.
   std::vector<common::MissionAnswer> takeAnswers(common::Time now);
   std::vector<RunFile> takeFiles();
-  std::vector<common::Event> takeEvents();
 
  private:
   struct Pending {
@@ -51,14 +52,13 @@ class FlightRequests {
   };
   common::MissionAnswer answerTo(const common::MissionRequest& request, const common::World& world);
   std::string addZone(const common::Polygon& zone, KeepOutZones::Owner owner, const common::World& world);
-  void say(common::Time now, std::string text, std::string reason);
 
   KeepOutZones keep_out_;
   std::optional<common::Pose3> camera_;  ///< T_body_camera by the data sheet; nullopt without a camera.
   std::optional<Pending> photograph_;
   std::vector<RunFile> files_;
   std::vector<common::MissionAnswer> answers_;
-  std::vector<common::Event> events_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::autonomy

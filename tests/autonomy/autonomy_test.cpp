@@ -242,9 +242,8 @@ TEST(Autonomy, WithoutScansItHoldsAndThenLands) {
   const auto hold = story.event("supervisor", "hold"), land = story.event("supervisor", "land");
   ASSERT_NE(hold, story.events.end());
   ASSERT_NE(land, story.events.end());
-  const SupervisorConfig config;
-  EXPECT_NEAR((hold->stamp - dropped).seconds(), config.unseen_hold_s, 0.1);
-  EXPECT_NEAR((land->stamp - dropped).seconds(), config.unseen_land_s, 0.1);
+  EXPECT_NEAR((hold->stamp - dropped).seconds(), kUnseenHold_s, 0.1);
+  EXPECT_NEAR((land->stamp - dropped).seconds(), kUnseenLand_s, 0.1);
   EXPECT_THAT(land->reason, HasSubstr("no scan"));
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kFailed);
   EXPECT_THAT(story.autonomy().missionStatus().reason, HasSubstr("no scan"));

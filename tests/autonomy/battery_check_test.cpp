@@ -13,19 +13,21 @@ common::BatterySample sample(double remaining, double voltage_v = 11.1) {
 }
 
 TEST(BatteryCheck, ReportsInvalidValuesOnce) {
-  BatteryCheck check;
+  common::EventLog log;
+  BatteryCheck check(log);
   EXPECT_TRUE(check.accepts(sample(0.5)));
   EXPECT_FALSE(check.accepts(sample(std::nan(""))));
   EXPECT_FALSE(check.accepts(sample(std::nan(""))));
   EXPECT_TRUE(check.accepts(sample(0.45)));
-  EXPECT_EQ(check.takeEvents().size(), 2u);
+  EXPECT_EQ(log.take().size(), 2u);
 }
 
 TEST(BatteryCheck, AChargeThatJumpsIsUsedOnceItIsConfirmed) {
-  BatteryCheck check;
+  common::EventLog log;
+  BatteryCheck check(log);
   EXPECT_TRUE(check.accepts(sample(0.6)));
   EXPECT_FALSE(check.accepts(sample(0.0)));
-  EXPECT_EQ(check.takeEvents().back().reason, "its charge jumps from 60 to 0 %");
+  EXPECT_EQ(log.take().back().reason, "its charge jumps from 60 to 0 %");
   EXPECT_TRUE(check.accepts(sample(0.6)));
   EXPECT_FALSE(check.accepts(sample(0.11)));
   EXPECT_TRUE(check.accepts(sample(0.1)));

@@ -40,7 +40,7 @@ class EstimatorStory {
         imu_(flight_.imuSamples()),
         laser_(common::config::readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml")),
         jobs_(common::makeLockstepJobs(0)),
-        estimator(config, laser_, common::VehicleConfig{}, given, *jobs_, camera) {}
+        estimator(config, laser_, common::VehicleConfig{}, given, *jobs_, log_, camera) {}
 
   /// The artificial flight tilts independently of its motion, so its accelerometer shows no drag.
   static EstimatorConfig config() {
@@ -60,7 +60,7 @@ class EstimatorStory {
       if (next_ % kImuPerScan != kImuPerScan - 1) continue;
       // The sweep that has just arrived began four samples ago.
       const auto outcome = estimator.addScan(scanFrom(imu_[next_ + 1 - kImuPerScan].stamps.measured, now), now);
-      for (common::Event& event : estimator.takeEvents()) events.push_back(std::move(event));
+      for (common::Event& event : log_.take()) events.push_back(std::move(event));
       if (each) each(outcome);
     }
   }
@@ -95,6 +95,7 @@ class EstimatorStory {
     return scan;
   }
 
+  common::EventLog log_;
   perception::SyntheticFlight flight_;
   std::vector<common::ImuSample> imu_;
   common::LaserConfig laser_;

@@ -21,7 +21,7 @@ struct Story {
         odometry(seed),
         noise(seed, "story"),
         jobs(common::makeLockstepJobs(threads)),
-        localizer({std::make_shared<const common::OccupancyGrid>(test::mapOf(building)), {}, seed}, {}, *jobs) {}
+        localizer({std::make_shared<const common::OccupancyGrid>(test::mapOf(building)), {}, seed}, {}, *jobs, log) {}
 
   void step() {
     const Time now = Time::fromSeconds(time_s);
@@ -44,6 +44,7 @@ struct Story {
   test::DriftingOdometry odometry;
   common::RandomStream noise;
   std::unique_ptr<common::JobRunner> jobs;
+  common::EventLog log;
   FlightLocalizer localizer;
   Pose2 truth;
   bool withheld_before = false;
@@ -63,12 +64,12 @@ TEST(FlightLocalizer, LocalizesAndReportsIt) {
   }
   ASSERT_TRUE(story.localizer.localization().localized());
   EXPECT_GT(story.withheld_count, 5);
-  const std::vector<common::Event> events = story.localizer.takeEvents();
+  const std::vector<common::Event> events = story.log.take();
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.back().source, "localization");
   EXPECT_EQ(events.back().text.substr(0, 12), "localized at");
   EXPECT_FALSE(events.back().reason.empty());
-  EXPECT_TRUE(story.localizer.takeEvents().empty());
+  EXPECT_TRUE(story.log.take().empty());
 }
 
 TEST(FlightLocalizer, TheResultDoesNotDependOnTheSpeedOfTheSearch) {

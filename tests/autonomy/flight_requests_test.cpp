@@ -25,7 +25,8 @@ std::shared_ptr<const common::RgbdFrame> frameAt(double seconds) {
 }
 
 TEST(FlightRequests, SavesTheMapOfThePresentWorld) {
-  FlightRequests requests(0.275);
+  common::EventLog log;
+  FlightRequests requests(0.275, nullptr, log);
   const common::World world = worldAt(3.0);
   requests.take({5, common::SaveMapRequest{"hall"}}, world);
   EXPECT_TRUE(requests.takeAnswers(timeAt(3.0)).at(0).done);
@@ -36,13 +37,14 @@ TEST(FlightRequests, SavesTheMapOfThePresentWorld) {
 }
 
 TEST(FlightRequests, PassesOnTheAnswersOfOthersWithAnEvent) {
-  FlightRequests requests(0.275);
+  common::EventLog log;
+  FlightRequests requests(0.275, nullptr, log);
   requests.answered({5, true, "map a.yaml is the given one"}, timeAt(1.0));
   requests.answered({6, false, "no such map"}, timeAt(1.0));
   const auto answers = requests.takeAnswers(timeAt(1.1));
   ASSERT_EQ(answers.size(), 2u);
   EXPECT_FALSE(answers[1].done);
-  const auto events = requests.takeEvents();
+  const auto events = log.take();
   ASSERT_EQ(events.size(), 1u) << "what fails is told by the leaf";
   EXPECT_EQ(events[0].text, "map a.yaml is the given one");
 }
@@ -50,7 +52,8 @@ TEST(FlightRequests, PassesOnTheAnswersOfOthersWithAnEvent) {
 TEST(FlightRequests, PhotographsTheFirstFrameThatIsMeasuredAfterIt) {
   common::RgbdCameraConfig camera;
   camera.mount = {.x_m = 0.1, .z_m = 0.05};
-  FlightRequests requests(0.275, &camera);
+  common::EventLog log;
+  FlightRequests requests(0.275, &camera, log);
   requests.take({5, common::PhotographRequest{"door"}}, worldAt(3.0));
   common::VehicleState state;
   state.T_odom_body.position_m = {1.0, 2.0, 1.5};
@@ -71,13 +74,14 @@ TEST(FlightRequests, PhotographsTheFirstFrameThatIsMeasuredAfterIt) {
 
 TEST(FlightRequests, GivesUpAPhotographWithoutFramesOrCamera) {
   common::RgbdCameraConfig camera;
-  FlightRequests requests(0.275, &camera);
+  common::EventLog log;
+  FlightRequests requests(0.275, &camera, log);
   requests.take({5, common::PhotographRequest{"door"}}, worldAt(3.0));
   EXPECT_TRUE(requests.takeAnswers(timeAt(4.9)).empty());
   const auto late = requests.takeAnswers(timeAt(5.1));
   ASSERT_EQ(late.size(), 1u);
   EXPECT_EQ(late[0].reason, "no usable frame of the camera for 2 s");
-  FlightRequests blind(0.275);
+  FlightRequests blind(0.275, nullptr, log);
   blind.take({6, common::PhotographRequest{"door"}}, worldAt(3.0));
   EXPECT_EQ(blind.takeAnswers(timeAt(3.0)).at(0).reason, "the vehicle has no RGB-D camera");
 }

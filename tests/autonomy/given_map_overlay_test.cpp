@@ -30,7 +30,7 @@ class GivenMapOverlayStory : public testing::Test {
         room->set(room->cellAt(x_m, y_m), std::abs(x_m - 5.0) < 0.06 ? 100 : -100);
     given_.grid = room;
     given_.T_given_grid = {0.3, -0.2, 0.1};
-    overlay_.emplace(&given_);
+    overlay_.emplace(&given_, log_);
   }
 
   void step(const std::optional<Pose2>& T_map_given, double seconds = 0.1) {
@@ -55,12 +55,13 @@ class GivenMapOverlayStory : public testing::Test {
       for (double x_m = 4.8; x_m < 5.2; x_m += kCell_m) walls->set(walls->cellAt(x_m, y_m), -100);
     given_.grid = walls;
     given_.T_given_grid = {};
-    overlay_.emplace(&given_);
+    overlay_.emplace(&given_, log_);
   }
 
   GivenMap given_;
   Pose2 T_map_odom_{0.1, 0.2, 0.05};
   common::OccupancyGrid flown_ = common::makeOccupancyGrid(kCell_m);
+  common::EventLog log_;
   std::optional<GivenMapOverlay> overlay_;
   common::Time now_;
 };
@@ -153,7 +154,7 @@ TEST_F(GivenMapOverlayStory, AMapIsNotWornByFlightsThatDoNotSeeItsWalls) {
   };
   const int before = walls(*given_.grid);
   for (int flight = 0; flight < 5; ++flight) {
-    overlay_.emplace(&given_);
+    overlay_.emplace(&given_, log_);
     step(Pose2{});
     given_.grid = overlay_->grid();
   }
@@ -192,7 +193,7 @@ TEST_F(GivenMapOverlayStory, AThinSlantedWallHasNoHoles) {
           if (isFree(room->at(cell))) room->set(cell, 100);
         }
         given_.grid = room;
-        overlay_.emplace(&given_);
+        overlay_.emplace(&given_, log_);
         const Pose2 T_map_given{0.013, 0.027, common::kRadPerDeg * turned_deg};
         step(T_map_given);
         const Eigen::Vector2d side_m = turn * Eigen::Vector2d(0.0, 0.5);
@@ -215,7 +216,7 @@ TEST_F(GivenMapOverlayStory, AFineMapIsLaidQuickly) {
       room->set(room->cellAt(x_m, y_m), std::min({x_m, y_m, 8.0 - x_m, 8.0 - y_m}) < 0.05 ? 100 : -100);
   given_.grid = room;
   given_.T_given_grid = {};
-  overlay_.emplace(&given_);
+  overlay_.emplace(&given_, log_);
   const auto begin = std::chrono::steady_clock::now();
   step(Pose2{0.013, 0.027, 0.3});
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
@@ -227,13 +228,14 @@ TEST_F(GivenMapOverlayStory, SaysWhatHasChanged) {
   for (double x_m = 2.0; x_m < 2.5; x_m += 0.5 * kCell_m)
     flown_.set(flown_.cellAt(given_.T_given_grid * Eigen::Vector2d(x_m, 2.0)), 100);
   for (int i = 0; i < 4; ++i) step(T_map_given, 2.1);
-  const auto events = overlay_->takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].text, "something stands here that the given map does not have");
 }
 
 TEST(GivenMapOverlay, WithoutAMapTheGridStaysTheSame) {
-  GivenMapOverlay overlay(nullptr);
+  common::EventLog log;
+  GivenMapOverlay overlay(nullptr, log);
   const auto flown = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
   overlay.update({}, {}, {}, std::nullopt, flown);
   EXPECT_EQ(overlay.grid(), flown);

@@ -45,7 +45,8 @@ class InertialInputStory : public testing::Test {
     input_.flown(setpoint_, {airborne_, false, applies_, thrust_over_hover_});
   }
 
-  InertialInput input_{InertialInputConfig{}, 0.2};
+  common::EventLog log_;
+  InertialInput input_{InertialInputConfig{}, 0.2, log_};
   common::Setpoint setpoint_;
   double thrust_over_hover_ = 1.0;
   bool airborne_ = true, applies_ = true;

@@ -20,7 +20,8 @@ common::Polygon square(double x_m, double y_m, double side_m) {
 }
 
 TEST(KeepOutZones, TheOperatorTakesBackHisOwnOnly) {
-  FlightRequests requests(0.275);
+  common::EventLog log;
+  FlightRequests requests(0.275, nullptr, log);
   const common::World world = test::Layers().world();
   requests.take({7, common::KeepOutRequest{square(2, 2, 1)}}, world);
   const auto answers = requests.takeAnswers({});
@@ -38,7 +39,8 @@ TEST(KeepOutZones, TheOperatorTakesBackHisOwnOnly) {
 }
 
 TEST(KeepOutZones, TheTakeOffPlaceStaysFree) {
-  FlightRequests requests(0.275);
+  common::EventLog log;
+  FlightRequests requests(0.275, nullptr, log);
   const common::World world = test::Layers().world();
   for (const auto& zone : {square(-0.5, -0.5, 1), square(0.2, -0.5, 1)}) {
     const auto refused = requests.take({1, common::KeepOutCommand{zone}}, world);

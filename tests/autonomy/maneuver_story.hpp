@@ -32,7 +32,8 @@ struct Choices {
 
 class ManeuverStory : public testing::Test {
  protected:
-  explicit ManeuverStory(const Choices& choices = {}) : executor_(config(choices), {}, 0.05, controller_, *jobs_) {
+  explicit ManeuverStory(const Choices& choices = {})
+      : executor_(config(choices), {}, 0.05, controller_, *jobs_, log_) {
     state_.T_map_odom = kT_map_odom;
     state_.horizontal_valid = state_.vertical_valid = true;
     state_.T_odom_body.position_m.z() = kStanding_m;
@@ -132,7 +133,8 @@ class ManeuverStory : public testing::Test {
   }
 
   common::Time now_;
-  control::FlightController controller_{{}, {}};
+  common::EventLog log_, controller_log_;
+  control::FlightController controller_{{}, {}, controller_log_};
   common::VehicleState state_;
   common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
   std::shared_ptr<const common::LevelMap> surfaces_;
@@ -166,7 +168,7 @@ class ManeuverStory : public testing::Test {
     state_.stamp = now_;
     jobs_->deliverDue(now_);
     if (ticks_++ % 5 == 0) executor_.tick(intent_, input());
-    for (common::Event& event : executor_.takeEvents()) events_.push_back(std::move(event));
+    for (common::Event& event : log_.take()) events_.push_back(std::move(event));
     control::FlightTick tick;
     tick.now = now_;
     tick.state = state_;

@@ -33,12 +33,13 @@ class MapChangesStory : public testing::Test {
       now_ += common::Duration::fromSeconds(2.0);
       changes_.update(now_, flown_, laid_, T_map_given_);
     }
-    return changes_.takeEvents();
+    return log_.take();
   }
 
   OccupancyGrid flown_ = common::makeOccupancyGrid(kCell_m), laid_ = common::makeOccupancyGrid(kCell_m);
   Pose2 T_map_given_;
-  MapChanges changes_;
+  common::EventLog log_;
+  MapChanges changes_{log_};
   common::Time now_;
 };
 

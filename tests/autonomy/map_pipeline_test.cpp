@@ -25,7 +25,8 @@ TEST(KeyPoses, APoseRelativeToAKeyScanMovesWithIt) {
 TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
   const test::Ring ring;
   const auto jobs = common::makeLockstepJobs(0);
-  MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
+  common::EventLog log;
+  MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs, log);
   struct Seen {
     common::KeyRelativePose at_key;
     Pose2 T_map_body, truth;
@@ -39,7 +40,7 @@ TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
     ASSERT_TRUE(step.at_key);
     EXPECT_LT((planar(map.keyPoses()->inMap(*step.at_key)).position_m() - step.T_map_body.position_m()).norm(), 1e-9);
     seen.push_back({*step.at_key, step.T_map_body, truth});
-    for (common::Event& event : map.takeEvents()) events.push_back(std::move(event));
+    for (common::Event& event : log.take()) events.push_back(std::move(event));
   });
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events[0].text.substr(0, 11), "loop closed");
@@ -63,7 +64,8 @@ TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
     const auto jobs = common::makeLockstepJobs(0);
     perception::SlamMethodConfig config;
     config.method = method;
-    MapPipeline map(config, common::Duration::fromSeconds(0.4), *jobs);
+    common::EventLog log;
+    MapPipeline map(config, common::Duration::fromSeconds(0.4), *jobs, log);
     int scans = 0;
     ring.fly(0.1, [&](const perception::ProjectedScan& scan, const Pose2& T_odom_body,
                       const Eigen::Matrix3d& covariance, const Pose2&) {
@@ -81,7 +83,8 @@ TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
 
 TEST(MapPipeline, ThereIsNoKeyScanBeforeTheFirstScan) {
   const auto jobs = common::makeLockstepJobs(0);
-  MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
+  common::EventLog log;
+  MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs, log);
   EXPECT_TRUE(map.keyPoses()->keys.empty());
   EXPECT_FALSE(map.add({perception::ProjectedScan{}, {}, Eigen::Matrix3d::Zero(), false}, Time{}).at_key);
 }

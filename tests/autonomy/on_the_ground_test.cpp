@@ -73,7 +73,7 @@ TEST(Autonomy, BetweenWallsALaserThatReturnsNothingIsNoSight) {
     return true;
   };
   ASSERT_TRUE(story.until([&] { return story.event("supervisor", "hold") != story.events.end(); }, 2.0));
-  EXPECT_NEAR((story.event("supervisor", "hold")->stamp - blind).seconds(), SupervisorConfig{}.unseen_hold_s, 0.15);
+  EXPECT_NEAR((story.event("supervisor", "hold")->stamp - blind).seconds(), kUnseenHold_s, 0.15);
 }
 
 }  // namespace

@@ -45,14 +45,15 @@ class RgbdStory : public testing::Test {
   }
   std::vector<std::string> texts() {
     std::vector<std::string> texts;
-    for (const common::Event& event : pipeline_.takeEvents()) texts.push_back(event.text);
+    for (const common::Event& event : log_.take()) texts.push_back(event.text);
     return texts;
   }
 
   mapping3d::TexturedRoom room_;
   std::shared_ptr<const common::KeyPoses> keys_ = keysAt(1, {});
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
-  RgbdPipeline pipeline_{RgbdPipelineConfig(), camera(), *jobs_};
+  common::EventLog log_;
+  RgbdPipeline pipeline_{RgbdPipelineConfig(), camera(), *jobs_, log_};
 };
 
 TEST_F(RgbdStory, ANewerFrameReplacesTheOneThatWaits) {
@@ -72,7 +73,7 @@ TEST_F(RgbdStory, ANewerFrameReplacesTheOneThatWaits) {
 TEST_F(RgbdStory, OverARadioAFrameIsMappedWhenItHasComeThrough) {
   RgbdPipelineConfig config;
   config.radio.link_kB_s = 2000.0;  // The room has exact depths, which take four bytes a pixel.
-  RgbdPipeline pipeline(config, camera(), *jobs_);
+  RgbdPipeline pipeline(config, camera(), *jobs_, log_);
   pipeline.add(frameAt(1.0));
   pipeline.watch(keys_, Time::fromSeconds(1.001));
   EXPECT_FALSE(pipeline.next()) << "it is on the way";
@@ -86,12 +87,12 @@ TEST_F(RgbdStory, OverARadioAFrameIsMappedWhenItHasComeThrough) {
 TEST_F(RgbdStory, ARadioThatCarriesNoFrameInTimeIsReportedWithTheRemedy) {
   RgbdPipelineConfig config;
   config.radio.link_kB_s = 5.0;
-  RgbdPipeline pipeline(config, camera(), *jobs_);
+  RgbdPipeline pipeline(config, camera(), *jobs_, log_);
   std::vector<common::Event> events;
   for (int i = 0; i < 40; ++i) {
     pipeline.add(frameAt(1.0 + 0.1 * i));
     pipeline.watch(keys_, Time::fromSeconds(1.0 + 0.1 * i));
-    for (common::Event& event : pipeline.takeEvents()) events.push_back(std::move(event));
+    for (common::Event& event : log_.take()) events.push_back(std::move(event));
   }
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].text, "frames are sent smaller");
@@ -103,12 +104,12 @@ TEST_F(RgbdStory, ARadioThatCarriesNoFrameInTimeIsReportedWithTheRemedy) {
 TEST_F(RgbdStory, HowMuchSmallerFramesAreSentIsTold) {
   RgbdPipelineConfig config;
   config.radio.link_kB_s = 5.0;
-  RgbdPipeline pipeline(config, camera(), *jobs_);
+  RgbdPipeline pipeline(config, camera(), *jobs_, log_);
   mapping3d::TexturedRoom wide;
   wide.camera = {1280, 960, 1160.0, 1160.0, 639.5, 479.5};
   pipeline.add(std::make_shared<const common::RgbdFrame>(wide.seen({}, 1.0)));
   pipeline.watch(keys_, Time::fromSeconds(1.0));
-  const std::vector<common::Event> events = pipeline.takeEvents();
+  const std::vector<common::Event> events = log_.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].text, "frames are sent smaller");
   EXPECT_THAT(events[0].reason, testing::HasSubstr("the map has 1 in 64 of their pixels")) << "halved three times";
@@ -155,20 +156,20 @@ TEST_F(RgbdStory, AClosureFusesTheSubmapsAgain) {
 
 TEST_F(RgbdStory, TheFilterGetsAMeasurementFromFrameToFrame) {
   see(1.0);
-  auto step = pipeline_.takeStep();
+  auto step = pipeline_.steps().take();
   ASSERT_TRUE(step);
   EXPECT_FALSE(step->measurement);
   EXPECT_EQ(step->clone_after, Time::fromSeconds(1.0));
   see(1.1);
-  step = pipeline_.takeStep();
+  step = pipeline_.steps().take();
   ASSERT_TRUE(step && step->measurement);
   EXPECT_EQ(step->measurement->from, Time::fromSeconds(1.0));
   EXPECT_LT(step->measurement->T_from_to.position_m.norm(), 0.01);
-  EXPECT_FALSE(pipeline_.takeStep()) << "it counts once";
+  EXPECT_FALSE(pipeline_.steps().take()) << "it counts once";
   // The filter has dropped its clone: the next frame begins a new one.
-  pipeline_.forgetClone();
+  pipeline_.steps().forgetClone();
   see(1.2);
-  step = pipeline_.takeStep();
+  step = pipeline_.steps().take();
   ASSERT_TRUE(step);
   EXPECT_FALSE(step->measurement);
   EXPECT_EQ(step->clone_after, Time::fromSeconds(1.2));
@@ -199,7 +200,7 @@ TEST_F(RgbdStory, ACameraThatSendsNothingUsableIsReported) {
   watchUntil(20.95, 10.0);
   EXPECT_THAT(texts(), testing::ElementsAre("a frame cannot be used"));
   watchUntil(23.0, 10.0);
-  const auto events = pipeline_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].text, "camera sends nothing usable");
   EXPECT_EQ(events[0].reason,
@@ -218,7 +219,7 @@ TEST_F(RgbdStory, APictureThatIsRepeatedWithNewStampsIsRefused) {
     EXPECT_FALSE(pipeline_.next());
   }
   EXPECT_EQ(pipeline_.counts().skipped, 2u);
-  const auto events = pipeline_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_THAT(events[0].reason, testing::HasSubstr("repeats the last picture"));
   see(1.3);

@@ -21,7 +21,8 @@ class ScanWatchStory : public testing::Test {
     return watch_.repeats(scan);
   }
 
-  ScanWatch watch_;
+  common::EventLog log_;
+  ScanWatch watch_{log_};
   double now_s_ = 0.0;
 };
 
@@ -29,19 +30,19 @@ TEST_F(ScanWatchStory, ScansWithNoiseNeverRepeat) {
   EXPECT_FALSE(repeats({2.0F, 3.0F, kInfinity}));
   EXPECT_FALSE(repeats({2.0F, 3.001F, kInfinity}));
   EXPECT_FALSE(repeats({2.0F, 3.0F, kInfinity}));
-  EXPECT_TRUE(watch_.takeEvents().empty());
+  EXPECT_TRUE(log_.take().empty());
 }
 
 TEST_F(ScanWatchStory, ARepeatedScanCountsAsNoneAndIsSaidOnce) {
   EXPECT_FALSE(repeats({2.0F, 3.0F}));
   EXPECT_TRUE(repeats({2.0F, 3.0F}));
-  EXPECT_TRUE(watch_.takeEvents().empty()) << "a scan given twice";
+  EXPECT_TRUE(log_.take().empty()) << "a scan given twice";
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(repeats({2.0F, 3.0F}));
-  const auto events = watch_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events.front().severity, common::Severity::kWarning);
   EXPECT_FALSE(repeats({2.1F, 3.0F}));
-  ASSERT_EQ(watch_.takeEvents().size(), 1u) << "it measures again";
+  ASSERT_EQ(log_.take().size(), 1u) << "it measures again";
 }
 
 TEST_F(ScanWatchStory, AnOpenPlaceWithoutAnyReturnIsSeenEveryTime) {

@@ -16,20 +16,22 @@ common::PilotSample pilotAt(double measured_s, double arrived_s) {
 }
 
 TEST(StampCheck, RefusesAStampOfTheFutureAndSaysSoOnce) {
-  StampCheck check;
+  common::EventLog log;
+  StampCheck check(log);
   EXPECT_TRUE(check.accepts(batteryAt(1.0, 1.02)));
   EXPECT_FALSE(check.accepts(batteryAt(1001.0, 1.2)));
   EXPECT_FALSE(check.accepts(batteryAt(1001.2, 1.4)));
   EXPECT_TRUE(check.accepts(pilotAt(1.4, 1.4)));
   EXPECT_TRUE(check.accepts(batteryAt(1.6, 1.62)));
-  const auto events = check.takeEvents();
+  const auto events = log.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].text, "a measurement is refused: battery");
   EXPECT_EQ(events[0].reason, "its stamp lies 1e+03 s in the future");
 }
 
 TEST(StampCheck, ClocksThatDifferALittleAreNoFault) {
-  StampCheck check;
+  common::EventLog log;
+  StampCheck check(log);
   EXPECT_TRUE(check.accepts(batteryAt(1.07, 1.0))) << "20 ppm for an hour";
   EXPECT_FALSE(check.accepts(batteryAt(1.3, 1.1)));
 }

@@ -39,7 +39,7 @@ TEST_F(SupervisorStory, EachFlightIsToldOfItsCharge) {
   const auto told = [this](double t_s, double remaining, bool airborne) {
     energy_.battery_remaining = remaining;
     at(t_s, airborne);
-    return supervisor_.takeEvents().size();
+    return log_.take().size();
   };
   EXPECT_EQ(told(1.0, 0.29, true), 1u);
   EXPECT_EQ(told(2.0, 0.28, true), 0u);

@@ -15,7 +15,8 @@ using common::Time;
 
 /// The trail of an interrupted flight back has the way back in it, too.
 TEST(SupervisorIntents, AFlightBackThatWasInterruptedKeepsItsPath) {
-  Supervisor supervisor{SupervisorConfig{}};
+  common::EventLog log;
+  Supervisor supervisor(SupervisorConfig{}, log);
   SupervisorIntents intents(0.1);
   common::VehicleLayer vehicle;
   common::TrailRecorder trail;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -13,16 +14,28 @@ using common::Time;
 
 class SupervisorStory : public testing::Test {
  protected:
+  SupervisorStory() { energy_.battery_voltage_v = 11.1; }
+
   const Supervision& at(double t_s, bool airborne = true) {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, charge_counted_on_, vertical_age_s_, drift_m_,
-                                                     walls_around_, measured_, sensor_lies_, lands_});
+    VehicleCondition condition;
+    condition.flight = flight;
+    condition.energy = energy_;
+    condition.charge_counted_on = charge_counted_on_;
+    condition.vertical_age_s = vertical_age_s_;
+    condition.drift_m = drift_m_;
+    condition.walls_around = walls_around_;
+    condition.position_measured = measured_;
+    condition.sensor_lies = sensor_lies_;
+    condition.lands = lands_;
+    return supervisor_.tick(Time::fromSeconds(t_s), std::move(condition));
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
-  Supervisor supervisor_{SupervisorConfig{}};
+  common::EventLog log_;
+  Supervisor supervisor_{SupervisorConfig{}, log_};
   common::EnergyLayer energy_;
   std::string charge_counted_on_;
   double vertical_age_s_ = 0.0;

@@ -32,11 +32,11 @@ TEST_F(SupervisorStory, TellsWhatFliesTheVehicle) {
   EXPECT_EQ(told(0.2), "operator: fly home");
   supervisor_.pilotArrived(Time::fromSeconds(0.3), true);
   EXPECT_EQ(told(0.3), "pilot: hold");
-  EXPECT_EQ(alarmOf(supervisor_.takeEvents().back()), "pilot");
+  EXPECT_EQ(alarmOf(log_.take().back()), "pilot");
   supervisor_.pilotArrived(Time::fromSeconds(0.4), false);
   ASSERT_TRUE(supervisor_.take({3, common::LandCommand{}}, Time::fromSeconds(0.5)));
   EXPECT_EQ(told(0.5), "operator: land");
-  EXPECT_EQ(alarmOf(supervisor_.takeEvents().back()), "") << "the operator asked for it";
+  EXPECT_EQ(alarmOf(log_.take().back()), "") << "the operator asked for it";
 }
 
 TEST_F(SupervisorStory, TheMissionHoldsWhileThePilotFlies) {
@@ -48,7 +48,7 @@ TEST_F(SupervisorStory, TheMissionHoldsWhileThePilotFlies) {
   EXPECT_TRUE(supervisor_.pilotFlies());
   supervisor_.pilotArrived(Time::fromSeconds(9), false);
   EXPECT_FALSE(at(9.1).hold);
-  EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
+  EXPECT_EQ(log_.take().size(), 2u);
 }
 
 TEST_F(SupervisorStory, APilotWhoIsSilentNoLongerFliesAndTheVehicleHolds) {
@@ -59,7 +59,7 @@ TEST_F(SupervisorStory, APilotWhoIsSilentNoLongerFliesAndTheVehicleHolds) {
   EXPECT_TRUE(at(2.1).hold);
   EXPECT_FALSE(supervisor_.pilotFlies());
   EXPECT_EQ(at(2.1).hold_reason, "the operator holds") << "the mission does not go on by itself";
-  EXPECT_THAT(supervisor_.takeEvents().back().reason, HasSubstr("the pilot has not been heard of for 1.0 s"));
+  EXPECT_THAT(log_.take().back().reason, HasSubstr("the pilot has not been heard of for 1.0 s"));
   ASSERT_TRUE(supervisor_.take({1, common::ResumeCommand{}}, Time::fromSeconds(5))->accepted);
   EXPECT_FALSE(at(5.0).hold);
 }
@@ -71,7 +71,7 @@ TEST_F(SupervisorStory, SaysThatTheChargeIsCountedOn) {
   at(3.0);
   charge_counted_on_.clear();
   at(4.0);
-  const auto events = supervisor_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].text, "the charge is counted on by the current");
   EXPECT_EQ(events[0].reason, "no sample of the battery for 2.5 s");
@@ -128,7 +128,7 @@ TEST_F(SupervisorStory, WithoutAMissionItWaitsAtHomeAndHoldsNothing) {
   EXPECT_EQ(supervisor_.holdReason(), "the operator wants it home") << "for a mission that is started meanwhile";
   supervisor_.homeEnded(Time::fromSeconds(9), true, {});
   EXPECT_FALSE(at(9.1).hold) << "a mission that is started is flown without Resume";
-  EXPECT_EQ(supervisor_.takeEvents().back().reason, "the vehicle holds until a mission is started, or it lands");
+  EXPECT_EQ(log_.take().back().reason, "the vehicle holds until a mission is started, or it lands");
 }
 
 TEST_F(SupervisorStory, HoldStopsTheFlightHome) {
@@ -154,7 +154,7 @@ TEST_F(SupervisorStory, ASilentLaserOnlyHoldsWhileOtherSensorsMeasureThePosition
   measured_ = true;
   scanAt(1.0);
   EXPECT_TRUE(at(1.4).hold);
-  EXPECT_THAT(supervisor_.takeEvents().back().reason, HasSubstr("other sensors measure the position"));
+  EXPECT_THAT(log_.take().back().reason, HasSubstr("other sensors measure the position"));
   EXPECT_FALSE(at(6.0).land);
   measured_ = false;
   EXPECT_TRUE(at(6.1).land) << "the position is lost too";
@@ -246,25 +246,28 @@ TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
   energy_.home_share = 0.05;
   energy_.home_planned = true;
   at(2.0);
-  EXPECT_EQ(supervisor_.takeEvents().size(), 3u) << "below 30 %, below 20 %, turn back";
+  EXPECT_EQ(log_.take().size(), 3u) << "below 30 %, below 20 %, turn back";
   energy_.home_share = 0.10;
   at(3.0);
   at(4.0);
-  const auto events = supervisor_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "home is out of reach");
+  EXPECT_EQ(events[0].text, "home out of reach");
   EXPECT_EQ(events[0].reason, "10 % to fly 20.0 m home, 7 % left to fly with: it lands on the way");
 }
 
 TEST_F(SupervisorStory, TheTakeOffIsRefusedWithTheFigure) {
-  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the battery has not been measured");
+  const auto refusal = [this] { return at(1.0, false).take_off_refusal; };
+  energy_.battery_voltage_v = 0.0;
+  EXPECT_EQ(refusal(), "the battery has not been measured");
   energy_.battery_voltage_v = 11.1;
   energy_.thrust_margin = 1.00;
-  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the thrust is at most 1.00 times the weight; 1.01 is needed");
+  EXPECT_EQ(refusal(), "the thrust is at most 1.00 times the weight; 1.01 is needed");
   energy_.thrust_margin = 1.3;
-  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "");
+  EXPECT_EQ(refusal(), "");
   energy_.battery_remaining = 0.13;
-  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "13 % of the battery are left; 14 % are needed, and it lands at 12 %");
+  EXPECT_EQ(refusal(), "13 % of the battery are left; 14 % are needed, and it lands at 12 %");
+  EXPECT_EQ(at(2.0).take_off_refusal, "") << "it flies";
 }
 
 TEST_F(SupervisorStory, TheChargeIsTheSubjectOfTwoEvents) {
@@ -272,7 +275,7 @@ TEST_F(SupervisorStory, TheChargeIsTheSubjectOfTwoEvents) {
     energy_.battery_remaining = remaining;
     at(1.0);
   }
-  const auto events = supervisor_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].text, "29 % of the battery left");
   EXPECT_EQ(events[1].text, "19 % of the battery left");
@@ -304,20 +307,20 @@ TEST_F(SupervisorStory, LandsWhereFlyingBackToTheStartDidNotHelp) {
   supervisor_.backEnded(Time::fromSeconds(9));
   EXPECT_TRUE(at(9.0).land);
   EXPECT_THAT(at(9.0).land_reason, HasSubstr("the position is uncertain by 1.2 m, also after flying back"));
-  (void)supervisor_.takeEvents();
+  (void)log_.take();
   EXPECT_EQ(at(9.5).back, 0u) << "it lands, wherever it is";
-  EXPECT_THAT(supervisor_.takeEvents(), testing::IsEmpty());
+  EXPECT_THAT(log_.take(), testing::IsEmpty());
 }
 
 TEST_F(SupervisorStory, LandsAtOnceWhenThePositionIsTooUncertain) {
-  drift_m_ = SupervisorConfig{}.drift_land_m + 0.1;
+  drift_m_ = kDriftLand_m + 0.1;
   EXPECT_TRUE(at(1.0).land);
 }
 
 TEST_F(SupervisorStory, InTheOpenItFliesBackInsideBeforeItLands) {
   vertical_age_s_ = 0.0;
   walls_around_ = false;
-  drift_m_ = SupervisorConfig{}.drift_land_m + 0.1;
+  drift_m_ = kDriftLand_m + 0.1;
   EXPECT_FALSE(at(1.0).land);
   EXPECT_EQ(at(1.0).back, 1u);
   walls_around_ = true;
@@ -326,7 +329,7 @@ TEST_F(SupervisorStory, InTheOpenItFliesBackInsideBeforeItLands) {
 
 TEST_F(SupervisorStory, ALostVehicleInTheOpenLandsInTheEnd) {
   walls_around_ = false;
-  drift_m_ = 2.0 * SupervisorConfig{}.drift_land_m + 0.1;
+  drift_m_ = 2.0 * kDriftLand_m + 0.1;
   EXPECT_TRUE(at(1.0).land);
 }
 
@@ -352,7 +355,7 @@ TEST_F(SupervisorStory, EachChangeIsAnEventWithItsReason) {
   at(1.5);
   scanAt(1.6);
   at(1.6);
-  const auto events = supervisor_.takeEvents();
+  const auto events = log_.take();
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].text, "hold");
   EXPECT_THAT(events[0].reason, HasSubstr("no scan"));

@@ -49,13 +49,14 @@ class VerticalLaserStory : public testing::Test {
   }
   std::vector<std::string> texts() {
     std::vector<std::string> texts;
-    for (const common::Event& event : pipeline_.takeEvents()) texts.push_back(event.text);
+    for (const common::Event& event : log_.take()) texts.push_back(event.text);
     return texts;
   }
 
   std::shared_ptr<const common::KeyPoses> keys_ = keysAt(1, {});
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
-  VerticalLaserPipeline pipeline_{VerticalLaserPipelineConfig(), upright(), *jobs_};
+  common::EventLog log_;
+  VerticalLaserPipeline pipeline_{VerticalLaserPipelineConfig(), upright(), *jobs_, log_};
 };
 
 TEST_F(VerticalLaserStory, DrawsThePipeThatItFliesThrough) {

@@ -27,8 +27,8 @@ struct Loop {
                 const control::FlightController::Config& config = {}, const control::VehicleModel* model = nullptr,
                 const autonomy::EstimatorConfig& estimation = {})
       : vehicle(room(table), scenario),
-        estimator(estimation, Loop::scenario(1).laser, Loop::scenario(1).vehicle, nullptr, *jobs),
-        controller(config, scenario.vehicle, model),
+        estimator(estimation, Loop::scenario(1).laser, Loop::scenario(1).vehicle, nullptr, *jobs, log),
+        controller(config, scenario.vehicle, log, model),
         has_ahrs(estimation.fusion.use_ahrs) {}
 
   static simulation::WorldModel room(bool table) {
@@ -52,8 +52,10 @@ struct Loop {
 
   simulation::SimulatedVehicle vehicle;
   std::unique_ptr<common::JobRunner> jobs = common::makeLockstepJobs(0);
+  common::EventLog log;
   autonomy::Estimator estimator;
-  autonomy::InertialInput inertial{{}, control::PositionController::Config{}.attitude_lag_s};
+  common::EventLog inertial_log;
+  autonomy::InertialInput inertial{{}, control::PositionController::Config{}.attitude_lag_s, inertial_log};
   control::FlightController controller;
   bool has_ahrs;
   double battery_v = 0;
@@ -195,7 +197,7 @@ TEST(ClosedLoop, WithoutAnAhrsItStartsByGravityAndFliesACorner) {
     EXPECT_LT(std::abs(tilt.roll_rad - truth.roll_rad), 2.0 * common::kRadPerDeg);
     EXPECT_LT(std::abs(tilt.pitch_rad - truth.pitch_rad), 2.0 * common::kRadPerDeg);
     EXPECT_EQ(loop.estimator.health().status, perception::FusionStatus::kOk) << loop.estimator.health().reason;
-    EXPECT_TRUE(loop.inertial.takeEvents().empty()) << "samples were replaced";
+    EXPECT_TRUE(loop.inertial_log.take().empty()) << "samples were replaced";
   }
 }
 
@@ -204,7 +206,7 @@ TEST(ClosedLoop, SaysWhyItDoesNotStartWithoutTheAhrsThatItExpects) {
   loop.has_ahrs = false;
   loop.until([] { return false; }, 2.0);
   std::string said;
-  for (const common::Event& event : loop.estimator.takeEvents()) said += event.text + ": " + event.reason + "\n";
+  for (const common::Event& event : loop.log.take()) said += event.text + ": " + event.reason + "\n";
   EXPECT_NE(said.find("use_ahrs"), std::string::npos) << said;
 }
 

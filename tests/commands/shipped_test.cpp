@@ -96,6 +96,21 @@ TEST(Shipped, TheReferenceOfAllSettingsIsUpToDate) {
       << "update it: swiftlet config --reference > docs/configuration.md";
 }
 
+TEST(Shipped, TheTableOfFailSafesIsUpToDate) {
+  EXPECT_EQ(test_support::readText(kRoot / "docs/failsafes.md"), runSwiftlet({"failsafe", "--markdown"}).out)
+      << "update it: swiftlet failsafe --markdown > docs/failsafes.md";
+}
+
+TEST(Failsafe, TellsWhichOfSeveralFindingsIsActive) {
+  const ProgramEnd told = runSwiftlet({"failsafe", "--phase", "flying", "charge-for-home", "surroundings-unseen"});
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_THAT(told.out, testing::StartsWith("flying: hold\n  because of: surroundings unseen\n"));
+  EXPECT_THAT(told.out, testing::HasSubstr("charge for home alone: fly home, then land\n"));
+  const ProgramEnd mistyped = runSwiftlet({"failsafe", "thrust-spend"});
+  EXPECT_EQ(mistyped.exit_code, 2);
+  EXPECT_THAT(mistyped.err, testing::HasSubstr("thrust-spent"));
+}
+
 /// The sentences of a reference page that cannot be read without the line before, with their setting or section.
 std::vector<std::string> dependentSentences(const std::string& page) {
   static const std::regex kStandsAlone(

@@ -24,7 +24,7 @@ TEST(Allocation, ATickInFlightMakesNone) {
     Flight flight(flightConfig(static_cast<ControllerKind>(kind)), &model);
     flight.hover();
     ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}}, FlightMode::kFast, {}}));
-    (void)flight.controller.takeEvents();
+    (void)flight.log.take();
     long made = 0;
     for (int i = 0; i < 600; ++i) {
       FlightTick tick;

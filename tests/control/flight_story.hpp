@@ -20,7 +20,8 @@ using common::FlightState;
 
 struct Flight {
   QuadrotorModel model;
-  FlightController controller{FlightController::Config{}, common::VehicleConfig{}};
+  common::EventLog log;
+  FlightController controller{FlightController::Config{}, common::VehicleConfig{}, log};
   common::Pose2 T_map_odom;
   bool horizontal_valid = true, vertical_valid = true, diverged = false, mirror = true;
   std::string inertial_fault;
@@ -41,7 +42,7 @@ struct Flight {
 
   Flight() = default;
   explicit Flight(const FlightController::Config& config, const VehicleModel* identified = nullptr)
-      : controller(config, common::VehicleConfig{}, identified) {}
+      : controller(config, common::VehicleConfig{}, log, identified) {}
 
   void tick() {
     FlightTick tick;

@@ -145,7 +145,7 @@ TEST(Flight, LandsInAnEmergencyWithoutTheEstimateAfterDivergence) {
   flight.diverged = true;
   flight.tick();
   EXPECT_EQ(flight.controller.state(), FlightState::kEmergencyLanding);
-  EXPECT_EQ(flight.controller.takeEvents().back().severity, common::Severity::kWarning);
+  EXPECT_EQ(flight.log.take().back().severity, common::Severity::kWarning);
   EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kPoweredOff; }, 15.0));
   EXPECT_NEAR(flight.model.position_m.z(), QuadrotorModel::kStanding_m, 1e-6);
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);

@@ -41,8 +41,9 @@ TEST_F(DetourTest, IsRequestedFromTheDeskAndNotRepeatedAtOnce) {
 TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
   begin();
   EXPECT_TRUE(detour_.active());
-  EXPECT_EQ(lastSaid(), "goes nearer to look");
-  EXPECT_EQ(memory_.events.back().reason, "a wall");
+  const common::Event event = lastEvent();
+  EXPECT_EQ(event.text, "goes nearer to look");
+  EXPECT_EQ(event.reason, "a wall");
   runUntil(
       [this] {
         detour_.endWhenOver(input());

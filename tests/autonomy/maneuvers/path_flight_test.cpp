@@ -61,7 +61,7 @@ TEST_F(PathFlightTest, StopsBeforeAnObstacleOnThePlanAndReportsIt) {
   fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
   look();
   EXPECT_TRUE(flight_.keep(input()));
-  EXPECT_EQ(lastSaid(), "plan given up");
+  EXPECT_EQ(lastEvent().text, "plan given up");
   EXPECT_FALSE(flight_.plan());
   run(1.5);
   EXPECT_TRUE(controller_.stopped());
@@ -73,7 +73,7 @@ TEST_F(PathFlightTest, DropsThePlanWhenTheControllerDropsThePath) {
   EXPECT_FALSE(flight_.plan());
   EXPECT_TRUE(flight_.remaining_map_m().empty());
   EXPECT_EQ(flight_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
-  EXPECT_EQ(lastSaid(), "nothing") << "the code that ended it reports it";
+  EXPECT_EQ(lastEvent().text, "nothing") << "the code that ended it reports it";
   flight_.offer(straight({1.5, 2.0}, {6.0, 2.0}), now_, state_);
   EXPECT_TRUE(flight_.plan()) << "the same path is flown again";
 }

@@ -28,7 +28,11 @@ class ManeuverWorkbench : public ManeuverInFlight {
     const double length_m = (to_map_m - from_map_m).norm();
     return {{from_map_m, to_map_m}, length_m, length_m};
   }
-  std::string lastSaid() const { return memory_.events.empty() ? "nothing" : memory_.events.back().text; }
+  /// The last event since the last call.
+  common::Event lastEvent() {
+    const std::vector<common::Event> events = memory_log_.take();
+    return events.empty() ? common::Event{{}, {}, {}, "nothing", {}} : events.back();
+  }
 
   std::unique_ptr<common::JobRunner> desk_jobs_ = common::makeLockstepJobs(0);
   std::vector<PlanningAnswer> answers_;
@@ -37,7 +41,8 @@ class ManeuverWorkbench : public ManeuverInFlight {
                        answers_.push_back(answer);
                      }};
   RetreatFlight retreat_{controller_};
-  FlightMemory memory_;
+  common::EventLog memory_log_;
+  FlightMemory memory_{memory_log_};
   ManeuverSetup setup_{config_, controller_, desk_, retreat_, memory_, {7, 0.10}};
 };
 

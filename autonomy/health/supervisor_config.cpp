@@ -1,4 +1,4 @@
-#include "autonomy/watches/supervisor_config.hpp"
+#include "autonomy/health/supervisor_config.hpp"
 
 #include "common/config_fields.hpp"
 

@@ -1,0 +1,76 @@
+// What is doubted in flight. Each check is one row: what it finds, for how long that must have been so, the value with
+// its bound, and the sentence for people. What follows from a finding stands in control/failsafe.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "autonomy/health/supervisor_config.hpp"
+#include "common/event.hpp"
+#include "common/time.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/flight_state.hpp"
+#include "control/failsafe.hpp"
+
+namespace swiftlet::autonomy {
+
+/// Without sight of the surroundings the vehicle holds after this time. A laser at 10 Hz may lose two scans in a row
+/// on its link, not three.
+inline constexpr double kUnseenHold_s = 0.3;
+/// The same after which it lands: it drifts by 0.3 to 0.5 m/s at worst then.
+inline constexpr double kUnseenLand_s = 1.0;
+/// Standard deviation of the position, gathered where the laser did not fix it, at which the vehicle flies back. Half
+/// of a door's width is 0.45 m, and a map of walls that are off by more is no map to fly by
+/// (docs/decisions/fail_safes.md).
+inline constexpr double kDriftBack_m = 1.0;
+/// The same at which it lands; in the open it flies back up to twice as much, because the trail leads inside.
+inline constexpr double kDriftLand_m = 2.0;
+
+/// The condition of the vehicle at one tick.
+struct VehicleCondition {
+  common::FlightState flight = common::FlightState::kPreparation;
+  common::EnergyLayer energy;
+  std::string charge_counted_on;  ///< EnergyMonitor::countedOn.
+  double unseen_s = 0.0;          ///< Since a sensor saw the surroundings; 0 on the ground.
+  double pilot_silent_s = 0.0;    ///< Since a pilot who flies was heard of; 0 while the program flies.
+  double vertical_age_s = 0.0;    ///< VehicleState::verticalAge_s.
+  double drift_m = 0.0;           ///< See DriftMonitor.
+  /// Whether the map has walls around the vehicle, by which the position may be found again: not so in the open.
+  bool walls_around = true;
+  /// Whether the state is valid and some sensor has just measured the position and the height.
+  bool position_measured = false;
+  /// What contradicts the inertial samples, for people; empty if nothing does.
+  std::string sensor_lies;
+  bool lands = false;  ///< The vehicle is about to land where it is, and needs no path home.
+};
+
+/// A value against the bound beyond which it is a finding.
+struct Reading {
+  double value = 0.0;
+  double bound = 0.0;
+  bool beyond = false;
+};
+
+struct Finding {
+  control::FindingKind what;
+  Reading reading;  ///< Of now, against the bound at which it began.
+  common::Time since;
+  std::string why;  ///< For people, with the figures at its beginning.
+  common::Concern concern;
+
+  bool operator==(control::FindingKind kind) const { return what == kind; }
+};
+
+/// A row. `active`: it has been found before, and its bound may be a narrower one until it ends.
+struct Check {
+  control::FindingKind what;
+  double enter_after_s, leave_after_s;  ///< Before a take-off it counts at once.
+  Reading (*read)(const VehicleCondition& condition, const SupervisorConfig& config, bool active);
+  std::string (*why)(const VehicleCondition& condition, const SupervisorConfig& config);
+  common::Concern concern;  ///< Of the event at its beginning.
+};
+
+/// Those of the supervisor. Checks of the estimate itself belong to the flight controller, which works without one.
+std::span<const Check> checks();
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,230 @@
+#include "control/failsafe.hpp"
+
+#include <algorithm>
+
+#include "common/check.hpp"
+
+namespace swiftlet::control {
+
+using common::FlightState;
+
+namespace {
+
+using Phases = std::array<bool, kFlightPhases.size()>;
+constexpr Phases kGround{true, false, false, false}, kAir{false, true, true, true},
+    kUpAndFlying{false, true, true, false}, kInFlight{false, false, true, false}, kAlways{true, true, true, true};
+
+using enum FindingKind;
+
+/// Rows of equal responses are ranked by their order.
+constexpr Failsafe kFailsafes[] = {
+    {kEstimateDiverged, kGround, Response::kMotorsOff, Ends::kNever},
+    {kEstimateDiverged, kAir, Response::kDescend, Ends::kNever},
+    {kHeightLost, kAir, Response::kDescend, Ends::kNever},
+    {kInertialUnusable, kAir, Response::kDescend, Ends::kNever},
+    {kSensorContradicted, kAir, Response::kLand, Ends::kNever},
+    {kHorizontalLost, kUpAndFlying, Response::kLand, Ends::kNever},
+    {kSurroundingsLost, kAir, Response::kLand, Ends::kNever},
+    {kPositionLost, kInFlight, Response::kLand, Ends::kNever},
+    {kChargeSpent, kAir, Response::kLand, Ends::kNever},
+    {kThrustSpent, kInFlight, Response::kLand, Ends::kNever},
+    {kSurroundingsUnseen, kAir, Response::kHold, Ends::kWithFinding},
+    {kPilotSilent, kAlways, Response::kHold, Ends::kOnResume},
+    {kHeightUnmeasured, kInFlight, Response::kFlyBack, Ends::kWithFinding, Response::kLand},
+    {kPositionUncertain, kInFlight, Response::kFlyBack, Ends::kWithFinding, Response::kLand},
+    {kChargeForHome, kInFlight, Response::kFlyHome, Ends::kNever, Response::kLand},
+    {kBatteryUnmeasured, kGround, Response::kRefuseTakeOff, Ends::kWithFinding},
+    {kThrustSpent, kGround, Response::kRefuseTakeOff, Ends::kWithFinding},
+    {kChargeSpent, kGround, Response::kRefuseTakeOff, Ends::kWithFinding},
+    {kInertialUnusable, kGround, Response::kRefuseTakeOff, Ends::kWithFinding},
+    {kHeightLost, kGround, Response::kRefuseTakeOff, Ends::kWithFinding},
+    {kHorizontalLost, kGround, Response::kRefuseTakeOff, Ends::kWithFinding},
+    {kChargeCountedOn, kAir, Response::kWarn, Ends::kWithFinding},
+    {kChargeBelow30, kAir, Response::kWarn, Ends::kNever},
+    {kChargeBelow20, kAir, Response::kWarn, Ends::kNever},
+    {kHomeOutOfReach, kInFlight, Response::kWarn, Ends::kNever},
+};
+
+static_assert(std::is_sorted(std::begin(kFailsafes), std::end(kFailsafes),
+                             [](const Failsafe& a, const Failsafe& b) { return a.response > b.response; }),
+              "the rows stand by rank");
+
+}  // namespace
+
+FlightPhase phaseOf(FlightState state) {
+  switch (state) {
+    case FlightState::kPreparation:
+    case FlightState::kPoweredOff:
+    case FlightState::kLanded:
+      return FlightPhase::kOnGround;
+    case FlightState::kTakingOff:
+      return FlightPhase::kTakingOff;
+    case FlightState::kFlying:
+      return FlightPhase::kFlying;
+    case FlightState::kLanding:
+    case FlightState::kEmergencyLanding:
+      return FlightPhase::kLanding;
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(state));
+  return FlightPhase::kOnGround;
+}
+
+std::span<const Failsafe> failsafes() { return kFailsafes; }
+
+const Failsafe* failsafeFor(FindingKind finding, FlightPhase phase) {
+  const auto row = std::find_if(std::begin(kFailsafes), std::end(kFailsafes), [&](const Failsafe& one) {
+    return one.finding == finding && one.phases[static_cast<std::size_t>(phase)];
+  });
+  return row == std::end(kFailsafes) ? nullptr : row;
+}
+
+const Failsafe* activeFailsafe(std::span<const FindingKind> findings, FlightPhase phase) {
+  const Failsafe* active = nullptr;
+  for (const FindingKind finding : findings) {
+    const Failsafe* row = failsafeFor(finding, phase);
+    // Rows stand by rank, so the row that comes first in the table has the higher one.
+    if (row != nullptr && (active == nullptr || row < active)) active = row;
+  }
+  return active;
+}
+
+std::string_view toString(FindingKind finding) {
+  switch (finding) {
+    case kEstimateDiverged:
+      return "estimate diverged";
+    case kHeightLost:
+      return "height lost";
+    case kInertialUnusable:
+      return "inertial unusable";
+    case kSensorContradicted:
+      return "sensor contradicted";
+    case kHorizontalLost:
+      return "horizontal lost";
+    case kSurroundingsLost:
+      return "surroundings lost";
+    case kPositionLost:
+      return "position lost";
+    case kChargeSpent:
+      return "charge spent";
+    case kThrustSpent:
+      return "thrust spent";
+    case kSurroundingsUnseen:
+      return "surroundings unseen";
+    case kPilotSilent:
+      return "pilot silent";
+    case kHeightUnmeasured:
+      return "height unmeasured";
+    case kPositionUncertain:
+      return "position uncertain";
+    case kChargeForHome:
+      return "charge for home";
+    case kHomeOutOfReach:
+      return "home out of reach";
+    case kBatteryUnmeasured:
+      return "battery unmeasured";
+    case kChargeBelow30:
+      return "charge below 30";
+    case kChargeBelow20:
+      return "charge below 20";
+    case kChargeCountedOn:
+      return "charge counted on";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(finding));
+  return {};
+}
+
+std::string_view meaning(FindingKind finding) {
+  switch (finding) {
+    case kEstimateDiverged:
+      return "Innovations or covariances of the fusion are impossible.";
+    case kHeightLost:
+      return "There is no valid height for 0.3 s.";
+    case kInertialUnusable:
+      return "Inertial samples are missing, not finite, old or repeated for 0.2 s.";
+    case kSensorContradicted:
+      return "Inertial samples have contradicted the AHRS or the thrust for 1.5 s and are replaced.";
+    case kHorizontalLost:
+      return "There is no valid horizontal position for 1.0 s.";
+    case kSurroundingsLost:
+      return "No sensor has seen the surroundings for 1 s, or for 10 s while other sensors measure the position.";
+    case kPositionLost:
+      return "The position is uncertain by more than 2 m, in the open 4 m.";
+    case kChargeSpent:
+      return "The charge is below `battery_land_share`, before a take-off below that and `home_reserve_share`.";
+    case kThrustSpent:
+      return "The greatest thrust has been below `least_thrust_margin` times the weight for 1 s.";
+    case kSurroundingsUnseen:
+      return "No sensor has seen the surroundings for 0.3 s.";
+    case kPilotSilent:
+      return "A pilot who flies has not been heard of for 1 s.";
+    case kHeightUnmeasured:
+      return "The surface below has not been measured for 0.5 s.";
+    case kPositionUncertain:
+      return "The position is uncertain by more than 1 m.";
+    case kChargeForHome:
+      return "The charge suffices for 1.15 times the flight home and `home_reserve_share`, and no longer.";
+    case kHomeOutOfReach:
+      return "The charge is less than 0.8 times what the flight home takes.";
+    case kBatteryUnmeasured:
+      return "The battery has sent no sample yet.";
+    case kChargeBelow30:
+      return "The charge is 30 % or less.";
+    case kChargeBelow20:
+      return "The charge is 20 % or less.";
+    case kChargeCountedOn:
+      return "The gauge of the battery is silent or stands still: the charge is counted on by the current.";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(finding));
+  return {};
+}
+
+std::string_view toString(Response response) {
+  constexpr std::array<std::string_view, kResponses> kNames{
+      "nothing", "warn",    "refuse the take-off", "fly home", "fly back along the trail", "hold",
+      "land",    "descend", "motors off"};
+  return kNames.at(static_cast<std::size_t>(response));
+}
+
+std::string_view toString(FlightPhase phase) {
+  constexpr std::array<std::string_view, kFlightPhases.size()> kNames{"on the ground", "taking off", "flying",
+                                                                      "landing"};
+  return kNames.at(static_cast<std::size_t>(phase));
+}
+
+std::string_view toString(Ends ends) {
+  switch (ends) {
+    case Ends::kWithFinding:
+      return "with the finding";
+    case Ends::kOnResume:
+      return "when the operator resumes";
+    case Ends::kNever:
+      return "not in this flight";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(ends));
+  return {};
+}
+
+std::string_view operatorCan(Response response) {
+  switch (response) {
+    case Response::kNone:
+    case Response::kWarn:
+      return "everything";
+    case Response::kRefuseTakeOff:
+      return "mend the cause and take off";
+    case Response::kFlyHome:
+    case Response::kFlyBack:
+      return "hold it, land it, fly it by hand";
+    case Response::kHold:
+      return "land it, fly it by hand";
+    case Response::kLand:
+      return "fly it by hand";
+    case Response::kDescend:
+      return "fly it by hand";
+    case Response::kMotorsOff:
+      return "mend the cause";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(response));
+  return {};
+}
+
+}  // namespace swiftlet::control
