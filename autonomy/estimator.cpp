@@ -20,11 +20,6 @@ using common::Time;
 
 namespace {
 
-/// Period of the images from which slopes of the ground are taken.
-constexpr double kGroundPeriod_s = 0.2;
-/// Measurements of the camera are not used for this long after the beams down contradicted it, or corrected the height:
-/// two windows of HeightDrift, and longer than the filter resists a correction.
-constexpr double kCameraDoubted_s = 1.0;
 /// Several frames of a slow camera.
 constexpr double kCameraSaw_s = 0.3;
 
@@ -143,7 +138,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
                  localizer_ ? localizer_->background(map_.T_map_odom()) : std::nullopt, flown_.below_map_m);
   // Beams that pass below a beam do not show that it is gone.
   if (outcome.matched && flown_.below_map_m == 0.0) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
-  reportHealth(now);
+  filter_.reportHealth(now, log_);
   return outcome;
 }
 
@@ -234,24 +229,7 @@ Pose3 Estimator::T_odom_bodyAt(const perception::ProjectedScan& scan) const {
   return filter_->poseAt(scan.stamp).value_or(scan.T_odom_body);
 }
 
-void Estimator::reportHealth(Time now) {
-  if (filter_->status() == last_health_) return;
-  const auto health = filter_->health();
-  const Severity severity = health.status == perception::FusionStatus::kOk         ? Severity::kInfo
-                            : health.status == perception::FusionStatus::kDiverged ? Severity::kError
-                                                                                   : Severity::kWarning;
-  log_.add({now,
-            severity,
-            "fusion",
-            fmt::format("estimate {}", perception::toString(health.status)),
-            health.reason,
-            {},
-            common::Concern::kEstimate});
-  last_health_ = health.status;
-}
-
-// ------------------------------------------------------------------------------------------- the height, and the
-// camera
+// ------------------------------------------------------------------------------------------ the height and the camera
 
 void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Time now) {
   if (poses_.odomAtKey()) altitude_.follow(*map_.keyPoses(), poses_.odomAtKey()->key);
@@ -280,7 +258,7 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
     log_.info(stamp, "altitude", "the slope has ended",
               fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
   if (step.floor_regained_m) {
-    seen_.camera_doubted = stamp;
+    space_.doubtCamera(stamp);
     log_.warn(
         stamp, "altitude", "the floor is below again",
         fmt::format("what was taken for a level covers the floor that was seen before: the height is corrected by "
@@ -295,24 +273,20 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
 void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stamp) {
   const auto vertical = filter_->verticalAt(stamp);
   if (!space_.hasCamera() || !vertical) return;
-  if (!isCameraDoubted(stamp))
+  if (!space_.isCameraDoubted(stamp))
     log_.warn(
         stamp, "altitude", "the beams down contradict the height",
         fmt::format("over one place the distance down grows by {:+.2f} m/s more than the height; the camera is not "
                     "used for {:.0f} s",
-                    drift.speed_m_s, kCameraDoubted_s));
-  seen_.camera_doubted = stamp;
+                    drift.speed_m_s, SpaceSensors::kCameraDoubted_s));
+  space_.doubtCamera(stamp);
   filter_.tell(perception::TapedClimb{stamp, vertical->velocity_m_s + drift.speed_m_s, drift.variance_m2_s2});
-}
-
-bool Estimator::isCameraDoubted(Time now) const {
-  return seen_.camera_doubted && (now - *seen_.camera_doubted).seconds() < kCameraDoubted_s;
 }
 
 void Estimator::fuse(const CameraStep& step, Time now) {
   using perception::Insertion;
   // What was measured from before a correction of the height on would take it back.
-  if (isCameraDoubted(now)) return space_.forgetClone();
+  if (space_.isCameraDoubted(now)) return space_.forgetClone();
   if (step.measurement) {
     const auto taken = filter_.tell(*step.measurement);
     if (taken == Insertion::kTaken) {
@@ -325,17 +299,16 @@ void Estimator::fuse(const CameraStep& step, Time now) {
   if (step.clone_after) filter_.tell(perception::TapedClone{*step.clone_after});
 }
 
-/// The poses at the time of the frame are known when it arrives. A few images a second show each place several times.
+/// The poses at the time of the frame are known when it arrives.
 void Estimator::lookAtGround(const common::RgbdFrame& frame) {
   const common::CameraEstimate camera = space_.camera();
   const Time time = frame.stamps.measured - common::Duration::fromSeconds(camera.clock_offset_s);
-  if (!filter_->initialized() || (time - seen_.ground).seconds() < kGroundPeriod_s) return;
+  if (!filter_->initialized() || !altitude_.wantsGround(time)) return;
   const std::optional<common::KeyRelativePose> at_key = poses_.atKey(time);
   if (!at_key || !poses_.isSupported(frame.stamps.arrived)) return;
-  seen_.ground = time;
   const auto keys = map_.keyPoses();
   altitude_.follow(*keys, at_key->key);
-  altitude_.lookAtGround(frame.depth, frame.camera, keys->inMap(*at_key) * camera.T_body_camera);
+  altitude_.lookAtGround(time, frame.depth, frame.camera, keys->inMap(*at_key) * camera.T_body_camera);
 }
 
 }  // namespace swiftlet::autonomy

@@ -154,8 +154,6 @@ class Estimator {
   /// When a sensor last measured each; time of processing, not of measuring.
   struct Seen {
     common::Time position, height;
-    common::Time ground;                         ///< The last image that the slopes of the ground were taken from.
-    std::optional<common::Time> camera_doubted;  ///< When the beams down last contradicted the camera.
   };
 
   void begin(const common::LaserScan& scan);
@@ -170,9 +168,7 @@ class Estimator {
   void localize(const LocatedScan& located, common::Time now);
   void lookAtGround(const common::RgbdFrame& frame);
   void correctClimb(const perception::HeightDriftRate& drift, common::Time stamp);
-  bool isCameraDoubted(common::Time now) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
-  void reportHealth(common::Time now);
 
   common::EventLog& log_;
   HeardFilter filter_;
@@ -188,7 +184,6 @@ class Estimator {
   HorizonOffset horizon_;
   Feedback flown_;  ///< In the last tick.
   Seen seen_;
-  perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;
 };
 
 }  // namespace swiftlet::autonomy

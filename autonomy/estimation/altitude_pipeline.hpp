@@ -54,9 +54,13 @@ class AltitudePipeline {
     slopes_.follow(keys, newest_key);
   }
 
+  /// Whether the slopes of the ground are to be learned from an image of that time: a few images a second show each
+  /// place several times.
+  bool wantsGround(common::Time time) const { return (time - looked_at_ground_).seconds() >= kGroundPeriod_s; }
   /// Learns how the ground slopes from a depth image and the pose of its camera.
-  void lookAtGround(const common::DepthImage& depth, const common::PinholeCamera& camera,
+  void lookAtGround(common::Time time, const common::DepthImage& depth, const common::PinholeCamera& camera,
                     const common::Pose3& T_map_camera) {
+    looked_at_ground_ = time;
     slopes_.add(depth, camera, T_map_camera);
   }
 
@@ -76,6 +80,8 @@ class AltitudePipeline {
   std::shared_ptr<const common::LevelMap> levels();
 
  private:
+  static constexpr double kGroundPeriod_s = 0.2;
+
   perception::MultilevelFilter filter_;
   perception::SeenSurfaces seen_;
   perception::GroundSlopes slopes_;
@@ -85,6 +91,7 @@ class AltitudePipeline {
   perception::HeightDrift drift_;
   double hull_radius_m_;
   double surface_height_m_ = 0.0;
+  common::Time looked_at_ground_;
   common::Time slope_ended_;  ///< Stamp of the scan behind the last slope.
   std::uint64_t published_version_ = 0;
   std::shared_ptr<const common::LevelMap> published_;

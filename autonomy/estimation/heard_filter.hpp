@@ -5,6 +5,8 @@
 
 #include <tl/expected.hpp>
 
+#include "common/event_log.hpp"
+#include "common/time.hpp"
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/fusion/filter_tape.hpp"
 
@@ -22,12 +24,15 @@ class HeardFilter {
     if (listener_ != nullptr) listener_->heard(input);
     return perception::tell(filter_, input);
   }
+  /// Says when the filter's health has changed.
+  void reportHealth(common::Time now, common::EventLog& log);
   const perception::ErrorStateFilter* operator->() const { return &filter_; }
   const perception::ErrorStateFilter& operator*() const { return filter_; }
 
  private:
   perception::ErrorStateFilter filter_;
   perception::FilterListener* listener_ = nullptr;
+  perception::FusionStatus reported_ = perception::FusionStatus::kNotInitialized;
 };
 
 }  // namespace swiftlet::autonomy

@@ -59,6 +59,13 @@ class SpaceSensors {
   std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   /// See CameraSteps::forgetClone.
   void forgetClone() { rgbd_->steps().forgetClone(); }
+  /// Something contradicted the camera then: its measurements are not used for kCameraDoubted_s.
+  void doubtCamera(common::Time now) { camera_doubted_ = now; }
+  bool isCameraDoubted(common::Time now) const {
+    return camera_doubted_ && (now - *camera_doubted_).seconds() < kCameraDoubted_s;
+  }
+  /// Two windows of HeightDrift, and longer than the filter resists a correction.
+  static constexpr double kCameraDoubted_s = 1.0;
   /// Maps what has waited long enough, at every tick.
   void map(const MapSituation& situation, common::Time now);
 
@@ -79,6 +86,7 @@ class SpaceSensors {
   std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera.
   std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
   std::unique_ptr<TargetPipeline> targets_;                ///< Null without a camera, and without targets to look for.
+  std::optional<common::Time> camera_doubted_;
 };
 
 }  // namespace swiftlet::autonomy
