@@ -9,7 +9,6 @@
 #include "autonomy/energy/energy_monitor.hpp"
 #include "autonomy/estimator.hpp"
 #include "autonomy/health/supervisor_config.hpp"
-#include "autonomy/inertial/inertial_input.hpp"
 #include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/pilot_assist.hpp"
 #include "autonomy/reactive.hpp"
@@ -24,6 +23,9 @@
 
 namespace swiftlet::autonomy {
 
+/// Ticks of the mission's tree a second: a leaf answers within two scans of a laser at 40 Hz.
+inline constexpr double kBehaviorRate_hz = 20.0;
+
 /// All settings of the autonomy, read from a system profile (config/systems).
 struct AutonomyConfig {
   EstimatorConfig estimator;
@@ -32,9 +34,7 @@ struct AutonomyConfig {
   control::FlightController::Config control;
   SupervisorConfig supervisor;
   EnergyConfig energy;
-  static constexpr double behavior_rate_hz = 20.0;  ///< Ticks of the mission's tree a second.
   ScanQueueConfig scans;
-  InertialInputConfig inertial;  ///< Its sections are at this level of the file.
   PilotAssistConfig assist;
 
   void describe(common::config::Fields& fields);

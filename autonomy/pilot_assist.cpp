@@ -12,6 +12,10 @@ namespace {
 
 /// Grzonka 2009, V-F: programs perturb the commands of the user by 20 %.
 constexpr double kProgramShare = 0.20;
+/// Acceleration with which the pilot's velocity is followed.
+constexpr double kAcceleration_m_s2 = 1.0;
+/// As PilotAssist::kDeadBand, of the thrust's stick: where it hovers differs with vehicle and battery.
+constexpr double kClimbDeadBand = 0.2;
 /// Where the stick of the thrust is taken to hover until the pilot takes over.
 constexpr double kHoverStick = 0.5;
 /// The attitude of an autopilot is good to about a degree (common/sensor_event.hpp), which tilts the program's share.
@@ -73,8 +77,8 @@ bool PilotAssist::assists(bool pilot_flies, common::FlightState flight, const co
 Eigen::Vector2d PilotAssist::wantedVelocity_map_m_s(const common::VehicleState& state) const {
   if (!assists_) return Eigen::Vector2d::Zero();
   // A nose down flies forwards, a roll to the right flies to the right.
-  const Eigen::Vector2d level_m_s = config_.speed_m_s * Eigen::Vector2d(wish(sticks_.pitch, config_.dead_band),
-                                                                        -wish(sticks_.roll, config_.dead_band));
+  const Eigen::Vector2d level_m_s =
+      config_.speed_m_s * Eigen::Vector2d(wish(sticks_.pitch, kDeadBand), -wish(sticks_.roll, kDeadBand));
   return Eigen::Rotation2Dd(state.T_map_body_planar().yaw_rad) * level_m_s;
 }
 
@@ -104,13 +108,13 @@ Eigen::Vector2d PilotAssist::keptAway_level_m_s(const planning::AvoidanceDecisio
 
 bool PilotAssist::fly(control::FlightController& controller, const planning::AvoidanceDecision& decision,
                       const common::VehicleState& state, double max_height_m) {
-  const double yaw_now_rad = state.T_map_body_planar().yaw_rad, yaw_stick = wish(sticks_.yaw_rate, config_.dead_band);
+  const double yaw_now_rad = state.T_map_body_planar().yaw_rad, yaw_stick = wish(sticks_.yaw_rate, kDeadBand);
   if (yaw_stick != 0.0 || !yaw_map_rad_)
     yaw_map_rad_ =
         common::wrapAngle(yaw_now_rad + kYawAhead_s * yaw_stick * config_.yaw_rate_deg_s * common::kRadPerDeg);
 
   Eigen::Vector2d velocity_map_m_s = wantedVelocity_map_m_s(state);
-  double acceleration_m_s2 = config_.acceleration_m_s2;
+  double acceleration_m_s2 = kAcceleration_m_s2;
   if (decision.retreat_velocity_level_m_s) {
     velocity_map_m_s = Eigen::Rotation2Dd(yaw_now_rad) * *decision.retreat_velocity_level_m_s;
     acceleration_m_s2 = decision.retreat_acceleration_m_s2;
@@ -120,7 +124,7 @@ bool PilotAssist::fly(control::FlightController& controller, const planning::Avo
     const Eigen::Rotation2Dd R_map_level(yaw_now_rad);
     velocity_map_m_s = R_map_level * keptAway_level_m_s(decision, R_map_level.inverse() * velocity_map_m_s);
   }
-  double climb_m_s = config_.climb_m_s * wish(2.0 * (sticks_.thrust - hover_stick_), config_.climb_dead_band);
+  double climb_m_s = config_.climb_m_s * wish(2.0 * (sticks_.thrust - hover_stick_), kClimbDeadBand);
   if (state.T_odom_body.position_m.z() > max_height_m) climb_m_s = std::min(climb_m_s, 0.0);
   (void)controller.followVelocity(velocity_map_m_s, acceleration_m_s2, *yaw_map_rad_, climb_m_s);
   return (controller.reference().position_odom_m - state.T_odom_body.position_m).head<2>().norm() < kLeft_m;

@@ -25,10 +25,6 @@ struct PilotAssistConfig {
   double speed_m_s = 2.5;
   double climb_m_s = 0.5;
   double yaw_rate_deg_s = 60.0;
-  static constexpr double acceleration_m_s2 = 1.0;  ///< Acceleration with which the pilot's velocity is followed.
-  double dead_band = 0.03;                          ///< Share of a stick's range within which it counts as centred.
-  static constexpr double climb_dead_band = 0.2;    ///< Share of the range of the thrust's stick within which it counts
-                                                    ///< as centred: where it hovers differs with vehicle and battery.
 
   void describe(common::config::Fields& fields);
 };
@@ -36,6 +32,9 @@ struct PilotAssistConfig {
 /// One thread; called at every tick of the controller.
 class PilotAssist {
  public:
+  /// Share of a stick's range within which it counts as centred.
+  static constexpr double kDeadBand = 0.03;
+
   /// `max_tilt_deg`: tilt at the end of a stick; `avoidance`: settings of the speed limits in the decisions.
   PilotAssist(const PilotAssistConfig& config, double max_tilt_deg, const planning::AvoidanceConfig& avoidance);
 

@@ -12,14 +12,14 @@ namespace swiftlet::autonomy {
 using common::Time;
 
 Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup, common::EventLog& log)
-    : behavior_period_s_(1.0 / config.behavior_rate_hz),
+    : behavior_period_s_(1.0 / kBehaviorRate_hz),
       log_(log),
       estimator_(config.estimator, setup.laser, setup.vehicle, setup.given, *setup.jobs, log, setup.camera,
                  setup.vertical_laser),
       stamps_(log),
       scans_(config.scans, 1.0 / setup.laser.rate_hz),
       scan_watch_(log),
-      inertial_(config.inertial, config.control.position.attitude_lag_s, log),
+      inertial_(config.control.position.attitude_lag_s, log),
       given_map_(setup.given, log),
       battery_check_(log),
       consumption_(config.energy, setup.vehicle, config.control.position.thrust.table.voltage_exponent) {}

@@ -10,6 +10,18 @@
 #include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// Least standard deviation of a match's yaw.
+constexpr double kMatchFloor_deg = 0.10;
+/// Least yaw error that a new reference of the odometry adds to its drift.
+constexpr double kDriftFloor_deg = 0.03;
+/// Position and yaw error of a match for each radian of tilt: the attitude errs by about a degree, and walls that stand
+/// upright are displaced by that share of their distance times the tilt.
+constexpr double kMatchPerTilt_m_rad = 0.05, kMatchPerTilt_deg_rad = 1.5;
+
+}  // namespace
+
 using common::Pose2;
 
 void LaserPipelineConfig::describe(common::config::Fields& fields) {
@@ -46,8 +58,7 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
     step.clone_before = relative->from;
   }
   const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
-  const Eigen::Matrix3d covariance =
-      relative->covariance + tiltCovariance(scan, config_.match_floor_m, config_.match_floor_deg);
+  const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan, kMatchFloor_m, kMatchFloor_deg);
   step.measurement = {track_.clone, relative->to, T_clone_body,
                       common::turned(covariance, track_.T_clone_reference.yaw_rad), std::nullopt};
   if (relative->unobservable_direction)
@@ -63,7 +74,7 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   // Within one reference the error does not grow; it accumulates from reference to reference.
   const Eigen::Matrix3d covariance_to = common::turned(relative->covariance, -relative->T_from_to.yaw_rad);
   step.covariance = common::withoutVarianceAlong(relative->unobservable_direction, covariance_to) +
-                    tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg);
+                    tiltCovariance(scan, kDriftFloor_m, kDriftFloor_deg);
   return step;
 }
 
@@ -97,8 +108,8 @@ OdometryStep LaserPipeline::restart(const perception::RelativePose& relative, bo
 Eigen::Matrix3d LaserPipeline::tiltCovariance(const perception::ProjectedScan& scan, double floor_m,
                                               double floor_deg) const {
   const double tilt_rad = std::acos(std::clamp(common::cosTilt(scan.T_odom_body.rotation), -1.0, 1.0));
-  const double position_m = floor_m + config_.match_per_tilt_m_rad * tilt_rad;
-  const double yaw_rad = (floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
+  const double position_m = floor_m + kMatchPerTilt_m_rad * tilt_rad;
+  const double yaw_rad = (floor_deg + kMatchPerTilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
   return common::planarCovariance(position_m, yaw_rad);
 }
 

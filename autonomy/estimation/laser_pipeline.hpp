@@ -19,16 +19,6 @@ namespace swiftlet::autonomy {
 struct LaserPipelineConfig {
   perception::ScanProjectionConfig projection;
   perception::LaserOdometryConfig odometry;
-  static constexpr double match_floor_m = 0.004;   ///< Least standard deviation of a match's position.
-  static constexpr double match_floor_deg = 0.10;  ///< Least standard deviation of a match's yaw.
-  static constexpr double drift_floor_m =
-      0.002;  ///< Least position error that a new reference of the odometry adds to its drift.
-  static constexpr double drift_floor_deg =
-      0.03;  ///< Least yaw error that a new reference of the odometry adds to its drift.
-  static constexpr double match_per_tilt_m_rad =
-      0.05;  ///< Position error of a match for each radian of tilt, since the attitude is not exact.
-  static constexpr double match_per_tilt_deg_rad =
-      1.5;  ///< Yaw error of a match for each radian of tilt, since the attitude is not exact.
   double match_rate_hz = 0.0;
 
   void describe(common::config::Fields& fields);
@@ -43,6 +33,11 @@ struct FilterView {
 /// One thread.
 class LaserPipeline {
  public:
+  /// Least standard deviation of a match's position: a tenth of a cell of the map.
+  static constexpr double kMatchFloor_m = 0.004;
+  /// Least position error that a new reference of the odometry adds to its drift.
+  static constexpr double kDriftFloor_m = 0.002;
+
   LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser);
 
   perception::ProjectedScan project(const common::LaserScan& scan, const perception::PoseAt& pose_at) const;

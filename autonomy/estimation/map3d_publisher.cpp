@@ -13,6 +13,10 @@ using common::Duration;
 using common::Time;
 
 constexpr const char* kFusion3d = "mapping3d fusion";
+/// Time between copies of the growing submap for viewers.
+constexpr double kPublishPeriod_s = 0.4;
+/// Time between fusions of all submaps to one map; after a loop closure they are fused at once.
+constexpr double kFusionPeriod_s = 10.0;
 /// About the reach of a submap: a turn moves points at that distance.
 constexpr double kSubmapReach_m = 5.0;
 /// A sensor whose work has not copied the submaps for this many periods has stopped.
@@ -28,14 +32,14 @@ Map3dPublisher::Map3dPublisher(const Map3dPublisherConfig& config, double resolu
     : config_(config), resolution_m_(resolution_m), jobs_(jobs) {}
 
 bool Map3dPublisher::begin(Time now) {
-  const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
+  const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= kPublishPeriod_s;
   if (publish) submaps_stamp_ = now;
   behind_ = !publish;
   return publish;
 }
 
 bool Map3dPublisher::beginLate(Time now) {
-  if (!behind_ || (now - *submaps_stamp_).seconds() < kLatePeriods * config_.publish_period_s) return false;
+  if (!behind_ || (now - *submaps_stamp_).seconds() < kLatePeriods * kPublishPeriod_s) return false;
   submaps_stamp_ = now;
   behind_ = false;
   return true;
@@ -78,7 +82,7 @@ bool Map3dPublisher::hasMoved(const common::KeyPoses& keys) const {
 
 void Map3dPublisher::fuse(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   if (!layer_ || layer_->submaps->empty() || !jobs_.idle(kFusion3d)) return;
-  const bool due = !fused_from_ || (now - *fused_from_).seconds() >= config_.fusion_period_s;
+  const bool due = !fused_from_ || (now - *fused_from_).seconds() >= kFusionPeriod_s;
   if (!due && (fused_keys_ == keys || !hasMoved(*keys))) return;
   fused_from_ = now;
   fused_keys_ = keys;

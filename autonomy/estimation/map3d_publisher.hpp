@@ -15,9 +15,6 @@
 namespace swiftlet::autonomy {
 
 struct Map3dPublisherConfig {
-  static constexpr double publish_period_s = 0.4;  ///< Time between copies of the growing submap for viewers.
-  static constexpr double fusion_period_s =
-      10.0;  ///< Time between fusions of all submaps to one map; after a loop closure they are fused at once.
   double fusion_latency_s = 2.0;
 
   void describe(common::config::Fields& fields);
@@ -36,7 +33,7 @@ class Map3dPublisher {
   /// its last measurements are in no copy; they are then as of `now`.
   bool beginLate(common::Time now);
   void setSubmaps(std::vector<common::Submap3d> submaps);
-  /// Fuses all submaps again: every `fusion_period_s`, and at once when a loop closure has moved one by a voxel or
+  /// Fuses all submaps again: every 10 s, and at once when a loop closure has moved one by a voxel or
   /// more. To be called at every tick.
   void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
 

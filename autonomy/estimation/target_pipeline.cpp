@@ -16,6 +16,10 @@ using common::Time;
 constexpr const char* kTargets = "targets";
 /// A frame waits this long for a scan that is not older, as the frames of the 3D map do by default.
 constexpr double kWait_s = 0.05;
+/// Least time from one frame that is looked at to the next: six a second see a target from several places.
+constexpr double kLookPeriod_s = 0.15;
+/// Declared time for looking at one frame (see common/jobs.hpp): three to five times what it takes.
+constexpr double kLookLatency_s = 0.05;
 
 }  // namespace
 
@@ -48,7 +52,7 @@ TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRu
       log_(log) {}
 
 void TargetPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
-  if (last_taken_ && frame->stamps.measured < *last_taken_ + Duration::fromSeconds(config_.period_s)) return;
+  if (last_taken_ && frame->stamps.measured < *last_taken_ + Duration::fromSeconds(kLookPeriod_s)) return;
   if (waiting_ && frame->stamps.measured <= waiting_->stamps.measured) return;
   waiting_ = std::move(frame);
 }
@@ -68,7 +72,7 @@ void TargetPipeline::look(const FrameSituation& situation, const common::CameraE
   if (!situation.at_key || !situation.body || !situation.supported) return;
   Place place{situation.at_key->key, situation.at_key->T_key_body * camera.T_body_camera, drift_m,
               situation.body->motion.rate_body_rad_s.norm(), situation.keys};
-  jobs_.submit(kTargets, now, Duration::fromSeconds(config_.latency_s),
+  jobs_.submit(kTargets, now, Duration::fromSeconds(kLookLatency_s),
                [this, detector = detector_, frame, place = std::move(place)]() -> common::JobRunner::Deliver {
                  return [this, frame, place, sightings = detector->detect(*frame)](Time delivered) {
                    take(sightings, *frame, place, delivered);

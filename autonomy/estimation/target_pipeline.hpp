@@ -29,8 +29,6 @@ struct TargetPipelineConfig {
   std::vector<perception::TargetClassConfig> classes;
   perception::TargetDetectorConfig detector;
   perception::TargetTrackerConfig tracker;
-  static constexpr double period_s = 0.15;   ///< Least time from one frame that is looked at to the next.
-  static constexpr double latency_s = 0.05;  ///< Declared time for looking at one frame.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

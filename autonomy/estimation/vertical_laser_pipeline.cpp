@@ -20,6 +20,10 @@ constexpr const char* kDrawing = "mapping3d";
 /// Sweeps that wait to be placed, or to be drawn: half a second of the fastest laser. More of them come only when the
 /// link has held them back, or the work takes longer than it may.
 constexpr std::size_t kMostWaiting = 20;
+/// Greatest wait of a sweep for a scan of the first laser that is not older: two scans at 40 Hz.
+constexpr double kSweepWait_s = 0.05;
+/// A laser that sends no usable sweep for this long is silent.
+constexpr double kSweepsSilent_s = 1.0;
 /// The least noise, for a laser whose data sheet says that it has none.
 constexpr double kLeastNoise_m = 0.001;
 
@@ -43,7 +47,7 @@ VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& 
     : config_(config),
       laser_(laser),
       jobs_(jobs),
-      silence_("upright laser", "sweep", config.silent_s, log),
+      silence_("upright laser", "sweep", kSweepsSilent_s, log),
       submaps_(std::make_shared<mapping3d::SubmapStore>(config.submaps, config.voxels)),
       publisher_(config.publisher, config.voxels.resolution_m, jobs),
       log_(log) {}
@@ -73,7 +77,7 @@ std::optional<VerticalLaserPipeline::Interval> VerticalLaserPipeline::next() con
 }
 
 Time VerticalLaserPipeline::waitUntil() const {
-  return waiting_.front()->stamps.arrived + Duration::fromSeconds(config_.wait_s);
+  return waiting_.front()->stamps.arrived + Duration::fromSeconds(kSweepWait_s);
 }
 
 void VerticalLaserPipeline::place(const std::optional<SweepSituation>& situation) {

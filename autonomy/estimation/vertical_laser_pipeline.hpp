@@ -35,9 +35,7 @@ struct VerticalLaserPipelineConfig {
   mapping3d::SubmapConfig submaps{.cube_m = 0.03, .point_range_m = 8.0, .reach_m = 4.0};
   Map3dPublisherConfig publisher;  ///< Its keys are on the level of the pipeline's own.
   double body_radius_m = 0.3;
-  double latency_s = 0.05;                ///< Declared time for drawing the sweeps that have come since the last job.
-  static constexpr double wait_s = 0.05;  ///< Greatest wait of a sweep for a scan of the first laser that is not older.
-  static constexpr double silent_s = 1.0;  ///< A laser that sends no usable sweep for this long is silent.
+  double latency_s = 0.05;  ///< Declared time for drawing the sweeps that have come since the last job.
 
   void describe(common::config::Fields& fields);
 };

@@ -37,11 +37,11 @@ std::optional<ImuSample> ImuSubstitute::next(Time now) {
   if (measured + delay_ > now || (measured - measured_).seconds() > kLongest_s) return std::nullopt;
   constexpr double kStep_s = common::kControlPeriod.seconds();
   common::RollPitchYaw attitude = common::rollPitchYaw(last_->rotation_ahrs_body);
-  const double turned = common::followedShare(kStep_s, lags_.attitude_s);
+  const double turned = common::followedShare(kStep_s, attitude_lag_s_);
   attitude.roll_rad += turned * (setpoint_.roll_rad - attitude.roll_rad);
   attitude.pitch_rad += turned * (setpoint_.pitch_rad - attitude.pitch_rad);
   attitude.yaw_rad = common::wrapAngle(attitude.yaw_rad + setpoint_.yaw_rate_rad_s * kStep_s);
-  force_over_gravity_ += common::followedShare(kStep_s, lags_.thrust_s) * (thrust_over_hover_ - force_over_gravity_);
+  force_over_gravity_ += common::followedShare(kStep_s, kThrustLag_s) * (thrust_over_hover_ - force_over_gravity_);
 
   ImuSample sample;
   sample.stamps = {measured, now};

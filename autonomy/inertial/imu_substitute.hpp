@@ -12,17 +12,14 @@
 
 namespace swiftlet::autonomy {
 
-/// First-order lags of the vehicle behind its setpoints. They have no defaults here: the attitude's is that of the
-/// controllers, the thrust's is InertialCheckConfig::thrust_lag_s.
-struct ActuationLags {
-  double attitude_s;
-  double thrust_s;
-};
-
 /// One thread.
 class ImuSubstitute {
  public:
-  explicit ImuSubstitute(const ActuationLags& lags) : lags_(lags) {}
+  /// Lag of the thrust behind its command: motors of 25 to 60 ms (docs/decisions/control.md).
+  static constexpr double kThrustLag_s = 0.05;
+
+  /// The lag of the attitude behind a setpoint that the controllers assume.
+  explicit ImuSubstitute(double attitude_lag_s) : attitude_lag_s_(attitude_lag_s) {}
 
   /// A sample that was used. What is predicted goes on from the last one.
   void measured(const common::ImuSample& sample);
@@ -33,7 +30,7 @@ class ImuSubstitute {
   std::optional<common::ImuSample> next(common::Time now);
 
  private:
-  ActuationLags lags_;
+  double attitude_lag_s_;
   std::optional<common::ImuSample> last_;
   common::Time measured_;   ///< Stamp of the last measured sample.
   common::Duration delay_;  ///< From measurement to arrival, of the last measured sample.

@@ -9,6 +9,14 @@ using common::Time;
 
 namespace {
 
+/// Without a finite inertial sample for this long the sensor is silent: eight samples of the slowest that is flown,
+/// at 100 Hz. The attitude is then predicted over 0.08 s, and errs by a degree at 12 deg/s.
+constexpr double kSilent_s = 0.08;
+/// Greatest age of the newest inertial sample, by its time of measurement.
+constexpr double kLate_s = 0.1;
+/// Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones
+/// (docs/decisions/fail_safes.md, 036).
+constexpr double kRepeats_s = 0.06;
 /// Three coarse numbers may repeat for longer by chance than those of a whole sample.
 constexpr double kAlone = 3.0;
 
@@ -33,20 +41,19 @@ void ImuWatch::add(const ImuSample& sample) {
 }
 
 bool ImuWatch::repeats() const {
-  return last_ && (last_->stamps.measured - std::max(rates_changed_, force_changed_)).seconds() > config_.repeats_s;
+  return last_ && (last_->stamps.measured - std::max(rates_changed_, force_changed_)).seconds() > kRepeats_s;
 }
 
 std::string_view ImuWatch::fault(Time now) const {
   if (!last_) return {};
   const common::Stamps& newest = last_->stamps;
-  if ((now - newest.arrived).seconds() > config_.silent_s)
+  if ((now - newest.arrived).seconds() > kSilent_s)
     return finite_ ? "no inertial samples" : "the inertial samples are not finite";
-  if ((now - newest.measured).seconds() > config_.late_s) return "the inertial samples are late";
+  if ((now - newest.measured).seconds() > kLate_s) return "the inertial samples are late";
   if (repeats()) return "the inertial samples repeat";
-  if ((newest.measured - attitude_changed_).seconds() > config_.repeats_s) return "the AHRS gives the same attitude";
-  if ((newest.measured - rates_changed_).seconds() > kAlone * config_.repeats_s)
-    return "the gyroscopes give the same rates";
-  if ((newest.measured - force_changed_).seconds() > kAlone * config_.repeats_s)
+  if ((newest.measured - attitude_changed_).seconds() > kRepeats_s) return "the AHRS gives the same attitude";
+  if ((newest.measured - rates_changed_).seconds() > kAlone * kRepeats_s) return "the gyroscopes give the same rates";
+  if ((newest.measured - force_changed_).seconds() > kAlone * kRepeats_s)
     return "the accelerometers give the same force";
   return {};
 }

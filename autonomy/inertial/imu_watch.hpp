@@ -4,18 +4,10 @@
 #include <optional>
 #include <string_view>
 
-#include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::autonomy {
-
-struct ImuWatchConfig {
-  static constexpr double silent_s = 0.08;  ///< Without a finite inertial sample for this long the sensor is silent.
-  static constexpr double late_s = 0.1;     ///< Greatest age of the newest inertial sample, by its time of measurement.
-  static constexpr double repeats_s =
-      0.06;  ///< Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones.
-};
 
 /// Whether all its numbers are.
 bool isFinite(const common::ImuSample& sample);
@@ -26,8 +18,6 @@ bool isFinite(const common::ImuSample& sample);
 /// that of an AHRS that has stopped, in a hover too; and, within thrice the time, for the rates or the forces alone.
 class ImuWatch {
  public:
-  explicit ImuWatch(const ImuWatchConfig& config) : config_(config) {}
-
   void add(const common::ImuSample& sample);
   /// The newest samples are an old one that a driver repeats: they do not measure the motion, and must not be
   /// integrated.
@@ -37,7 +27,6 @@ class ImuWatch {
   std::string_view fault(common::Time now) const;
 
  private:
-  ImuWatchConfig config_;
   std::optional<common::ImuSample> last_;  ///< The last finite sample.
   bool finite_ = true;                     ///< Whether the last sample was finite.
   /// Stamps of the last samples whose part of it differed from the one before.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "autonomy/inertial/imu_substitute.hpp"
 #include "autonomy/inertial/imu_watch.hpp"
 #include "common/first_order_lag.hpp"
 #include "common/geometry.hpp"
@@ -21,6 +22,24 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Mean difference between the gyroscopes and the change of the AHRS' attitude from which they are not used, over
+/// kRateWindow_s: a good gyroscope drifts by less than 1 deg/s, and an AHRS turns by its own error of about a degree
+/// within the window.
+constexpr double kRate_deg_s = 25.0;
+constexpr double kRateWindow_s = 0.1;
+/// Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is not used.
+/// Less force than that means that the vehicle sinks.
+constexpr double kVertical_m_s2 = 3.5;
+constexpr double kVerticalWindow_s = 0.05;
+/// Median specific force across the rotors' axis from which the accelerometer is not used: a tilt does not cause any,
+/// only drag and pushes do.
+constexpr double kHorizontal_m_s2 = 2.5;
+/// More than twice the push of a hand, so that its median does not see the push.
+constexpr double kHorizontalWindow_s = 0.3;
+/// Samples are used again once nothing has contradicted them for this long.
+constexpr double kTrustedAgain_s = 1.0;
+/// A contradiction that has lasted this long ends in a landing.
+constexpr double kLandAfter_s = 1.5;
 constexpr double kPause_s = 0.1;  ///< After a pause the windows start over.
 /// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
 constexpr std::size_t kUsualSamples = 320;
@@ -41,7 +60,7 @@ auto meanOver(const Window& window, double span_s, Value value) -> std::optional
 
 }  // namespace
 
-InertialCheck::InertialCheck(const InertialCheckConfig& config) : config_(config) {
+InertialCheck::InertialCheck() {
   window_.reserve(kUsualSamples);
   sorted_m_s2_.reserve(kUsualSamples);
 }
@@ -59,7 +78,7 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
     return sample;
   }
   window_.push_back({sample, expected_m_s2, context_.thrust_applies && !context_.near_ground});
-  const double longest_s = std::max({config_.rate_window_s, config_.vertical_window_s, config_.horizontal_window_s});
+  const double longest_s = std::max({kRateWindow_s, kVerticalWindow_s, kHorizontalWindow_s});
   const auto kept = std::find_if(window_.begin(), window_.end(), [&](const Compared& one) {
     return (now - one.sample.stamps.measured).seconds() <= longest_s + 0.02;
   });
@@ -68,9 +87,8 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   ImuSample used = sample;
   if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
   if (force_wrong_) {
-    // The filter measures the noise of its samples by their differences. A replaced value is off by a
-    // few percent of gravity for seconds, which is worth this much noise.
-    spread_m_s2_ = spread_m_s2_ > 0.0 ? -config_.implied_spread_m_s2 : config_.implied_spread_m_s2;
+    // A replaced value is off by a few percent of gravity for seconds, which is worth this much noise.
+    spread_m_s2_ = spread_m_s2_ > 0.0 ? -kImpliedSpread_m_s2 : kImpliedSpread_m_s2;
     used.specific_force_body_m_s2 =
         Vector3d(0.0, 0.0, impliedForce_m_s2(expected_m_s2)) + Vector3d::Constant(spread_m_s2_);
   }
@@ -86,7 +104,7 @@ double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
 
 double InertialCheck::expectedForce_m_s2(Time now) {
   const double dt_s = last_ ? std::clamp((now - *last_).seconds(), 0.0, kPause_s) : 0.0;
-  const double share = common::followedShare(dt_s, config_.thrust_lag_s);
+  const double share = common::followedShare(dt_s, ImuSubstitute::kThrustLag_s);
   thrust_over_hover_ += share * (context_.thrust_over_hover - thrust_over_hover_);
   return common::kGravity_m_s2 * thrust_over_hover_;
 }
@@ -97,7 +115,7 @@ Vector3d InertialCheck::ahrsRate_rad_s() const {
   auto oldest = window_.rbegin();
   for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
     oldest = it;
-    if ((newest.stamps.measured - it->sample.stamps.measured).seconds() > config_.rate_window_s - 1e-6) break;
+    if ((newest.stamps.measured - it->sample.stamps.measured).seconds() > kRateWindow_s - 1e-6) break;
   }
   const double span_s = (newest.stamps.measured - oldest->sample.stamps.measured).seconds();
   if (span_s <= 0.0) return Vector3d::Zero();
@@ -110,7 +128,7 @@ void InertialCheck::compare(Time now) {
   compareRates(now);
   compareForces(now);
   const auto forgive = [&](std::optional<Time>& wrong) {
-    if (wrong && (now - *wrong).seconds() > config_.trusted_again_s) wrong.reset();
+    if (wrong && (now - *wrong).seconds() > kTrustedAgain_s) wrong.reset();
   };
   forgive(rates_wrong_);
   forgive(force_wrong_);
@@ -152,11 +170,11 @@ std::optional<double> InertialCheck::medianForce_m_s2(double span_s, int compone
 }
 
 void InertialCheck::compareRates(Time now) {
-  const auto mean = meanOver(window_, config_.rate_window_s,
+  const auto mean = meanOver(window_, kRateWindow_s,
                              [](const Compared& one) { return Vector3d(one.sample.angular_velocity_body_rad_s); });
   if (!mean) return;
   const double off_deg_s = (*mean - ahrsRate_rad_s()).norm() / common::kRadPerDeg;
-  if (off_deg_s < config_.rate_deg_s) return;
+  if (off_deg_s < kRate_deg_s) return;
   rates_wrong_ = now;
   fault_ = Fault::kRates;
   fault_size_ = off_deg_s;
@@ -168,17 +186,17 @@ void InertialCheck::compareForces(Time now) {
     fault_ = fault;
     fault_size_ = off_m_s2;
   };
-  const auto x = medianForce_m_s2(config_.horizontal_window_s, 0), y = medianForce_m_s2(config_.horizontal_window_s, 1);
-  if (x && y && std::hypot(*x, *y) > config_.horizontal_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
+  const auto x = medianForce_m_s2(kHorizontalWindow_s, 0), y = medianForce_m_s2(kHorizontalWindow_s, 1);
+  if (x && y && std::hypot(*x, *y) > kHorizontal_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
   const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
   if (!known) return;
-  const auto along = meanOver(window_, config_.vertical_window_s, [](const Compared& one) {
+  const auto along = meanOver(window_, kVerticalWindow_s, [](const Compared& one) {
     return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
   });
   // Less force than the thrust gives means a sinking vehicle, by a weak motor or battery. More force is impossible.
-  if (along && *along > config_.vertical_m_s2) distrust(*along, Fault::kAlong);
+  if (along && *along > kVertical_m_s2) distrust(*along, Fault::kAlong);
 }
 
-bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > config_.land_after_s; }
+bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > kLandAfter_s; }
 
 }  // namespace swiftlet::autonomy

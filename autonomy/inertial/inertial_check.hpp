@@ -9,31 +9,10 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::autonomy {
-
-struct InertialCheckConfig {
-  static constexpr double rate_deg_s = 25.0;    ///< Mean difference between the gyroscopes and the change of the AHRS'
-                                                ///< attitude from which they are not used.
-  static constexpr double rate_window_s = 0.1;  ///< Time over which rates are compared.
-  static constexpr double vertical_m_s2 =
-      3.5;  ///< Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer
-            ///< is not used; less force than that means that the vehicle sinks.
-  static constexpr double vertical_window_s = 0.05;  ///< Time over which forces along the axis are compared.
-  static constexpr double horizontal_m_s2 =
-      2.5;  ///< Median specific force across the rotors' axis from which the accelerometer is not used.
-  static constexpr double horizontal_window_s = 0.3;  ///< Time over which the median of forces across the axis is
-                                                      ///< taken: more than twice that of a push of a hand.
-  static constexpr double implied_spread_m_s2 = 4.0;  ///< A replaced specific force alternates by this much from sample
-                                                      ///< to sample, so that the filter weights laser and height more.
-  static constexpr double thrust_lag_s = 0.05;        ///< Lag of the thrust behind its command.
-  static constexpr double trusted_again_s =
-      1.0;  ///< Samples are used again once nothing has contradicted them for this long.
-  static constexpr double land_after_s = 1.5;  ///< A contradiction that has lasted this long ends in a landing.
-};
 
 /// What the vehicle does, as far as it decides what a sample must be.
 struct InertialContext {
@@ -49,7 +28,11 @@ struct InertialContext {
 /// a sample allocates nothing.
 class InertialCheck {
  public:
-  explicit InertialCheck(const InertialCheckConfig& config);
+  InertialCheck();
+
+  /// A replaced specific force alternates by this much from sample to sample, so that the filter, which measures the
+  /// noise of its samples by their differences, weights laser and height more.
+  static constexpr double kImpliedSpread_m_s2 = 4.0;
 
   /// Call at each tick of the control.
   void vehicleIs(const InertialContext& context) { context_ = context; }
@@ -60,7 +43,7 @@ class InertialCheck {
   bool contradicted() const { return rates_wrong_ || force_wrong_; }
   /// What contradicts what, with figures, for people; empty while all fits.
   std::string fault() const;
-  /// The fault has lasted for land_after_s: the vehicle must come down while the other sensors hold it.
+  /// The fault has lasted for 1.5 s: the vehicle must come down while the other sensors hold it.
   bool mustLand(common::Time now) const;
 
  private:
@@ -77,7 +60,6 @@ class InertialCheck {
   void compareRates(common::Time now);
   void compareForces(common::Time now);
 
-  InertialCheckConfig config_;
   InertialContext context_;
   std::vector<Compared> window_;     ///< The last samples, oldest first, at most as long as the longest window.
   std::vector<double> sorted_m_s2_;  ///< Scratch of the median.

@@ -9,7 +9,6 @@
 #include "autonomy/inertial/imu_substitute.hpp"
 #include "autonomy/inertial/imu_watch.hpp"
 #include "autonomy/inertial/inertial_check.hpp"
-#include "common/config_fwd.hpp"
 #include "common/event_log.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -17,20 +16,11 @@
 
 namespace swiftlet::autonomy {
 
-struct InertialInputConfig {
-  ImuWatchConfig imu;
-  InertialCheckConfig inertial_check;
-};
-
 /// One thread.
 class InertialInput {
  public:
   /// The lag of the attitude that the controllers assume.
-  InertialInput(const InertialInputConfig& config, double attitude_lag_s, common::EventLog& log)
-      : log_(log),
-        watch_(config.imu),
-        check_(config.inertial_check),
-        substitute_({attitude_lag_s, config.inertial_check.thrust_lag_s}) {}
+  InertialInput(double attitude_lag_s, common::EventLog& log) : log_(log), substitute_(attitude_lag_s) {}
 
   /// The filter's input for a sample that arrived; nullopt if it is of no use.
   std::optional<common::ImuSample> take(const common::ImuSample& sample);

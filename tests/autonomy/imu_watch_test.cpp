@@ -31,7 +31,7 @@ class ImuWatchStory : public testing::Test {
   }
   std::string_view fault(double later_s = 0.0) const { return watch_.fault(Time::fromSeconds(now_s_ + later_s)); }
 
-  ImuWatch watch_{ImuWatchConfig{}};
+  ImuWatch watch_;
   common::ImuSample sample_;
   double now_s_ = 0.0;
   double turn_rad_s_ = 0.0;

@@ -36,7 +36,7 @@ class InertialCheckStory : public testing::Test {
   }
   bool mustLand() const { return check_.mustLand(Time::fromSeconds(now_s_)); }
 
-  InertialCheck check_{InertialCheckConfig{}};
+  InertialCheck check_;
   InertialContext context_{true, false, true, 1.0};
   ImuSample sample_;
   double now_s_ = 0.0, yaw_rad_ = 0.0, turn_rad_s_ = 0.0;
@@ -64,7 +64,7 @@ TEST_F(InertialCheckStory, APushOfAHandIsMotionAndNoFault) {
 TEST_F(InertialCheckStory, AWrongAccelerometerIsReplacedByTheThrust) {
   feed(1.0);
   const ImuSample used = feed(0.08, {0.0, 0.0, 6.0});
-  const double spread_m_s2 = InertialCheckConfig().implied_spread_m_s2;
+  const double spread_m_s2 = InertialCheck::kImpliedSpread_m_s2;
   EXPECT_NEAR(std::abs(used.specific_force_body_m_s2.z() - 9.81), spread_m_s2, 0.1);
   const ImuSample next = feed(0.005, {0.0, 0.0, 6.0});
   EXPECT_NEAR(0.5 * (used.specific_force_body_m_s2.z() + next.specific_force_body_m_s2.z()), 9.81, 0.1);

@@ -46,7 +46,7 @@ class InertialInputStory : public testing::Test {
   }
 
   common::EventLog log_;
-  InertialInput input_{InertialInputConfig{}, 0.2, log_};
+  InertialInput input_{0.2, log_};
   common::Setpoint setpoint_;
   double thrust_over_hover_ = 1.0;
   bool airborne_ = true, applies_ = true;

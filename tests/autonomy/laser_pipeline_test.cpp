@@ -42,7 +42,7 @@ TEST_F(LaserStory, LaterScansAreMeasuredFromTheClone) {
     EXPECT_EQ(step.measurement->from, clone);
     EXPECT_NEAR(step.measurement->T_from_to.x_m, 0.02 * i, 0.01);
     EXPECT_NEAR(step.measurement->T_from_to.y_m, 0.01 * i, 0.01);
-    EXPECT_GE(std::sqrt(step.measurement->covariance(0, 0)), LaserPipelineConfig{}.match_floor_m);
+    EXPECT_GE(std::sqrt(step.measurement->covariance(0, 0)), LaserPipeline::kMatchFloor_m);
     EXPECT_TRUE(step.covariance.isZero()) << "within one reference nothing drifts";
   }
 }
@@ -56,7 +56,7 @@ TEST_F(LaserStory, ANewReferenceAddsDriftAndIsStillMeasuredFromTheClone) {
     ASSERT_TRUE(step.measurement) << i;
     EXPECT_EQ(step.measurement->from, clone) << "references are not cloned one after the other";
     drifted = !step.covariance.isZero();
-    EXPECT_TRUE(!drifted || std::sqrt(step.covariance(0, 0)) >= LaserPipelineConfig{}.drift_floor_m);
+    EXPECT_TRUE(!drifted || std::sqrt(step.covariance(0, 0)) >= LaserPipeline::kDriftFloor_m);
   }
   EXPECT_TRUE(drifted);
 }
@@ -99,7 +99,7 @@ TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
 /// vehicle has turned.
 TEST_F(LaserStory, NothingIsAddedToTheDriftAlongACorridor) {
   const test::PlanarWorld corridor = test::corridor();
-  const double floor_m2 = LaserPipelineConfig{}.drift_floor_m * LaserPipelineConfig{}.drift_floor_m;
+  const double floor_m2 = LaserPipeline::kDriftFloor_m * LaserPipeline::kDriftFloor_m;
   filter.has_clone = true;
   int references = 0;
   for (int i = 0; i < 80; ++i) {

@@ -1,6 +1,7 @@
 // What a pilot's sticks wish, and when the program assists.
 #include "autonomy/pilot_assist.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -17,14 +18,17 @@ common::VehicleState knownAt(double yaw_rad) {
   return state;
 }
 
+/// Sticks that wish these shares of the speed.
 common::PilotSample sticks(double pitch, double roll, bool takes_over = true) {
-  return {{}, roll, pitch, 0.0, 0.5, takes_over};
+  const auto beyond = [](double wish) {
+    return wish == 0.0 ? 0.0 : std::copysign(PilotAssist::kDeadBand, wish) + (1.0 - PilotAssist::kDeadBand) * wish;
+  };
+  return {{}, beyond(roll), beyond(pitch), 0.0, 0.5, takes_over};
 }
 
 PilotAssist assistant(bool enabled = true) {
   PilotAssistConfig config;
   config.enabled = enabled;
-  config.dead_band = 0.0;
   config.speed_m_s = 2.0;
   return {config, 20.0, {}};
 }

@@ -55,7 +55,7 @@ struct Loop {
   common::EventLog log;
   autonomy::Estimator estimator;
   common::EventLog inertial_log;
-  autonomy::InertialInput inertial{{}, control::PositionController::Config{}.attitude_lag_s, inertial_log};
+  autonomy::InertialInput inertial{control::PositionController::Config{}.attitude_lag_s, inertial_log};
   control::FlightController controller;
   bool has_ahrs;
   double battery_v = 0;
