@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
 #include "apps/show.hpp"
@@ -22,6 +23,7 @@ struct FailsafeOptions {
   std::vector<std::string> findings;
   std::string phase = "flying";
   bool markdown = false;
+  bool json = false;
 };
 
 /// As a word of the command line: "surroundings-unseen".
@@ -67,6 +69,22 @@ std::string page() {
   for (const FindingKind finding : allFindings())
     text += fmt::format("| {} | {} |\n", control::toString(finding), control::meaning(finding));
   return text;
+}
+
+/// The text of web/console/failsafes.json, which the page shows.
+std::string json() {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Failsafe& row : control::failsafes()) {
+    nlohmann::ordered_json phases = nlohmann::ordered_json::array();
+    for (const FlightPhase phase : control::kFlightPhases)
+      if (row.phases[static_cast<std::size_t>(phase)]) phases.push_back(control::toString(phase));
+    rows.push_back({{"finding", control::toString(row.finding)},
+                    {"phases", phases},
+                    {"response", responseOf(row)},
+                    {"ends", control::toString(row.ends)},
+                    {"operator_can", control::operatorCan(row.response)}});
+  }
+  return rows.dump(1) + "\n";
 }
 
 std::string table() {
@@ -118,7 +136,7 @@ int printActive(const FailsafeOptions& options) {
 
 int printFailsafes(const FailsafeOptions& options) {
   if (!options.findings.empty()) return printActive(options);
-  show(options.markdown ? page() : table());
+  show(options.markdown ? page() : options.json ? json() : table());
   return kDone;
 }
 
@@ -130,6 +148,7 @@ void addFailsafe(Command& program) {
   command.optionalArguments("finding", options->findings, "Findings at the same time; the table of all without any.");
   command.option("--phase", options->phase, "on-the-ground, taking-off, flying or landing.");
   command.flag("--markdown", options->markdown, "The table as a page: docs/failsafes.md.");
+  command.flag("--json", options->json, "The table for programs: web/console/failsafes.json.");
   command.footer("Example: swiftlet failsafe --phase flying surroundings-unseen charge-for-home");
   command.runs([options] { return printFailsafes(*options); });
 }

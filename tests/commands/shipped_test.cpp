@@ -99,6 +99,8 @@ TEST(Shipped, TheReferenceOfAllSettingsIsUpToDate) {
 TEST(Shipped, TheTableOfFailSafesIsUpToDate) {
   EXPECT_EQ(test_support::readText(kRoot / "docs/failsafes.md"), runSwiftlet({"failsafe", "--markdown"}).out)
       << "update it: swiftlet failsafe --markdown > docs/failsafes.md";
+  EXPECT_EQ(test_support::readText(kRoot / "web/console/failsafes.json"), runSwiftlet({"failsafe", "--json"}).out)
+      << "update it: swiftlet failsafe --json > web/console/failsafes.json";
 }
 
 TEST(Failsafe, TellsWhichOfSeveralFindingsIsActive) {

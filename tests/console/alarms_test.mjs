@@ -262,6 +262,16 @@ const tests = {
     assert.equal(await pen.getAttribute('aria-pressed'), 'false');
     return page;
   },
+
+  'the table of fail-safes is there when it is opened': async () => {
+    const page = await open();
+    await page.locator('#failsafes summary').tap();
+    const rows = page.locator('#failsafes li');
+    await rows.first().waitFor();
+    assert.match(await rows.first().innerText(), /^estimate diverged: motors off/);
+    assert.ok(await rows.count() > 15);
+    return page;
+  },
 };
 
 const failed = await run(tests);

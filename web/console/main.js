@@ -1,6 +1,7 @@
 // The operator's page: wires the link, the map, the panels and the commands.
 import { Alarms } from './alarms.js';
 import { Commands } from './commands.js';
+import { showFailsafesOnDemand } from './failsafes.js';
 import { GivenMapPanel } from './given_map_panel.js';
 import { KeepOutPen } from './keep_out.js';
 import { Link } from './link.js';
@@ -35,6 +36,8 @@ const view = new MapView(element('map'), store, {
 const pen = new KeepOutPen(element('keep-out'), { onChange: () => view.draw(), send: sendZone,
   say: (title, text) => toast(title, text, false) });
 view.pen = pen;
+
+showFailsafesOnDemand(element('failsafes'));
 
 const given = new GivenMapPanel(element('given-card'), store);
 
