@@ -14,6 +14,7 @@
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/utility_explorer.hpp"
 #include "planning/search/dstar_lite.hpp"
+#include "planning/search/edge_cost.hpp"
 #include "planning/search/wavefront.hpp"
 
 namespace {
@@ -76,7 +77,7 @@ std::optional<std::int64_t> aStar(const CostMap& map, CellIndex start, CellIndex
     std::int32_t key, index;
     bool operator<(const Entry& other) const { return key > other.key; }
   };
-  std::vector<std::int32_t> cost(map.size(), INT32_MAX);
+  std::vector<std::int32_t> cost(map.costs().size(), INT32_MAX);
   std::priority_queue<Entry> open;
   const int first = map.indexOf(start), last = map.indexOf(goal);
   const auto heuristic = [&](int index) {
@@ -95,9 +96,9 @@ std::optional<std::int64_t> aStar(const CostMap& map, CellIndex start, CellIndex
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if (dx == 0 && dy == 0) continue;
-        const std::int32_t edge = map.edgeCost(top.index, dx, dy);
-        const int next = top.index + dy * map.stride() + dx;
-        if (edge == CostMap::kNoEdge || here + edge >= cost[static_cast<std::size_t>(next)]) continue;
+        const std::int32_t edge = edgeCost(map, top.index, dx, dy);
+        const int next = top.index + dy * map.rect().width() + dx;
+        if (edge == planning::kNoEdge || here + edge >= cost[static_cast<std::size_t>(next)]) continue;
         cost[static_cast<std::size_t>(next)] = here + edge;
         open.push({here + edge + heuristic(next), next});
       }

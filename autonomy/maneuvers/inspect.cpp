@@ -74,7 +74,7 @@ std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const Ma
   };
   const double step_rad = 2.0 * std::numbers::pi / kPlaces;
   double first_rad = std::atan2(from_point.y(), from_point.x());
-  for (int i = 0; i < kPlaces && map.isLethalAt(placeAt(first_rad)); ++i)
+  for (int i = 0; i < kPlaces && isLethalAt(map, placeAt(first_rad)); ++i)
     first_rad += i % 2 == 0 ? (i + 1) * step_rad : -(i + 1) * step_rad;  // Nearest first, to both sides.
   std::vector<Eigen::Vector2d> places;
   const int count = static_cast<int>(std::lround(intent_.turns * kPlaces));

@@ -51,7 +51,7 @@ void Land::begin(const ManeuverInput& input) {
 
   here_map_m_ = input.position_map_m();
   if (const auto& stood_map_m = setup_.memory.stood_map_m;
-      stood_map_m && (*stood_map_m - here_map_m_).norm() < kTakeOffPlace_m && !cost_map->isLethalAt(*stood_map_m)) {
+      stood_map_m && (*stood_map_m - here_map_m_).norm() < kTakeOffPlace_m && !isLethalAt(*cost_map, *stood_map_m)) {
     place_map_m_ = stood_map_m;
     phase_ = Phase::kFliesThere;
     return;

@@ -92,7 +92,7 @@ std::optional<Eigen::Vector2d> Survey::standFor(const planning::CostMap& map,
                                                 const Eigen::Vector2d& place_map_m) const {
   const double reach_m = 0.5 * spacing_m_;
   const auto roomy = planning::nearestPlace(map, place_map_m, reach_m, [&](common::CellIndex cell) {
-    return map.costAt(cell) != planning::CostMap::kLethal && map.hasRoomToStop(cell);
+    return map.costAt(cell) != planning::CostMap::kLethal && hasRoomToStop(map, cell);
   });
   return roomy ? roomy : planning::nearestFree(map, place_map_m, reach_m);
 }

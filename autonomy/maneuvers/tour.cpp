@@ -40,7 +40,7 @@ Tour::Tour(const ManeuverSetup& setup, std::string purpose, common::FlightMode m
       stations_(state_->stations) {}
 
 std::optional<Eigen::Vector2d> Tour::standFor(const planning::CostMap& map, const Eigen::Vector2d& place_map_m) const {
-  return map.isLethalAt(place_map_m) ? std::nullopt : std::optional(place_map_m);
+  return isLethalAt(map, place_map_m) ? std::nullopt : std::optional(place_map_m);
 }
 
 std::optional<Eigen::Vector2d> Tour::goal_map_m() const {
@@ -104,7 +104,7 @@ void Tour::pass(const Eigen::Vector2d& here_map_m) {
 
 void Tour::leaveBlocked(const planning::CostMap& map) {
   for (Station& station : stations_)
-    if (station.state == State::kOpen && map.isLethalAt(station.place_map_m)) station.state = State::kLeft;
+    if (station.state == State::kOpen && isLethalAt(map, station.place_map_m)) station.state = State::kLeft;
 }
 
 void Tour::flyOn(const planning::CostMap& map, const ManeuverInput& input, std::size_t station) {

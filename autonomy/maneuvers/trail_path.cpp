@@ -20,7 +20,7 @@ constexpr double kUnreached = std::numeric_limits<double>::infinity();
 Points placesOf(const TrailQuestion& ask, const Point& start) {
   Points places{start};
   const auto add = [&](const Point& place) {
-    if (!ask.costs.isLethalAt(place))
+    if (!isLethalAt(ask.costs, place))
       places.push_back(place);
     else if (const auto beside = planning::nearestFree(ask.costs, place, ask.aside_m))
       places.push_back(*beside);

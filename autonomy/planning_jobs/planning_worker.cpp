@@ -176,11 +176,11 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
   field.spread(map_, escape->back());
   std::pair<double, int> best{0.0, map_.indexOf(escape->back())};
   std::vector<std::pair<double, int>> others;  // Score and cell.
-  for (int i = 0; i < static_cast<int>(map_.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(map_.costs().size()); ++i) {
     if (!field.reached(i)) continue;
     const common::CellIndex cell = map_.cellOf(i);
     // The cost of a path into a corner is high, and would count as far away.
-    if (!map_.hasRoomToStop(cell)) continue;
+    if (!hasRoomToStop(map_, cell)) continue;
     const double away_m = std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
     const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(cell);
     if (score > best.first) best = {score, i};

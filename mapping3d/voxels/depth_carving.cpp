@@ -68,8 +68,8 @@ DepthCarving::DepthCarving(double range_max_m, double resolution_m)
 void DepthCarving::carve(const std::vector<float>& free_m, const common::PinholeCamera& camera,
                          const common::Pose3& T_map_camera, ScanWindow& window) {
   follow(camera, T_map_camera);
-  deepest_.build(free_m, camera.width_px, camera.height_px, group_px_);
-  shallowest_.build(free_m, camera.width_px, camera.height_px, group_px_);
+  deepest_.build(free_m, camera.width_px, camera.height_px, groups_.side_px);
+  shallowest_.build(free_m, camera.width_px, camera.height_px, groups_.side_px);
   carveNear(window);
   const double side_m = resolution_m_ * VoxelBlock::kSide;
   forBlocksAround(camera_, origin_map_m_, rotation_map_camera_, range_max_m_, side_m, window, [&](VoxelIndex block) {
@@ -88,15 +88,7 @@ void DepthCarving::carve(const std::vector<float>& free_m, const common::Pinhole
 void DepthCarving::follow(const common::PinholeCamera& camera, const common::Pose3& T_map_camera) {
   camera_ = camera;
   const double least_px = resolution_m_ * std::min(camera.fx_px, camera.fy_px) / range_max_m_;
-  group_px_ = least_px >= 2.0 ? 2 : 1;
-  width_ = (camera.width_px + group_px_ - 1) / group_px_;
-  height_ = (camera.height_px + group_px_ - 1) / group_px_;
-  const auto group = static_cast<float>(group_px_);
-  fu_ = static_cast<float>(camera.fx_px) / group;
-  fv_ = static_cast<float>(camera.fy_px) / group;
-  // Group n spans [n, n + 1) here, and pixel n spans [n - 0.5, n + 0.5) of the camera's coordinates.
-  cu_ = (static_cast<float>(camera.cx_px) + 0.5F) / group;
-  cv_ = (static_cast<float>(camera.cy_px) + 0.5F) / group;
+  groups_ = PixelGroups(camera, least_px >= 2.0 ? 2 : 1);
   origin_map_m_ = T_map_camera.position_m;
   rotation_map_camera_ = T_map_camera.rotation.toRotationMatrix();
   rotation_camera_map_ = rotation_map_camera_.transpose().cast<float>();
@@ -107,25 +99,25 @@ void DepthCarving::follow(const common::PinholeCamera& camera, const common::Pos
     return kBeside * 0.5F * static_cast<float>(resolution_m_) *
            (rotation_camera_map_.transpose() * normal_camera).lpNorm<1>();
   };
-  first_ray_ = Eigen::Array2f::Constant(0.5F / group);
-  last_ray_ = {(static_cast<float>(camera.width_px) - 0.5F) / group,
-               (static_cast<float>(camera.height_px) - 0.5F) / group};
-  beside_first_m_ = {extent_m({first_ray_.x() - cu_, fu_, 0.0F}), extent_m({first_ray_.y() - cv_, 0.0F, fv_})};
-  beside_last_m_ = {extent_m({last_ray_.x() - cu_, fu_, 0.0F}), extent_m({last_ray_.y() - cv_, 0.0F, fv_})};
+  beside_first_m_ = {extent_m({groups_.first_ray.x() - groups_.cu, groups_.fu, 0.0F}),
+                     extent_m({groups_.first_ray.y() - groups_.cv, 0.0F, groups_.fv})};
+  beside_last_m_ = {extent_m({groups_.last_ray.x() - groups_.cu, groups_.fu, 0.0F}),
+                    extent_m({groups_.last_ray.y() - groups_.cv, 0.0F, groups_.fv})};
 }
 
 /// Walks along some of the rays up to a little more than the nearest voxels that the projection decides.
 void DepthCarving::carveNear(ScanWindow& window) const {
   const float far_m = near_m_ + 2.0F * kHalfDiagonal * static_cast<float>(resolution_m_);
-  const float apart = static_cast<float>(resolution_m_) / kNearRays / far_m * std::min(fu_, fv_);
+  const float apart = static_cast<float>(resolution_m_) / kNearRays / far_m * std::min(groups_.fu, groups_.fv);
   const int stride = std::clamp(static_cast<int>(apart), 1, kSideMax);
   const Vector3d origin = origin_map_m_ / resolution_m_;
-  for (int v = 0; v < height_; v += stride) {
-    for (int u = 0; u < width_; u += stride) {
-      const int u_last = std::min(u + stride, width_) - 1, v_last = std::min(v + stride, height_) - 1;
+  for (int v = 0; v < groups_.height; v += stride) {
+    for (int u = 0; u < groups_.width; u += stride) {
+      const int u_last = std::min(u + stride, groups_.width) - 1, v_last = std::min(v + stride, groups_.height) - 1;
       const double depth_m = static_cast<double>(std::min(deepest_.inRectangle(u, v, u_last, v_last), far_m));
       if (depth_m <= 0.0) continue;
-      const double u_px = 0.5 * (u + u_last + 1) * group_px_ - 0.5, v_px = 0.5 * (v + v_last + 1) * group_px_ - 0.5;
+      const double u_px = 0.5 * (u + u_last + 1) * groups_.side_px - 0.5,
+                   v_px = 0.5 * (v + v_last + 1) * groups_.side_px - 0.5;
       const Vector3d end = origin + rotation_map_camera_ * camera_.point_camera_m(u_px, v_px, depth_m) / resolution_m_;
       for (RayWalk walk(origin, end); !walk.atEnd(); walk.advance())
         window.at(VoxelMap::blockOf(walk.cell())).crossed.set(VoxelBlock::offsetOf(walk.cell()));
@@ -159,18 +151,20 @@ void DepthCarving::carveVoxels(int offset, const Vector3f& center_camera_m, Voxe
   const float depth_m = std::max(center_camera_m.x(), near_m_);
   const Vector3f ray_map = rotation_camera_map_.transpose() * center_camera_m / depth_m;
   const float leaves_m = kLeaves * side_m / ray_map.cwiseAbs().maxCoeff();
-  const float width = side_m * std::min(fu_, fv_) / depth_m;
+  const float width = side_m * std::min(groups_.fu, groups_.fv) / depth_m;
   const DepthPyramid::Squares squares = deepest_.squaresOf(std::max(1, static_cast<int>(kSquare * width)));
   const float half = 0.5F * static_cast<float>(squares.side - 1);
-  const auto u_last = static_cast<float>(width_ - squares.side), v_last = static_cast<float>(height_ - squares.side);
-  const Eigen::Array2f least = first_ray_ - beside_first_m_ / depth_m, greatest = last_ray_ + beside_last_m_ / depth_m;
+  const auto u_last = static_cast<float>(groups_.width - squares.side),
+             v_last = static_cast<float>(groups_.height - squares.side);
+  const Eigen::Array2f least = groups_.first_ray - beside_first_m_ / depth_m,
+                       greatest = groups_.last_ray + beside_last_m_ / depth_m;
   const Array4f lane(0.0F, 1.0F, 2.0F, 3.0F);
   for (int z = 0; z < kCube; ++z)
     for (int y = 0; y < kCube; ++y) {
       const Vector3f row_m = first_m + static_cast<float>(y) * axes_m.col(1) + static_cast<float>(z) * axes_m.col(2);
       const Array4f x_m = row_m.x() + axes_m(0, 0) * lane, inverse = 1.0F / x_m;
-      const Array4f u = cu_ - fu_ * (row_m.y() + axes_m(1, 0) * lane) * inverse;
-      const Array4f v = cv_ - fv_ * (row_m.z() + axes_m(2, 0) * lane) * inverse;
+      const Array4f u = groups_.cu - groups_.fu * (row_m.y() + axes_m(1, 0) * lane) * inverse;
+      const Array4f v = groups_.cv - groups_.fv * (row_m.z() + axes_m(2, 0) * lane) * inverse;
       const Eigen::Array4i column = (u - half).min(u_last).max(0.0F).cast<int>();
       const Eigen::Array4i line = (v - half).min(v_last).max(0.0F).cast<int>();
       unsigned four = 0;
@@ -207,10 +201,10 @@ DepthCarving::Rectangle DepthCarving::groupsOf(int side, const Vector3f& center_
   const float slope_u = center_camera_m.y() * per_depth, slope_v = center_camera_m.z() * per_depth;
   const Vector3f extent_m = static_cast<float>(side) * half_extent_m_;
   const float per_nearest = 1.0F / (center_camera_m.x() - extent_m.x());
-  const float half_u = fu_ * (extent_m.y() + std::abs(slope_u) * extent_m.x()) * per_nearest;
-  const float half_v = fv_ * (extent_m.z() + std::abs(slope_v) * extent_m.x()) * per_nearest;
-  const float u = cu_ - fu_ * slope_u, v = cv_ - fv_ * slope_v;
-  const auto u_end = static_cast<float>(width_), v_end = static_cast<float>(height_);
+  const float half_u = groups_.fu * (extent_m.y() + std::abs(slope_u) * extent_m.x()) * per_nearest;
+  const float half_v = groups_.fv * (extent_m.z() + std::abs(slope_v) * extent_m.x()) * per_nearest;
+  const float u = groups_.cu - groups_.fu * slope_u, v = groups_.cv - groups_.fv * slope_v;
+  const auto u_end = static_cast<float>(groups_.width), v_end = static_cast<float>(groups_.height);
   const bool cut = u - half_u < 0.0F || v - half_v < 0.0F || u + half_u >= u_end || v + half_v >= v_end;
   if (u + half_u < 0.0F || v + half_v < 0.0F || u - half_u >= u_end || v - half_v >= v_end) return {0, 0, -1, -1, cut};
   // A conversion to int rounds towards 0, which is down for positive numbers. It is much faster than std::floor.

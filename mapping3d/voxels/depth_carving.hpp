@@ -9,6 +9,7 @@
 #include "common/rgbd_frame.hpp"
 #include "common/voxel_map.hpp"
 #include "mapping3d/voxels/depth_pyramid.hpp"
+#include "mapping3d/voxels/pixel_groups.hpp"
 #include "mapping3d/voxels/scan_window.hpp"
 
 namespace swiftlet::mapping3d {
@@ -51,16 +52,14 @@ class DepthCarving {
 
   // Of the present image:
   common::PinholeCamera camera_;
-  int group_px_ = 1;  ///< Pixels are looked at in squares of this side.
-  int width_ = 0, height_ = 0;
-  float fu_ = 0, fv_ = 0, cu_ = 0, cv_ = 0;  ///< Of the image of groups.
+  PixelGroups groups_;
   Eigen::Vector3d origin_map_m_;
   Eigen::Matrix3d rotation_map_camera_;
   Eigen::Matrix3f rotation_camera_map_;
-  Eigen::Vector3f half_extent_m_;                  ///< Half of the extent of a voxel along the axes of the camera.
-  Eigen::Array2f first_ray_, last_ray_;            ///< Of the outermost pixels, in groups.
-  Eigen::Array2f beside_first_m_, beside_last_m_;  ///< Divided by the depth: how far beside them a voxel may lie.
-  DepthPyramid deepest_;                           ///< Of the depths up to which rays are free.
+  Eigen::Vector3f half_extent_m_;  ///< Half of the extent of a voxel along the axes of the camera.
+  /// Divided by the depth: how far beside the outermost rays a voxel may lie, in groups.
+  Eigen::Array2f beside_first_m_, beside_last_m_;
+  DepthPyramid deepest_;  ///< Of the depths up to which rays are free.
   DepthPyramid shallowest_;
 };
 

@@ -121,7 +121,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 
 bool Avoidance::isMapped(const AvoidanceInput& input, const Point& point_level_m) const {
   const common::CellIndex cell = input.cost_map->cellAt(input.T_map_level * point_level_m);
-  return input.cost_map->stateAt(cell) != CellState::kFree ||
+  return input.cost_map->states().at(cell) != CellState::kFree ||
          input.cost_map->obstacleDistance_m(cell) <= config_.mapped_within_m;
 }
 

@@ -149,7 +149,7 @@ class Retreat {
   double toMapped_m(const Point& place) const {
     if (input_.cost_map == nullptr) return kUnreached;
     const common::CellIndex cell = input_.cost_map->cellAt(input_.T_map_level * place);
-    return input_.cost_map->stateAt(cell) == CellState::kUnknown ? 0.0 : input_.cost_map->obstacleDistance_m(cell);
+    return input_.cost_map->states().at(cell) == CellState::kUnknown ? 0.0 : input_.cost_map->obstacleDistance_m(cell);
   }
 
   const AvoidanceConfig& config_;

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "common/check.hpp"
-#include "common/occupancy_grid.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -15,10 +14,10 @@ using Row = std::array<std::int16_t, kMaxWidth>;
 using Block = std::array<Row, kTileCells>;
 
 /// One step of the column pass. `run` is the distance to the last cell of the state in each column.
-bool advance(const StateImage& image, int y, int x_begin, int x_end, int x_first, CellState which, std::int16_t cap,
+bool advance(const CellStates& states, int y, int x_begin, int x_end, int x_first, CellState which, std::int16_t cap,
              Row& run) {
   bool met = false;
-  const CellState* row = image.states.data() + static_cast<std::size_t>(y) * image.width;
+  const CellState* row = states.all().data() + static_cast<std::size_t>(y) * states.rect().width();
   for (int x = x_begin; x < x_end; ++x) {
     std::int16_t& distance = run[static_cast<std::size_t>(x - x_first)];
     const bool is = row[x] == which;
@@ -29,21 +28,21 @@ bool advance(const StateImage& image, int y, int x_begin, int x_end, int x_first
 }
 
 /// The distance within each column, cut at reach + 1. False if the state does not occur near the tile.
-bool columnPass(const StateImage& image, int x0, int y0, CellState which, int reach, Block& columns) {
+bool columnPass(const CellStates& states, int x0, int y0, CellState which, int reach, Block& columns) {
   const auto cap = static_cast<std::int16_t>(reach + 1);
   const int x_first = x0 - reach, x_begin = std::max(0, x_first),
-            x_end = std::min(image.width, x0 + kTileCells + reach);
+            x_end = std::min(states.rect().width(), x0 + kTileCells + reach);
   bool met = false;
   Row run;
   run.fill(cap);
   for (Row& row : columns) row.fill(cap);
   for (int y = std::max(0, y0 - reach); y < y0 + kTileCells; ++y) {
-    met |= advance(image, y, x_begin, x_end, x_first, which, cap, run);
+    met |= advance(states, y, x_begin, x_end, x_first, which, cap, run);
     if (y >= y0) columns[static_cast<std::size_t>(y - y0)] = run;
   }
   run.fill(cap);
-  for (int y = std::min(image.height, y0 + kTileCells + reach) - 1; y >= y0; --y) {
-    met |= advance(image, y, x_begin, x_end, x_first, which, cap, run);
+  for (int y = std::min(states.rect().height(), y0 + kTileCells + reach) - 1; y >= y0; --y) {
+    met |= advance(states, y, x_begin, x_end, x_first, which, cap, run);
     if (y >= y0 + kTileCells) continue;
     Row& row = columns[static_cast<std::size_t>(y - y0)];
     for (std::size_t i = 0; i < run.size(); ++i) row[i] = std::min(row[i], run[i]);
@@ -53,14 +52,14 @@ bool columnPass(const StateImage& image, int x0, int y0, CellState which, int re
 
 }  // namespace
 
-void tileDistances(const StateImage& image, int x0, int y0, CellState which, int reach,
+void tileDistances(const CellStates& states, int x0, int y0, CellState which, int reach,
                    std::vector<std::int16_t>& squared) {
   SWIFTLET_CHECK(reach >= 0 && reach <= kMaxReachCells, reach);
   const auto beyond = static_cast<std::int16_t>((reach + 1) * (reach + 1));
   Block columns;
-  const bool met = columnPass(image, x0, y0, which, reach, columns);
+  const bool met = columnPass(states, x0, y0, which, reach, columns);
   for (int y = 0; y < kTileCells; ++y) {
-    std::int16_t* out = squared.data() + static_cast<std::size_t>(y0 + y) * image.width + x0;
+    std::int16_t* out = squared.data() + static_cast<std::size_t>(y0 + y) * states.rect().width() + x0;
     std::fill_n(out, kTileCells, beyond);
     if (!met) continue;
     Row& row = columns[static_cast<std::size_t>(y)];

@@ -125,7 +125,7 @@ std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& plac
 bool isFree(const CostMap& map, const Vector2d& from_map_m, const Vector2d& to_map_m) {
   const Vector2d line_m = to_map_m - from_map_m;
   for (double at_m = map.resolution_m(); at_m < line_m.norm(); at_m += map.resolution_m())
-    if (map.isLethalAt(from_map_m + at_m * line_m.normalized())) return false;
+    if (isLethalAt(map, from_map_m + at_m * line_m.normalized())) return false;
   return true;
 }
 
@@ -134,19 +134,19 @@ bool isFree(const CostMap& map, const Vector2d& from_map_m, const Vector2d& to_m
 std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap& levels, const Vector2d& from_map_m,
                                      const LandingNeeds& needs) {
   const CellIndex start = map.cellAt(from_map_m);
-  if (!map.contains(start) || levels.levels.empty()) return std::nullopt;
+  if (!map.rect().contains(start) || levels.levels.empty()) return std::nullopt;
   const SurfaceWindow surfaces(levels, from_map_m,
                                needs.reach_m + std::max(needs.aside_m() + kBeyond_m, needs.asideAskew_m()));
 
   // Dijkstra by length. Where the vehicle is already it may be nearer to an obstacle than a plan would go.
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::vector<double> length_m(map.size(), std::numeric_limits<double>::infinity());
-  std::vector<bool> closed(map.size(), false);
+  std::vector<double> length_m(map.costs().size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> closed(map.costs().size(), false);
   const auto reach = [&](CellIndex cell, double to_m) {
-    if (!map.contains(cell)) return;
+    if (!map.rect().contains(cell)) return;
     const int index = map.indexOf(cell);
-    const bool escapes = to_m <= needs.hull_radius_m && map.state(index) == CellState::kFree;
+    const bool escapes = to_m <= needs.hull_radius_m && map.states()[index] == CellState::kFree;
     if ((map.isLethal(index) && !escapes && cell != start) || to_m > needs.reach_m) return;
     if (to_m >= length_m[static_cast<std::size_t>(index)]) return;
     length_m[static_cast<std::size_t>(index)] = to_m;

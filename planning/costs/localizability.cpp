@@ -16,7 +16,7 @@ Eigen::Vector2d wallNormal(const CostMap& map, int index) {
   int count = 0;
   for (int dy = -kHalf; dy <= kHalf; ++dy) {
     for (int dx = -kHalf; dx <= kHalf; ++dx) {
-      if (map.stateAt({center.x + dx, center.y + dy}) != CellState::kOccupied) continue;
+      if (map.states().at({center.x + dx, center.y + dy}) != CellState::kOccupied) continue;
       const Eigen::Vector2d offset(dx, dy);
       sum += offset;
       squares += offset * offset.transpose();
@@ -62,8 +62,8 @@ double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, 
     double free_m = 0.0;
     bool wall = false;
     castRay(map, place, ray, static_cast<int>(range_m / step_m), [&](int index, int step) {
-      wall = map.state(index) == CellState::kOccupied;
-      if (map.state(index) != CellState::kFree) return false;
+      wall = map.states()[index] == CellState::kOccupied;
+      if (map.states()[index] != CellState::kFree) return false;
       free_m = step * step_m;
       return true;
     });

@@ -28,7 +28,7 @@ Vector2d displacementToOpenPlace_m(const CostMap& map, const Vector2d& from_map_
       const common::CellIndex cell = map.cellAt(from_map_m + length_m * along);
       const double distance_m = map.obstacleDistance_m(cell);
       // Out of a place that is too near to a wall only away from it.
-      if (map.costAt(cell) == CostMap::kLethal && (distance_m <= before_m || map.stateAt(cell) != CellState::kFree))
+      if (map.costAt(cell) == CostMap::kLethal && (distance_m <= before_m || map.states().at(cell) != CellState::kFree))
         break;
       before_m = distance_m;
       const double score_m = distance_m - kLossPerMetre * length_m;

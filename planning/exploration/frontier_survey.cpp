@@ -90,7 +90,7 @@ std::optional<std::size_t> FrontierSurvey::ofCurrent(const std::vector<std::size
   if (!input_.current) return std::nullopt;
   const CellIndex target = map_.cellAt(input_.current->target_map_m);
   const CellIndex place = map_.cellAt(input_.current->pose_map.position_m());
-  if (!map_.contains(place) || !field_.reached(map_.indexOf(place))) return std::nullopt;
+  if (!map_.rect().contains(place) || !field_.reached(map_.indexOf(place))) return std::nullopt;
   double nearest_m = config_.attempt_radius_m;
   std::optional<std::size_t> nearest;
   for (const std::size_t number : numbers) {
@@ -132,7 +132,7 @@ bool FrontierSurvey::isLost(const Point& centroid_map_m) const {
 }
 
 double FrontierSurvey::freeArea_m2() const {
-  const auto cells = std::count(map_.states().begin(), map_.states().end(), CellState::kFree);
+  const auto cells = std::count(map_.states().all().begin(), map_.states().all().end(), CellState::kFree);
   return static_cast<double>(cells) * map_.resolution_m() * map_.resolution_m();
 }
 

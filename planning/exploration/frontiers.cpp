@@ -9,11 +9,11 @@ namespace {
 
 using common::CellIndex;
 
-std::array<int, 4> fourNeighbours(const CostMap& map) { return {1, -1, map.stride(), -map.stride()}; }
+std::array<int, 4> fourNeighbours(const CostMap& map) { return {1, -1, map.rect().width(), -map.rect().width()}; }
 
 bool touchesUnknown(const CostMap& map, int index) {
   for (const int step : fourNeighbours(map))
-    if (map.state(index + step) == CellState::kUnknown) return true;
+    if (map.states()[index + step] == CellState::kUnknown) return true;
   return false;
 }
 
@@ -25,7 +25,7 @@ std::vector<CellIndex> flood(const CostMap& map, int seed, std::vector<bool>& wa
     const int at = open.back();
     open.pop_back();
     cells.push_back(map.cellOf(at));
-    for (const int row : {at - map.stride(), at, at + map.stride()}) {
+    for (const int row : {at - map.rect().width(), at, at + map.rect().width()}) {
       for (int next = row - 1; next <= row + 1; ++next) {
         if (!waiting[static_cast<std::size_t>(next)]) continue;
         waiting[static_cast<std::size_t>(next)] = false;
@@ -73,11 +73,11 @@ void cut(std::vector<CellIndex> cells, double run_length_m, double segment_cells
 }  // namespace
 
 std::vector<FrontierRun> findFrontiers(const CostMap& map, double segment_m) {
-  std::vector<bool> waiting(map.size(), false);
+  std::vector<bool> waiting(map.costs().size(), false);
   std::vector<int> seeds;
   // No free cell lies on the outermost ring, because the map has a margin of unknown cells.
-  for (int index = 0; index < static_cast<int>(map.size()); ++index) {
-    if (map.state(index) != CellState::kFree || !touchesUnknown(map, index)) continue;
+  for (int index = 0; index < static_cast<int>(map.costs().size()); ++index) {
+    if (map.states()[index] != CellState::kFree || !touchesUnknown(map, index)) continue;
     waiting[static_cast<std::size_t>(index)] = true;
     seeds.push_back(index);
   }
@@ -94,7 +94,7 @@ std::vector<FrontierRun> findFrontiers(const CostMap& map, double segment_m) {
 CellIndex unknownBeside(const CostMap& map, CellIndex frontier_cell) {
   const int index = map.indexOf(frontier_cell);
   for (const int step : fourNeighbours(map))
-    if (map.state(index + step) == CellState::kUnknown) return map.cellOf(index + step);
+    if (map.states()[index + step] == CellState::kUnknown) return map.cellOf(index + step);
   return frontier_cell;
 }
 

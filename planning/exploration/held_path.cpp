@@ -15,7 +15,7 @@ constexpr double kSpacing_m = 1.0;
 bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const ExplorationConfig& config) {
   static const Directions kDirections(kRays);
   const common::CellIndex place = map.cellAt(place_map_m);
-  return !map.contains(place) ||
+  return !map.rect().contains(place) ||
          wallShareAt(map, place, config.wall_range_m, config.open_m, kDirections) >= config.least_wall_share;
 }
 

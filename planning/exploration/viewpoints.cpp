@@ -74,13 +74,13 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
   for (const Directions::Ray& ray : directions.rays()) {
     const int max_steps = static_cast<int>(config_.laser_range_m / resolution_m / ray.step_cells);
     castRay(map_, unknown, ray, max_steps, [&](int index, int step) {
-      if (map_.state(index) != CellState::kFree) return false;
+      if (map_.states()[index] != CellState::kFree) return false;
       if (!field_.reached(index)) return true;
       if (bounds_ != nullptr && !bounds_->contains(map_.centerOf(map_.cellOf(index)))) return true;
       const double distance_m = step * ray.step_cells * resolution_m;
       std::size_t ring = 0;
       while (distance_m > kRings_m[ring]) ++ring;
-      const bool roomy = map_.hasRoomToStop(map_.cellOf(index));
+      const bool roomy = hasRoomToStop(map_, map_.cellOf(index));
       const double path_m = field_.cost_m(index, resolution_m) + (roomy ? 0.0 : kTight_m);
       if (path_m < rings[ring].path_m) rings[ring] = {map_.cellOf(index), unknown, path_m};
       return true;
@@ -105,7 +105,7 @@ View Scout::view(CellIndex place, double preferred_yaw_rad) const {
     // Steps since the ray left the known space.
     int beyond = 0;
     castRay(map_, place, ray, max_steps, [&](int index, int step) {
-      const CellState state = map_.state(index);
+      const CellState state = map_.states()[index];
       if (state == CellState::kOccupied) {
         if (beyond == 0)
           returns.push_back({map_.centerOf(map_.cellOf(index)) - map_.centerOf(place), wallNormal(map_, index)});

@@ -24,7 +24,7 @@ tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start
       common::judgeGoal({goal_map_m, std::nullopt, 0.0, map.footprint().clearance_m, 0.0, map.names()}, {}, &goals);
   if (!goal) return tl::make_unexpected(failureOf(goal.error()));
   const common::CellIndex start = map.cellAt(start_map_m);
-  if (!map.contains(start))
+  if (!map.rect().contains(start))
     return refuse(Reason::kOutsideMap, fmt::format("start {} is outside the map", map.names().of(start_map_m)));
   std::optional<CellPath> escape = escapeFrom(map, start);
   if (!escape)

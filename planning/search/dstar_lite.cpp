@@ -18,8 +18,8 @@ tl::expected<Path, PlanFailure> DStarLite::plan(const CostMap& map, const Eigen:
   const std::int32_t start = map.indexOf(chain->back()), goal = map.indexOf(map.cellAt(goal_map_m));
   constexpr std::uint32_t kGreatestOffset = 1u << 30;
   const bool kept = map.rect() == rect_ && map.resolution_m() == resolution_m_ && goal == goal_ &&
-                    map.heights_cm().size() == height_cm_.size() && map.stepCostPerCm() == step_per_cm_ &&
-                    key_offset_ < kGreatestOffset;
+                    map.steps().heights_cm.size() == steps_.heights_cm.size() &&
+                    map.steps().cost_per_cm == steps_.cost_per_cm && key_offset_ < kGreatestOffset;
   if (kept) {
     key_offset_ += static_cast<std::uint32_t>(heuristic(start_, start));
     start_ = start;
@@ -41,16 +41,15 @@ tl::expected<Path, PlanFailure> DStarLite::plan(const CostMap& map, const Eigen:
 void DStarLite::restart(const CostMap& map, int goal) {
   rect_ = map.rect();
   resolution_m_ = map.resolution_m();
-  stride_ = map.stride();
-  step_per_cm_ = map.stepCostPerCm();
+  stride_ = map.rect().width();
   goal_ = goal;
   key_offset_ = 0;
   cost_ = map.costs();
   marked_.assign(cost_.size(), 0);
-  height_cm_ = map.heights_cm();
+  steps_ = map.steps();
   heap_.clear();
-  if (vertices_.size() != map.size() || generation_ == UINT16_MAX) {
-    vertices_.assign(map.size(), Vertex{});
+  if (vertices_.size() != map.costs().size() || generation_ == UINT16_MAX) {
+    vertices_.assign(map.costs().size(), Vertex{});
     generation_ = 0;
   }
   ++generation_;
@@ -74,16 +73,16 @@ void DStarLite::adoptChanges(const CostMap& map) {
   };
   constexpr std::size_t kBlock = 64;  // The rectangle is made of tiles this wide.
   const auto& now = map.costs();
-  const auto& heights = map.heights_cm();
+  const auto& heights = map.steps().heights_cm;
   for (std::size_t block = 0; block < now.size(); block += kBlock) {
     const bool same = std::memcmp(&now[block], &cost_[block], kBlock * sizeof(CostMap::Cost)) == 0;
     const bool level =
-        heights.empty() || std::memcmp(&heights[block], &height_cm_[block], kBlock * sizeof(std::int16_t)) == 0;
+        heights.empty() || std::memcmp(&heights[block], &steps_.heights_cm[block], kBlock * sizeof(std::int16_t)) == 0;
     if (same && level) continue;
     for (std::size_t i = block; i < block + kBlock; ++i) {
-      if (now[i] == cost_[i] && (heights.empty() || heights[i] == height_cm_[i])) continue;
+      if (now[i] == cost_[i] && (heights.empty() || heights[i] == steps_.heights_cm[i])) continue;
       cost_[i] = now[i];
-      if (!heights.empty()) height_cm_[i] = heights[i];
+      if (!heights.empty()) steps_.heights_cm[i] = heights[i];
       touch(static_cast<std::int32_t>(i)).cost = now[i];
       add(static_cast<std::int32_t>(i));
     }
@@ -163,11 +162,7 @@ DStarLite::Edges DStarLite::edgesOf(std::int32_t index) {
   const CostMap::Cost* here = &cost_[static_cast<std::size_t>(index)];
   const auto add = [&](std::int32_t step, std::int32_t scale) {
     if (here[step] == CostMap::kLethal) return;
-    std::int32_t sum = scale * (cost + here[step]);
-    if (!height_cm_.empty()) {
-      const std::int16_t* height_cm = &height_cm_[static_cast<std::size_t>(index)];
-      sum += step_per_cm_ * std::abs(height_cm[0] - height_cm[step]);
-    }
+    const std::int32_t sum = scale * (cost + here[step]) + steps_.cost(index, index + step);
     result.edges[result.count++] = {index + step, sum};
   };
   const bool west = here[-1] != CostMap::kLethal, east = here[1] != CostMap::kLethal;

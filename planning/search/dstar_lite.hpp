@@ -76,9 +76,8 @@ class DStarLite final : public Planner {
   std::int32_t start_ = -1;
   std::uint32_t key_offset_ = 0;  ///< k_m of the paper.
   std::uint16_t generation_ = 0;
-  std::int32_t step_per_cm_ = 0;
-  std::vector<CostMap::Cost> cost_;      ///< The costs that the search is based on.
-  std::vector<std::int16_t> height_cm_;  ///< The heights that it is based on; empty without levels.
+  std::vector<CostMap::Cost> cost_;  ///< The costs that the search is based on.
+  SurfaceSteps steps_;               ///< The steps that it is based on.
   std::vector<Vertex> vertices_;
   std::vector<Entry> heap_;
   std::vector<std::uint8_t> marked_;  ///< Working memory; all zero between calls.

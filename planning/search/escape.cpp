@@ -8,6 +8,7 @@
 #include <queue>
 #include <unordered_set>
 
+#include "planning/search/edge_cost.hpp"
 #include "planning/search/planner.hpp"
 
 namespace swiftlet::planning {
@@ -71,8 +72,8 @@ bool leadsOn(const CostMap& map, CellIndex cell, CellIndex start, double reach_m
     if (std::hypot(at.x - start.x, at.y - start.y) * map.resolution_m() > reach_m) return true;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        const int to = from + dy * map.stride() + dx;
-        if (map.edgeCost(from, dx, dy) != CostMap::kNoEdge && reached.insert(to).second) open.push_back(to);
+        const int to = from + dy * map.rect().width() + dx;
+        if (edgeCost(map, from, dx, dy) != kNoEdge && reached.insert(to).second) open.push_back(to);
       }
   }
   return false;
@@ -84,7 +85,7 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   // Prices by what is likely there: away from obstacles first, through unknown cells only where no free path of twenty
   // times the length exists, and through occupied ones last, as these are noise only where the hull itself stands.
   constexpr double kNearness = 4.0, kUnknown = 20.0, kOccupied = 50.0;
-  if (!map.contains(start)) return std::nullopt;
+  if (!map.rect().contains(start)) return std::nullopt;
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
   // Where the planners may start, the hull keeps half of its clearance, as it may on its trail (decision 010).
   const bool lethal = map.costAt(start) == CostMap::kLethal;
@@ -93,12 +94,12 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   const bool kept_out = map.isKeptOut(map.indexOf(start));
   const auto price = [&](CellIndex, CellIndex cell) -> std::optional<double> {
     const double from_start_m = std::hypot(cell.x - start.x, cell.y - start.y) * map.resolution_m();
-    if (!map.contains(cell)) return std::nullopt;
+    if (!map.rect().contains(cell)) return std::nullopt;
     if (from_start_m > reach_m) {
       if (!kept_out || map.obstacleDistance_m(cell) < map.footprint().radius_m()) return std::nullopt;
-      return map.stateAt(cell) == CellState::kFree ? std::optional(1.0) : std::nullopt;
+      return map.states().at(cell) == CellState::kFree ? std::optional(1.0) : std::nullopt;
     }
-    switch (map.stateAt(cell)) {
+    switch (map.states().at(cell)) {
       case CellState::kFree:
         if (map.obstacleDistance_m(cell) < least_m) return std::nullopt;
         return 1.0 + kNearness * std::max(0.0, 1.0 - map.obstacleDistance_m(cell) / map.footprint().radius_m());
@@ -131,15 +132,15 @@ std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, Cell
   // will leave.
   constexpr double kNarrow = 4.0, kOccupied = 200.0;
   const std::optional<CellPath> escape = escapeFrom(map, start);
-  if (!escape || !map.contains(goal)) return std::nullopt;
+  if (!escape || !map.rect().contains(goal)) return std::nullopt;
   const auto isLethal = [&](CellIndex cell) { return map.costAt(cell) == CostMap::kLethal; };
   const auto price = [&](CellIndex from, CellIndex to) -> std::optional<double> {
-    if (map.stateAt(to) == CellState::kUnknown) return std::nullopt;
+    if (map.states().at(to) == CellState::kUnknown) return std::nullopt;
     // Like the planners, this cuts no corner.
     const bool diagonal = from.x != to.x && from.y != to.y;
     if (diagonal && (isLethal({from.x, to.y}) || isLethal({to.x, from.y}))) return std::nullopt;
     if (!isLethal(to)) return 1.0;
-    return map.stateAt(to) == CellState::kOccupied ? kOccupied : kNarrow;
+    return map.states().at(to) == CellState::kOccupied ? kOccupied : kNarrow;
   };
   const std::optional<CellPath> path =
       cheapest(map.rect(), escape->back(), price, [&](CellIndex cell) { return cell == goal; });
@@ -147,7 +148,7 @@ std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, Cell
   const auto lethal = std::find_if(path->begin(), path->end(), isLethal);
   if (lethal == path->end()) return std::nullopt;
   const auto roomy = std::find_if(std::make_reverse_iterator(lethal), path->rend(),
-                                  [&](CellIndex cell) { return map.hasRoomToStop(cell); });
+                                  [&](CellIndex cell) { return hasRoomToStop(map, cell); });
   return BlockedPath{roomy == path->rend() ? *std::prev(lethal) : *roomy, *lethal};
 }
 

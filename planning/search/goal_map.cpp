@@ -15,7 +15,7 @@ struct KeptGoalMap {
 };
 
 bool mayBeAt(const CostMap& map, common::CellIndex cell, double clearance_m) {
-  if (!map.contains(cell)) return false;
+  if (!map.rect().contains(cell)) return false;
   const int index = map.indexOf(cell);
   if (map.isKeptOut(index)) return false;
   const bool lethal = map.isLethal(index) && !map.isLethalByDisc(index);
@@ -24,17 +24,17 @@ bool mayBeAt(const CostMap& map, common::CellIndex cell, double clearance_m) {
   const double radius_m = std::min(own.hull_radius_m + clearance_m, map.reach_m());
   const bool near = map.obstacleDistance_m(cell) < radius_m;
   const bool larger = clearance_m > own.clearance_m;
-  return !near && (!lethal || (!larger && map.stateAt(cell) == CellState::kFree));
+  return !near && (!lethal || (!larger && map.states().at(cell) == CellState::kFree));
 }
 
 }  // namespace
 
 common::PlaceState CostGoalMap::stateAt(const Eigen::Vector2d& place_map_m, double clearance_m) const {
   const common::CellIndex cell = map_.cellAt(place_map_m);
-  if (!map_.contains(cell)) return common::PlaceState::kOutsideMap;
+  if (!map_.rect().contains(cell)) return common::PlaceState::kOutsideMap;
   if (mayBeAt(map_, cell, clearance_m)) return common::PlaceState::kFree;
   if (map_.isKeptOut(map_.indexOf(cell))) return common::PlaceState::kKeptOut;
-  switch (map_.stateAt(cell)) {
+  switch (map_.states().at(cell)) {
     case CellState::kOccupied:
       return common::PlaceState::kObstacle;
     case CellState::kUnknown:

@@ -114,8 +114,9 @@ SegmentCost segmentCost(const CostMap& map, const Point& from_map_m, const Point
       cell.y += sign_y;
       next.y() += delta.y();
     }
-    if (map.contains(before) && map.contains(cell))
-      result.cost_m += map.stepCost(map.indexOf(before), map.indexOf(cell)) * (resolution_m / CostMap::kStraightMin);
+    if (map.rect().contains(before) && map.rect().contains(cell))
+      result.cost_m +=
+          map.steps().cost(map.indexOf(before), map.indexOf(cell)) * (resolution_m / CostMap::kStraightMin);
   }
   visit(last, std::max(0.0, 1.0 - t));
   return result;

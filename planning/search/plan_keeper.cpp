@@ -88,7 +88,7 @@ PlanKeeper::Rest PlanKeeper::rest(const PlanMaps& maps) const {
     return path_->isLowered(segment_ + line) ? maps.heights->lower : maps.heights->upper;
   };
   Rest rest;
-  bool leaving = mapOf(0).isLethalAt(points_m.front());
+  bool leaving = isLethalAt(mapOf(0), points_m.front());
   for (std::size_t i = 1; i < points_m.size(); ++i) {
     const CostMap& map = mapOf(i - 1);
     const SegmentCost step = segmentCost(map, points_m[i - 1], points_m[i]);
@@ -97,7 +97,7 @@ PlanKeeper::Rest PlanKeeper::rest(const PlanMaps& maps) const {
       rest.cost_m += step.cost_m;
       continue;
     }
-    const bool out = !map.isLethalAt(points_m[i]);
+    const bool out = !isLethalAt(map, points_m[i]);
     if (!leaving && i > escape_points) {
       rest.blocked_map_m = points_m[i];
       return rest;

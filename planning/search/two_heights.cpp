@@ -12,6 +12,7 @@
 
 #include "common/check.hpp"
 #include "planning/search/admission.hpp"
+#include "planning/search/edge_cost.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -31,7 +32,7 @@ class HeightSearch {
  public:
   HeightSearch(const TwoHeights& maps, double change_cost_m)
       : maps_(maps),
-        cells_(static_cast<int>(maps.upper.size())),
+        cells_(static_cast<int>(maps.upper.costs().size())),
         change_(
             static_cast<std::int32_t>(std::lround(change_cost_m / maps.upper.resolution_m() * CostMap::kStraightMin))) {
   }
@@ -74,9 +75,9 @@ class HeightSearch {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if (dx == 0 && dy == 0) continue;
-        const std::int32_t edge = map.edgeCost(cell, dx, dy);
-        if (edge == CostMap::kNoEdge) continue;
-        improve(layer + cell + dy * map.stride() + dx, cost + edge + (lower ? edge / 2 : 0), node);
+        const std::int32_t edge = edgeCost(map, cell, dx, dy);
+        if (edge == kNoEdge) continue;
+        improve(layer + cell + dy * map.rect().width() + dx, cost + edge + (lower ? edge / 2 : 0), node);
       }
     if (!maps_.upper.isLethal(cell) && !maps_.lower.isLethal(cell))
       improve(lower ? cell : cell + cells_, cost + change_, node);
@@ -119,7 +120,7 @@ Path linesThrough(const TwoHeights& maps, const std::vector<Place>& places, std:
 }  // namespace
 
 tl::expected<Path, PlanFailure> planAtTwoHeights(const TwoHeights& maps, const TwoHeightsQuestion& question) {
-  SWIFTLET_CHECK(maps.upper.rect() == maps.lower.rect(), maps.upper.size(), maps.lower.size());
+  SWIFTLET_CHECK(maps.upper.rect() == maps.lower.rect(), maps.upper.costs().size(), maps.lower.costs().size());
   const CostMap& first = question.starts_lower ? maps.lower : maps.upper;
   const CellIndex goal = maps.upper.cellAt(question.goal_map_m);
   const bool ends_lower = maps.upper.costAt(goal) == CostMap::kLethal;

@@ -5,6 +5,7 @@
 
 #include "common/check.hpp"
 #include "planning/search/admission.hpp"
+#include "planning/search/edge_cost.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -21,13 +22,13 @@ constexpr std::uint8_t kDirectionMask = 0x0F;
 
 void CostField::spread(const CostMap& map, CellIndex source, std::optional<CellIndex> until) {
   SWIFTLET_CHECK(map.costAt(source) != CostMap::kLethal, source.x, source.y);
-  cost_.assign(map.size(), kUnreached);
-  from_.assign(map.size(), kSource);
+  cost_.assign(map.costs().size(), kUnreached);
+  from_.assign(map.costs().size(), kSource);
   // An edge reaches at most this many buckets ahead, so that the ring never overtakes itself.
-  const auto ring = static_cast<std::size_t>(map.maxEdgeCost() / CostMap::kStraightMin + 2);
+  const auto ring = static_cast<std::size_t>(greatestEdgeCost(map) / CostMap::kStraightMin + 2);
   buckets_.assign(ring, {});
   std::array<int, 8> offsets;
-  for (std::size_t d = 0; d < 8; ++d) offsets[d] = kDirections[d][1] * map.stride() + kDirections[d][0];
+  for (std::size_t d = 0; d < 8; ++d) offsets[d] = kDirections[d][1] * map.rect().width() + kDirections[d][0];
 
   const std::int32_t first = map.indexOf(source), last = until ? map.indexOf(*until) : -1;
   cost_[static_cast<std::size_t>(first)] = 0;
@@ -43,8 +44,8 @@ void CostField::spread(const CostMap& map, CellIndex source, std::optional<CellI
       for (std::size_t d = 0; d < 8; ++d) {
         const auto next = static_cast<std::size_t>(cell + offsets[d]);
         if (cost_[next] <= cost_[i] + CostMap::kStraightMin) continue;
-        const std::int32_t edge = map.edgeCost(cell, kDirections[d][0], kDirections[d][1]);
-        if (edge == CostMap::kNoEdge || cost_[i] + edge >= cost_[next]) continue;
+        const std::int32_t edge = edgeCost(map, cell, kDirections[d][0], kDirections[d][1]);
+        if (edge == kNoEdge || cost_[i] + edge >= cost_[next]) continue;
         cost_[next] = cost_[i] + edge;
         from_[next] = static_cast<std::uint8_t>(d);
         buckets_[static_cast<std::size_t>(cost_[next] / CostMap::kStraightMin) % ring].push_back(
@@ -65,7 +66,7 @@ CellPath CostField::pathTo(const CostMap& map, CellIndex target) const {
     path.push_back(map.cellOf(at));
     const std::uint8_t direction = from_[static_cast<std::size_t>(at)] & kDirectionMask;
     if (direction == kSource) break;
-    at -= kDirections[direction][1] * map.stride() + kDirections[direction][0];
+    at -= kDirections[direction][1] * map.rect().width() + kDirections[direction][0];
   }
   std::reverse(path.begin(), path.end());
   return path;

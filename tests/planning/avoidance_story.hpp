@@ -76,7 +76,7 @@ class Story {
     double best = 30.0;
     for (double r = 0.0; r < best;) {
       const common::CellIndex cell = truth_.cellAt(pose.position_m() + r * u);
-      if (truth_.stateAt(cell) != CellState::kFree) best = std::min(best, r);
+      if (truth_.states().at(cell) != CellState::kFree) best = std::min(best, r);
       r += std::max(0.01, truth_.obstacleDistance_m(cell) - 0.1);
     }
     for (const Person& person : people) best = std::min(best, toDisc(person.place_map_m, person.radius_m, u));

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kNever = INT64_MAX;
 
 /// Cost from `source` to every cell, by the rules stated in the planners' headers. It shares no code with the planners.
 inline std::vector<std::int64_t> dijkstra(const CostMap& map, int source) {
-  std::vector<std::int64_t> cost(map.size(), kNever);
+  std::vector<std::int64_t> cost(map.costs().size(), kNever);
   using Entry = std::pair<std::int64_t, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   cost[static_cast<std::size_t>(source)] = 0;
@@ -34,9 +34,9 @@ inline std::vector<std::int64_t> dijkstra(const CostMap& map, int source) {
         if (lethal(next) || lethal({cell.x + dx, cell.y}) || lethal({cell.x, cell.y + dy})) continue;
         const int i = map.indexOf(next);
         std::int64_t edge = (dx != 0 && dy != 0 ? 17L : 12L) * (map.costAt(cell) + map.costAt(next));
-        if (!map.heights_cm().empty())
-          edge += std::int64_t{map.stepCostPerCm()} * std::abs(map.heights_cm()[static_cast<std::size_t>(at)] -
-                                                               map.heights_cm()[static_cast<std::size_t>(i)]);
+        if (const std::vector<std::int16_t>& heights_cm = map.steps().heights_cm; !heights_cm.empty())
+          edge += std::int64_t{map.steps().cost_per_cm} *
+                  std::abs(heights_cm[static_cast<std::size_t>(at)] - heights_cm[static_cast<std::size_t>(i)]);
         if (reached + edge >= cost[static_cast<std::size_t>(i)]) continue;
         cost[static_cast<std::size_t>(i)] = reached + edge;
         open.push({reached + edge, i});

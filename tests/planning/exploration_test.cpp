@@ -307,8 +307,8 @@ double localizabilityAt(const CostMap& map, common::CellIndex place, double rang
   const int max_steps = static_cast<int>(range_m / map.resolution_m());
   for (const Directions::Ray& ray : directions.rays()) {
     castRay(map, place, ray, static_cast<int>(max_steps / ray.step_cells), [&](int index, int) {
-      if (map.state(index) == CellState::kFree) return true;
-      if (map.state(index) == CellState::kOccupied)
+      if (map.states()[index] == CellState::kFree) return true;
+      if (map.states()[index] == CellState::kOccupied)
         returns.push_back({map.centerOf(map.cellOf(index)) - map.centerOf(place), wallNormal(map, index)});
       return false;
     });

@@ -29,7 +29,7 @@ class KeepOut : public testing::Test {
 
 TEST_F(KeepOut, TheHullAndItsClearanceStayOutside) {
   const double radius_m = map_.footprint().radius_m();
-  for (int i = 0; i < static_cast<int>(map_.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(map_.costs().size()); ++i) {
     const double outside_m = kZone.signedDistance_m(map_.centerOf(map_.cellOf(i))) - radius_m;
     EXPECT_EQ(map_.isKeptOut(i), outside_m < 0.0);
     EXPECT_TRUE(map_.isLethal(i) || outside_m >= 0.0);

@@ -22,7 +22,7 @@ constexpr Footprint kSmall{0.10, 0.05};
 
 std::optional<CellIndex> randomFree(const CostMap& map, common::RandomStream& random) {
   for (int i = 0; i < 200; ++i) {
-    const int index = static_cast<int>(random.uniform() * static_cast<double>(map.size()));
+    const int index = static_cast<int>(random.uniform() * static_cast<double>(map.costs().size()));
     if (!map.isLethal(index)) return map.cellOf(index);
   }
   return std::nullopt;
@@ -201,7 +201,7 @@ TEST_P(PlannerOverSteps, TakesADetourAroundAStepOfTheFloor) {
       for (double t = 0; t <= 1.0; t += 0.01) {
         const Eigen::Vector2d p = path->points_map_m[i - 1] * (1 - t) + path->points_map_m[i] * t;
         height_cm =
-            std::max(height_cm, std::abs(map.heights_cm()[static_cast<std::size_t>(map.indexOf(map.cellAt(p)))]));
+            std::max(height_cm, std::abs(map.steps().heights_cm[static_cast<std::size_t>(map.indexOf(map.cellAt(p)))]));
       }
     return height_cm;
   };

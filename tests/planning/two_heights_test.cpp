@@ -1,5 +1,6 @@
 // Paths that change their height: below a beam, back up behind it, and never where the hull does not fit.
 #include "planning/search/two_heights.hpp"
+#include "planning/search/edge_cost.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -97,8 +98,8 @@ TEST_F(RoomAtTwoHeights, AGoalThatIsFreeAtNeitherHeightIsRefusedWithTheReasonOfT
 /// The least cost by relaxing every edge of both maps until nothing changes: slow and obvious.
 std::int64_t naiveCost(const TwoHeights& maps, CellIndex from, CellIndex to, bool ends_lower, std::int64_t change) {
   constexpr std::int64_t kFar = INT64_MAX / 2;
-  const int cells = static_cast<int>(maps.upper.size());
-  std::vector<std::vector<std::int64_t>> cost(2, std::vector<std::int64_t>(maps.upper.size(), kFar));
+  const int cells = static_cast<int>(maps.upper.costs().size());
+  std::vector<std::vector<std::int64_t>> cost(2, std::vector<std::int64_t>(maps.upper.costs().size(), kFar));
   cost[0][static_cast<std::size_t>(maps.upper.indexOf(from))] = 0;
   for (bool changed = true; changed;) {
     changed = false;
@@ -110,9 +111,9 @@ std::int64_t naiveCost(const TwoHeights& maps, CellIndex from, CellIndex to, boo
         for (int dy = -1; dy <= 1; ++dy)
           for (int dx = -1; dx <= 1; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            const std::int32_t edge = map.edgeCost(i, dx, dy);
-            if (edge == CostMap::kNoEdge) continue;
-            const int j = i + dy * map.stride() + dx;
+            const std::int32_t edge = edgeCost(map, i, dx, dy);
+            if (edge == kNoEdge) continue;
+            const int j = i + dy * map.rect().width() + dx;
             best = std::min(best, cost[height][static_cast<std::size_t>(j)] + edge + (height == 1 ? edge / 2 : 0));
           }
         const bool both = !maps.upper.isLethal(i) && !maps.lower.isLethal(i);
