@@ -191,7 +191,7 @@ std::vector<common::SurfacePoint> pointsOf(const ConvertOptions& options, Kind f
 
 void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind from) {
   const fs::path yaml = options.to;
-  const common::OccupancyGrid plan = mapping3d::floorPlan(map, {*options.low_m, *options.high_m});
+  const common::OccupancyGrid plan = mapping3d::floorPlan(map, *options.low_m, *options.high_m);
   const common::CellRect known = knownExtent(plan);
   if (known.empty())
     refuseFile(options, fmt::format("nothing is known from {} to {} m", *options.low_m, *options.high_m), "");

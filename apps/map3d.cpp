@@ -139,7 +139,7 @@ void requireInReach(const Map3dOptions& options, const common::Trajectory& poses
                     const interfaces::RgbdFolder& folder) {
   const mapping3d::VoxelConfig voxels;
   const double reach_m = mapping3d::octreeReach_m(voxels.resolution_m) - voxels.range_max_m;
-  const auto gap = common::Duration::fromSeconds(mapping3d::RecordedSeedsConfig().longest_gap_s);
+  const auto gap = common::Duration::fromSeconds(mapping3d::RecordedSeeds::kLongestGap_s);
   for (const auto& pair : folder.listing().pairs) {
     const auto pose = common::poseAt(poses, pair.stamp, gap);
     if (!pose || pose->position_m.cwiseAbs().maxCoeff() < reach_m) continue;
@@ -155,7 +155,7 @@ void requireInReach(const Map3dOptions& options, const common::Trajectory& poses
 
 mapping3d::RecordedSeeds seedsOf(common::Trajectory poses, const RecordedCamera& camera) {
   for (common::StampedPose& at : poses) at.pose = camera.camera(at.pose);
-  return {std::move(poses), {}};
+  return mapping3d::RecordedSeeds(std::move(poses));
 }
 
 void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {

@@ -26,10 +26,10 @@ std::vector<std::string> AutonomyConfig::validate() const {
 
 void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
   double& avoidance_deg = reactive.avoidance.field_of_view_deg;
-  planning::ExplorationConfig& exploration = execution.planning.exploration;
+  planning::ExplorerConfig& explorer = execution.planning.explorer;
   avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
-  exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
-  exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
+  explorer.laser_field_of_view_deg = std::min(explorer.laser_field_of_view_deg, laser.field_of_view_deg);
+  explorer.laser_range_m = std::min(explorer.laser_range_m, laser.range_max_m);
   execution.follow.watch.tracked_m = std::min(execution.follow.watch.tracked_m, estimator.people.max_range_m);
 }
 

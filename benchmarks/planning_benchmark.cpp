@@ -12,7 +12,7 @@
 #include "common/random.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/costs/cost_map.hpp"
-#include "planning/exploration/utility_explorer.hpp"
+#include "planning/exploration/exploration.hpp"
 #include "planning/search/dstar_lite.hpp"
 #include "planning/search/edge_cost.hpp"
 #include "planning/search/wavefront.hpp"
@@ -222,10 +222,9 @@ void Explore(benchmark::State& state) {
   planning::ExplorationInput input;
   input.cost_map = map;
   input.pose_map = {start.x(), start.y(), 0.0};
-  const planning::UtilityExplorer explorer{{}};
   planning::ExplorationResult result;
   for (auto _ : state) {
-    result = explorer.explore(input);
+    result = planning::exploreByUtility(input, {});
     benchmark::DoNotOptimize(result);
   }
   state.counters["frontiers"] = static_cast<double>(result.frontiers.size());

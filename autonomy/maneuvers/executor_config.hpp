@@ -4,13 +4,11 @@
 #include "autonomy/maneuvers/follow_config.hpp"
 #include "autonomy/planning_jobs/planning_config.hpp"
 #include "common/config_fwd.hpp"
-#include "planning/search/plan_keeper.hpp"
 
 namespace swiftlet::autonomy {
 
 struct ExecutorConfig {
-  PlanningConfig planning;  ///< Its keys are at this level of the file.
-  planning::PlanKeeper::Config plan_keeper;
+  PlanningConfig planning;                         ///< Its keys are at this level of the file.
   static constexpr double explore_period_s = 0.5;  ///< Least time between choices of the next viewpoint.
   static constexpr double explore_period_share =
       0.15;  ///< Least time between choices of the next viewpoint as a share of the flight time to the present one.

@@ -24,8 +24,7 @@ PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
       desk_(setup.desk),
       memory_(setup.memory),
       client_(setup.client),
-      mode_(mode),
-      keeper_(setup.config.plan_keeper) {}
+      mode_(mode) {}
 
 void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question) {
   if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = lowered_.heights();

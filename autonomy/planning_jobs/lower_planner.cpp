@@ -92,10 +92,6 @@ tl::expected<planning::Path, planning::PlanFailure> LowerPlanner::plan(const Low
   const auto lower_m = config_.enabled ? chooseHeight(question.height) : std::nullopt;
   if (!lower_m) return tl::make_unexpected(planning::PlanFailure{});
   update(question, *lower_m);
-  planning::TwoHeightsQuestion asked;
-  asked.start_map_m = question.start_map_m;
-  asked.starts_lower = question.height.isLower();
-  asked.change_cost_m = config_.change_cost_m;
   planning::PlanFailure failure;
   for (const planning::CostMap* map : {&maps_->upper, &maps_->lower}) {
     const planning::CostGoalMap goals(*map);
@@ -106,8 +102,8 @@ tl::expected<planning::Path, planning::PlanFailure> LowerPlanner::plan(const Low
       failure = planning::failureOf(place.error());
       continue;
     }
-    asked.goal_map_m = *place;
-    auto path = planAtTwoHeights(*maps_, asked);
+    auto path =
+        planAtTwoHeights(*maps_, question.start_map_m, *place, question.height.isLower(), config_.change_cost_m);
     if (path) return path;
     failure = path.error();
   }

@@ -4,8 +4,7 @@
 #include "autonomy/planning_jobs/lower_flight_config.hpp"
 #include "common/config_fwd.hpp"
 #include "planning/costs/cost_map.hpp"
-#include "planning/exploration/exploration_config.hpp"
-#include "planning/exploration/explorer_choice.hpp"
+#include "planning/exploration/exploration.hpp"
 #include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {
@@ -13,7 +12,6 @@ namespace swiftlet::autonomy {
 struct PlanningConfig {
   planning::CostMap::Config cost_map;
   planning::ExplorerConfig explorer;
-  planning::ExplorationConfig exploration;
   planning::PlannerConfig planner;
   LowerFlightConfig lower;
   double latency_s = 0.06;

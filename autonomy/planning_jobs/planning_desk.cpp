@@ -13,8 +13,7 @@ using common::Time;
 
 PlanningDesk::PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                            common::JobRunner& jobs, Deliver deliver)
-    : exploration_(config.exploration),
-      latency_s_(config.latency_s),
+    : latency_s_(config.latency_s),
       period_s_(config.period_s),
       hull_radius_m_(vehicle.hullRadius_m()),
       jobs_(jobs),
@@ -41,7 +40,7 @@ std::shared_ptr<const planning::CostMap> PlanningDesk::costMapAt(const FlightHei
 }
 
 bool PlanningDesk::wallsAround(const common::VehicleState& state) const {
-  return !cost_map_ || planning::isHeld(*cost_map_, state.T_map_body_planar().position_m(), exploration_);
+  return !cost_map_ || planning::isHeld(*cost_map_, state.T_map_body_planar().position_m());
 }
 
 void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {

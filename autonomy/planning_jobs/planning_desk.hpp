@@ -56,7 +56,6 @@ class PlanningDesk {
  private:
   void receive(const PlanningAnswer& answer, common::Time now);
 
-  planning::ExplorationConfig exploration_;
   double latency_s_, period_s_, hull_radius_m_;
   common::JobRunner& jobs_;
   Deliver deliver_;

@@ -38,7 +38,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
     explore(request, *explore_request, answer);
   }
   answer.home_m = pathHome_m(here);
-  answer.use = {planner_->name(), paths_, explorer_->name(), viewpoints_};
+  answer.use = {planner_->name(), paths_, toString(explorer_.kind), viewpoints_};
   return answer;
 }
 
@@ -77,13 +77,11 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   constexpr int kTries = 3;
   planning::ExplorationResult result;
   for (int i = 0; i < kTries; ++i) {
-    result = explorer_->explore(input);
+    result = planning::explore(input, explorer_);
     answer.path.reset();
     if (!result.next) break;
     answer.path = plan(input.pose_map.position_m(), result.next->pose_map.position_m());
-    if (!*answer.path || input.leave_building ||
-        planning::staysHeld(map_, answer.path->value().points_map_m, exploration_))
-      break;
+    if (!*answer.path || input.leave_building || planning::staysHeld(map_, answer.path->value().points_map_m)) break;
     input.lost_map_m.push_back(result.next->target_map_m);
     input.current.reset();
   }
@@ -187,10 +185,10 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
     if (cell.x % kEvery == 0 && cell.y % kEvery == 0) others.emplace_back(score, i);
   }
   const auto placeOf = [&](int index) { return map_.centerOf(map_.cellOf(index)); };
-  if (planning::isHeld(map_, placeOf(best.second), exploration_)) return placeOf(best.second);
+  if (planning::isHeld(map_, placeOf(best.second))) return placeOf(best.second);
   std::stable_sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [score, index] : others)
-    if (planning::isHeld(map_, placeOf(index), exploration_)) return placeOf(index);
+    if (planning::isHeld(map_, placeOf(index))) return placeOf(index);
   return std::nullopt;
 }
 

@@ -18,7 +18,6 @@
 #include "common/polygon.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
-#include "planning/exploration/explorer_choice.hpp"
 #include "planning/search/planner.hpp"
 #include "planning/search/wavefront.hpp"
 
@@ -94,9 +93,8 @@ class PlanningWorker {
       : map_(config.cost_map, resolution_m),
         lower_(config.lower, config.cost_map, resolution_m, hull_height_m),
         lower_detour_m_(config.lower.detour_m),
-        explorer_(planning::makeExplorer(config.explorer, config.exploration)),
-        planner_(planning::makePlanner(config.planner)),
-        exploration_(config.exploration) {}
+        explorer_(config.explorer),
+        planner_(planning::makePlanner(config.planner)) {}
 
   PlanningAnswer answer(const PlanningRequest& request);
 
@@ -118,9 +116,8 @@ class PlanningWorker {
   LowerPlanner lower_;
   double lower_detour_m_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
-  std::unique_ptr<planning::Explorer> explorer_;
+  planning::ExplorerConfig explorer_;
   std::unique_ptr<planning::Planner> planner_;
-  planning::ExplorationConfig exploration_;
   planning::Wavefront home_planner_;
   std::optional<double> home_m_;
   int home_failures_ = 0;  ///< Plans without a path, since the last path.

@@ -31,8 +31,6 @@ using common::Pose3;
 using rgbd_peers::Contender;
 using rgbd_peers::Peer;
 
-constexpr int kWidth_px = 320;
-
 class OurOdometry final : public Peer {
  public:
   bool add(const common::RgbdFrame& frame, const mapping3d::PyramidLevel&) override {
@@ -94,7 +92,7 @@ Result run(Peer& peer, const Options& options) {
   std::vector<common::Time> stamps;
   while (const auto frame = folder.next()) {
     result.frames.push_back(frame->stamps.measured);
-    const mapping3d::FramePyramid small = mapping3d::makePyramid(*frame, kWidth_px, 1);
+    const mapping3d::FramePyramid small = mapping3d::makePyramid(*frame, 1);
     const double begin_s = processorSeconds();
     const bool placed = peer.add(*frame, small.front());
     result.milliseconds.push_back(1e3 * (processorSeconds() - begin_s));

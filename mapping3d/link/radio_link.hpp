@@ -19,8 +19,7 @@ namespace swiftlet::mapping3d {
 
 struct RadioLinkConfig {
   double link_kB_s = 0.0;
-  static constexpr int jpeg_quality = 80;  ///< Quality of the colours that go over the radio; depths lose nothing.
-  double oldest_s = 0.3;                   ///< Frames that were measured longer ago when they come through are dropped.
+  double oldest_s = 0.3;  ///< Frames that were measured longer ago when they come through are dropped.
 
   void describe(common::config::Fields& fields);
   bool isUsed() const { return link_kB_s > 0.0; }

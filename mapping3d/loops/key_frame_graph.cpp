@@ -15,6 +15,15 @@ namespace {
 
 using common::Pose3;
 
+/// Errors of position and attitude of an alignment between two key frames that its points do not show, at least.
+constexpr double kEdgeSigma_m = 0.01, kEdgeSigma_rad = 0.005;
+/// Errors that alignments gather over a metre of steps and over a radian of turns; they grow with the roots of both, as
+/// a random walk does (decision 040).
+constexpr double kWalk_m = 0.03, kWalk_rad = 0.05;
+/// Further differences of a loop closure from the path that are accepted: of its position, as a share of the path's
+/// length, and of its attitude, as a share of all turns along the path.
+constexpr double kDriftShare = 0.05, kDriftTurnShare = 0.05;
+
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 double turnOf_rad(const Pose3& pose) { return pose.rotation.angularDistance(Eigen::Quaterniond::Identity()); }
@@ -36,9 +45,9 @@ KeyFrameGraph::KeyFrameGraph(const KeyFrameGraphConfig& config)
 optimization::PoseEdge3D KeyFrameGraph::edgeOf(const KeyFrameEdge& edge, int to, bool robust) const {
   Matrix6d covariance = edge.information.inverse();
   covariance.diagonal().head<3>().array() +=
-      config_.edge_sigma_m * config_.edge_sigma_m + config_.walk_m * config_.walk_m * edge.T_from_to.position_m.norm();
-  covariance.diagonal().tail<3>().array() += config_.edge_sigma_rad * config_.edge_sigma_rad +
-                                             config_.walk_rad * config_.walk_rad * turnOf_rad(edge.T_from_to);
+      kEdgeSigma_m * kEdgeSigma_m + kWalk_m * kWalk_m * edge.T_from_to.position_m.norm();
+  covariance.diagonal().tail<3>().array() +=
+      kEdgeSigma_rad * kEdgeSigma_rad + kWalk_rad * kWalk_rad * turnOf_rad(edge.T_from_to);
   Eigen::Matrix<double, 6, 1> unit;
   unit << 1.0, 1.0, 1.0, 0.5, 0.5, 0.5;
   covariance = (unit.asDiagonal() * covariance * unit.asDiagonal()).eval();
@@ -100,8 +109,8 @@ KeyFrameGraph::PathLength KeyFrameGraph::pathBetween(int from, int to) const {
 bool KeyFrameGraph::allows(int to, const KeyFrameEdge& loop) const {
   const PathLength length = pathBetween(loop.from, to);
   const Pose3 T_from_to = graph_.poses[at(loop.from)].inverse() * graph_.poses[at(to)];
-  const double turn_rad = config_.drift_rad + config_.drift_turn_share * length.turn_rad;
-  const double step_m = config_.drift_m + config_.drift_share * length.path_m + turn_rad * length.extent_m;
+  const double turn_rad = config_.drift_rad + kDriftTurnShare * length.turn_rad;
+  const double step_m = config_.drift_m + kDriftShare * length.path_m + turn_rad * length.extent_m;
   return loop.T_from_to.rotation.angularDistance(T_from_to.rotation) <= turn_rad &&
          (loop.T_from_to.position_m - T_from_to.position_m).norm() <= step_m;
 }

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "common/key_pose.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 #include "optimization/graph_3d.hpp"
@@ -19,22 +18,10 @@
 namespace swiftlet::mapping3d {
 
 struct KeyFrameGraphConfig {
-  static constexpr double edge_sigma_m =
-      0.01;  ///< Error of the position of an alignment between two key frames that its points do not show, at least.
-  static constexpr double edge_sigma_rad =
-      0.005;  ///< Error of the attitude of an alignment between two key frames that its points do not show, at least.
-  static constexpr double walk_m = 0.03;    ///< Error of the position that alignments gather over a metre of steps; it
-                                            ///< grows with the root of the length.
-  static constexpr double walk_rad = 0.05;  ///< Error of the attitude that alignments gather over a radian of turns; it
-                                            ///< grows with the root of the turns.
   double drift_m =
       0.1;  ///< Difference of a loop closure's position from the path that is accepted however short the path is.
-  static constexpr double drift_share = 0.05;  ///< Further difference of a loop closure's position from the path that
-                                               ///< is accepted, as a share of the path's length.
   double drift_rad =
       0.05;  ///< Difference of a loop closure's attitude from the path that is accepted however little the path turns.
-  static constexpr double drift_turn_share = 0.05;  ///< Further difference of a loop closure's attitude from the path
-                                                    ///< that is accepted, as a share of all turns along the path.
   double greatest_error = 25.0;  ///< A loop closure whose squared error in the optimized graph is greater is removed;
                                  ///< the squared error of a right one is chi-squared with 6 degrees of freedom.
   optimization::PoseGraphConfig optimization;

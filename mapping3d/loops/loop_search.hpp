@@ -4,31 +4,21 @@
 
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "mapping3d/loops/key_frame_graph.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 
 namespace swiftlet::mapping3d {
 
-struct LoopSearchConfig {
-  int candidates = 5;  ///< Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.
-  static constexpr int apart = 5;  ///< This many of the newest key frames are no candidates: the track connects them.
-  static constexpr double least_overlap = 0.4;  ///< Part of a candidate's points that must lie in the picture.
-};
-
-/// Whether a key frame is so old that an alignment of the newest one to it closes a loop.
-bool isOld(int scan, int newest, const LoopSearchConfig& config);
-
 /// The edge by which the track connects a new key frame, which gets this number: from the one that it overlaps most of
 /// those that it was aligned to, an old one only if there is no other; empty for the first. A frame is aligned to all
 /// of its key frames together, so its pose contains no information on the drift between old and new ones; findLoops
 /// measures that.
-std::vector<KeyFrameEdge> trackEdges(const RgbdPose& pose, int number, const KeyFrameMap& keys,
-                                     const LoopSearchConfig& config);
+std::vector<KeyFrameEdge> trackEdges(const RgbdPose& pose, int number, const KeyFrameMap& keys);
 
 /// Edges from old key frames of `keys` to its newest one, which `frame` became; each key frame's scan is its number in
-/// the graph. A pure function; it takes some milliseconds for each candidate.
+/// the graph. Up to `candidates` key frames that look most alike are tried; at 0 no loops are closed. A pure function;
+/// it takes some milliseconds for each candidate.
 std::vector<KeyFrameEdge> findLoops(const common::RgbdFrame& frame, const RgbdPose& pose, const KeyFrameMap& keys,
-                                    const RgbdOdometryConfig& odometry, const LoopSearchConfig& config);
+                                    const RgbdOdometryConfig& odometry, int candidates);
 
 }  // namespace swiftlet::mapping3d

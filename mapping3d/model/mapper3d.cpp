@@ -74,12 +74,12 @@ void Mapper3d::grow(const RgbdFrame& still, MappedFrame& mapped) {
   if (!pose.aligned_to.empty()) pose.scan = pose.aligned_to.front();
   if (!pose.became_key_frame) return;
   const auto number = static_cast<int>(graph_.size());
-  const auto edges = trackEdges(pose, number, odometry_.keyFrames(), config_.loops);
+  const auto edges = trackEdges(pose, number, odometry_.keyFrames());
   pose.scan = graph_.add(pose.stamp, pose.T_map_camera, edges);
   odometry_.moveTo(graph_.poses());
   odometry_.hangNewestOn(pose.scan);
   checkFocal(still, pose);
-  const auto loops = findLoops(still, pose, odometry_.keyFrames(), config_.odometry, config_.loops);
+  const auto loops = findLoops(still, pose, odometry_.keyFrames(), config_.odometry, config_.loop_candidates);
   if (loops.empty()) return;
   mapped.loops = graph_.close(loops);
   odometry_.moveTo(graph_.poses());
@@ -90,8 +90,7 @@ void Mapper3d::checkFocal(const RgbdFrame& still, const RgbdPose& pose) {
   const KeyFrameMap& keys = odometry_.keyFrames();
   if (focal_.isDone() || keys.size() < 2) return;
   const std::size_t before = keys.size() - 2;
-  focal_.add(makePyramid(still, config_.odometry.greatest_width_px, config_.odometry.levels), pose, keys.at(before),
-             keys.placeOf(before).T_map_key, config_.odometry);
+  focal_.add(makePyramid(still), pose, keys.at(before), keys.placeOf(before).T_map_key, config_.odometry);
 }
 
 }  // namespace swiftlet::mapping3d

@@ -32,8 +32,9 @@ namespace swiftlet::mapping3d {
 struct Mapper3dConfig {
   RgbdOdometryConfig odometry;
   VoxelConfig voxels;
-  ImageSubmapConfig submaps;
-  LoopSearchConfig loops;
+  SubmapConfig submaps;
+  int loop_candidates =
+      5;  ///< Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.
   KeyFrameGraphConfig graph;
 
   void describe(common::config::Fields& fields);

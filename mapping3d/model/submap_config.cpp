@@ -8,6 +8,4 @@ void SubmapConfig::describe(common::config::Fields& fields) {
   fields("cube_m", cube_m, {0.005, 0.5}, "A submap has one point for each cube of this size.");
 }
 
-void ImageSubmapConfig::describe(common::config::Fields& fields) { SubmapConfig::describe(fields); }
-
 }  // namespace swiftlet::mapping3d

@@ -18,12 +18,4 @@ struct SubmapConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Of submaps from depth images, which have far more pixels than a map needs points.
-struct ImageSubmapConfig : SubmapConfig {
-  static constexpr int pixel_step = 2;  ///< Every n-th pixel of a row and of a column makes a point.
-  static constexpr int frame_step = 3;  ///< Every n-th frame makes points; all frames change the occupancy.
-
-  void describe(common::config::Fields& fields);
-};
-
 }  // namespace swiftlet::mapping3d

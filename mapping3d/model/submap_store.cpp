@@ -12,6 +12,10 @@ namespace {
 using common::Pose3;
 using common::Submap3d;
 
+/// Depth images have far more pixels than a map needs points: every n-th pixel of a row and of a column makes one.
+constexpr int kPixelStep = 2;
+/// Every n-th frame makes points; all frames change the occupancy.
+constexpr std::uint64_t kFrameStep = 3;
 /// Key scans are up to a metre apart, and over some ten metres the 2D map drifts by no more than a voxel.
 constexpr int kNeighbouringScans = 10;
 
@@ -46,8 +50,7 @@ void SubmapStore::Kept::take(WeightedPoints points) {
   weights = std::move(points.weights);
 }
 
-SubmapStore::SubmapStore(const ImageSubmapConfig& config, const VoxelConfig& voxels,
-                         const vision::DepthNoiseConfig& noise)
+SubmapStore::SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise)
     : config_(config), voxels_(voxels), noise_(noise) {}
 
 void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans) {
@@ -55,10 +58,8 @@ void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans)
   const Pose3 T_submap_camera = T_submap_map * placed.T_map_camera;
   growing_->voxels.insert(placed.frame.depth, placed.frame.camera, T_submap_camera,
                           inSubmap(placed.people, T_submap_map));
-  const auto step = static_cast<std::uint64_t>(config_.frame_step);
-  if (growing_->frames++ % step == 0 || placed.is_key_frame)
-    growing_->points.add(surfacePoints(placed.still, config_.pixel_step, config_.point_range_m, noise_),
-                         T_submap_camera);
+  if (growing_->frames++ % kFrameStep == 0 || placed.is_key_frame)
+    growing_->points.add(surfacePoints(placed.still, kPixelStep, config_.point_range_m, noise_), T_submap_camera);
 }
 
 void SubmapStore::draw(const PlacedSweep& placed, const common::KeyPoses& scans) {

@@ -44,9 +44,8 @@ struct PlacedSweep {
 /// One thread.
 class SubmapStore {
  public:
-  SubmapStore(const ImageSubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise);
-  /// For sweeps alone.
-  SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels) : SubmapStore({config}, voxels, {}) {}
+  /// `noise` is that of the depths of frames; sweeps have a weight of their own.
+  SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise = {});
 
   void draw(const PlacedFrame& placed, const common::KeyPoses& scans);
   /// The points have no normals and are grey: a laser sees neither.
@@ -78,7 +77,7 @@ class SubmapStore {
   void thinOldest();
   void forgetOldest();
 
-  ImageSubmapConfig config_;
+  SubmapConfig config_;
   VoxelConfig voxels_;
   vision::DepthNoiseConfig noise_;
   std::uint64_t frames_ = 0;  ///< Number of frames drawn.

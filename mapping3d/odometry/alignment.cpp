@@ -14,6 +14,14 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+/// Gauss-Newton steps at a level of the pyramid, at most.
+constexpr int kIterations = 8;
+/// Least standard deviation of a grey value; the actual one is measured in every picture.
+constexpr double kGraySigma = 4.0;
+/// Standard deviation of a point's distance from the surface, in those of the depth.
+constexpr double kSurfaceSigmaFactor = 2.0;
+/// Points whose depths differ by more are on different surfaces.
+constexpr double kSurfaceGate_m = 0.15;
 /// Tukey's biweight reaches zero at this many standard deviations (95 % efficiency for a Gaussian).
 constexpr double kTukey = 4.685;
 /// Steps below these are smaller than the noise, and end the iterations.
@@ -102,9 +110,8 @@ class LevelErrors {
     if (!noise_.isUsable(depth_m)) return true;
     ++sums.measured;
     const Eigen::Vector3d seen = level_.camera.point_camera_m(u, v, static_cast<double>(depth_m));
-    if (std::abs(seen.x() - point.x()) > config_.surface_gate_m) return false;
-    const double sigma_m =
-        std::hypot(config_.surface_sigma_factor * noise_.sigma_m(point.x()), config_.surface_floor_m);
+    if (std::abs(seen.x() - point.x()) > kSurfaceGate_m) return false;
+    const double sigma_m = std::hypot(kSurfaceSigmaFactor * noise_.sigma_m(point.x()), config_.surface_floor_m);
     if (!reference.hasNormal()) {
       const bool agrees = std::abs(seen.x() - point.x()) < kAgreeing * sigma_m + kSlope * point.x();
       sums.agreeing += agrees ? 1 : 0;
@@ -212,9 +219,9 @@ Matrix6d gradientNoise(const std::vector<Sums::Gray>& compared, const common::Pi
 }
 
 /// The mean absolute value of a Gaussian is 0.8 of its standard deviation.
-double spreadOf(const Sums& sums, double least) {
-  if (sums.grays.count() == 0) return least;
-  return std::clamp(1.25 * sums.absolute_gray / sums.grays.count(), least, kWidest * least);
+double spreadOf(const Sums& sums) {
+  if (sums.grays.count() == 0) return kGraySigma;
+  return std::clamp(1.25 * sums.absolute_gray / sums.grays.count(), kGraySigma, kWidest * kGraySigma);
 }
 
 }  // namespace
@@ -228,22 +235,22 @@ void AlignmentConfig::describe(common::config::Fields& fields) {
 Alignment judgePose(const FramePyramid& frame, std::span<const ReferenceView> views, const common::Pose3& T_map_camera,
                     const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
   const LevelErrors errors(frame.back(), noise, config);
-  return summary(T_map_camera, sumsAt(errors, views, 0, T_map_camera, exposure, kWidest * config.gray_sigma));
+  return summary(T_map_camera, sumsAt(errors, views, 0, T_map_camera, exposure, kWidest * kGraySigma));
 }
 
 Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views, const PosePrior& prior,
                 const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
   common::Pose3 pose = prior.T_map_camera;
   Exposure estimate = exposure;
-  double sigma = kWidest * config.gray_sigma;
+  double sigma = kWidest * kGraySigma;
   Sums sums;
   ExposureEquations measured;
   for (std::size_t level = frame.size(); level-- > 0;) {
     const LevelErrors errors(frame[level], noise, config);
     const std::span<const ReferenceView> used = level > 1 ? views.first(1) : views;
-    for (int i = 0; i < config.iterations; ++i) {
+    for (int i = 0; i < kIterations; ++i) {
       sums = sumsAt(errors, used, frame.size() - 1 - level, pose, estimate, sigma);
-      sigma = spreadOf(sums, config.gray_sigma);
+      sigma = spreadOf(sums);
       measured = sums.equations;
       sums.equations.addPose(prior.information, errorOf(pose, prior));
       const ExposureEquations::Vector8d step = sums.equations.solve();

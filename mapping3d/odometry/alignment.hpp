@@ -21,13 +21,7 @@ namespace swiftlet::mapping3d {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 struct AlignmentConfig {
-  static constexpr int iterations = 8;  ///< Gauss-Newton steps at a level of the pyramid, at most.
-  static constexpr double gray_sigma =
-      4.0;  ///< Least standard deviation of a grey value; the actual one is measured in every picture.
-  static constexpr double surface_sigma_factor =
-      2.0;  ///< Standard deviation of a point's distance from the surface, in those of the depth.
   double surface_floor_m = 0.0;
-  static constexpr double surface_gate_m = 0.15;  ///< Points whose depths differ by more are on different surfaces.
 
   void describe(common::config::Fields& fields);
 };

@@ -12,6 +12,18 @@ using common::Pose3;
 using Eigen::Vector3d;
 
 constexpr int kRoll = 3, kYaw = 5, kClock = 6;
+/// Standard deviations at the start: of the mount's position along each axis, of its attitude about each axis, and of
+/// the clock's offset.
+constexpr double kMountSigma_m = 0.01, kMountSigma_rad = 0.015, kClockSigma_s = 0.005;
+/// Random walk of the clock's offset, as two clocks drift apart.
+constexpr double kClockWalk_s_rts = 0.0002;
+/// Standard deviations of the body's motion between two key frames as the other sensors measure it: of its position and
+/// of its rotation, about each axis.
+constexpr double kStepSigma_m = 0.006, kStepSigma_rad = 0.003;
+/// A component is used once its standard deviation has shrunk to this part of that of the start (decision 039).
+constexpr double kKnownShare = 0.5;
+/// Greatest correction that is used, in standard deviations of the start.
+constexpr double kLimitSigma = 4.0;
 
 /// From errors of the camera's pose to those of the body's, each in its own axes.
 Matrix6d ofBody(const Matrix6d& covariance_camera, const Pose3& T_body_camera) {
@@ -32,8 +44,7 @@ Pose3 correctionOf(const MovingBody& body, double clock_offset_s) {
 
 CameraCalibration::CameraCalibration(const CameraCalibrationConfig& config, const Pose3& T_body_camera_sheet)
     : config_(config), T_body_camera_sheet_(T_body_camera_sheet) {
-  prior_sigma_ << Vector3d::Constant(config.mount_sigma_m), Vector3d::Constant(config.mount_sigma_rad),
-      config.clock_sigma_s;
+  prior_sigma_ << Vector3d::Constant(kMountSigma_m), Vector3d::Constant(kMountSigma_rad), kClockSigma_s;
   errors_.covariance = prior_sigma_.cwiseAbs2().asDiagonal();
 }
 
@@ -43,8 +54,8 @@ void CameraCalibration::add(const CameraMotion& motion) {
   const Vector6d residual_0 = residual(motion, errors_.mean);
   const Jacobian H = jacobian(motion, errors_.mean);
   Matrix6d noise = ofBody(motion.covariance, mountWith(errors_.mean));
-  noise.diagonal().head<3>().array() += config_.step_sigma_m * config_.step_sigma_m;
-  noise.diagonal().tail<3>().array() += config_.step_sigma_rad * config_.step_sigma_rad;
+  noise.diagonal().head<3>().array() += kStepSigma_m * kStepSigma_m;
+  noise.diagonal().tail<3>().array() += kStepSigma_rad * kStepSigma_rad;
   const Matrix6d innovation = H * errors_.covariance * H.transpose() + noise;
   const Eigen::LLT<Matrix6d> solver(innovation);
   if (!residual_0.allFinite() || !H.allFinite() || solver.info() != Eigen::Success) return;
@@ -61,18 +72,17 @@ void CameraCalibration::letClockDrift(common::Time now) {
   newest_ = now;
   const double most = prior_sigma_[kClock] * prior_sigma_[kClock];
   double& variance = errors_.covariance(kClock, kClock);
-  variance =
-      std::min(variance + config_.clock_walk_s_rts * config_.clock_walk_s_rts * passed_s, std::max(most, variance));
+  variance = std::min(variance + kClockWalk_s_rts * kClockWalk_s_rts * passed_s, std::max(most, variance));
 }
 
 bool CameraCalibration::isKnown(int component) const {
-  return std::sqrt(errors_.covariance(component, component)) <= config_.known_share * prior_sigma_[component];
+  return std::sqrt(errors_.covariance(component, component)) <= kKnownShare * prior_sigma_[component];
 }
 
 CameraErrors::Vector7d CameraCalibration::used() const {
   CameraErrors::Vector7d used = CameraErrors::Vector7d::Zero();
   for (int i = kRoll; i < used.size(); ++i) {
-    const double limit = config_.limit_sigma * prior_sigma_[i];
+    const double limit = kLimitSigma * prior_sigma_[i];
     if (isKnown(i)) used[i] = std::clamp(errors_.mean[i], -limit, limit);
   }
   return used;

@@ -16,7 +16,6 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "mapping3d/odometry/alignment.hpp"
@@ -26,20 +25,8 @@ namespace swiftlet::mapping3d {
 struct CameraCalibrationConfig {
   bool enabled =
       true;  ///< Whether mount and clock of the camera are estimated; otherwise they are those of the data sheet.
-  static constexpr double mount_sigma_m = 0.01;       ///< Standard deviation of the mount's position, along each axis.
-  static constexpr double mount_sigma_rad = 0.015;    ///< Standard deviation of the mount's attitude, about each axis.
-  static constexpr double clock_sigma_s = 0.005;      ///< Standard deviation of the clock's offset.
-  static constexpr double clock_walk_s_rts = 0.0002;  ///< Random walk of the clock's offset, as two clocks drift apart.
-  static constexpr double step_sigma_m =
-      0.006;  ///< Standard deviation of the body's motion between two key frames as the other sensors measure it.
-  static constexpr double step_sigma_rad = 0.003;  ///< Standard deviation of the body's rotation between two key frames
-                                                   ///< as the other sensors measure it, about each axis.
   double gate_sigma =
       4.0;  ///< Motions farther off than this many standard deviations, for each degree of freedom, are left out.
-  static constexpr double known_share =
-      0.5;  ///< A component is used once its standard deviation has shrunk to this part of that of the start.
-  static constexpr double limit_sigma =
-      4.0;  ///< Greatest correction that is used, in standard deviations of the start.
 };
 
 /// How the body moves at the time of a frame, by the other sensors.

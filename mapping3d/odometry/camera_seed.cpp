@@ -8,6 +8,17 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+/// Standard deviations of a seed in the map: of its position, and of its attitude about each axis.
+constexpr double kSigma_m = 0.03, kSigma_rad = 0.0175;
+/// An alignment that ends farther from its seed, or is turned by more against it, is rejected.
+constexpr double kGate_m = 0.3, kGate_rad = 0.2;
+/// Standard deviations of the speed and of the angular rate that a step from seed to seed has.
+constexpr double kSpeedSigma_m_s = 0.03, kRateSigma_rad_s = 0.02;
+/// Errors of position and attitude that an alignment adds from key frame to key frame, at least.
+constexpr double kStepSigma_m = 0.005, kStepSigma_rad = 0.002;
+/// Squared error over the expected one of a seed's step beyond which it is an outlier; it has 6 degrees of freedom.
+constexpr double kStepGate = 25.0;
+
 Matrix6d diagonal(double sigma_m, double sigma_rad) {
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal().head<3>().setConstant(sigma_m * sigma_m);
@@ -22,29 +33,25 @@ Matrix6d inMapAxes(const Matrix6d& covariance_camera, const Eigen::Quaterniond& 
   return turn * covariance_camera * turn.transpose();
 }
 
-/// Squared error over the expected one of a seed's step beyond which it is an outlier; it has 6 degrees of freedom.
-constexpr double kStepGate = 25.0;
-
 }  // namespace
 
-bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const CameraSeedConfig& config) {
-  return (T_map_camera.position_m - seed.T_map_camera.position_m).norm() <= config.gate_m &&
-         T_map_camera.rotation.angularDistance(seed.T_map_camera.rotation) <= config.gate_rad;
+bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed) {
+  return (T_map_camera.position_m - seed.T_map_camera.position_m).norm() <= kGate_m &&
+         T_map_camera.rotation.angularDistance(seed.T_map_camera.rotation) <= kGate_rad;
 }
 
-Matrix6d seedCovariance(const CameraSeedConfig& config) { return diagonal(config.sigma_m, config.sigma_rad); }
+Matrix6d seedCovariance() { return diagonal(kSigma_m, kSigma_rad); }
 
-PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config) {
+PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s) {
   PosePrior prior;
   prior.T_map_camera = last.T_map_camera * (last.seed.T_map_camera.inverse() * seed.T_map_camera);
-  const Matrix6d predicted =
-      last.covariance + diagonal(gap_s * config.speed_sigma_m_s, gap_s * config.rate_sigma_rad_s);
+  const Matrix6d predicted = last.covariance + diagonal(gap_s * kSpeedSigma_m_s, gap_s * kRateSigma_rad_s);
   prior.information = predicted.inverse();
   if (!seed.is_in_map) return prior;
   const common::Pose3 error = prior.T_map_camera.inverse() * seed.T_map_camera;
   Vector6d innovation;
   innovation << error.position_m, common::logSO3(error.rotation);
-  const Matrix6d measured = seedCovariance(config);
+  const Matrix6d measured = seedCovariance();
   const Vector6d correction = predicted * (predicted + measured).llt().solve(innovation);
   prior.T_map_camera = prior.T_map_camera * common::Pose3{common::expSO3(correction.tail<3>()), correction.head<3>()};
   prior.information += measured.inverse();
@@ -68,16 +75,15 @@ PosePrior withSeedStep(const PosePrior& motion, const AlignedFrame& last, const 
           motion.information + measured_covariance.inverse()};
 }
 
-KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,
-                         const CameraSeedConfig& config) {
+KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed) {
   const common::Pose3& T_map_camera = fit.T_map_camera;
-  const Matrix6d step = inMapAxes(fit.measured_information.inverse(), T_map_camera.rotation) +
-                        diagonal(config.step_sigma_m, config.step_sigma_rad);
+  const Matrix6d step =
+      inMapAxes(fit.measured_information.inverse(), T_map_camera.rotation) + diagonal(kStepSigma_m, kStepSigma_rad);
   const Matrix6d predicted = from.covariance + step;
   Vector6d innovation;
   innovation << seed.T_map_camera.position_m - T_map_camera.position_m,
       common::logSO3(seed.T_map_camera.rotation * T_map_camera.rotation.conjugate());
-  const Matrix6d sum = predicted + seedCovariance(config);
+  const Matrix6d sum = predicted + seedCovariance();
   const Matrix6d gain = sum.llt().solve(predicted).transpose();
   const Vector6d correction = gain * innovation;
   KeyFramePlace place;

@@ -9,7 +9,6 @@
 
 #include <optional>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
@@ -28,28 +27,11 @@ struct CameraSeed {
   std::optional<Matrix6d> rate_covariance = std::nullopt;
 };
 
-struct CameraSeedConfig {
-  static constexpr double sigma_m = 0.03;      ///< Standard deviation of the position of a seed.
-  static constexpr double sigma_rad = 0.0175;  ///< Standard deviation of the attitude of a seed, about each axis.
-  static constexpr double gate_m = 0.3;        ///< An alignment that ends farther from its seed is rejected.
-  static constexpr double gate_rad = 0.2;      ///< An alignment that is turned by more against its seed is rejected.
-  static constexpr double speed_sigma_m_s =
-      0.03;  ///< Standard deviation of the speed that a step from seed to seed has.
-  static constexpr double rate_sigma_rad_s =
-      0.02;  ///< Standard deviation of the angular rate that a step from seed to seed has.
-  static constexpr double step_sigma_m =
-      0.005;  ///< Error of the position that an alignment adds from key frame to key frame, at least.
-  static constexpr double step_sigma_rad =
-      0.002;  ///< Error of the attitude that an alignment adds from key frame to key frame, at least.
-  static constexpr int unfit_frames =
-      5;  ///< After this many frames that do not fit, the key frames restart at the seed.
-};
-
 /// Whether an aligned pose is as near to the seed as the gate demands.
-bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const CameraSeedConfig& config);
+bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed);
 
 /// The covariance of a seed, as KeyFramePlace::covariance.
-Matrix6d seedCovariance(const CameraSeedConfig& config);
+Matrix6d seedCovariance();
 
 /// A frame that was aligned, or begins a track.
 struct AlignedFrame {
@@ -60,14 +42,13 @@ struct AlignedFrame {
 
 /// What is known of a frame's pose before it is aligned: the last frame's pose with the motion of the seeds since then,
 /// and the seed itself if it is a pose in the map.
-PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config);
+PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s);
 
 /// Adds the step of a seed that is not in the map to the prior of a frame's pose, with the weight that its
 /// rate_covariance allows. A step that contradicts the rest is left out, and so is one of unknown covariance.
 PosePrior withSeedStep(const PosePrior& motion, const AlignedFrame& last, const CameraSeed& seed, double gap_s);
 
 /// The place of a new key frame. `from` is the key frame that it was aligned to.
-KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,
-                         const CameraSeedConfig& config);
+KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed);
 
 }  // namespace swiftlet::mapping3d

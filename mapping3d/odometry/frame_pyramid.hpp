@@ -16,8 +16,8 @@ struct PyramidLevel {
 
 using FramePyramid = std::vector<PyramidLevel>;
 
-/// The finest level has at most `greatest_width_px`; each further one half the resolution, `levels` in all, or fewer if
-/// the picture is too small. The frame's colour and depth must have the size of its camera.
-FramePyramid makePyramid(const common::RgbdFrame& frame, int greatest_width_px, int levels);
+/// The finest level is at most 320 pixels wide; each further one has half the resolution, `levels` in all, or
+/// fewer if the picture is too small. The frame's colour and depth must have the size of its camera.
+FramePyramid makePyramid(const common::RgbdFrame& frame, int levels = 4);
 
 }  // namespace swiftlet::mapping3d

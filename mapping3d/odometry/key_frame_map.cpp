@@ -7,6 +7,14 @@
 namespace swiftlet::mapping3d {
 namespace {
 
+/// Key frames that a frame is aligned to, at most (decision 032).
+constexpr int kViews = 3;
+/// A key frame is added where less than this part of the nearest one's points is in the picture.
+constexpr double kCovered = 0.6;
+/// A key frame is added where the nearest one is turned by more than this against the picture.
+constexpr double kGreatestTurn_rad = 0.35;
+/// A key frame is added where the nearest one is farther away than this part of its median depth.
+constexpr double kGreatestStep = 0.2;
 /// Of the points of the coarsest level, one in this many is looked at for the overlap.
 constexpr std::size_t kSampleStep = 8;
 /// Key frames that see a smaller part of the picture do not help.
@@ -33,7 +41,7 @@ double turnBetween_rad(const common::Pose3& a, const common::Pose3& b) {
 }  // namespace
 
 void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& place) {
-  if (static_cast<int>(keys_.size()) >= config_.greatest_number) {
+  if (static_cast<int>(keys_.size()) >= greatest_number_) {
     const auto oldest =
         std::min_element(keys_.begin(), keys_.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
     places_.remove(oldest->number, oldest->frame->described);
@@ -78,8 +86,7 @@ std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& c
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.score > b.score; });
   std::vector<std::size_t> indices;
   for (const Ranked& one : ranked)
-    if (static_cast<int>(indices.size()) < config_.views &&
-        placeOf(one.index).track == placeOf(ranked.front().index).track)
+    if (static_cast<int>(indices.size()) < kViews && placeOf(one.index).track == placeOf(ranked.front().index).track)
       indices.push_back(one.index);
   return indices;
 }
@@ -107,11 +114,11 @@ std::vector<std::size_t> KeyFrameMap::similar(const std::vector<DescribedPoint>&
 
 bool KeyFrameMap::needsNew(const std::vector<std::size_t>& overlapping, const common::Pose3& T_map_camera,
                            double overlap) const {
-  if (overlapping.empty() || overlap < config_.least_overlap) return true;
+  if (overlapping.empty() || overlap < kCovered) return true;
   const common::Pose3& T_map_nearest = placeOf(overlapping.front()).T_map_key;
   const double step_m = (T_map_nearest.position_m - T_map_camera.position_m).norm();
-  return turnBetween_rad(T_map_nearest, T_map_camera) > config_.greatest_turn_rad ||
-         step_m > config_.greatest_step * at(overlapping.front()).median_depth_m;
+  return turnBetween_rad(T_map_nearest, T_map_camera) > kGreatestTurn_rad ||
+         step_m > kGreatestStep * at(overlapping.front()).median_depth_m;
 }
 
 }  // namespace swiftlet::mapping3d

@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/key_pose.hpp"
 #include "mapping3d/odometry/alignment.hpp"
@@ -16,17 +15,6 @@
 #include "mapping3d/odometry/place_index.hpp"
 
 namespace swiftlet::mapping3d {
-
-struct KeyFrameConfig {
-  int greatest_number = 400;       ///< Key frames that are kept, at most.
-  static constexpr int views = 3;  ///< Key frames that a frame is aligned to, at most.
-  static constexpr double least_overlap =
-      0.6;  ///< A key frame is added where less than this part of the nearest one's points is in the picture.
-  static constexpr double greatest_turn_rad =
-      0.35;  ///< A key frame is added where the nearest one is turned by more than this against the picture.
-  static constexpr double greatest_step =
-      0.2;  ///< A key frame is added where the nearest one is farther away than this part of its median depth.
-};
 
 /// Where a key frame was seen from.
 struct KeyFramePlace {
@@ -40,7 +28,7 @@ struct KeyFramePlace {
 
 class KeyFrameMap {
  public:
-  explicit KeyFrameMap(const KeyFrameConfig& config) : config_(config) {}
+  explicit KeyFrameMap(int greatest_number = 400) : greatest_number_(greatest_number) {}
 
   /// Beyond the greatest number, the one that was used longest ago is dropped.
   void add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& place);
@@ -56,7 +44,7 @@ class KeyFrameMap {
   /// The identity without key scans.
   common::Pose3 T_map_scan(int scan) const;
 
-  /// Up to `views` key frames of one track that overlap most with what the camera would see, the best first.
+  /// Up to three key frames of one track that overlap most with what the camera would see, the best first.
   std::vector<std::size_t> overlapping(const common::PinholeCamera& coarsest, const common::Pose3& T_map_camera) const;
   /// As views of an alignment. They are valid until the next add().
   std::vector<ReferenceView> views(const std::vector<std::size_t>& indices) const;
@@ -77,7 +65,7 @@ class KeyFrameMap {
     std::uint64_t used = 0;
     std::uint64_t number = 0;  ///< Ascending in keys_.
   };
-  KeyFrameConfig config_;
+  int greatest_number_;
   std::shared_ptr<const common::KeyPoses> scans_;  ///< Null without a 2D map.
   std::vector<Kept> keys_;
   PlaceIndex places_;

@@ -8,23 +8,10 @@
 // Noise looks like texture: it has gradients, which move with the camera. What they would give is taken out of H, too.
 #pragma once
 
-#include <optional>
-
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 
 namespace swiftlet::mapping3d {
-
-struct MeasuredPoseConfig {
-  double least_share = 0.02;  ///< A direction counts as seen with this share of the information of the one seen best.
-                              ///< The noise of normals on a wall seems to give 0.3 % of it along the wall.
-  static constexpr double most_noise = 0.5;  ///< A direction of whose information more than this share may be the noise
-                                             ///< of grey values counts as not seen.
-  double sigma_factor = 1.0;  ///< Standard deviation of a measured pose, in those that follow from independent points.
-  static constexpr double floor_m = 0.004;    ///< Least standard deviation of a measured position.
-  static constexpr double floor_rad = 0.002;  ///< Least standard deviation of a measured attitude, about each axis.
-};
 
 /// The pose against the key frames alone.
 struct MeasuredPose {
@@ -34,8 +21,10 @@ struct MeasuredPose {
 };
 
 /// `gradient_variance` is that of the frame's noise (vision::gradientNoiseVariance). `depth_m` is a typical depth of
-/// the scene: at that distance a turn moves points as much as a step does.
+/// the scene: at that distance a turn moves points as much as a step does. A direction counts as seen with more than
+/// `least_share` of the information of the one seen best: the noise of normals on a wall seems to give 0.3 % of it
+/// along the wall. `sigma_factor` is the standard deviation of the result in those that follow from independent points.
 MeasuredPose withoutPrior(const Alignment& fit, double gradient_variance, const PosePrior& prior, double depth_m,
-                          const MeasuredPoseConfig& config);
+                          double least_share = 0.02, double sigma_factor = 1.0);
 
 }  // namespace swiftlet::mapping3d

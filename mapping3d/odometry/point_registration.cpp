@@ -14,6 +14,19 @@ namespace {
 using PointPair = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
 using PointPairs = std::vector<PointPair>;
 
+/// Bits, of the 256 that describe a patch, in which two similar patches may differ.
+constexpr int kGreatestDistance = 64;
+/// The most similar patch must differ by at most this part of what the second most similar differs by (the ratio test
+/// of Lowe, IJCV 2004, section 7.1).
+constexpr double kGreatestRatio = 0.9;
+/// Pairs agree on a pose when it maps their corners to within this distance of each other, and this growth, in metres,
+/// with the square of the corner's depth in metres: the noise of a depth grows with its square.
+constexpr double kAgreeing_m = 0.02, kAgreeingSlope = 0.015;
+/// Triples of paired corners that are drawn to find a pose on which many pairs agree.
+constexpr int kTrials = 200;
+/// Least number of pairs that agree on a pose.
+constexpr std::size_t kLeastPairs = 15;
+
 struct Nearest {
   std::size_t index = 0;
   int distance = 257, second = 257;
@@ -36,41 +49,38 @@ std::vector<Nearest> nearestOf(const std::vector<DescribedPoint>& from, const st
   return all;
 }
 
-PointPairs similarPairs(const std::vector<DescribedPoint>& a, const std::vector<DescribedPoint>& b,
-                        const PointRegistrationConfig& config) {
+PointPairs similarPairs(const std::vector<DescribedPoint>& a, const std::vector<DescribedPoint>& b) {
   const std::vector<Nearest> of_a = nearestOf(a, b), of_b = nearestOf(b, a);
   PointPairs pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Nearest& nearest = of_a[i];
-    if (nearest.distance > config.greatest_distance || of_b[nearest.index].index != i) continue;
-    if (nearest.distance > config.greatest_ratio * nearest.second) continue;
+    if (nearest.distance > kGreatestDistance || of_b[nearest.index].index != i) continue;
+    if (nearest.distance > kGreatestRatio * nearest.second) continue;
     pairs.emplace_back(a[i].point_camera_m, b[nearest.index].point_camera_m);
   }
   return pairs;
 }
 
-/// The tolerance grows with the square of the depth, as the noise does.
-bool agrees(const common::Pose3& T_a_b, const PointPair& pair, const PointRegistrationConfig& config) {
+bool agrees(const common::Pose3& T_a_b, const PointPair& pair) {
   const double depth_m = std::max(pair.first.x(), pair.second.x());
-  const double tolerance_m = config.agreeing_m + config.agreeing_slope * depth_m * depth_m;
+  const double tolerance_m = kAgreeing_m + kAgreeingSlope * depth_m * depth_m;
   return (pair.first - T_a_b * pair.second).squaredNorm() < tolerance_m * tolerance_m;
 }
 
-PointPairs agreeingPairs(const common::Pose3& T_a_b, const PointPairs& pairs, const PointRegistrationConfig& config) {
+PointPairs agreeingPairs(const common::Pose3& T_a_b, const PointPairs& pairs) {
   PointPairs agreeing;
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(agreeing),
-               [&](const PointPair& pair) { return agrees(T_a_b, pair, config); });
+               [&](const PointPair& pair) { return agrees(T_a_b, pair); });
   return agreeing;
 }
 
 /// Triples whose sides differ between the two sets, or that are small, give no pose.
-bool isUsableTriple(const std::array<const PointPair*, 3>& triple, const PointRegistrationConfig& config) {
+bool isUsableTriple(const std::array<const PointPair*, 3>& triple) {
   for (std::size_t i = 0; i < 3; ++i) {
     const PointPair &p = *triple[i], &q = *triple[(i + 1) % 3];
     const double in_a_m = (p.first - q.first).norm(), in_b_m = (p.second - q.second).norm();
     const double depth_m = std::max(p.first.x(), q.first.x());
-    if (in_a_m < 0.1 * depth_m ||
-        std::abs(in_a_m - in_b_m) > 2.0 * (config.agreeing_m + config.agreeing_slope * depth_m * depth_m))
+    if (in_a_m < 0.1 * depth_m || std::abs(in_a_m - in_b_m) > 2.0 * (kAgreeing_m + kAgreeingSlope * depth_m * depth_m))
       return false;
   }
   return true;
@@ -94,32 +104,29 @@ common::Pose3 rigidTransform(const PointPairs& a_and_b) {
   return {Eigen::Quaterniond(rotation).normalized(), mean_a - rotation * mean_b};
 }
 
-std::optional<PointRegistration> registerPoints(const std::vector<DescribedPoint>& a,
-                                                const std::vector<DescribedPoint>& b, std::uint64_t seed,
-                                                const PointRegistrationConfig& config) {
-  const PointPairs pairs = similarPairs(a, b, config);
-  const auto least = static_cast<std::size_t>(config.least_pairs);
-  if (pairs.size() < least) return std::nullopt;
+std::optional<common::Pose3> registerPoints(const std::vector<DescribedPoint>& a, const std::vector<DescribedPoint>& b,
+                                            std::uint64_t seed) {
+  const PointPairs pairs = similarPairs(a, b);
+  if (pairs.size() < kLeastPairs) return std::nullopt;
   common::RandomStream random(seed, "point registration");
   const auto draw = [&] {
     return &pairs[static_cast<std::size_t>(random.uniform() * static_cast<double>(pairs.size()))];
   };
   PointPairs best;
-  for (int i = 0; i < config.trials; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     const std::array<const PointPair*, 3> triple{draw(), draw(), draw()};
-    if (!isUsableTriple(triple, config)) continue;
-    PointPairs agreeing = agreeingPairs(rigidTransform({*triple[0], *triple[1], *triple[2]}), pairs, config);
+    if (!isUsableTriple(triple)) continue;
+    PointPairs agreeing = agreeingPairs(rigidTransform({*triple[0], *triple[1], *triple[2]}), pairs);
     if (agreeing.size() > best.size()) best = std::move(agreeing);
   }
-  if (best.size() < least) return std::nullopt;
-  PointRegistration found;
-  for (int i = 0; i < 3 && best.size() >= least; ++i) {
-    found.T_a_b = rigidTransform(best);
-    best = agreeingPairs(found.T_a_b, pairs, config);
+  if (best.size() < kLeastPairs) return std::nullopt;
+  common::Pose3 T_a_b;
+  for (int i = 0; i < 3 && best.size() >= kLeastPairs; ++i) {
+    T_a_b = rigidTransform(best);
+    best = agreeingPairs(T_a_b, pairs);
   }
-  if (best.size() < least) return std::nullopt;
-  found.agreeing = static_cast<int>(best.size());
-  return found;
+  if (best.size() < kLeastPairs) return std::nullopt;
+  return T_a_b;
 }
 
 }  // namespace swiftlet::mapping3d

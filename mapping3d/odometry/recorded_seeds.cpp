@@ -8,7 +8,6 @@
 
 #include <Eigen/LU>
 
-#include "common/config_fields.hpp"
 #include "common/normal_distribution.hpp"
 #include "common/small_matrices.hpp"
 
@@ -17,6 +16,18 @@ namespace {
 
 using common::Pose3;
 
+/// Poses are at most so late, or so early; and the resolution of the lateness (decision 052).
+constexpr double kLongestLateness_s = 0.3, kLatenessStep_s = 0.01;
+/// Another lateness must lessen the difference from the track by this share, or it is not believed (decision 052).
+constexpr double kLatenessGain = 0.1;
+/// The lateness is searched over steps of this length (decision 052).
+constexpr double kStretch_s = 0.3;
+/// The last so many tracked frames tell how good the poses are.
+constexpr std::size_t kFrames = 300;
+/// Before so many steps, poses are only where an alignment may begin.
+constexpr std::size_t kLeastSteps = 10;
+/// Standard deviations of the speed and of the angular rate that a step from pose to pose has, at least.
+constexpr double kSpeedFloor_m_s = 0.03, kRateFloor_rad_s = 0.02;
 /// A frame that is less certain of its pose along some direction is not compared with a seed.
 constexpr double kLeastCertain_m = 0.01;
 constexpr double kLeastCertain_rad = 0.005;
@@ -63,26 +74,9 @@ bool SeedDisagreement::isContradiction() const {
          error_rad > std::max(kTolerated_rad, kToleratedPart * motion_rad);
 }
 
-void RecordedSeedsConfig::describe(common::config::Fields& fields) {
-  fields("longest_gap_s", longest_gap_s, {0.01, 10}, "Between poses farther apart, no motion is assumed.");
-  fields("longest_lateness_s", longest_lateness_s, {0.0, 2.0}, "Poses are at most so late, or so early.");
-  fields("lateness_step_s", lateness_step_s, {0.001, 0.1}, "Resolution of the lateness.");
-  fields("lateness_gain", lateness_gain, {0.0, 1.0},
-         "Another lateness must lessen the difference from the track by this share, or it is not believed.");
-  fields("stretch_s", stretch_s, {0.05, 5.0}, "The lateness is searched over steps of this length.");
-  fields("frames", frames, {20, 10'000}, "The last so many tracked frames tell how good the poses are.");
-  fields("least_steps", least_steps, {3, 1000}, "Before so many steps, poses are only where an alignment may begin.");
-  fields("speed_floor_m_s", speed_floor_m_s, {0.0001, 10},
-         "Standard deviation of the speed that a step from pose to pose has, at least.");
-  fields("rate_floor_rad_s", rate_floor_rad_s, {0.0001, 10}, "Standard deviation of its angular rate, at least.");
-}
-
-RecordedSeeds::RecordedSeeds(common::Trajectory poses, const RecordedSeedsConfig& config)
-    : poses_(std::move(poses)), config_(config) {}
-
 std::optional<Pose3> RecordedSeeds::poseAt(common::Time stamp, double lateness_s) const {
   return common::poseAt(poses_, stamp + common::Duration::fromSeconds(lateness_s),
-                        common::Duration::fromSeconds(config_.longest_gap_s));
+                        common::Duration::fromSeconds(kLongestGap_s));
 }
 
 std::optional<CameraSeed> RecordedSeeds::at(common::Time stamp) const {
@@ -94,10 +88,10 @@ std::optional<CameraSeed> RecordedSeeds::at(common::Time stamp) const {
 void RecordedSeeds::compare(const RgbdPose& pose) {
   if (!pose.isTracked()) return;
   judged_.push_back({pose.stamp, pose.T_map_camera});
-  if (judged_.size() > static_cast<std::size_t>(config_.frames)) judged_.pop_front();
+  if (judged_.size() > kFrames) judged_.pop_front();
   if (!pose.measured || !isCertain(pose.fit)) return;
   tracked_.push_back({pose.stamp, pose.T_map_camera});
-  if (tracked_.size() > static_cast<std::size_t>(config_.frames)) tracked_.pop_front();
+  if (tracked_.size() > kFrames) tracked_.pop_front();
   if (++compared_ % kLearnEvery != 0) return;
   learnLateness();
   learnSpread();
@@ -119,8 +113,8 @@ std::vector<RecordedSeeds::Stretch> RecordedSeeds::stretches(const std::deque<Tr
 
 /// Mean length of the errors over stretches; a turn of one radian counts as one metre.
 std::optional<double> RecordedSeeds::misfit(double lateness_s) const {
-  const std::vector<Stretch> steps = stretches(tracked_, config_.stretch_s, lateness_s);
-  if (steps.size() < static_cast<std::size_t>(config_.least_steps)) return std::nullopt;
+  const std::vector<Stretch> steps = stretches(tracked_, kStretch_s, lateness_s);
+  if (steps.size() < kLeastSteps) return std::nullopt;
   double sum = 0.0;
   for (const Stretch& step : steps) {
     const Pose3 error = step.seed.inverse() * step.tracked;
@@ -134,7 +128,7 @@ std::optional<SeedDisagreement> RecordedSeeds::disagreement() const {
   const double tracked_s = (judged_.back().stamp - judged_.front().stamp).seconds();
   const double stretch_s = std::min(kJudgedStretch_s, 0.5 * tracked_s);
   const std::vector<Stretch> steps = stretches(judged_, stretch_s, lateness_s_);
-  if (steps.size() < static_cast<std::size_t>(config_.least_steps)) return std::nullopt;
+  if (steps.size() < kLeastSteps) return std::nullopt;
   std::vector<double> errors_m, errors_rad, motions_m, motions_rad;
   for (const Stretch& step : steps) {
     const Pose3 error = step.seed.inverse() * step.tracked;
@@ -151,15 +145,15 @@ void RecordedSeeds::learnLateness() {
   const auto now = misfit(lateness_s_);
   if (!now) return;
   double least = *now, best_s = lateness_s_;
-  const int half = static_cast<int>(std::lround(config_.longest_lateness_s / config_.lateness_step_s));
+  const int half = static_cast<int>(std::lround(kLongestLateness_s / kLatenessStep_s));
   for (int i = -half; i <= half; ++i) {
-    const double lateness_s = i * config_.lateness_step_s;
+    const double lateness_s = i * kLatenessStep_s;
     const auto there = misfit(lateness_s);
     if (!there || *there >= least) continue;
     least = *there;
     best_s = lateness_s;
   }
-  if (least < (1.0 - config_.lateness_gain) * *now) lateness_s_ = best_s;
+  if (least < (1.0 - kLatenessGain) * *now) lateness_s_ = best_s;
 }
 
 void RecordedSeeds::learnSpread() {
@@ -167,17 +161,17 @@ void RecordedSeeds::learnSpread() {
   for (std::size_t i = 1; i < tracked_.size(); ++i) {
     const double gap_s = (tracked_[i].stamp - tracked_[i - 1].stamp).seconds();
     const auto from = poseAt(tracked_[i - 1].stamp, lateness_s_), to = poseAt(tracked_[i].stamp, lateness_s_);
-    if (!from || !to || gap_s <= 0.0 || gap_s > config_.longest_gap_s) continue;
+    if (!from || !to || gap_s <= 0.0 || gap_s > kLongestGap_s) continue;
     const StepError error = stepError(tracked_[i - 1].T_map_camera, tracked_[i].T_map_camera, *from, *to);
     for (int axis = 0; axis < 3; ++axis) {
       rates[static_cast<std::size_t>(axis)].push_back(std::abs(error.shift_m[axis]) / gap_s);
       rates[static_cast<std::size_t>(axis + 3)].push_back(std::abs(error.turn_rad[axis]) / gap_s);
     }
   }
-  if (rates.front().size() < static_cast<std::size_t>(config_.least_steps)) return;
+  if (rates.front().size() < kLeastSteps) return;
   rate_covariance_ = Matrix6d::Zero();
   for (int axis = 0; axis < 6; ++axis) {
-    const double floor = axis < 3 ? config_.speed_floor_m_s : config_.rate_floor_rad_s;
+    const double floor = axis < 3 ? kSpeedFloor_m_s : kRateFloor_rad_s;
     const double sigma = std::max(floor, common::kSigmaOfMedian * medianOf(rates[static_cast<std::size_t>(axis)]));
     (*rate_covariance_)(axis, axis) = sigma * sigma;
   }

@@ -11,27 +11,13 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "common/trajectory.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 
 namespace swiftlet::mapping3d {
-
-struct RecordedSeedsConfig {
-  double longest_gap_s = 0.5;
-  double longest_lateness_s = 0.3;
-  double lateness_step_s = 0.01;
-  double lateness_gain = 0.1;
-  double stretch_s = 0.3;
-  int frames = 300;
-  int least_steps = 10;
-  double speed_floor_m_s = 0.03;
-  double rate_floor_rad_s = 0.02;
-
-  void describe(common::config::Fields& fields);
-};
 
 /// How far the poses and the track are apart at the end of stretches at whose begin they agree. Medians.
 struct SeedDisagreement {
@@ -45,10 +31,13 @@ struct SeedDisagreement {
 
 class RecordedSeeds {
  public:
-  /// `poses` are those of the camera (axes of `camera`), in a map with z upwards if they know the vertical.
-  RecordedSeeds(common::Trajectory poses, const RecordedSeedsConfig& config);
+  /// Between poses farther apart, no motion is assumed.
+  static constexpr double kLongestGap_s = 0.5;
 
-  /// The seed at a frame's time, between two poses at most `longest_gap_s` apart; nullopt elsewhere.
+  /// `poses` are those of the camera (axes of `camera`), in a map with z upwards if they know the vertical.
+  explicit RecordedSeeds(common::Trajectory poses) : poses_(std::move(poses)) {}
+
+  /// The seed at a frame's time, between two poses at most kLongestGap_s apart; nullopt elsewhere.
   std::optional<CameraSeed> at(common::Time stamp) const;
   /// Learns from a frame that was placed. Frames come in the order of their stamps.
   void compare(const RgbdPose& pose);
@@ -74,7 +63,6 @@ class RecordedSeeds {
   void learnSpread();
 
   common::Trajectory poses_;
-  RecordedSeedsConfig config_;
   std::deque<Tracked> tracked_;  ///< The last frames that were certain of their pose.
   std::deque<Tracked> judged_;   ///< The last frames, certain or not.
   std::uint64_t compared_ = 0;

@@ -9,6 +9,12 @@
 namespace swiftlet::mapping3d {
 namespace {
 
+/// Cells in a row of the picture, each of which gives up to two points to align later frames to.
+constexpr int kPointsAcross = 40;
+/// Least gradient of a textured point, in grey levels per pixel.
+constexpr double kLeastGradient = 4.0;
+/// A surface's plane is fitted to points this near in each direction.
+constexpr double kPlaneReach_m = 0.04;
 /// What is beside a pixel is read: one pixel for its gradient and depth, at least two for its plane.
 constexpr int kBorder_px = 2;
 /// Neighbours of a textured point without a plane have its depth within kNeighbourSigmas standard deviations and the
@@ -38,8 +44,8 @@ struct Pixel {
 
 /// The pixel of the greatest gradient in the cell, among those with a reliable depth.
 std::optional<Pixel> texturedPixel(const PyramidLevel& level, int left, int top, int right, int bottom,
-                                   const vision::DepthNoiseConfig& noise, double least_gradient) {
-  double greatest = least_gradient * least_gradient;
+                                   const vision::DepthNoiseConfig& noise) {
+  double greatest = kLeastGradient * kLeastGradient;
   std::optional<Pixel> best;
   for (int v = top; v < bottom; ++v)
     for (int u = left; u < right; ++u)
@@ -62,13 +68,12 @@ ReferencePoint pointAt(const PyramidLevel& level, const Pixel& pixel, const std:
 
 }  // namespace
 
-std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vision::DepthNoiseConfig& noise,
-                                            const ReferenceConfig& config) {
+std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vision::DepthNoiseConfig& noise) {
   const int width_px = level.camera.width_px, height_px = level.camera.height_px;
-  const int cell_px = std::max(1, width_px / config.points_across);
+  const int cell_px = std::max(1, width_px / kPointsAcross);
   const auto surfaceAt = [&](const Pixel& pixel) {
     const auto depth_m = static_cast<double>(level.depth.at(pixel.u, pixel.v));
-    const double reach_px = depth_m > 0.0 ? config.plane_reach_m * level.camera.fx_px / depth_m : 0.0;
+    const double reach_px = depth_m > 0.0 ? kPlaneReach_m * level.camera.fx_px / depth_m : 0.0;
     return fitSurface(level.depth, level.camera, pixel.u, pixel.v, static_cast<int>(std::clamp(reach_px, 2.0, 8.0)),
                       noise);
   };
@@ -77,7 +82,7 @@ std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vis
     for (int left = kBorder_px; left < width_px - kBorder_px; left += cell_px) {
       const int right = std::min(left + cell_px, width_px - kBorder_px);
       const int bottom = std::min(top + cell_px, height_px - kBorder_px);
-      const auto textured = texturedPixel(level, left, top, right, bottom, noise, config.least_gradient);
+      const auto textured = texturedPixel(level, left, top, right, bottom, noise);
       if (textured) {
         points.push_back(pointAt(level, *textured, surfaceAt(*textured)));
         points.back().is_textured = true;

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "mapping3d/odometry/frame_pyramid.hpp"
 #include "vision/features.hpp"
 
@@ -22,16 +21,8 @@ struct ReferencePoint {
   bool hasNormal() const { return normal_camera.x() != 0.0F; }
 };
 
-struct ReferenceConfig {
-  static constexpr int points_across =
-      40;  ///< Cells in a row of the picture, each of which gives up to two points to align later frames to.
-  static constexpr double least_gradient = 4.0;  ///< Gradient of a textured point, in grey levels per pixel.
-  static constexpr double plane_reach_m = 0.04;  ///< A surface's plane is fitted to points this near in each direction.
-};
-
-/// The level is divided into cells, `points_across` in a row of it. Each gives its pixel of the greatest gradient and
+/// The level is divided into cells, 40 in a row of it. Each gives its pixel of the greatest gradient and
 /// the one in its middle, each if it has a reliable depth.
-std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vision::DepthNoiseConfig& noise,
-                                            const ReferenceConfig& config);
+std::vector<ReferencePoint> referencePoints(const PyramidLevel& level, const vision::DepthNoiseConfig& noise);
 
 }  // namespace swiftlet::mapping3d

@@ -9,12 +9,24 @@
 
 #include "common/config_fields.hpp"
 #include "mapping3d/odometry/found_place.hpp"
+#include "mapping3d/odometry/point_registration.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
 
 using common::Pose3;
 
+/// Least part of the points, and least number of them, whose depth agrees with the key frames in a frame that is
+/// tracked.
+constexpr double kLeastAgreement = 0.6;
+constexpr int kLeastPoints = 150;
+/// Least correlation of a frame's grey values with those of the key frames, where there is texture.
+constexpr double kLeastCorrelation = 0.4;
+/// Standard deviations of the acceleration and the angular acceleration; they bound the steps and the turns where
+/// little is seen.
+constexpr double kAcceleration_m_s2 = 5.0, kAngularAcceleration_rad_s2 = 10.0;
+/// After this many frames that do not fit, the key frames restart at the seed.
+constexpr int kUnfitFrames = 5;
 /// A velocity is not extrapolated over a longer gap.
 constexpr double kLongestPrediction_s = 0.5;
 /// Shorter gaps are mostly the jitter of the stamps (those of arrival over a link come in bursts). The motion in them
@@ -34,10 +46,10 @@ constexpr double kMotionSigmaFactor = 5.0;
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
 /// The information on a predicted motion over a gap from the bounds of the acceleration, as PosePrior::information.
-Matrix6d motionInformation(double gap_s, const RgbdOdometryConfig& config) {
+Matrix6d motionInformation(double gap_s) {
   const double squared_s2 = std::pow(gap_s < kLeastGap_s ? kJitter_s : gap_s, 2);
-  const double sigma_m = 0.5 * config.acceleration_m_s2 * squared_s2;
-  const double sigma_rad = 0.5 * config.angular_acceleration_rad_s2 * squared_s2;
+  const double sigma_m = 0.5 * kAcceleration_m_s2 * squared_s2;
+  const double sigma_rad = 0.5 * kAngularAcceleration_rad_s2 * squared_s2;
   Matrix6d information = Matrix6d::Zero();
   information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
   information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
@@ -55,15 +67,12 @@ void RgbdOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("alignment", alignment, "Alignment of a frame to key frames.");
 }
 
-bool isGoodFit(const Alignment& fit, const RgbdOdometryConfig& config) {
-  if (fit.correlation < config.least_correlation) return false;
+bool isGoodFit(const Alignment& fit) {
+  if (fit.correlation < kLeastCorrelation) return false;
   // Nearer than its least distance the camera measures no depth, but the points of the key frames have theirs.
-  if (fit.measured < config.least_points)
-    return fit.textured >= config.least_points && fit.correlation >= kLeastCorrelationAlone;
-  return fit.agreement >= config.least_agreement && fit.points >= config.least_points;
+  if (fit.measured < kLeastPoints) return fit.textured >= kLeastPoints && fit.correlation >= kLeastCorrelationAlone;
+  return fit.agreement >= kLeastAgreement && fit.points >= kLeastPoints;
 }
-
-RgbdOdometry::RgbdOdometry(const RgbdOdometryConfig& config) : config_(config), keys_(config.key_frames) {}
 
 void RgbdOdometry::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
   if (scans->version == scans_version_ && !keys_.isEmpty()) return;
@@ -83,7 +92,7 @@ void RgbdOdometry::hangNewestOn(int scan) {
 
 RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed) {
   ++frames_;
-  const FramePyramid pyramid = makePyramid(frame, config_.greatest_width_px, config_.levels);
+  const FramePyramid pyramid = makePyramid(frame);
   RgbdPose pose;
   pose.stamp = frame.stamps.measured;
   pose.scan = seed ? seed->scan : last_ ? last_->scan : 0;
@@ -136,23 +145,23 @@ Pose3 RgbdOdometry::bestOf(const std::vector<Pose3>& poses, const FramePyramid& 
 }
 
 bool RgbdOdometry::isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const {
-  if (isInMap(seed) && !agrees(fit.T_map_camera, *seed, config_.seed)) return false;
-  return isGoodFit(fit, config_);
+  if (isInMap(seed) && !agrees(fit.T_map_camera, *seed)) return false;
+  return isGoodFit(fit);
 }
 
 PosePrior RgbdOdometry::motionPrior(common::Time stamp, const Pose3& predicted) const {
   PosePrior prior{predicted, Matrix6d::Zero()};
   const double gap_s = (stamp - last_->stamp).seconds();
-  if (gap_s > 0.0) prior.information = motionInformation(gap_s, config_);
+  if (gap_s > 0.0) prior.information = motionInformation(gap_s);
   return prior;
 }
 
 PosePrior RgbdOdometry::predicted(const FramePyramid& pyramid, common::Time stamp,
                                   const std::optional<CameraSeed>& seed) const {
-  if (isInMap(seed) && is_lost_) return {seed->T_map_camera, seedCovariance(config_.seed).inverse()};
+  if (isInMap(seed) && is_lost_) return {seed->T_map_camera, seedCovariance().inverse()};
   const double gap_s = (stamp - last_->stamp).seconds();
   if (isInMap(seed) && isInMap(last_->seed) && gap_s > 0.0)
-    return seededPrior({last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s, config_.seed);
+    return seededPrior({last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s);
   const PosePrior motion = motionPrior(stamp, bestOf(predictions(stamp, seed), pyramid));
   if (!seed || !last_->seed) return motion;
   return withSeedStep(motion, {last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s);
@@ -164,7 +173,7 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyra
   if (!is_lost_ || (seed && seed->rate_covariance))
     if (auto fit = tracked(pyramid, prior, seed)) return fit;
   if (is_lost_ && !seed && (stamp - last_->stamp).seconds() <= kLongestAlignedGap_s)
-    if (auto fit = tracked(pyramid, prior, seed); fit && isRecognized(fit->alignment, config_.least_points)) return fit;
+    if (auto fit = tracked(pyramid, prior, seed); fit && isRecognized(fit->alignment, kLeastPoints)) return fit;
   return recognized(pyramid, stamp, seed);
 }
 
@@ -187,12 +196,12 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& py
   const double gap_s = (stamp - last_->stamp).seconds();
   std::optional<Fit> best;
   for (const std::size_t index : keys_.similar(points, kTriedPerFrame)) {
-    const auto found = registerPoints(keys_.at(index).described, points, frames_, config_.recognition);
+    const auto found = registerPoints(keys_.at(index).described, points, frames_);
     if (!found) continue;
-    const PosePrior prior{keys_.placeOf(index).T_map_key * found->T_a_b, Matrix6d::Zero()};
+    const PosePrior prior{keys_.placeOf(index).T_map_key * *found, Matrix6d::Zero()};
     if (!isInReach(last_->T_map_camera, prior.T_map_camera, gap_s)) continue;
     auto fit = tracked(pyramid, prior, seed);
-    if (!fit || !isRecognized(fit->alignment, config_.least_points)) continue;
+    if (!fit || !isRecognized(fit->alignment, kLeastPoints)) continue;
     if (!best)
       best = std::move(fit);
     else if (!isSamePlace(best->alignment.T_map_camera, fit->alignment.T_map_camera))
@@ -205,8 +214,8 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& py
 
 /// No later frame would fit a key frame with fewer points.
 bool RgbdOdometry::canBegin(const FramePyramid& pyramid) const {
-  const auto points = referencePoints(pyramid.front(), config_.features.depth_noise, config_.reference);
-  return static_cast<int>(points.size()) >= config_.least_points;
+  const auto points = referencePoints(pyramid.front(), config_.features.depth_noise);
+  return static_cast<int>(points.size()) >= kLeastPoints;
 }
 
 void RgbdOdometry::begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed) {
@@ -215,7 +224,7 @@ void RgbdOdometry::begin(RgbdPose& pose, const FramePyramid& pyramid, const std:
   pose.fit.T_map_camera = pose.T_map_camera;
   if (last_) pose.fit.exposure = last_->exposure;
   KeyFramePlace place{pose.T_map_camera, pose.scan, tracks_++, Matrix6d::Zero()};
-  if (isInMap(seed)) place.covariance = pose.covariance = seedCovariance(config_.seed);
+  if (isInMap(seed)) place.covariance = pose.covariance = seedCovariance();
   addKeyFrame(pose, place, pyramid);
   pose.became_key_frame = true;
   is_lost_ = false;
@@ -233,10 +242,10 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   pose.covariance = fit.alignment.information.inverse();
   const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
   const double noise = vision::gradientNoiseVariance(pyramid.front().gray);
-  pose.measured = withoutPrior(fit.alignment, noise, fit.prior, depth_m, config_.measured);
+  pose.measured = withoutPrior(fit.alignment, noise, fit.prior, depth_m);
   for (const std::size_t key : fit.keys) pose.aligned_to.push_back(keys_.placeOf(key).scan);
   keys_.markUsed(fit.keys);
-  const bool has_depth = fit.alignment.measured >= config_.least_points;
+  const bool has_depth = fit.alignment.measured >= kLeastPoints;
   if (has_depth && keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
     const KeyFramePlace place = newPlace(fit, pose, seed);
     pose.motion = motionSinceKeyFrame(fit, pyramid, noise);
@@ -256,12 +265,10 @@ std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, 
   const PosePrior start{fit.alignment.T_map_camera, Matrix6d::Zero()};
   const Alignment alone = align(pyramid, keys_.views({newest}), start, fit.alignment.exposure,
                                 config_.features.depth_noise, config_.alignment);
-  if (!isGood(alone, std::nullopt) || alone.textured < config_.least_points) return std::nullopt;
-  MeasuredPoseConfig every_direction = config_.measured;
-  every_direction.least_share = 0.0;
-  every_direction.sigma_factor = kMotionSigmaFactor;
-  const MeasuredPose measured =
-      withoutPrior(alone, gradient_variance, start, keys_.at(newest).median_depth_m, every_direction);
+  if (!isGood(alone, std::nullopt) || alone.textured < kLeastPoints) return std::nullopt;
+  constexpr double kEveryDirection = 0.0;
+  const MeasuredPose measured = withoutPrior(alone, gradient_variance, start, keys_.at(newest).median_depth_m,
+                                             kEveryDirection, kMotionSigmaFactor);
   return KeyFrameMotion{keys_.at(newest).stamp, keys_.placeOf(newest).T_map_key.inverse() * measured.T_map_camera,
                         measured.covariance};
 }
@@ -270,7 +277,7 @@ KeyFramePlace RgbdOdometry::newPlace(const Fit& fit, const RgbdPose& pose,
                                      const std::optional<CameraSeed>& seed) const {
   const KeyFramePlace& from = keys_.placeOf(fit.keys.front());
   if (!isInMap(seed)) return {pose.T_map_camera, pose.scan, from.track, Matrix6d::Zero()};
-  return placeOfNew(from, fit.alignment, *seed, config_.seed);
+  return placeOfNew(from, fit.alignment, *seed);
 }
 
 /// Where the seed gives the place, a part of the map that has changed must not keep the camera lost forever.
@@ -279,7 +286,7 @@ void RgbdOdometry::lose(RgbdPose& pose, const FramePyramid& pyramid, const std::
   ++unfit_frames_;
   if (!isInMap(seed)) return;
   pose.T_map_camera = seed->T_map_camera;
-  if (unfit_frames_ > config_.seed.unfit_frames && canBegin(pyramid)) begin(pose, pyramid, seed);
+  if (unfit_frames_ > kUnfitFrames && canBegin(pyramid)) begin(pose, pyramid, seed);
 }
 
 void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid) {
@@ -287,7 +294,7 @@ void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place,
   key->stamp = pose.stamp;
   const auto gain = static_cast<float>(pose.fit.exposure.gain), offset = static_cast<float>(pose.fit.exposure.offset);
   for (const PyramidLevel& level : pyramid) {
-    key->levels.push_back(referencePoints(level, config_.features.depth_noise, config_.reference));
+    key->levels.push_back(referencePoints(level, config_.features.depth_noise));
     for (ReferencePoint& point : key->levels.back()) point.gray = (point.gray - offset) / gain;
   }
   key->described = describedPoints(pyramid.front().gray, featuresOf(pyramid, config_.features));

@@ -27,37 +27,19 @@
 #include "mapping3d/odometry/camera_seed.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
 #include "mapping3d/odometry/measured_pose.hpp"
-#include "mapping3d/odometry/point_registration.hpp"
 #include "vision/features.hpp"
 
 namespace swiftlet::mapping3d {
 
 struct RgbdOdometryConfig {
-  static constexpr int greatest_width_px = 320;  ///< Wider pictures are halved until they are not.
-  static constexpr int levels = 4;               ///< Levels of the pyramid.
-  static constexpr double least_agreement =
-      0.6;  ///< Least part of the points whose depth agrees with the key frames in a frame that is tracked.
-  static constexpr int least_points =
-      150;  ///< Least number of points whose depth agrees with the key frames in a frame that is tracked.
-  static constexpr double least_correlation =
-      0.4;  ///< Least correlation of a frame's grey values with those of the key frames, where there is texture.
-  static constexpr double acceleration_m_s2 =
-      5.0;  ///< Standard deviation of the acceleration; it bounds the steps where little is seen.
-  static constexpr double angular_acceleration_rad_s2 =
-      10.0;  ///< Standard deviation of the angular acceleration; it bounds the turns where little is seen.
   vision::FeatureConfig features;
-  ReferenceConfig reference;
   AlignmentConfig alignment;
-  KeyFrameConfig key_frames;
-  PointRegistrationConfig recognition;
-  CameraSeedConfig seed;
-  MeasuredPoseConfig measured;
 
   void describe(common::config::Fields& fields);
 };
 
 /// Whether an aligned frame agrees with its key frames, as far as the frame itself can show.
-bool isGoodFit(const Alignment& fit, const RgbdOdometryConfig& config);
+bool isGoodFit(const Alignment& fit);
 
 enum class TrackState {
   kTracked,
@@ -95,7 +77,7 @@ struct RgbdPose {
 
 class RgbdOdometry {
  public:
-  explicit RgbdOdometry(const RgbdOdometryConfig& config);
+  explicit RgbdOdometry(const RgbdOdometryConfig& config) : config_(config) {}
 
   /// Moves the model with the key scans of the 2D map. Where there are any, it must be called before the first frame.
   void moveTo(std::shared_ptr<const common::KeyPoses> scans);

@@ -9,10 +9,10 @@ using common::VoxelBlock;
 using common::VoxelIndex;
 using common::VoxelMap;
 
-common::OccupancyGrid floorPlan(const VoxelMap& map, const HeightBand& band) {
+common::OccupancyGrid floorPlan(const VoxelMap& map, double low_m, double high_m) {
   common::OccupancyGrid plan = common::makeOccupancyGrid(map.resolution_m());
-  const int lowest = static_cast<int>(std::floor(band.low_m / map.resolution_m()));
-  const int highest = static_cast<int>(std::floor(band.high_m / map.resolution_m()));
+  const int lowest = static_cast<int>(std::floor(low_m / map.resolution_m()));
+  const int highest = static_cast<int>(std::floor(high_m / map.resolution_m()));
   for (const VoxelIndex block : map.blocks()) {
     const VoxelIndex first = VoxelMap::firstOf(block);
     for (int z = std::max(lowest, first.z); z <= std::min(highest, first.z + VoxelBlock::kSide - 1); ++z) {

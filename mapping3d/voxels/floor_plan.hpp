@@ -6,14 +6,9 @@
 
 namespace swiftlet::mapping3d {
 
-/// Heights in the frame of the map. Both ends belong to the band.
-struct HeightBand {
-  double low_m = 0.0;
-  double high_m = 0.0;
-};
-
-/// A cell is occupied where any voxel of its column within the band is, and free where at least one is free and none is
-/// occupied. The cells are those of the voxels.
-common::OccupancyGrid floorPlan(const common::VoxelMap& map, const HeightBand& band);
+/// A cell is occupied where any voxel of its column between the two heights is, and free where at least one is free and
+/// none is occupied. Heights are in the frame of the map, and both belong to the band. The cells are those of the
+/// voxels.
+common::OccupancyGrid floorPlan(const common::VoxelMap& map, double low_m, double high_m);
 
 }  // namespace swiftlet::mapping3d

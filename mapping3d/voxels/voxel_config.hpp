@@ -12,11 +12,8 @@ namespace swiftlet::mapping3d {
 /// to steps of common::VoxelMap::kLogOddsStep.
 struct VoxelConfig {
   double resolution_m = 0.05;
-  double range_max_m = 5.0;  ///< Farther surfaces are not drawn; the ray is free up to here. At most 500 voxels.
-  static constexpr double hit_log_odds = 0.85;      ///< Log-odds added to a voxel in which rays of a frame end.
-  static constexpr double miss_log_odds = -0.4;     ///< Log-odds added to a voxel that rays of a frame only cross.
-  double least_log_odds = -2.0;                     ///< Log odds of a voxel are not below this.
-  static constexpr double greatest_log_odds = 3.5;  ///< Log odds of a voxel are not above this.
+  double range_max_m = 5.0;      ///< Farther surfaces are not drawn; the ray is free up to here. At most 500 voxels.
+  double least_log_odds = -2.0;  ///< Log odds of a voxel are not below this.
   int blocks_max = 200'000;  ///< Blocks of 8 x 8 x 8 voxels that the map holds; beyond, those farthest from the sensor
                              ///< are forgotten.
 

@@ -19,6 +19,10 @@ using common::VoxelMap;
 
 int steps(double log_odds) { return static_cast<int>(std::lround(log_odds / VoxelMap::kLogOddsStep)); }
 
+/// What is added to a voxel in which rays of a frame end, or that they only cross, and the upper limit of the sum: the
+/// values of Hornung et al. 2013, probabilities of 0.7, 0.4 and 0.97.
+const int kHit = steps(0.85), kMiss = steps(-0.4), kGreatest = steps(3.5);
+
 constexpr int kLayer = VoxelBlock::kSide * VoxelBlock::kSide;
 using Layer = std::array<std::int8_t, kLayer>;
 using Row = std::array<std::int8_t, VoxelBlock::kSide>;
@@ -67,10 +71,7 @@ VoxelMapper::VoxelMapper(const VoxelConfig& config) : VoxelMapper(config, common
 
 VoxelMapper::VoxelMapper(const VoxelConfig& config, const common::VoxelMap& map)
     : config_(config),
-      hit_(steps(config.hit_log_odds)),
-      miss_(steps(config.miss_log_odds)),
       least_(steps(config.least_log_odds)),
-      greatest_(steps(config.greatest_log_odds)),
       map_(map),
       window_(static_cast<int>(std::ceil(config.range_max_m / config.resolution_m))),
       carving_(config.range_max_m, config.resolution_m) {
@@ -181,8 +182,8 @@ void VoxelMapper::apply() {
 
 /// Layer by layer, in numbers of eight bits: evidence is limited before it is added to, so that no sum leaves them.
 void VoxelMapper::applyTo(VoxelBlock& block, const SeenBlock& seen) const {
-  const auto hit = static_cast<std::int8_t>(hit_), miss = static_cast<std::int8_t>(miss_);
-  const auto ceiling = static_cast<std::int8_t>(greatest_ - hit_), floor = static_cast<std::int8_t>(least_ - miss_);
+  const auto hit = static_cast<std::int8_t>(kHit), miss = static_cast<std::int8_t>(kMiss);
+  const auto ceiling = static_cast<std::int8_t>(kGreatest - kHit), floor = static_cast<std::int8_t>(least_ - kMiss);
   for (int z = 0; z < VoxelBlock::kSide; ++z) {
     std::int8_t* evidence = &block.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({0, 0, z}))];
     const std::uint64_t ends = seen.hit.layer(z), touched = seen.crossed.layer(z) | ends;

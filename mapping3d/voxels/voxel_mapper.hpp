@@ -62,7 +62,7 @@ class VoxelMapper {
   int forgetFarBlocks(const Eigen::Vector3d& origin_map_m);
 
   VoxelConfig config_;
-  int hit_, miss_, least_, greatest_;  ///< In steps of VoxelMap::kLogOddsStep.
+  int least_;  ///< In steps of VoxelMap::kLogOddsStep.
   common::VoxelMap map_;
   ScanWindow window_;
   DepthCarving carving_;

@@ -23,7 +23,17 @@ constexpr double kTimeStep_s = 0.1;
 constexpr double kStill_m_s = 1e-3;
 /// A return this near to the outline of a tracked person is the person: an arm, or half a stride ahead of the track.
 constexpr double kSameBody_m = 0.3;
-
+/// Something moving that would arrive within this time makes the vehicle retreat.
+constexpr double kContactTime_s = 1.8;
+/// An obstacle that approaches more slowly than this does not count as moving.
+constexpr double kClosingSpeed_m_s = 0.15;
+/// A return this near to something mapped or unknown is not unmapped.
+constexpr double kMappedWithin_m = 0.15;
+/// A retreat ends this long after the danger.
+constexpr double kCalm_s = 0.6;
+/// While retreating the vehicle turns until the danger and its course are this far within the field of view (decision
+/// 009).
+constexpr double kViewMargin_deg = 30.0;
 /// A door of 0.8 m leaves a hull of 0.55 m this much on either side, less 2 cm.
 constexpr double kDoor_m = 0.105;
 
@@ -77,7 +87,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
     retreating_ = true;
     break;
   }
-  if (retreating_ && (input.stamp - danger_stamp_).seconds() > config_.calm_s) {
+  if (retreating_ && (input.stamp - danger_stamp_).seconds() > kCalm_s) {
     retreating_ = false;
     last_retreat_level_.setZero();
   }
@@ -122,7 +132,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 bool Avoidance::isMapped(const AvoidanceInput& input, const Point& point_level_m) const {
   const common::CellIndex cell = input.cost_map->cellAt(input.T_map_level * point_level_m);
   return input.cost_map->states().at(cell) != CellState::kFree ||
-         input.cost_map->obstacleDistance_m(cell) <= config_.mapped_within_m;
+         input.cost_map->obstacleDistance_m(cell) <= kMappedWithin_m;
 }
 
 std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const {
@@ -132,14 +142,14 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   const Eigen::Rotation2Dd to_level(T_level_map.yaw_rad);
   for (const common::DynamicObstacle& o : input.obstacles) {
     const double age_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
-    const bool moving = o.moving && o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
+    const bool moving = o.moving && o.velocity_map_m_s.norm() >= kClosingSpeed_m_s;
     const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();
     Threat threat{T_level_map * Point(o.center_map_m + velocity_map_m_s * age_s), o.radius_m,
                   to_level * velocity_map_m_s, false, ""};
     const double gap_m = threat.gapTo(hull_radius_m_, Point::Zero(), 0.0);
     const bool leaving = moving && threat.velocity_m_s.dot(threat.center_m) > 0.0;
     double least_m = gap_m;
-    for (double t = kTimeStep_s; t <= config_.contact_time_s * slack; t += kTimeStep_s)
+    for (double t = kTimeStep_s; t <= kContactTime_s * slack; t += kTimeStep_s)
       least_m = std::min(least_m, threat.gapTo(hull_radius_m_, Point::Zero(), t));
     const bool near = gap_m < config_.retreat_distance_m * slack;
     const bool closing = moving && least_m < config_.contact_gap_m * slack;
@@ -158,7 +168,7 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
     const bool overruns = cannotStopBefore(bin.nearest_level_m, slack * input.velocity_level_m_s);
     if (!overruns && gap_m >= config_.retreat_distance_m * slack) continue;
     const bool mapped = isMapped(input, bin.nearest_level_m);
-    const bool known = input.position_sigma_m <= config_.mapped_within_m;
+    const bool known = input.position_sigma_m <= kMappedWithin_m;
     if (!overruns && mapped && (known || gap_m >= kDoor_m * slack)) continue;
     const bool followed = std::any_of(result.begin(), result.begin() + followed_count, [&](const Threat& t) {
       return (t.center_m - bin.nearest_level_m).norm() <= t.radius_m + kSameBody_m;
@@ -222,7 +232,7 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
 
 Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
                          double latency_s) const {
-  // The danger may have passed only for a moment, so the state lasts until it has been gone for `calm_s`.
+  // The danger may have passed only for a moment, so the state lasts until it has been gone for 0.6 s.
   if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
   const RetreatInput retreat{input.velocity_level_m_s, points,         threats,  last_retreat_level_,
                              input.T_map_level,        input.cost_map, latency_s};
@@ -248,7 +258,7 @@ double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& ret
     if (nearest == nullptr || threat.center_m.norm() < nearest->center_m.norm()) nearest = &threat;
   }
   if (nearest == nullptr) return 0.0;
-  const double seen_rad = (0.5 * config_.field_of_view_deg - config_.view_margin_deg) * std::numbers::pi / 180.0;
+  const double seen_rad = (0.5 * config_.field_of_view_deg - kViewMargin_deg) * std::numbers::pi / 180.0;
   const auto outside_rad = [&](const Point& direction, double turn_rad) {
     const double bearing_rad = common::wrapAngle(std::atan2(direction.y(), direction.x()) - turn_rad);
     return std::max(0.0, std::abs(bearing_rad) - seen_rad);

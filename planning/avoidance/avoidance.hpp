@@ -35,9 +35,8 @@ struct AvoidanceInput {
   const CostMap* cost_map = nullptr;                   ///< May be null: then only `obstacles` are reasons to retreat.
   std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
   double age_s = 0.0;  ///< Of the scan when it was processed; the vehicle has moved on since.
-  /// Standard deviation of the position in the map. Where it exceeds `mapped_within_m`, the map does not show what
-  /// is near, and the velocity may be wrong, too: the vehicle also retreats from mapped obstacles, when they are very
-  /// near.
+  /// Standard deviation of the position in the map. Where it exceeds 0.15 m, the map does not show what is near, and
+  /// the velocity may be wrong, too: the vehicle also retreats from mapped obstacles, when they are very near.
   double position_sigma_m = 0.0;
   /// Obstacles that only the 3D map has, where the beams pass above or below them. Each stands alone among the returns
   /// of what is behind it, so they are not smoothed: the map has made sure of them.
@@ -67,11 +66,11 @@ struct Bin {
 
 /// Keeps the hysteresis and the last decision. One thread; call once a scan.
 ///
-///           danger: unmapped and near, or on a course to hit          gone for `calm_s`
+///           danger: unmapped and near, or on a course to hit          gone for 0.6 s
 ///   calm ------------------------------------------------> retreating -----------------> calm
 ///
 /// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
-/// hull, or a moving one would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. For mapped,
+/// hull, or a moving one would come within `contact_gap_m` of the vehicle at rest within 1.8 s. For mapped,
 /// static obstacles it only brakes, unless it flies at them too fast to stop, which no intent requests: it does so
 /// where its position is corrected, or a gust pushes it. All distances are from the hull.
 class Avoidance {

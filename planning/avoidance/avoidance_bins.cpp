@@ -14,9 +14,14 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-std::vector<Point> slidingMean(const std::vector<Point>& points, int window) {
+/// Returns nearer to the origin than this are the vehicle itself.
+constexpr double kSelfRadius_m = 0.10;
+/// Beams of the sliding mean (Saeedi, section III-G).
+constexpr int kSmoothingWindow = 5;
+
+std::vector<Point> slidingMean(const std::vector<Point>& points) {
   std::vector<Point> result;
-  const int half = window / 2, count = static_cast<int>(points.size());
+  const int half = kSmoothingWindow / 2, count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i) {
     double sum = 0.0;
     int used = 0;
@@ -62,8 +67,8 @@ std::vector<Point> Avoidance::smoothed(const Config& config, std::span<const Eig
   std::vector<Point> points;
   points.reserve(points_level_m.size());
   for (const Eigen::Vector2f& p : points_level_m)
-    if (p.allFinite() && p.norm() > std::max(config.self_radius_m, 1e-3)) points.push_back(p.cast<double>());
-  return config.bin_range == BinRange::kMean ? slidingMean(points, config.smoothing_window) : medianOfThree(points);
+    if (p.allFinite() && p.norm() > kSelfRadius_m) points.push_back(p.cast<double>());
+  return config.bin_range == BinRange::kMean ? slidingMean(points) : medianOfThree(points);
 }
 
 std::vector<Bin> Avoidance::bins(const Config& config, const std::vector<Point>& smoothed_level_m) {

@@ -20,35 +20,28 @@ enum class RetreatRule {
 };
 
 struct AvoidanceConfig {
-  static constexpr int bins = 54;    ///< Sectors into which the field of view is divided.
   double field_of_view_deg = 270.0;  ///< Angle centred on the nose in which the layer relies on the laser.
   AvoidanceBinRange bin_range = AvoidanceBinRange::kRobustMinimum;
-  static constexpr int smoothing_window = 5;  ///< Beams of the sliding mean that `mean` smooths with.
   double max_speed_m_s = 1.5;
   double deceleration_m_s2 = 1.0;
-  static constexpr double blind_speed_m_s = 0.3;  ///< Speed limit on a course that the laser does not see.
   double latency_s = 0.12;
   double lag_s = 0.08;
   double margin_m = 0.05;
   double retreat_distance_m = 0.25;  ///< Something unmapped nearer to the hull than this makes the vehicle retreat.
-  static constexpr double contact_time_s =
-      1.8;  ///< Something moving that would arrive within this time makes the vehicle retreat.
-  static constexpr double contact_gap_m = 0.20;  ///< Passing nearer than this to the hull counts as arriving.
-  static constexpr double closing_speed_m_s =
-      0.15;  ///< An obstacle that approaches more slowly than this does not count as moving.
-  static constexpr double mapped_within_m =
-      0.15;  ///< A return this near to something mapped or unknown is not unmapped.
   RetreatRule retreat_rule = RetreatRule::kClearCourse;
-  static constexpr double field_range_m =
-      1.0;  ///< Distance from the hull within which a return repels, for the rule potential_field.
-  static constexpr double retreat_speed_m_s = 0.7;  ///< Greatest speed of a retreat.
-  static constexpr double retreat_margin_m = 0.15;  ///< Distance between hull and obstacle when a retreat has ended.
-  static constexpr double view_margin_deg = 30.0;   ///< While retreating the vehicle turns until the danger and its
-                                                    ///< course are this far within the field of view.
-  static constexpr double release_factor =
-      1.3;  ///< Factor on distances and times while retreating, so that a retreat does not flicker.
-  static constexpr double calm_s = 0.6;          ///< A retreat ends this long after the danger.
-  static constexpr double self_radius_m = 0.10;  ///< Returns nearer to the origin than this are the vehicle itself.
+
+  /// Sectors into which the field of view is divided: of 5 deg, as those of Saeedi, section III-G, with 270 deg.
+  static constexpr int bins = 54;
+  /// Speed limit on a course that the laser does not see (decision 009).
+  static constexpr double blind_speed_m_s = 0.3;
+  /// Something moving that passes nearer than this to the hull counts as arriving.
+  static constexpr double contact_gap_m = 0.20;
+  /// Greatest speed of a retreat (decision 009).
+  static constexpr double retreat_speed_m_s = 0.7;
+  /// Distance between hull and obstacle when a retreat has ended.
+  static constexpr double retreat_margin_m = 0.15;
+  /// Factor on distances and times while retreating, so that a retreat does not flicker.
+  static constexpr double release_factor = 1.3;
 
   void describe(common::config::Fields& fields);
   /// Conflicts between these distances and the clearance that the planner may use: a distance is refused if it would

@@ -8,13 +8,15 @@ namespace {
 
 using Eigen::Vector2d;
 
+/// Distance from the hull within which a return repels.
+constexpr double kFieldRange_m = 1.0;
 constexpr double kNearest_m = 0.02;  // At distance zero the force would be infinite.
 
 /// The repulsive force of one point at that place of the level frame.
-Vector2d force(const Vector2d& place_m, double gap_m, double range_m) {
+Vector2d force(const Vector2d& place_m, double gap_m) {
   const double distance_m = std::max(gap_m, kNearest_m);
-  if (distance_m >= range_m || place_m.isZero()) return Vector2d::Zero();
-  return -place_m.normalized() * (1.0 / distance_m - 1.0 / range_m) / (distance_m * distance_m);
+  if (distance_m >= kFieldRange_m || place_m.isZero()) return Vector2d::Zero();
+  return -place_m.normalized() * (1.0 / distance_m - 1.0 / kFieldRange_m) / (distance_m * distance_m);
 }
 
 }  // namespace
@@ -34,13 +36,11 @@ Vector2d oppositeVelocity(const AvoidanceConfig& config, double hull_radius_m, c
 
 Vector2d potentialFieldVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input) {
   Vector2d sum = Vector2d::Zero();
-  for (const Vector2d& point_m : input.points_level_m)
-    sum += force(point_m, point_m.norm() - hull_radius_m, config.field_range_m);
+  for (const Vector2d& point_m : input.points_level_m) sum += force(point_m, point_m.norm() - hull_radius_m);
   // A threat repels as strongly as the many returns that a wall of its size would have.
   const double returns_each = std::max<double>(1.0, static_cast<double>(input.points_level_m.size()) / config.bins);
   for (const Threat& threat : input.threats)
-    sum +=
-        returns_each * force(threat.center_m, threat.gapTo(hull_radius_m, Vector2d::Zero(), 0.0), config.field_range_m);
+    sum += returns_each * force(threat.center_m, threat.gapTo(hull_radius_m, Vector2d::Zero(), 0.0));
   constexpr double kCancelled = 1e-6;
   if (sum.norm() < kCancelled) return Vector2d::Zero();
   return config.retreat_speed_m_s * sum.normalized();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/check.hpp"
 #include "common/config_fields.hpp"
 #include "planning/costs/distance_transform.hpp"
 
@@ -17,6 +16,10 @@ constexpr int kTile = OccupancyGrid::kTileSize;
 
 /// Distance beyond the clearance at which an obstacle no longer raises the cost.
 constexpr double kComfortDistance_m = 0.60;
+
+int reachOf(double distance_m, double resolution_m) {
+  return std::clamp(static_cast<int>(std::ceil(distance_m / resolution_m)), 0, kMaxReachCells);
+}
 
 }  // namespace
 
@@ -46,11 +49,7 @@ void CostMap::update(const OccupancyGrid& grid, const Footprint& footprint, cons
 
 void CostMap::reshape(const Footprint& footprint) {
   footprint_ = footprint;
-  const auto cellsFor = [&](double m) {
-    return std::clamp(static_cast<int>(std::ceil(m / resolution_m())), 0, kMaxReachCells);
-  };
-  reach_cells_ = cellsFor(footprint.radius_m() + kComfortDistance_m);
-  unknown_reach_cells_ = cellsFor(footprint.hull_radius_m);
+  reach_cells_ = reachOf(footprint.radius_m() + kComfortDistance_m, resolution_m());
 
   const std::size_t cells = states_.all().size();
   occupied_distance2_.assign(cells, 0);
@@ -89,13 +88,14 @@ void CostMap::updateDistances(const std::vector<CellRect>& changes, bool all) {
 
 void CostMap::costTile(int x0, int y0) {
   tileDistances(states_, x0, y0, CellState::kOccupied, reach_cells_, occupied_distance2_);
-  tileDistances(states_, x0, y0, CellState::kUnknown, unknown_reach_cells_, unknown_distance2_);
+  tileDistances(states_, x0, y0, CellState::kUnknown, reachOf(footprint_.hull_radius_m, resolution_m()),
+                unknown_distance2_);
   const double unknown_radius = footprint_.hull_radius_m / resolution_m();
   for (int y = y0; y < y0 + kTile; ++y) {
     for (int x = x0; x < x0 + kTile; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * rect().width() + x;
-      const bool blind = !config_.pass_unknown && (states_.all()[i] == CellState::kUnknown ||
-                                                   unknown_distance2_[i] < unknown_radius * unknown_radius);
+      const bool blind =
+          states_.all()[i] == CellState::kUnknown || unknown_distance2_[i] < unknown_radius * unknown_radius;
       static_cost_[i] = blind ? kLethal : margin_cost_[static_cast<std::size_t>(occupied_distance2_[i])];
     }
   }

@@ -50,7 +50,6 @@ class CostMap {
  public:
   struct Config {
     double comfort_weight = 4.0;
-    bool pass_unknown = false;        ///< Whether paths may lead where nothing is known.
     double height_step_weight = 2.0;  ///< Metres of detour that one metre of step of the surface is worth.
 
     void describe(common::config::Fields& fields);
@@ -66,9 +65,9 @@ class CostMap {
   /// A map that is lethal everywhere. `config` is validated.
   CostMap(const Config& config, double resolution_m);
 
-  /// Updates the map to the given grid. Costs are recomputed only around cells whose state changed since the last call
-  /// (CellStates::update), unless the footprint changed. The result always equals that of a fresh map. The reach is
-  /// radius plus comfort distance, at most kMaxReachCells cells.
+  /// Updates the map to the given grid, a snapshot as CellStates::update asks for. Costs are recomputed only around
+  /// cells whose state changed since the last call, unless the footprint changed. The result always equals that of a
+  /// fresh map. The reach is radius plus comfort distance, at most kMaxReachCells cells.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
 
   /// How the texts of a failed plan name places.
@@ -123,7 +122,6 @@ class CostMap {
   Footprint footprint_{-1.0, -1.0};
   common::PlaceNames names_;
   int reach_cells_ = 0;
-  int unknown_reach_cells_ = 0;
   /// Squared distance in cells to the nearest occupied cell, cut at (reach + 1) squared.
   std::vector<std::int16_t> occupied_distance2_;
   std::vector<std::int16_t> unknown_distance2_;
@@ -135,7 +133,7 @@ class CostMap {
   std::vector<std::uint8_t> by_disc_;   ///< 1 where only a disc is lethal; empty without any.
 };
 
-/// Whether the centre may not be at a point; nowhere outside of the map.
+/// Whether the centre may not be at a point; true outside of the map.
 inline bool isLethalAt(const CostMap& map, const Eigen::Vector2d& point_map_m) {
   return map.costAt(map.cellAt(point_map_m)) == CostMap::kLethal;
 }

@@ -19,6 +19,16 @@ using common::CellIndex;
 using Eigen::Vector2d;
 
 constexpr double kUnseen_m = std::numeric_limits<double>::quiet_NaN();
+/// Surfaces whose heights differ by less are one floor, for the noise of the heights.
+constexpr double kStep_m = 0.06;
+/// A raised surface is chosen only if the floor is farther away by this path length.
+constexpr double kUpperCost_m = 1.5;
+/// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen to both sides of the hull
+/// is farther away by this path length (decision 090).
+constexpr double kUnseenCost_m = 1.0;
+/// A place whose margin holds only if no edge runs askew is chosen only if a clearer one is farther away by this
+/// (decision 090).
+constexpr double kAskewCost_m = 1.0;
 /// Beyond the hull and its margin, cells within this distance must show that the surface continues.
 constexpr double kBeyond_m = 0.2;
 /// Where straight on is not free, as beside a wall, the vehicle looks past the obstacle.
@@ -46,14 +56,14 @@ class SurfaceWindow {
   double heightAt(const Vector2d& place_map_m) const { return heightOf(cellAt(place_map_m)); }
 
   /// Whether a disc lies on one surface of that height, as far as it was seen.
-  bool isLevel(const Vector2d& center_map_m, double radius_m, double height_m, double step_m) const {
+  bool isLevel(const Vector2d& center_map_m, double radius_m, double height_m) const {
     bool level = true;
     eachSeen(center_map_m, radius_m, [&](const Vector2d& low, double seen_m) {
       // By the nearest point of the cell: a surface begins somewhere in it. A cell that the disc only touches is not in
       // it.
       const Vector2d high = low.array() + resolution_m_;
       if ((center_map_m.cwiseMax(low).cwiseMin(high) - center_map_m).norm() > radius_m - kTouching_m) return;
-      if (std::abs(seen_m - height_m) > step_m) level = false;
+      if (std::abs(seen_m - height_m) > kStep_m) level = false;
     });
     return level;
   }
@@ -64,12 +74,12 @@ class SurfaceWindow {
     double opposite_m = 0.0;                 ///< In the opposite direction.
     double toBothSides_m() const { return std::min(farthest_m.norm(), opposite_m); }
   };
-  Extent extentOf(const Vector2d& center_map_m, double radius_m, double height_m, double step_m) const {
+  Extent extentOf(const Vector2d& center_map_m, double radius_m, double height_m) const {
     std::vector<Vector2d> cells_m;
     Extent extent;
     eachSeen(center_map_m, radius_m, [&](const Vector2d& low, double seen_m) {
       const Vector2d at_m = low.array() + 0.5 * resolution_m_ - center_map_m.array();
-      if (std::abs(seen_m - height_m) > step_m || at_m.norm() > radius_m) return;
+      if (std::abs(seen_m - height_m) > kStep_m || at_m.norm() > radius_m) return;
       cells_m.push_back(at_m);
       if (at_m.norm() > extent.farthest_m.norm()) extent.farthest_m = at_m;
     });
@@ -111,14 +121,12 @@ std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& plac
                              const LandingNeeds& needs) {
   const double height_m = surfaces.heightAt(place_map_m);
   if (std::isnan(height_m)) return std::nullopt;
-  if (!surfaces.isLevel(place_map_m, needs.aside_m(), height_m, needs.step_m)) return std::nullopt;
-  const double seen_to_m =
-      surfaces.extentOf(place_map_m, needs.aside_m() + kBeyond_m, height_m, needs.step_m).toBothSides_m();
-  const bool raised = height_m >= needs.step_m, unseen = seen_to_m < needs.aside_m();
+  if (!surfaces.isLevel(place_map_m, needs.aside_m(), height_m)) return std::nullopt;
+  const double seen_to_m = surfaces.extentOf(place_map_m, needs.aside_m() + kBeyond_m, height_m).toBothSides_m();
+  const bool raised = height_m >= kStep_m, unseen = seen_to_m < needs.aside_m();
   if (raised && seen_to_m < needs.hull_radius_m) return std::nullopt;
-  const bool clear = surfaces.isLevel(place_map_m, needs.asideAskew_m(), height_m, needs.step_m);
-  return length_m + (raised ? needs.upper_cost_m : 0.0) + (unseen ? needs.unseen_cost_m : 0.0) +
-         (clear ? 0.0 : needs.askew_cost_m);
+  const bool clear = surfaces.isLevel(place_map_m, needs.asideAskew_m(), height_m);
+  return length_m + (raised ? kUpperCost_m : 0.0) + (unseen ? kUnseenCost_m : 0.0) + (clear ? 0.0 : kAskewCost_m);
 }
 
 /// Whether the vehicle may be anywhere on that straight line, but for its start.
@@ -181,9 +189,8 @@ std::optional<Vector2d> placeToLookFrom(const CostMap& map, const common::LevelM
   const double reach_m = needs.aside_m() + kBeyond_m;
   const SurfaceWindow surfaces(levels, from_map_m, reach_m);
   const double height_m = surfaces.heightAt(from_map_m);
-  if (std::isnan(height_m) || !surfaces.isLevel(from_map_m, needs.aside_m(), height_m, needs.step_m))
-    return std::nullopt;
-  const auto extent = surfaces.extentOf(from_map_m, reach_m, height_m, needs.step_m);
+  if (std::isnan(height_m) || !surfaces.isLevel(from_map_m, needs.aside_m(), height_m)) return std::nullopt;
+  const auto extent = surfaces.extentOf(from_map_m, reach_m, height_m);
   if (extent.toBothSides_m() >= needs.aside_m() || extent.farthest_m.isZero()) return std::nullopt;
   const Vector2d ahead = -extent.farthest_m.normalized();
   for (const double turn_deg : kLooks_deg) {

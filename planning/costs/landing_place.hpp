@@ -14,15 +14,8 @@ namespace swiftlet::planning {
 
 struct LandingNeeds {
   double hull_radius_m = 0.275;
-  double margin_m = 0.15;     ///< Between the hull and the nearest surface of another height.
-  double step_m = 0.06;       ///< Surfaces whose heights differ by less are one floor, for the noise of the heights.
-  double reach_m = 4.0;       ///< Greatest length of the flight to the place.
-  double upper_cost_m = 1.5;  ///< A raised surface is chosen only if the floor is farther away by this path length.
-  /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen to both sides of
-  /// the hull is farther away by this path length.
-  double unseen_cost_m = 1.0;
-  /// A place whose margin holds only if no edge runs askew is chosen only if a clearer one is farther away by this.
-  double askew_cost_m = 1.0;
+  double margin_m = 0.15;  ///< Between the hull and the nearest surface of another height.
+  double reach_m = 4.0;    ///< Greatest length of the flight to the place.
 
   double aside_m() const { return hull_radius_m + margin_m; }
   /// An edge that runs at 45 deg past the nearest of its points that was seen is nearer by the root of 2.

@@ -30,4 +30,8 @@ double localizability(const std::vector<WallReturn>& returns, int beams);
 double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m,
                    const Directions& directions);
 
+/// Whether there are enough walls around the place to match a scan with. They may fail to fix the position along one
+/// direction, as those of a corridor do.
+bool hasWallsToMatch(const CostMap& map, common::CellIndex place, const Directions& directions);
+
 }  // namespace swiftlet::planning

@@ -1,5 +1,5 @@
-// Exploration: which frontiers there are, why some of them are not explored, and where to look from next. An explorer
-// chooses the viewpoint; a planner finds the path to it.
+// Exploration: which frontiers there are, why some of them are not explored, and where to look from next. A planner
+// finds the path there.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/world/frontier.hpp"
@@ -52,14 +53,31 @@ struct ExplorationResult {
   std::string reason;
 };
 
-/// Chooses viewpoints. The result depends on the input only. explore() changes nothing, so it can run as a job.
-class Explorer {
- public:
-  virtual ~Explorer() = default;
-  [[nodiscard]] virtual ExplorationResult explore(const ExplorationInput& input) const = 0;
-  /// For people, such as "utility".
-  virtual const char* name() const = 0;
+enum class ExplorerKind { kUtility, kNearestFrontier };
+
+/// For people, such as "nearest frontier".
+const char* toString(ExplorerKind kind);
+
+struct ExplorerConfig {
+  ExplorerKind kind = ExplorerKind::kUtility;
+  double laser_range_m = 12.0;             ///< Range within which a viewpoint is expected to see.
+  double laser_field_of_view_deg = 270.0;  ///< Angle centred on the heading that a viewpoint is expected to see.
+
+  void describe(common::config::Fields& fields);
 };
+
+/// Chooses the next viewpoint in the way of `config.kind`. A pure function, so that it can run as a job.
+[[nodiscard]] ExplorationResult explore(const ExplorationInput& input, const ExplorerConfig& config);
+
+/// The viewpoint that shows most for its travel time. Each frontier (Yamauchi 1997, used by Saeedi, section III-F) is
+/// given the best place to see it from. Places are scored by the unknown area expected to be seen, by the travel time,
+/// and by how well the laser fixes the pose there (Bachrach 2009, section 5.4).
+[[nodiscard]] ExplorationResult exploreByUtility(const ExplorationInput& input, const ExplorerConfig& config);
+
+/// The baseline (Yamauchi 1997, "A frontier-based approach for autonomous exploration", section 3.2): the place next to
+/// a frontier, or as near to it as the hull fits, that is cheapest to reach. It faces the unknown, and is kept until it
+/// is reached or its frontier is gone. Neither the gain there counts, nor whether the laser fixes the pose.
+[[nodiscard]] ExplorationResult exploreNearestFrontier(const ExplorationInput& input, const ExplorerConfig& config);
 
 /// The attempt to record once the viewpoint was reached and what is seen from it is in the map.
 inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {

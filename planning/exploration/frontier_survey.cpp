@@ -16,6 +16,17 @@ using common::Frontier;
 using common::FrontierReason;
 using Point = Eigen::Vector2d;
 
+/// Shorter frontiers are left as too small.
+constexpr double kMinFrontier_m = 0.30;
+/// Longer frontiers are cut into pieces of at most this length.
+constexpr double kSegment_m = 1.5;
+/// Frontiers this near to a target during whose approach the position became uncertain are not explored (decision 029).
+constexpr double kLostRadius_m = 4.0;
+/// A frontier that remains after this many views is not tried again (decision 012).
+constexpr int kMaxAttempts = 3;
+/// Views from this near to a frontier count as attempts at it (decision 012).
+constexpr double kAttemptRadius_m = 0.35;
+
 const CostMap& mapOf(const ExplorationInput& input) {
   SWIFTLET_CHECK(input.cost_map != nullptr);
   return *input.cost_map;
@@ -28,8 +39,8 @@ void setReason(Frontier& frontier, FrontierReason reason, const std::string& det
 
 }  // namespace
 
-FrontierSurvey::FrontierSurvey(const ExplorationInput& input, const ExplorationConfig& config)
-    : input_(input), config_(config), map_(mapOf(input)), runs_(findFrontiers(map_, config.segment_m)) {
+FrontierSurvey::FrontierSurvey(const ExplorationInput& input)
+    : input_(input), map_(mapOf(input)), runs_(findFrontiers(map_, kSegment_m)) {
   for (const FrontierRun& run : runs_) frontiers_.push_back(described(run));
   const std::optional<CellPath> escape = escapeFrom(map_, map_.cellAt(input.pose_map.position_m()));
   shut_in_ = !escape;
@@ -48,14 +59,14 @@ Frontier FrontierSurvey::described(const FrontierRun& run) const {
     inside |= !input_.bounds || input_.bounds->contains(center_m);
     frontier.attempts = std::max(frontier.attempts, attemptsAt(center_m));
   }
-  if (run.run_length_m < config_.min_frontier_m) {
+  if (run.run_length_m < kMinFrontier_m) {
     setReason(frontier, FrontierReason::kTooSmall, fmt::format("{:.2f} m long", run.run_length_m));
   } else if (!inside) {
     setReason(frontier, FrontierReason::kOutOfBounds, "outside the bounds of the mission");
   } else if (isLost(frontier.centroid_map_m)) {
     setReason(frontier, FrontierReason::kPositionUncertain,
               "the position became, or would become, uncertain during the approach");
-  } else if (frontier.attempts >= config_.max_attempts) {
+  } else if (frontier.attempts >= kMaxAttempts) {
     setReason(frontier, FrontierReason::kBlacklisted, fmt::format("looked at {} times", frontier.attempts));
   }
   return frontier;
@@ -91,7 +102,7 @@ std::optional<std::size_t> FrontierSurvey::ofCurrent(const std::vector<std::size
   const CellIndex target = map_.cellAt(input_.current->target_map_m);
   const CellIndex place = map_.cellAt(input_.current->pose_map.position_m());
   if (!map_.rect().contains(place) || !field_.reached(map_.indexOf(place))) return std::nullopt;
-  double nearest_m = config_.attempt_radius_m;
+  double nearest_m = kAttemptRadius_m;
   std::optional<std::size_t> nearest;
   for (const std::size_t number : numbers) {
     for (const CellIndex cell : runs_[number].cells) {
@@ -110,7 +121,7 @@ Lookout FrontierSurvey::currentLookout() const {
 }
 
 bool FrontierSurvey::isAt(const ExplorationAttempt& attempt, const Point& target_map_m) const {
-  return (attempt.target_map_m - target_map_m).norm() <= config_.attempt_radius_m;
+  return (attempt.target_map_m - target_map_m).norm() <= kAttemptRadius_m;
 }
 
 int FrontierSurvey::attemptsAt(const Point& target_map_m) const {
@@ -120,7 +131,7 @@ int FrontierSurvey::attemptsAt(const Point& target_map_m) const {
 
 bool FrontierSurvey::lookedFrom(const Lookout& lookout) const {
   const Point target_m = map_.centerOf(lookout.target), place_m = map_.centerOf(lookout.place);
-  const double as_near_m = std::max(config_.attempt_radius_m, 0.5 * (target_m - place_m).norm());
+  const double as_near_m = std::max(kAttemptRadius_m, 0.5 * (target_m - place_m).norm());
   return std::any_of(input_.attempts.begin(), input_.attempts.end(), [&](const auto& attempt) {
     return isAt(attempt, target_m) && (attempt.place_map_m - place_m).norm() <= as_near_m;
   });
@@ -128,7 +139,7 @@ bool FrontierSurvey::lookedFrom(const Lookout& lookout) const {
 
 bool FrontierSurvey::isLost(const Point& centroid_map_m) const {
   return std::any_of(input_.lost_map_m.begin(), input_.lost_map_m.end(),
-                     [&](const Point& lost) { return (lost - centroid_map_m).norm() <= config_.lost_radius_m; });
+                     [&](const Point& lost) { return (lost - centroid_map_m).norm() <= kLostRadius_m; });
 }
 
 double FrontierSurvey::freeArea_m2() const {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "planning/exploration/exploration.hpp"
-#include "planning/exploration/exploration_config.hpp"
 #include "planning/exploration/frontiers.hpp"
 #include "planning/exploration/viewpoints.hpp"
 #include "planning/search/wavefront.hpp"
@@ -25,7 +24,7 @@ struct SeenFrontier {
 /// thread-safe.
 class FrontierSurvey {
  public:
-  FrontierSurvey(const ExplorationInput& input, const ExplorationConfig& config);
+  explicit FrontierSurvey(const ExplorationInput& input);
 
   /// Whether the vehicle cannot leave its place. Then no other member but finish() may be called.
   bool shutIn() const { return shut_in_; }
@@ -43,9 +42,9 @@ class FrontierSurvey {
   /// Sets the score by which frontiers are sorted.
   void score(std::size_t number, double score) { frontiers_[number].score = score; }
 
-  /// Of the given frontiers, the one that the current viewpoint is for: the nearest with a cell within
-  /// `attempt_radius_m` of its target. None without a current viewpoint, without such a frontier, or when the viewpoint
-  /// cannot be reached any more.
+  /// Of the given frontiers, the one that the current viewpoint is for: the nearest with a cell so near
+  /// to its target that a view from it counts as an attempt. None without a current viewpoint, without such a frontier,
+  /// or when the viewpoint cannot be reached any more.
   std::optional<std::size_t> ofCurrent(const std::vector<std::size_t>& numbers) const;
   /// The current viewpoint as a lookout in this map. Call it only after ofCurrent() has returned a frontier.
   Lookout currentLookout() const;
@@ -65,7 +64,6 @@ class FrontierSurvey {
   double freeArea_m2() const;
 
   const ExplorationInput& input_;
-  const ExplorationConfig& config_;
   const CostMap& map_;
   std::vector<FrontierRun> runs_;
   std::vector<common::Frontier> frontiers_;  ///< One for each of runs_.

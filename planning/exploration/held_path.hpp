@@ -6,16 +6,15 @@
 #include <Eigen/Core>
 
 #include "planning/costs/cost_map.hpp"
-#include "planning/exploration/exploration_config.hpp"
 
 namespace swiftlet::planning {
 
-/// Whether the share of walls around a place is at least `least_wall_share`; see wallShareAt. A place outside the map
-/// counts as held, because it is unknown.
-bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const ExplorationConfig& config);
+/// Whether there are walls around a place (hasWallsToMatch). A place outside the map counts as held, because it is
+/// unknown.
+bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m);
 
-/// Whether the path ends at a held place, without a stretch of more than `max_unheld_m` that is not. The stretch that
+/// Whether the path ends at a held place, without a stretch of more than 4 m that is not. The stretch that
 /// the vehicle is in at its start does not count, because it has to leave it.
-bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m, const ExplorationConfig& config);
+bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m);
 
 }  // namespace swiftlet::planning

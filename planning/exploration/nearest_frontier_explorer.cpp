@@ -1,5 +1,4 @@
-#include "planning/exploration/nearest_frontier_explorer.hpp"
-
+// Flies to the nearest frontier and looks from there (Yamauchi 1997).
 #include <algorithm>
 #include <cmath>
 
@@ -16,11 +15,11 @@ const Lookout& nearestToIt(const SeenFrontier& seen) { return seen.lookouts.fron
 
 }  // namespace
 
-ExplorationResult NearestFrontierExplorer::explore(const ExplorationInput& input) const {
-  FrontierSurvey survey(input, config_);
+ExplorationResult exploreNearestFrontier(const ExplorationInput& input, const ExplorerConfig& config) {
+  FrontierSurvey survey(input);
   if (survey.shutIn()) return survey.finish(std::nullopt, false);
   const CostMap& map = survey.map();
-  const Scout scout(map, survey.field(), config_, input.bounds ? &*input.bounds : nullptr);
+  const Scout scout(map, survey.field(), config, input.bounds ? &*input.bounds : nullptr);
   const std::vector<SeenFrontier> seen = survey.seenBy(scout);
   if (seen.empty()) return survey.finish(std::nullopt, false);
 

@@ -1,5 +1,4 @@
-#include "planning/exploration/utility_explorer.hpp"
-
+// Chooses the viewpoint that shows most for its travel time.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,6 +13,19 @@ namespace {
 using common::FrontierReason;
 using Point = Eigen::Vector2d;
 
+/// Frontiers, from the nearest on, for which viewpoints are evaluated in one call.
+constexpr std::size_t kMaxEvaluated = 30;
+/// A frontier behind which less is expected is left as too small.
+constexpr double kMinGain_m2 = 0.03;
+/// Utility grows with the gain to this power; at 0 only the travel time counts.
+constexpr double kGainExponent = 0.6;
+/// Share of the utility that is lost where the laser would not fix the pose.
+constexpr double kLocalizabilityWeight = 0.3;
+/// The present viewpoint is left only for one that is better by this share.
+constexpr double kHysteresis = 0.25;
+/// Speed, yaw rate and acceleration from which travel times are estimated.
+constexpr double kSpeed_m_s = 0.8, kYawRate_rad_s = 1.0, kAcceleration_m_s2 = 0.8;
+
 /// A frontier with the best place to see it from.
 struct Option {
   std::size_t frontier = 0;
@@ -22,13 +34,13 @@ struct Option {
   double utility = 0.0;
 };
 
-/// One call of explore().
+/// One call of exploreByUtility().
 class Choice {
  public:
-  Choice(const ExplorationInput& input, const ExplorationConfig& config)
+  Choice(const ExplorationInput& input, const ExplorerConfig& config)
       : input_(input),
         config_(config),
-        survey_(input, config),
+        survey_(input),
         map_(survey_.map()),
         scout_(map_, survey_.field(), config, input.bounds ? &*input.bounds : nullptr) {}
 
@@ -38,7 +50,7 @@ class Choice {
     reviewCurrent();
     if (options_.empty()) return survey_.finish(std::nullopt, false);
     const Option& best = greatestUtility();
-    const bool keep = current_ && best.utility <= current_->utility * (1.0 + config_.hysteresis);
+    const bool keep = current_ && best.utility <= current_->utility * (1.0 + kHysteresis);
     return survey_.finish(viewpointOf(keep ? *current_ : best), keep);
   }
 
@@ -46,7 +58,7 @@ class Choice {
   /// Finds viewpoints for the open frontiers, the nearest first, until none that is farther away can be better.
   void evaluate() {
     for (const SeenFrontier& seen : survey_.seenBy(scout_)) {
-      if (static_cast<int>(options_.size()) >= config_.max_evaluated) break;
+      if (options_.size() >= kMaxEvaluated) break;
       if (!options_.empty() && greatestUtility().utility >= bound(seen.nearest_m)) break;
       double greatest_gain_m2 = 0.0;
       if (const auto best = bestOf(seen, greatest_gain_m2)) {
@@ -65,7 +77,7 @@ class Choice {
     for (const Lookout& lookout : seen.lookouts) {
       const Option option = optionAt(seen.number, lookout);
       greatest_gain_m2 = std::max(greatest_gain_m2, option.view.gain_m2);
-      if (option.view.gain_m2 < config_.min_gain_m2) continue;
+      if (option.view.gain_m2 < kMinGain_m2) continue;
       const bool is_new = !survey_.lookedFrom(lookout);
       if (best && (is_new != best_is_new ? best_is_new : option.utility <= best->utility)) continue;
       best = option;
@@ -79,7 +91,7 @@ class Choice {
   void leaveUnseen(std::size_t frontier, double greatest_gain_m2) {
     const std::vector<common::CellIndex>& cells = survey_.run(frontier).cells;
     const double at_it_m2 = scout_.view(cells[cells.size() / 2], 0.0).gain_m2;
-    if (at_it_m2 < config_.min_gain_m2) {
+    if (at_it_m2 < kMinGain_m2) {
       survey_.leave(frontier, FrontierReason::kTooSmall, fmt::format("{:.2f} m2 to be seen", greatest_gain_m2));
     } else {
       survey_.leave(frontier, FrontierReason::kUnreachable,
@@ -92,8 +104,8 @@ class Choice {
     Option option{frontier, lookout, {}, 0.0};
     const Point towards_target_m = map_.centerOf(lookout.target) - map_.centerOf(lookout.place);
     option.view = scout_.view(lookout.place, std::atan2(towards_target_m.y(), towards_target_m.x()));
-    const double trust = 1.0 - config_.localizability_weight * (1.0 - option.view.localizability);
-    option.utility = trust * std::pow(option.view.gain_m2, config_.gain_exponent) /
+    const double trust = 1.0 - kLocalizabilityWeight * (1.0 - option.view.localizability);
+    option.utility = trust * std::pow(option.view.gain_m2, kGainExponent) /
                      (travelTime_s(lookout.path_m, option.view.yaw_map_rad) + brake_s());
     return option;
   }
@@ -102,17 +114,17 @@ class Choice {
   /// in the whole field of view.
   double bound(double path_m) const {
     const double field_of_view_rad = config_.laser_field_of_view_deg * std::numbers::pi / 180.0;
-    const double depth_m = config_.gain_depth_m + 2.0 * map_.resolution_m();
+    const double depth_m = Scout::kGainDepth_m + 2.0 * map_.resolution_m();
     const double free_m = std::max(0.0, config_.laser_range_m - depth_m);
     const double gain_m2 = 0.5 * field_of_view_rad * (config_.laser_range_m * config_.laser_range_m - free_m * free_m);
-    return std::pow(gain_m2, config_.gain_exponent) / (path_m / config_.speed_m_s + brake_s());
+    return std::pow(gain_m2, kGainExponent) / (path_m / kSpeed_m_s + brake_s());
   }
 
-  double brake_s() const { return config_.speed_m_s / config_.acceleration_m_s2; }
+  double brake_s() const { return kSpeed_m_s / kAcceleration_m_s2; }
 
   double travelTime_s(double path_m, double yaw_map_rad) const {
     const double turn_rad = std::abs(common::wrapAngle(yaw_map_rad - input_.pose_map.yaw_rad));
-    return std::max(path_m / config_.speed_m_s, turn_rad / config_.yaw_rate_rad_s);
+    return std::max(path_m / kSpeed_m_s, turn_rad / kYawRate_rad_s);
   }
 
   /// The current viewpoint stays an option while there is something left to see at its target.
@@ -122,7 +134,7 @@ class Choice {
     const std::optional<std::size_t> frontier = survey_.ofCurrent(numbers);
     if (!frontier) return;
     Option option = optionAt(*frontier, survey_.currentLookout());
-    if (option.view.gain_m2 < config_.min_gain_m2) return;
+    if (option.view.gain_m2 < kMinGain_m2) return;
     option.view.yaw_map_rad = input_.current->pose_map.yaw_rad;
     current_ = option;
   }
@@ -141,7 +153,7 @@ class Choice {
   }
 
   const ExplorationInput& input_;
-  const ExplorationConfig& config_;
+  const ExplorerConfig& config_;
   FrontierSurvey survey_;
   const CostMap& map_;
   Scout scout_;
@@ -151,6 +163,8 @@ class Choice {
 
 }  // namespace
 
-ExplorationResult UtilityExplorer::explore(const ExplorationInput& input) const { return Choice(input, config_).run(); }
+ExplorationResult exploreByUtility(const ExplorationInput& input, const ExplorerConfig& config) {
+  return Choice(input, config).run();
+}
 
 }  // namespace swiftlet::planning

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "common/geometry.hpp"
-#include "planning/costs/localizability.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -46,7 +45,7 @@ double bestHeading(const std::array<double, kGainRays>& gains, double field_of_v
 
 }  // namespace
 
-Scout::Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config,
+Scout::Scout(const CostMap& map, const CostField& from_vehicle, const ExplorerConfig& config,
              const common::MapBounds* bounds)
     : map_(map),
       field_(from_vehicle),
@@ -88,10 +87,6 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
   }
 }
 
-bool Scout::hasWallsToMatch(CellIndex place) const {
-  return wallShareAt(map_, place, config_.wall_range_m, config_.open_m, wall_) >= config_.least_wall_share;
-}
-
 View Scout::view(CellIndex place, double preferred_yaw_rad) const {
   static_assert(kGainRays % 2 == 0);
   const double resolution_m = map_.resolution_m();
@@ -101,7 +96,7 @@ View Scout::view(CellIndex place, double preferred_yaw_rad) const {
     const Directions::Ray& ray = gain_.rays()[static_cast<std::size_t>(i)];
     const double step_m = ray.step_cells * resolution_m;
     const int max_steps = static_cast<int>(config_.laser_range_m / step_m);
-    const int depth_steps = static_cast<int>(config_.gain_depth_m / step_m);
+    const int depth_steps = static_cast<int>(kGainDepth_m / step_m);
     // Steps since the ray left the known space.
     int beyond = 0;
     castRay(map_, place, ray, max_steps, [&](int index, int step) {

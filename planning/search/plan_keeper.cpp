@@ -9,10 +9,16 @@
 #include "common/segment.hpp"
 
 namespace swiftlet::planning {
-
 namespace {
 
 using Point = Eigen::Vector2d;
+
+/// An older plan is compared with a new one (Grzonka 2012, section IV-E: every 500 ms).
+constexpr double kMaxAge_s = 0.5;
+/// A new plan replaces a valid one when it is cheaper by this share.
+constexpr double kBetterBy = 0.10;
+/// A plan does not hold any longer when the vehicle is farther from it than this and its braking distance.
+constexpr double kMaxDeviation_m = 0.30;
 
 }  // namespace
 
@@ -26,10 +32,10 @@ PlanKeeper::Check PlanKeeper::check(common::Time now, const PlanMaps& maps, cons
   if (!path_) return {false, true, "no plan"};
   advanceTo(position_map_m);
   const double deviation_m = (position_map_m - remaining().front()).norm();
-  Check result{true, (now - stamp_).seconds() >= config_.max_age_s, ""};
+  Check result{true, (now - stamp_).seconds() >= kMaxAge_s, ""};
   if (const Rest left = rest(maps); left.blocked_map_m) {
     result = {false, true, "blocked before " + maps.costs.names().of(*left.blocked_map_m)};
-  } else if (deviation_m > config_.max_deviation_m + braking_m) {
+  } else if (deviation_m > kMaxDeviation_m + braking_m) {
     result = {false, true, fmt::format("{:.2f} m off the plan", deviation_m)};
   }
   valid_ = result.valid;
@@ -41,7 +47,7 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const PlanMaps& maps,
     advanceTo(position_map_m);
     stamp_ = now;
     const Rest old = rest(maps);
-    if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - config_.better_by)) return false;
+    if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - kBetterBy)) return false;
   }
   path_ = path;
   stamp_ = now;
@@ -68,7 +74,7 @@ void PlanKeeper::advanceTo(const Point& position_map_m) {
       best_m = std::min(best_m, off_m);
       best_segment = i;
       best_along = share;
-    } else if (off_m > best_m + config_.max_deviation_m) {
+    } else if (off_m > best_m + kMaxDeviation_m) {
       break;
     }
   }

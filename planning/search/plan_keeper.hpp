@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "planning/search/planner.hpp"
 #include "planning/search/two_heights.hpp"
@@ -29,27 +28,18 @@ struct PlanMaps {
 /// `if (keeper.check(now, map, position).replan) keeper.offer(planner.plan(...), ...)`
 class PlanKeeper {
  public:
-  struct Config {
-    static constexpr double max_age_s = 0.5;   ///< An older plan is compared with a new one.
-    static constexpr double better_by = 0.10;  ///< A new plan replaces a valid one when it is cheaper by this share.
-    static constexpr double max_deviation_m = 0.30;  ///< A plan does not hold any longer when the vehicle is farther
-                                                     ///< from it than this and its braking distance.
-  };
-
   struct Check {
     bool valid = false;   ///< The plan may be flown on.
     bool replan = false;  ///< Ask the planner: there is no valid plan, or it is old.
     std::string reason;   ///< Why it is not valid.
   };
 
-  explicit PlanKeeper(const Config& config) : config_(config) {}
-
   /// Checks the rest of the plan on the present map (with the discs of dynamic obstacles), and records how far along it
   /// the vehicle is. It may be off the plan by its braking distance more, as a plan may begin with a turn.
   Check check(common::Time now, const PlanMaps& maps, const Eigen::Vector2d& position_map_m, double braking_m = 0.0);
 
   /// Offers a new plan. Returns true when it is taken: there was no plan, the old one is invalid or for another goal,
-  /// or the new one is cheaper by more than `better_by`. In any case the age of the kept plan counts from `now`.
+  /// or the new one is cheaper by more than a tenth. In any case the age of the kept plan counts from `now`.
   bool offer(const Path& path, common::Time now, const PlanMaps& maps, const Eigen::Vector2d& position_map_m);
 
   void clear();
@@ -69,7 +59,6 @@ class PlanKeeper {
   std::size_t remainingEscape() const;
   Rest rest(const PlanMaps& maps) const;
 
-  Config config_;
   std::optional<Path> path_;
   common::Time stamp_;
   std::size_t segment_ = 0;  ///< The vehicle is between points segment_ and segment_ + 1.

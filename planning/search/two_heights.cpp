@@ -95,22 +95,22 @@ class HeightSearch {
 /// The places as lines, without cells that a straight line cuts short. `escape` cells of the first stretch are those of
 /// the escape.
 Path linesThrough(const TwoHeights& maps, const std::vector<Place>& places, std::size_t escape,
-                  const TwoHeightsQuestion& question) {
+                  const Eigen::Vector2d& start_map_m, const Eigen::Vector2d& goal_map_m, double change_cost_m) {
   Path path;
   for (std::size_t begin = 0; begin < places.size();) {
     std::size_t end = begin;
     CellPath cells;
     while (end < places.size() && places[end].lower == places[begin].lower) cells.push_back(places[end++].cell);
     const CostMap& map = places[begin].lower ? maps.lower : maps.upper;
-    const Eigen::Vector2d from_m = begin == 0 ? question.start_map_m : path.points_map_m.back();
-    const Eigen::Vector2d to_m = end == places.size() ? question.goal_map_m : map.centerOf(cells.back());
+    const Eigen::Vector2d from_m = begin == 0 ? start_map_m : path.points_map_m.back();
+    const Eigen::Vector2d to_m = end == places.size() ? goal_map_m : map.centerOf(cells.back());
     Path stretch = shortened(map, cells, begin == 0 ? escape : 0, from_m, to_m);
     if (begin == 0) path.escape_points = stretch.escape_points;
     const auto& points = stretch.points_map_m;
     path.points_map_m.insert(path.points_map_m.end(), points.begin() + (begin == 0 ? 0 : 1), points.end());
     path.lowered.resize(path.points_map_m.size() - 1, places[begin].lower);
     path.length_m += stretch.length_m;
-    path.cost_m += (begin == 0 ? 0.0 : question.change_cost_m) + stretch.cost_m;
+    path.cost_m += (begin == 0 ? 0.0 : change_cost_m) + stretch.cost_m;
     begin = end;
   }
   path.lower_height_m = maps.lower_height_m;
@@ -119,26 +119,28 @@ Path linesThrough(const TwoHeights& maps, const std::vector<Place>& places, std:
 
 }  // namespace
 
-tl::expected<Path, PlanFailure> planAtTwoHeights(const TwoHeights& maps, const TwoHeightsQuestion& question) {
+tl::expected<Path, PlanFailure> planAtTwoHeights(const TwoHeights& maps, const Eigen::Vector2d& start_map_m,
+                                                 const Eigen::Vector2d& goal_map_m, bool starts_lower,
+                                                 double change_cost_m) {
   SWIFTLET_CHECK(maps.upper.rect() == maps.lower.rect(), maps.upper.costs().size(), maps.lower.costs().size());
-  const CostMap& first = question.starts_lower ? maps.lower : maps.upper;
-  const CellIndex goal = maps.upper.cellAt(question.goal_map_m);
+  const CostMap& first = starts_lower ? maps.lower : maps.upper;
+  const CellIndex goal = maps.upper.cellAt(goal_map_m);
   const bool ends_lower = maps.upper.costAt(goal) == CostMap::kLethal;
   if (ends_lower && maps.lower.costAt(goal) == CostMap::kLethal) {
     // The refusal at the height of flight explains more: there the laser has seen the map.
-    auto refused = admit(maps.upper, question.start_map_m, question.goal_map_m);
-    return tl::make_unexpected(refused ? unreachable(maps.upper, question.goal_map_m) : refused.error());
+    auto refused = admit(maps.upper, start_map_m, goal_map_m);
+    return tl::make_unexpected(refused ? unreachable(maps.upper, goal_map_m) : refused.error());
   }
-  const std::optional<CellPath> escape = escapeFrom(first, first.cellAt(question.start_map_m));
-  if (!escape) return tl::make_unexpected(unreachable(maps.upper, question.goal_map_m));
+  const std::optional<CellPath> escape = escapeFrom(first, first.cellAt(start_map_m));
+  if (!escape) return tl::make_unexpected(unreachable(maps.upper, goal_map_m));
 
   const std::vector<Place> path =
-      HeightSearch(maps, question.change_cost_m).path({escape->back(), question.starts_lower}, {goal, ends_lower});
-  if (path.empty()) return tl::make_unexpected(unreachable(maps.upper, question.goal_map_m));
+      HeightSearch(maps, change_cost_m).path({escape->back(), starts_lower}, {goal, ends_lower});
+  if (path.empty()) return tl::make_unexpected(unreachable(maps.upper, goal_map_m));
   std::vector<Place> places;
-  for (const CellIndex cell : *escape) places.push_back({cell, question.starts_lower});
+  for (const CellIndex cell : *escape) places.push_back({cell, starts_lower});
   places.insert(places.end(), path.begin() + 1, path.end());
-  return linesThrough(maps, places, escape->size() - 1, question);
+  return linesThrough(maps, places, escape->size() - 1, start_map_m, goal_map_m, change_cost_m);
 }
 
 }  // namespace swiftlet::planning

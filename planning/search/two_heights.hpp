@@ -22,17 +22,13 @@ struct TwoHeights {
   double lower_height_m = 0.0;  ///< Over the take-off floor.
 };
 
-struct TwoHeightsQuestion {
-  Eigen::Vector2d start_map_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  bool starts_lower = false;   ///< The vehicle is at the lower height.
-  double change_cost_m = 1.0;  ///< A change of height costs as much as this length of open space.
-};
-
 /// The cheapest path (exact on the cells, with a metre at the lower height half as expensive again, so that the vehicle
 /// rises as soon as it may). It ends at the height of flight where the goal is free there, otherwise at the lower one.
-/// Path::lowered says which of its lines are flown lower.
+/// Path::lowered says which of its lines are flown lower. `starts_lower`: the vehicle is at the lower height. A change
+/// of height costs as much as `change_cost_m` of open space.
 [[nodiscard]] tl::expected<Path, PlanFailure> planAtTwoHeights(const TwoHeights& maps,
-                                                               const TwoHeightsQuestion& question);
+                                                               const Eigen::Vector2d& start_map_m,
+                                                               const Eigen::Vector2d& goal_map_m, bool starts_lower,
+                                                               double change_cost_m);
 
 }  // namespace swiftlet::planning

@@ -27,7 +27,7 @@ double heap_MB() { return 1e-6 * static_cast<double>(mallinfo2().uordblks + mall
 /// A round tunnel with a radius of 1.5 m. Each step makes a key scan, a sweep and a key frame.
 class Tunnel {
  public:
-  Tunnel(const mapping3d::ImageSubmapConfig& submaps, const mapping3d::KeyFrameConfig& key_frames)
+  Tunnel(const mapping3d::SubmapConfig& submaps, int key_frames)
       : store_(submaps, voxels_, noise_),
         key_frames_(key_frames),
         publisher_(publishing_, voxels_.resolution_m, *jobs_) {}
@@ -97,14 +97,8 @@ class Tunnel {
 
 struct Bound {
   std::string name;
-  mapping3d::ImageSubmapConfig submaps;
+  mapping3d::SubmapConfig submaps;
 };
-
-mapping3d::KeyFrameConfig keyFrames(int greatest_number) {
-  mapping3d::KeyFrameConfig config;
-  config.greatest_number = greatest_number;
-  return config;
-}
 
 std::vector<Bound> bounds() {
   Bound points{"points", {}}, submaps{"submaps", {}}, blocks{"blocks", {}};
@@ -125,7 +119,7 @@ double growth_MB(Tunnel& tunnel, int steps) {
 }
 
 TEST_P(Bounded, BeyondItTheMapGrowsNoMore) {
-  Tunnel tunnel(GetParam().submaps, keyFrames(40));
+  Tunnel tunnel(GetParam().submaps, 40);
   const double first_MB = growth_MB(tunnel, 250);
   const double second_MB = growth_MB(tunnel, 250);
   EXPECT_GT(first_MB, 1.0);
@@ -137,13 +131,13 @@ INSTANTIATE_TEST_SUITE_P(Each, Bounded, testing::ValuesIn(bounds()),
                          [](const auto& bound) { return bound.param.name; });
 
 TEST(Unbounded, TheMapGrowsWithTheFlight) {
-  Tunnel submaps(mapping3d::ImageSubmapConfig(), keyFrames(40));
+  Tunnel submaps(mapping3d::SubmapConfig(), 40);
   const double first_MB = growth_MB(submaps, 250);
   const double second_MB = growth_MB(submaps, 250);
   EXPECT_GT(second_MB, 0.3 * first_MB) << "the first 40 key frames are part of the first growth";
-  mapping3d::ImageSubmapConfig few;
+  mapping3d::SubmapConfig few;
   few.submaps_max = 8;
-  Tunnel key_frames(few, keyFrames(10'000));
+  Tunnel key_frames(few, 10'000);
   key_frames.fly(250);
   EXPECT_GT(growth_MB(key_frames, 250), 5.0) << "250 key frames";
 }

@@ -106,7 +106,7 @@ TEST(Mapper3d, MapsTheWallsFromNoisySeeds) {
 /// Two submaps on two key scans. When it draws the second one, the 2D map has drifted; then a loop closure corrects it.
 struct LoopClosure {
   LoopClosure() {
-    ImageSubmapConfig config;
+    SubmapConfig config;
     config.reach_m = 0.8;
     SubmapStore store(config, VoxelConfig(), vision::DepthNoiseConfig());
     for (int i = 0; i < 45; ++i) {

@@ -17,7 +17,7 @@ using common::Submap3d;
 /// Frames seen along a line there and back, placed by key scans.
 struct Commute {
   TexturedRoom room;
-  ImageSubmapConfig config;
+  SubmapConfig config;
   std::shared_ptr<const KeyPoses> scans;
 
   Commute() {

@@ -17,18 +17,18 @@ common::VoxelMap tableTop() {
 }
 
 TEST(FloorPlan, IsOccupiedWhereAnythingInTheBandIs) {
-  const auto plan = floorPlan(tableTop(), {0.55, 0.85});
+  const auto plan = floorPlan(tableTop(), 0.55, 0.85);
   EXPECT_TRUE(occupancy::isOccupied(plan.at({-3, 4})));
   EXPECT_TRUE(occupancy::isUnknown(plan.at({-2, 4})));
 }
 
 TEST(FloorPlan, IsFreeBelowTheTableTop) {
-  EXPECT_TRUE(occupancy::isFree(floorPlan(tableTop(), {0.05, 0.65}).at({-3, 4})));
-  EXPECT_TRUE(occupancy::isFree(floorPlan(tableTop(), {0.82, 0.88}).at({-3, 4})));
+  EXPECT_TRUE(occupancy::isFree(floorPlan(tableTop(), 0.05, 0.65).at({-3, 4})));
+  EXPECT_TRUE(occupancy::isFree(floorPlan(tableTop(), 0.82, 0.88).at({-3, 4})));
 }
 
 TEST(FloorPlan, IsUnknownWhereTheBandIsAboveEverything) {
-  EXPECT_TRUE(knownExtent(floorPlan(tableTop(), {1.0, 2.0})).empty());
+  EXPECT_TRUE(knownExtent(floorPlan(tableTop(), 1.0, 2.0)).empty());
 }
 
 }  // namespace

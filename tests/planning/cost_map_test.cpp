@@ -77,9 +77,6 @@ TEST(CostMap, UnknownIsNotFree) {
   EXPECT_EQ(test::mapOf(grid).costAt({2, 30}), CostMap::kLethal);
   EXPECT_EQ(test::mapOf(grid).costAt({-10, 30}), CostMap::kLethal);
   EXPECT_EQ(test::mapOf(grid).costAt({30, 30}), CostMap::kOpenCost);
-  CostMap::Config bold;
-  bold.pass_unknown = true;
-  EXPECT_EQ(test::mapOf(grid, {}, bold).costAt({-10, 30}), CostMap::kOpenCost);
 }
 
 TEST(CostMap, DiscsAreInflatedAndLeaveNoTrace) {

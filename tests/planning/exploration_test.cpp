@@ -11,9 +11,8 @@
 #include "flatland.hpp"
 #include "grid_builder.hpp"
 #include "planning/costs/localizability.hpp"
+#include "planning/exploration/exploration.hpp"
 #include "planning/exploration/frontiers.hpp"
-#include "planning/exploration/nearest_frontier_explorer.hpp"
-#include "planning/exploration/utility_explorer.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -88,8 +87,7 @@ TEST(NearestFrontier, IsChosenWhateverItsSizeAndKeptUntilReached) {
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
   ExplorationInput input{map, {2.0, 2.5, 0.0}, std::nullopt, {}, std::nullopt};
-  const NearestFrontierExplorer nearest{{}};
-  const auto first = nearest.explore(input).next, by_gain = UtilityExplorer({}).explore(input).next;
+  const auto first = exploreNearestFrontier(input, {}).next, by_gain = exploreByUtility(input, {}).next;
   ASSERT_TRUE(first && by_gain);
   EXPECT_NEAR(first->target_map_m.x(), 2.0, 0.6);
   EXPECT_GT(by_gain->target_map_m.x(), 9.0);
@@ -99,11 +97,11 @@ TEST(NearestFrontier, IsChosenWhateverItsSizeAndKeptUntilReached) {
 
   input.current = first;
   input.pose_map = {8.5, 2.5, 0.0};
-  const ExplorationResult later = nearest.explore(input);
+  const ExplorationResult later = exploreNearestFrontier(input, {});
   EXPECT_TRUE(later.kept_current) << "though the other is nearer now";
   EXPECT_EQ(later.next->pose_map.position_m(), first->pose_map.position_m());
   input.attempts.assign(3, attemptFrom(*first));
-  const ExplorationResult last = nearest.explore(input);
+  const ExplorationResult last = exploreNearestFrontier(input, {});
   EXPECT_FALSE(last.kept_current);
   ASSERT_TRUE(last.next);
   EXPECT_GT(last.next->target_map_m.x(), 9.0);
@@ -125,14 +123,14 @@ TEST(Exploration, EndsBesideAWallThatReturnsNoBeams) {
 
 /// Two rooms side by side, the right one unknown behind a doorway of `door` cells.
 struct TwoRooms : testing::Test {
-  ExplorationResult look(int door, ExplorationInput input = {}, ExplorationConfig config = {}) {
+  ExplorationResult look(int door, ExplorationInput input = {}, ExplorerConfig config = {}) {
     common::OccupancyGrid grid = test::room(100, 100);
     test::fill(grid, {{100, 50}, {101, 50 + door}}, test::kFreeCell);
     auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
     map->update(grid.snapshot(), {});
     input.cost_map = map;
     input.pose_map = {2.0, 2.5, 0.0};
-    return UtilityExplorer(config).explore(input);
+    return exploreByUtility(input, config);
   }
 };
 
@@ -184,7 +182,7 @@ TEST(MapBounds, MayLieInAGivenMap) {
 
 TEST_F(TwoRooms, AFrontierIsBlacklistedAfterEnoughLooks) {
   ExplorationInput input;
-  for (int i = 0; i < ExplorationConfig{}.max_attempts; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const ExplorationResult result = look(24, input);
     ASSERT_TRUE(result.next) << i;
     EXPECT_EQ(result.frontiers[0].attempts, i);
@@ -242,7 +240,7 @@ struct DoorToTheOutside : testing::Test {
     input.cost_map = map;
     input.pose_map = {4.0, 2.7, 0.0};
     input.leave_building = leave_building;
-    return UtilityExplorer({}).explore(input);
+    return exploreByUtility(input, {});
   }
 };
 
@@ -268,7 +266,7 @@ TEST(Exploration, FrontiersBehindANarrowPassageAreUnreachable) {
   test::fill(grid, {{109, 70}, {110, 80}}, common::occupancy::kUnknown);
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
-  const ExplorationResult result = UtilityExplorer({}).explore({map, {2.0, 2.6, 0.0}, std::nullopt, {}, std::nullopt});
+  const ExplorationResult result = exploreByUtility({map, {2.0, 2.6, 0.0}, std::nullopt, {}, std::nullopt}, {});
   ASSERT_EQ(result.frontiers.size(), 1u);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kUnreachable);
   EXPECT_THAT(result.frontiers[0].explanation, HasSubstr("at clearance 0.10 m"));
@@ -280,7 +278,7 @@ TEST(Exploration, ReportsAVehicleThatIsShutIn) {
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
   for (const ExplorerKind kind : {ExplorerKind::kUtility, ExplorerKind::kNearestFrontier}) {
-    const auto result = makeExplorer({kind}, {})->explore({map, {1.0, 0.1, 0.0}, std::nullopt, {}, std::nullopt});
+    const auto result = explore({map, {1.0, 0.1, 0.0}, std::nullopt, {}, std::nullopt}, {.kind = kind});
     EXPECT_FALSE(result.next);
     EXPECT_THAT(result.reason, HasSubstr("shut in"));
   }

@@ -210,7 +210,6 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
   std::optional<Viewpoint> current;
   Path path;
   Wavefront planner;
-  const std::unique_ptr<Explorer> explorer = makeExplorer(config.explorer, config.exploration);
   common::OccupancyGrid& grid = report.grid;
   flyer.pose = {0.5 * kRes, 0.5 * kRes, random.uniform(-3.1, 3.1)};
   // The place below the vehicle at take-off is free.
@@ -228,7 +227,8 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
       map.update(grid.snapshot(), config.footprint);
       const Point before = current ? current->target_map_m : Point::Zero();
       const bool flying = current.has_value();
-      report.last = explorer->explore({std::make_shared<CostMap>(map), flyer.pose, current, attempts, std::nullopt});
+      report.last =
+          explore({std::make_shared<CostMap>(map), flyer.pose, current, attempts, std::nullopt}, config.explorer);
       ++report.calls;
       report.done = report.last.done;
       if (report.done || !report.last.next) break;

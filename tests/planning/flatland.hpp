@@ -10,7 +10,6 @@
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "planning/exploration/exploration.hpp"
-#include "planning/exploration/explorer_choice.hpp"
 
 namespace swiftlet::planning::test {
 
@@ -40,7 +39,6 @@ Flatland pocketRoom(std::uint64_t seed);
 
 struct FlightConfig {
   ExplorerConfig explorer;
-  ExplorationConfig exploration;
   Footprint footprint;
   CostMap::Config cost_map;
   double speed_m_s = 0.8;

@@ -21,15 +21,15 @@ class RoomWithADoor : public testing::Test {
     test::fill(grid, {{101, -200}, {340, 300}}, test::kFreeCell);
     map_.update(grid.snapshot(), {});
   }
-  bool staysHeld(const Points& path_map_m) const { return planning::staysHeld(map_, path_map_m, ExplorationConfig{}); }
+  bool staysHeld(const Points& path_map_m) const { return planning::staysHeld(map_, path_map_m); }
 
   CostMap map_{CostMap::Config{}, 0.05};
 };
 
 TEST_F(RoomWithADoor, PlacesAreHeldInsideOnly) {
-  EXPECT_TRUE(isHeld(map_, {2.5, 2.5}, {}));
-  EXPECT_FALSE(isHeld(map_, {11.0, 2.7}, {}));
-  EXPECT_TRUE(isHeld(map_, {500.0, 0.0}, {})) << "nothing is known of it";
+  EXPECT_TRUE(isHeld(map_, {2.5, 2.5}));
+  EXPECT_FALSE(isHeld(map_, {11.0, 2.7}));
+  EXPECT_TRUE(isHeld(map_, {500.0, 0.0})) << "nothing is known of it";
 }
 
 TEST_F(RoomWithADoor, PathsInsideAreHeld) {
@@ -44,7 +44,7 @@ TEST_F(RoomWithADoor, APathFarOutsideIsNot) {
 }
 
 TEST_F(RoomWithADoor, NoPathEndsOutside) {
-  EXPECT_FALSE(isHeld(map_, {8.0, 2.7}, {}));
+  EXPECT_FALSE(isHeld(map_, {8.0, 2.7}));
   EXPECT_FALSE(staysHeld({{1.0, 2.7}, {8.0, 2.7}})) << "only 3 m of it are outside";
 }
 

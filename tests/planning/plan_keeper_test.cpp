@@ -25,7 +25,7 @@ Path pathOf(const CostMap& map, std::vector<Point> points) {
 struct PlanKeeping : testing::Test {
   common::OccupancyGrid grid = test::room(240, 160);
   CostMap map = test::mapOf(grid);
-  PlanKeeper keeper{PlanKeeper::Config()};
+  PlanKeeper keeper;
   Path straight = pathOf(map, {{2, 4}, {10, 4}});
 
   static Time at(double s) { return Time::fromSeconds(s); }

@@ -22,7 +22,7 @@ using Point = Eigen::Vector2d;
 struct RoomAtTwoHeights : testing::Test {
   TwoHeights maps() { return {test::mapOf(upper), test::mapOf(lower), 0.5}; }
   tl::expected<Path, PlanFailure> plan(const Point& from, const Point& to, bool starts_lower = false) {
-    return planAtTwoHeights(maps(), {from, to, starts_lower, 1.0});
+    return planAtTwoHeights(maps(), from, to, starts_lower, 1.0);
   }
   static bool lethal(const CostMap& map, const Point& place) {
     return map.costAt(map.cellAt(place)) == CostMap::kLethal;
@@ -140,7 +140,7 @@ TEST_F(RoomAtTwoHeights, InRandomRoomsItFindsAPathWhereTheNaiveSearchDoesAndNone
     const TwoHeights both = maps();
     if (lethal(both.upper, from) || (lethal(both.upper, to) && lethal(both.lower, to))) continue;
     if (escapeFrom(both.upper, both.upper.cellAt(from))->size() > 1) continue;  // A pocket.
-    const auto path = planAtTwoHeights(both, {from, to, false, 0.5});
+    const auto path = planAtTwoHeights(both, from, to, false, 0.5);
     const auto change = std::lround(0.5 / 0.05 * CostMap::kStraightMin);
     const std::int64_t least =
         naiveCost(both, both.upper.cellAt(from), both.upper.cellAt(to), lethal(both.upper, to), change);

@@ -83,7 +83,7 @@ Story map(const std::vector<common::RgbdFrame>& frames, const Mapper3dConfig& co
 
 Mapper3dConfig withoutLoops() {
   Mapper3dConfig config = coarse();
-  config.loops.candidates = 0;
+  config.loop_candidates = 0;
   return config;
 }
 

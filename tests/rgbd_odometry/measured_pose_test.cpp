@@ -34,7 +34,7 @@ TEST(MeasuredPose, ThePriorIsTakenOut) {
   const PosePrior prior{{}, 3.0 * seen};
   const Alignment fit = combined(measured, seen, prior.information);
   ASSERT_LT(fit.T_map_camera.position_m.norm(), 0.3 * measured.head<3>().norm()) << "the prior pulls";
-  const MeasuredPose pose = withoutPrior(fit, 0.0, prior, 2.0, MeasuredPoseConfig());
+  const MeasuredPose pose = withoutPrior(fit, 0.0, prior, 2.0);
   EXPECT_LT((pose.T_map_camera.position_m - moved({}, measured).position_m).norm(), 2e-4);
   EXPECT_LT(pose.T_map_camera.rotation.angularDistance(moved({}, measured).rotation), 1e-4);
   EXPECT_NEAR(pose.covariance(1, 1), 0.006 * 0.006 + 0.004 * 0.004, 1e-7);
@@ -45,8 +45,7 @@ TEST(MeasuredPose, AlongABareWallNothingIsMeasured) {
   sigmas << 0.002, 0.05, 0.002, 0.002, 0.002, 0.002;
   const Matrix6d seen = information(sigmas);
   const PosePrior prior{{}, information(Vector6d::Constant(0.01))};
-  const MeasuredPose pose =
-      withoutPrior(combined(Vector6d::Constant(0.001), seen, prior.information), 0.0, prior, 1.0, MeasuredPoseConfig());
+  const MeasuredPose pose = withoutPrior(combined(Vector6d::Constant(0.001), seen, prior.information), 0.0, prior, 1.0);
   EXPECT_GT(pose.covariance(1, 1), 100.0);
   EXPECT_LT(pose.covariance(0, 0), 1e-4);
   EXPECT_LT(pose.T_map_camera.position_m.y(), 0.001) << "an unseen direction is not extrapolated";

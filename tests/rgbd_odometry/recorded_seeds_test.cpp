@@ -45,7 +45,7 @@ struct Errors {
 
 Errors trackWith(RecordedSeeds& seeds, const common::Trajectory& poses, int frames) {
   const TexturedRoom room;
-  const RecordedSeeds as_given(poses, {});
+  const RecordedSeeds as_given(poses);
   RgbdOdometry odometry({});
   Errors errors;
   Pose3 first;
@@ -66,11 +66,11 @@ Errors trackWith(RecordedSeeds& seeds, const common::Trajectory& poses, int fram
 }
 
 TEST(RecordedSeeds, NoisyAndLateTheyDoNotSpoilTheTrack) {
-  RecordedSeeds none({}, {});
+  RecordedSeeds none({});
   const double without_m = trackWith(none, {}, 75).track_m;
   for (const std::uint64_t seed : {1, 2}) {
     const common::Trajectory poses = madeSeeds({0.03, common::kRadPerDeg, 0.1}, seed, 5.0);
-    RecordedSeeds seeds(poses, {});
+    RecordedSeeds seeds(poses);
     const Errors with = trackWith(seeds, poses, 75);
     EXPECT_EQ(with.lost, 0);
     EXPECT_GT(with.seed_m, 0.03);
@@ -89,7 +89,7 @@ TEST(RecordedSeeds, NoisyAndLateTheyDoNotSpoilTheTrack) {
 TEST(RecordedSeeds, ThatAreLateAreReadLater) {
   for (const double lateness_s : {0.0, 0.15, -0.08}) {
     const common::Trajectory poses = madeSeeds({0.0, 0.0, lateness_s}, 1, 3.0);
-    RecordedSeeds seeds(poses, {});
+    RecordedSeeds seeds(poses);
     trackWith(seeds, poses, 45);
     EXPECT_NEAR(seeds.lateness_s(), lateness_s, 0.011);
   }
@@ -99,7 +99,7 @@ TEST(RecordedSeeds, ThatContradictTheTrackAreTold) {
   const auto disagreement = [](const auto& change) {
     common::Trajectory poses = madeSeeds({0.03, common::kRadPerDeg, 0.1}, 1, 5.0);
     for (common::StampedPose& at : poses) change(at.pose);
-    RecordedSeeds seeds(poses, {});
+    RecordedSeeds seeds(poses);
     trackWith(seeds, poses, 60);
     return seeds.disagreement();
   };
@@ -117,7 +117,7 @@ TEST(RecordedSeeds, ThatContradictTheTrackAreTold) {
     EXPECT_TRUE(bad->isContradiction()) << bad->error_m << " m, " << bad->error_rad << " rad; " << bad->motion_m
                                         << " m, " << bad->motion_rad << " rad";
   }
-  EXPECT_FALSE(RecordedSeeds({}, {}).disagreement());
+  EXPECT_FALSE(RecordedSeeds({}).disagreement());
 }
 
 /// After two seconds only one frame in more than a second comes, too few to continue the track by its own motion. What
@@ -142,8 +142,8 @@ TEST(RecordedSeeds, ThatAreGoodCarryItAcrossTurnsThatAreNotSeen) {
     return tracked;
   };
   for (const double gap_s : {1.1, 1.5}) {
-    EXPECT_EQ(tracked_on(RecordedSeeds(madeSeeds({0.005, 0.002, 0.0}, 3, 12.0), {}), gap_s), 6) << gap_s;
-    EXPECT_LT(tracked_on(RecordedSeeds({}, {}), gap_s), 4) << gap_s;
+    EXPECT_EQ(tracked_on(RecordedSeeds(madeSeeds({0.005, 0.002, 0.0}, 3, 12.0)), gap_s), 6) << gap_s;
+    EXPECT_LT(tracked_on(RecordedSeeds({}), gap_s), 4) << gap_s;
   }
 }
 

@@ -1,9 +1,7 @@
-#include "planning/exploration/explorer_choice.hpp"
+#include "planning/exploration/exploration.hpp"
 
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
-#include "planning/exploration/nearest_frontier_explorer.hpp"
-#include "planning/exploration/utility_explorer.hpp"
 
 namespace swiftlet::planning {
 
@@ -11,15 +9,17 @@ void ExplorerConfig::describe(common::config::Fields& fields) {
   fields.choice("kind", kind, {"utility", "nearest_frontier"}, "How the next viewpoint is chosen.");
 }
 
-std::unique_ptr<Explorer> makeExplorer(const ExplorerConfig& config, const ExplorationConfig& exploration) {
+const char* toString(ExplorerKind kind) { return kind == ExplorerKind::kUtility ? "utility" : "nearest frontier"; }
+
+ExplorationResult explore(const ExplorationInput& input, const ExplorerConfig& config) {
   switch (config.kind) {
     case ExplorerKind::kUtility:
-      return std::make_unique<UtilityExplorer>(exploration);
+      return exploreByUtility(input, config);
     case ExplorerKind::kNearestFrontier:
-      return std::make_unique<NearestFrontierExplorer>(exploration);
+      return exploreNearestFrontier(input, config);
   }
   SWIFTLET_CHECK(false, static_cast<int>(config.kind));
-  return nullptr;
+  return {};
 }
 
 }  // namespace swiftlet::planning
