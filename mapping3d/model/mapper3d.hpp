@@ -33,8 +33,8 @@ struct Mapper3dConfig {
   RgbdOdometryConfig odometry;
   VoxelConfig voxels;
   SubmapConfig submaps;
-  int loop_candidates =
-      5;  ///< Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.
+  /// Key frames that look most alike and are aligned to a new one, at most; 0 closes no loops.
+  int loop_candidates = 5;
   KeyFrameGraphConfig graph;
 
   void describe(common::config::Fields& fields);

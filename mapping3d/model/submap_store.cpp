@@ -12,9 +12,10 @@ namespace {
 using common::Pose3;
 using common::Submap3d;
 
-/// Depth images have far more pixels than a map needs points: every n-th pixel of a row and of a column makes one.
+/// Depth images have far more pixels than a map needs points: every second pixel of a row and of a column makes
+/// one.
 constexpr int kPixelStep = 2;
-/// Every n-th frame makes points; all frames change the occupancy.
+/// Every third frame makes points; all frames change the occupancy.
 constexpr std::uint64_t kFrameStep = 3;
 /// Key scans are up to a metre apart, and over some ten metres the 2D map drifts by no more than a voxel.
 constexpr int kNeighbouringScans = 10;
