@@ -12,18 +12,15 @@ using common::Pose3;
 using Eigen::Vector3d;
 
 constexpr int kRoll = 3, kYaw = 5, kClock = 6;
-/// Standard deviations at the start: of the mount's position along each axis, of its attitude about each axis, and of
-/// the clock's offset.
-constexpr double kMountSigma_m = 0.01, kMountSigma_rad = 0.015, kClockSigma_s = 0.005;
+/// Standard deviations at the start: of the mount's position along each axis, and of the clock's offset.
+constexpr double kMountSigma_m = 0.01, kClockSigma_s = 0.005;
 /// Random walk of the clock's offset, as two clocks drift apart.
 constexpr double kClockWalk_s_rts = 0.0002;
 /// Standard deviations of the body's motion between two key frames as the other sensors measure it: of its position and
 /// of its rotation, about each axis.
-constexpr double kStepSigma_m = 0.006, kStepSigma_rad = 0.003;
+constexpr double kBodySigma_m = 0.006, kBodySigma_rad = 0.003;
 /// A component is used once its standard deviation has shrunk to this part of that of the start (decision 039).
 constexpr double kKnownShare = 0.5;
-/// Greatest correction that is used, in standard deviations of the start.
-constexpr double kLimitSigma = 4.0;
 
 /// From errors of the camera's pose to those of the body's, each in its own axes.
 Matrix6d ofBody(const Matrix6d& covariance_camera, const Pose3& T_body_camera) {
@@ -54,8 +51,8 @@ void CameraCalibration::add(const CameraMotion& motion) {
   const Vector6d residual_0 = residual(motion, errors_.mean);
   const Jacobian H = jacobian(motion, errors_.mean);
   Matrix6d noise = ofBody(motion.covariance, mountWith(errors_.mean));
-  noise.diagonal().head<3>().array() += kStepSigma_m * kStepSigma_m;
-  noise.diagonal().tail<3>().array() += kStepSigma_rad * kStepSigma_rad;
+  noise.diagonal().head<3>().array() += kBodySigma_m * kBodySigma_m;
+  noise.diagonal().tail<3>().array() += kBodySigma_rad * kBodySigma_rad;
   const Matrix6d innovation = H * errors_.covariance * H.transpose() + noise;
   const Eigen::LLT<Matrix6d> solver(innovation);
   if (!residual_0.allFinite() || !H.allFinite() || solver.info() != Eigen::Success) return;

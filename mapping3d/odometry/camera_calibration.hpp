@@ -61,6 +61,11 @@ struct CameraErrors {
 /// One thread. The same motions in the same order give the same bits.
 class CameraCalibration {
  public:
+  /// Standard deviation of the mount's attitude at the start, about each axis.
+  static constexpr double kMountSigma_rad = 0.015;
+  /// Greatest correction that is used, in standard deviations of the start.
+  static constexpr double kLimitSigma = 4.0;
+
   CameraCalibration(const CameraCalibrationConfig& config, const common::Pose3& T_body_camera_sheet);
 
   void add(const CameraMotion& motion);

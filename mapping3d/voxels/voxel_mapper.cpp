@@ -21,7 +21,7 @@ int steps(double log_odds) { return static_cast<int>(std::lround(log_odds / Voxe
 
 /// What is added to a voxel in which rays of a frame end, or that they only cross, and the upper limit of the sum: the
 /// values of Hornung et al. 2013, probabilities of 0.7, 0.4 and 0.97.
-const int kHit = steps(0.85), kMiss = steps(-0.4), kGreatest = steps(3.5);
+const int kHit = steps(0.85), kMiss = steps(-0.4), kGreatestSteps = steps(3.5);
 
 constexpr int kLayer = VoxelBlock::kSide * VoxelBlock::kSide;
 using Layer = std::array<std::int8_t, kLayer>;
@@ -183,7 +183,8 @@ void VoxelMapper::apply() {
 /// Layer by layer, in numbers of eight bits: evidence is limited before it is added to, so that no sum leaves them.
 void VoxelMapper::applyTo(VoxelBlock& block, const SeenBlock& seen) const {
   const auto hit = static_cast<std::int8_t>(kHit), miss = static_cast<std::int8_t>(kMiss);
-  const auto ceiling = static_cast<std::int8_t>(kGreatest - kHit), floor = static_cast<std::int8_t>(least_ - kMiss);
+  const auto ceiling = static_cast<std::int8_t>(kGreatestSteps - kHit),
+             floor = static_cast<std::int8_t>(least_ - kMiss);
   for (int z = 0; z < VoxelBlock::kSide; ++z) {
     std::int8_t* evidence = &block.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({0, 0, z}))];
     const std::uint64_t ends = seen.hit.layer(z), touched = seen.crossed.layer(z) | ends;

@@ -10,7 +10,6 @@ namespace {
 using common::CellIndex;
 using common::CellRect;
 using common::OccupancyGrid;
-constexpr int kTile = OccupancyGrid::kTileSize;
 /// Unknown slivers up to this width between free cells count as free.
 constexpr double kUnknownGap_m = 0.10;
 

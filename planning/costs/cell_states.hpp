@@ -15,6 +15,9 @@ enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 /// A value: copy it to give a job a snapshot. Reading is safe from any thread while the object is not updated.
 class CellStates {
  public:
+  /// The rectangle is made of tiles of this side, in cells.
+  static constexpr int kTile = common::OccupancyGrid::kTileSize;
+
   explicit CellStates(double resolution_m) : grid_(common::makeOccupancyGrid(resolution_m)) {}
 
   /// Reads the tiles whose identity is not that of the last call, and returns the rectangles in which a state changed,

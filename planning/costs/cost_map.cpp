@@ -12,7 +12,6 @@ namespace {
 using common::CellIndex;
 using common::CellRect;
 using common::OccupancyGrid;
-constexpr int kTile = OccupancyGrid::kTileSize;
 
 /// Distance beyond the clearance at which an obstacle no longer raises the cost.
 constexpr double kComfortDistance_m = 0.60;
@@ -72,18 +71,20 @@ CostMap::Cost CostMap::costOfMargin(double margin_m) const {
 }
 
 void CostMap::updateDistances(const std::vector<CellRect>& changes, bool all) {
-  const int columns = rect().width() / kTile, rows = rect().height() / kTile;
+  const int columns = rect().width() / CellStates::kTile, rows = rect().height() / CellStates::kTile;
   std::vector<bool> dirty(static_cast<std::size_t>(columns) * rows, all);
   for (const CellRect& change : changes) {
-    const int first_row = std::max(0, change.begin.y - reach_cells_) / kTile;
-    const int first_column = std::max(0, change.begin.x - reach_cells_) / kTile;
-    for (int row = first_row; row < rows && row * kTile < change.end.y + reach_cells_; ++row)
-      for (int column = first_column; column < columns && column * kTile < change.end.x + reach_cells_; ++column)
+    const int first_row = std::max(0, change.begin.y - reach_cells_) / CellStates::kTile;
+    const int first_column = std::max(0, change.begin.x - reach_cells_) / CellStates::kTile;
+    for (int row = first_row; row < rows && row * CellStates::kTile < change.end.y + reach_cells_; ++row)
+      for (int column = first_column; column < columns && column * CellStates::kTile < change.end.x + reach_cells_;
+           ++column)
         dirty[static_cast<std::size_t>(row) * columns + column] = true;
   }
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
-      if (dirty[static_cast<std::size_t>(row) * columns + column]) costTile(column * kTile, row * kTile);
+      if (dirty[static_cast<std::size_t>(row) * columns + column])
+        costTile(column * CellStates::kTile, row * CellStates::kTile);
 }
 
 void CostMap::costTile(int x0, int y0) {
@@ -91,8 +92,8 @@ void CostMap::costTile(int x0, int y0) {
   tileDistances(states_, x0, y0, CellState::kUnknown, reachOf(footprint_.hull_radius_m, resolution_m()),
                 unknown_distance2_);
   const double unknown_radius = footprint_.hull_radius_m / resolution_m();
-  for (int y = y0; y < y0 + kTile; ++y) {
-    for (int x = x0; x < x0 + kTile; ++x) {
+  for (int y = y0; y < y0 + CellStates::kTile; ++y) {
+    for (int x = x0; x < x0 + CellStates::kTile; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * rect().width() + x;
       const bool blind =
           states_.all()[i] == CellState::kUnknown || unknown_distance2_[i] < unknown_radius * unknown_radius;

@@ -143,7 +143,7 @@ TEST(CameraCalibration, CorrectionsAreBounded) {
   const CameraCalibration calibration = flown(camera, exploring, 60.0, config);
   EXPECT_GT(calibration.errors().mean[4], 0.1);
   EXPECT_LE(calibration.T_body_camera().rotation.angularDistance(camera.sheet.rotation),
-            std::sqrt(3.0) * config.limit_sigma * config.mount_sigma_rad + 1e-9);
+            std::sqrt(3.0) * CameraCalibration::kLimitSigma * CameraCalibration::kMountSigma_rad + 1e-9);
 }
 
 TEST(CameraCalibration, AnUncertainMountMakesItsMeasurementsUncertain) {
