@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "interfaces/files/stored_cloud.hpp"
+#include "interfaces/clouds/stored_cloud.hpp"
 
 namespace swiftlet::apps {
 

@@ -1,8 +1,8 @@
 #include "apps/map3d_files.hpp"
 
 #include "common/world/map3d_layer.hpp"
+#include "interfaces/clouds/point_cloud.hpp"
 #include "interfaces/files/octomap.hpp"
-#include "interfaces/files/point_cloud.hpp"
 #include "mapping3d/cloud/cloud.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 

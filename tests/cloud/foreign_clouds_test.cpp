@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "interfaces/files/point_cloud.hpp"
+#include "interfaces/clouds/point_cloud.hpp"
 #include "tests/support/datasets.hpp"
 #include "tests/support/scratch.hpp"
 

@@ -1,5 +1,5 @@
 // Files of clouds: what PCL reads of ours, what we read of PCL's, and what is refused.
-#include "interfaces/files/point_cloud.hpp"
+#include "interfaces/clouds/point_cloud.hpp"
 
 #include <array>
 #include <cmath>

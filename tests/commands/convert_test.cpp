@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "common/voxel_map.hpp"
+#include "interfaces/clouds/point_cloud.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
-#include "interfaces/files/point_cloud.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/scratch.hpp"
 

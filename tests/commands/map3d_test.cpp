@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "interfaces/clouds/point_cloud.hpp"
 #include "interfaces/files/archive.hpp"
 #include "interfaces/files/octomap.hpp"
-#include "interfaces/files/point_cloud.hpp"
 #include "interfaces/files/tum.hpp"
 #include "tests/support/datasets.hpp"
 #include "tests/support/program.hpp"

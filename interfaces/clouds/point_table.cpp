@@ -1,4 +1,4 @@
-#include "interfaces/files/point_table.hpp"
+#include "interfaces/clouds/point_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "interfaces/files/ply_reader.hpp"
+#include "interfaces/clouds/ply_reader.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "common/lower_case.hpp"
 #include "common/printable.hpp"
-#include "interfaces/files/point_table.hpp"
+#include "interfaces/clouds/point_table.hpp"
 
 namespace swiftlet::interfaces {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "interfaces/files/point_colors.hpp"
-#include "interfaces/files/stored_cloud.hpp"
+#include "interfaces/clouds/point_colors.hpp"
+#include "interfaces/clouds/stored_cloud.hpp"
 
 namespace swiftlet::interfaces::point_table {
 

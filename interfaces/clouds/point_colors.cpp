@@ -1,4 +1,4 @@
-#include "interfaces/files/point_colors.hpp"
+#include "interfaces/clouds/point_colors.hpp"
 
 #include <algorithm>
 #include <cmath>

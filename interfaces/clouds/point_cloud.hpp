@@ -15,8 +15,8 @@
 
 #include "common/submap3d.hpp"
 #include "common/surface_mesh.hpp"
+#include "interfaces/clouds/stored_cloud.hpp"
 #include "interfaces/files/atomic_file.hpp"
-#include "interfaces/files/stored_cloud.hpp"
 
 namespace swiftlet::interfaces {
 

@@ -1,4 +1,4 @@
-#include "interfaces/files/pcd_reader.hpp"
+#include "interfaces/clouds/pcd_reader.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 
 #include "common/lower_case.hpp"
 #include "common/printable.hpp"
-#include "interfaces/files/point_table.hpp"
+#include "interfaces/clouds/point_table.hpp"
 
 namespace swiftlet::interfaces {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "interfaces/files/stored_cloud.hpp"
+#include "interfaces/clouds/stored_cloud.hpp"
 
 namespace swiftlet::interfaces {
 

@@ -1,4 +1,4 @@
-#include "interfaces/files/point_cloud.hpp"
+#include "interfaces/clouds/point_cloud.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,8 +9,8 @@
 #include "common/check.hpp"
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
-#include "interfaces/files/pcd_reader.hpp"
-#include "interfaces/files/ply_reader.hpp"
+#include "interfaces/clouds/pcd_reader.hpp"
+#include "interfaces/clouds/ply_reader.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
 
 namespace swiftlet::interfaces {
