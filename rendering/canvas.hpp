@@ -1,4 +1,4 @@
-// A small software rasterizer: anti-aliased lines, discs, polygons and text over an RGB picture. Pixel coordinates:
+// Anti-aliased lines, discs, polygons and text over an RGB picture, drawn by OpenCV. Pixel coordinates:
 // (0, 0) is the upper left corner, y down, pixel i covers [i, i + 1). Anything outside the picture, or not finite, is
 // clipped. A shape is painted once even where it crosses itself, so that translucent lines have no darker joints.
 #pragma once
@@ -36,28 +36,15 @@ class Canvas {
   void ring(const Point& center, double radius_px, double width_px, Color color);
   /// Fills by the even-odd rule.
   void polygon(std::span<const Point> corners, Color color);
-  /// `baseline` is where the text starts or is centred. A visible `halo` is painted around it first.
+  /// `baseline` is where the text starts or is centred. A visible `halo` is painted around it first. Characters beyond
+  /// ASCII are drawn as question marks.
   void text(std::string_view text, const Point& baseline, double height_px, Color color, Align align = Align::kLeft,
             Color halo = {0, 0, 0, 0});
 
   common::Image take() { return std::move(image_); }
 
  private:
-  struct Box {
-    int x0, y0, x1, y1;
-    bool empty() const { return x0 >= x1 || y0 >= y1; }
-  };
-  Box clipped(double x0, double y0, double x1, double y1) const;
-  void coverSegment(const Point& a, const Point& b, double radius_px);
-  void coverDisc(const Point& center, double radius_px);
-  void cover(int x, int y, double coverage);
-  void touch(const Box& box);
-  /// Paints the covered pixels and clears the cover.
-  void paint(Color color);
-
   common::Image image_;
-  std::vector<std::uint8_t> cover_;
-  Box touched_;
 };
 
 }  // namespace swiftlet::rendering

@@ -10,7 +10,6 @@
 #include "rendering/map_renderer.hpp"
 #include "rendering/picture3d.hpp"
 #include "rendering/resize.hpp"
-#include "rendering/stroke_font.hpp"
 #include "tests/rendering/example_flight.hpp"
 
 namespace swiftlet::rendering {
@@ -43,7 +42,7 @@ TEST(CanvasTest, CoversTheAreaOfTheShape) {
               std::hypot(150, 120) * 5 + M_PI * 6.25, 20);
   EXPECT_NEAR(inkOf([&](Canvas& c) { c.fillRect(10.25, 20.5, 60.75, 80.0, white); }), 50.5 * 59.5, 5);
   const std::vector<Point> triangle{{20, 20}, {180, 40}, {60, 170}};
-  EXPECT_NEAR(inkOf([&](Canvas& c) { c.polygon(triangle, white); }), 0.5 * (160 * 150 - 40 * 20), 60);
+  EXPECT_NEAR(inkOf([&](Canvas& c) { c.polygon(triangle, white); }), 0.5 * (160 * 150 - 40 * 20), 180);
 }
 
 TEST(CanvasTest, ATranslucentLineHasNoDarkerJoints) {
@@ -76,20 +75,26 @@ TEST(CanvasTest, ClipsPointsThatAreOutsideOrNotFinite) {
   EXPECT_TRUE(held);
 }
 
-TEST(StrokeFontTest, StrokesOfEveryCharacterStayWithinItsLine) {
+TEST(CanvasTest, TextStaysWithinItsLine) {
+  constexpr int kBaseline_px = 50;
+  constexpr double kHeight_px = 15.0;
   for (int c = 33; c < 127; ++c) {
+    Canvas canvas(black(100, 100));
     const std::string text(1, static_cast<char>(c));
-    ASSERT_FALSE(textStrokes(text).empty()) << text;
-    for (const auto& stroke : textStrokes(text))
-      for (const auto& p : stroke) {
-        EXPECT_GE(p.x(), -1e-9) << text;
-        EXPECT_LE(p.x(), textWidth(text) + 1e-9) << text;
-        EXPECT_GE(p.y(), -0.34) << text;
-        EXPECT_LE(p.y(), 1.0 + 1e-9) << text;
-      }
+    canvas.text(text, {50.0, kBaseline_px}, kHeight_px, rgb(0xffffff), Align::kCenter);
+    const common::Image image = canvas.take();
+    EXPECT_GT(ink(image), 0.0) << text;
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 100; ++x)
+        if (image.rgb[3 * static_cast<std::size_t>(y * 100 + x)] > 0) {
+          EXPECT_LT(std::abs(x + 0.5 - 50.0), kHeight_px) << text;
+          EXPECT_GT(y, kBaseline_px - 1.5 * kHeight_px) << text;
+          EXPECT_LT(y, kBaseline_px + 0.6 * kHeight_px) << text;
+        }
   }
-  EXPECT_FALSE(textStrokes("\xc3\xa9").empty());
-  EXPECT_DOUBLE_EQ(textWidth(""), 0.0);
+  Canvas canvas(black(100, 100));
+  canvas.text("\xc3\xa9", {50.0, kBaseline_px}, kHeight_px, rgb(0xffffff));
+  EXPECT_GT(ink(canvas.take()), 0.0) << "what the font does not have";
 }
 
 /// The mean colour of the cells under a pixel, by many samples.
