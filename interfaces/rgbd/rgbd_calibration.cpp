@@ -5,6 +5,10 @@
 #include <cstddef>
 #include <utility>
 
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/check.hpp"
 #include "common/config_fields.hpp"
 #include "common/row_major.hpp"
 
@@ -40,39 +44,47 @@ Eigen::Vector2d distorted(const LensCalibration& lens, const PinholeCamera& came
           camera.cy_px + camera.fy_px * (y * radial + lens.p1 * (r2 + 2.0 * y * y) + 2.0 * lens.p2 * x * y)};
 }
 
-Image undistorted(const LensCalibration& lens, const PinholeCamera& camera, const Image& image) {
-  Image straight{image.width_px, image.height_px, std::vector<std::uint8_t>(image.rgb.size(), 0)};
-  std::uint8_t* out = straight.rgb.data();
-  const std::ptrdiff_t row_bytes = 3 * static_cast<std::ptrdiff_t>(image.width_px);
-  for (int v = 0; v < image.height_px; ++v)
-    for (int u = 0; u < image.width_px; ++u, out += 3) {
+/// For each pixel of an ideal camera, the column and the row of what the lens shows there. Empty for an ideal lens.
+struct LensMap {
+  cv::Mat_<float> columns, rows;
+};
+
+LensMap lensMap(const LensCalibration& lens, const PinholeCamera& camera) {
+  if (!lens.isDistorted()) return {};
+  LensMap map;
+  map.columns.create(camera.height_px, camera.width_px);
+  map.rows.create(camera.height_px, camera.width_px);
+  for (int v = 0; v < camera.height_px; ++v)
+    for (int u = 0; u < camera.width_px; ++u) {
       const Eigen::Vector2d at = distorted(lens, camera, u, v);
-      if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image.width_px - 1 && at.y() < image.height_px - 1)) continue;
-      const auto left = static_cast<int>(at.x()), top = static_cast<int>(at.y());
-      const double fu = at.x() - left, fv = at.y() - top;
-      const std::uint8_t* upper =
-          image.rgb.data() + static_cast<std::ptrdiff_t>(top) * row_bytes + static_cast<std::ptrdiff_t>(3) * left;
-      const std::uint8_t* lower = upper + row_bytes;
-      for (int c = 0; c < 3; ++c) {
-        const double above = upper[c] + fu * (upper[c + 3] - upper[c]),
-                     below = lower[c] + fu * (lower[c + 3] - lower[c]);
-        out[c] = static_cast<std::uint8_t>(std::lround(above + fv * (below - above)));
-      }
+      map.columns(v, u) = static_cast<float>(at.x());
+      map.rows(v, u) = static_cast<float>(at.y());
     }
+  return map;
+}
+
+/// What was not seen is 0. By the calling thread alone, as everything is.
+void remap(const LensMap& map, void* from, void* to, int type, int interpolation) {
+  static const bool one_thread = (cv::setNumThreads(1), true);
+  SWIFTLET_CHECK(one_thread);
+  const cv::Size size = map.columns.size();
+  cv::Mat straight(size, type, to);
+  cv::remap(cv::Mat(size, type, from), straight, map.columns, map.rows, interpolation);
+}
+
+Image undistorted(const LensMap& map, Image image) {
+  if (map.columns.empty()) return image;
+  Image straight = image;
+  remap(map, image.rgb.data(), straight.rgb.data(), CV_8UC3, cv::INTER_LINEAR);
   return straight;
 }
 
 /// Depth is not interpolated: between two surfaces there is none.
-DepthImage undistorted(const LensCalibration& lens, const PinholeCamera& camera, const DepthImage& depth) {
-  DepthImage straight{depth.width_px, depth.height_px, std::vector<float>(depth.depth_m.size(), DepthImage::kUnknown)};
-  std::size_t i = 0;
-  for (int v = 0; v < depth.height_px; ++v)
-    for (int u = 0; u < depth.width_px; ++u, ++i) {
-      const Eigen::Vector2d at = distorted(lens, camera, u, v);
-      if (!(at.x() > -0.5 && at.y() > -0.5 && at.x() < depth.width_px - 0.5 && at.y() < depth.height_px - 0.5))
-        continue;
-      straight.depth_m[i] = depth.at(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())));
-    }
+DepthImage undistorted(const LensMap& map, DepthImage depth) {
+  static_assert(DepthImage::kUnknown == 0.0F);
+  if (map.columns.empty()) return depth;
+  DepthImage straight = depth;
+  remap(map, depth.depth_m.data(), straight.depth_m.data(), CV_32F, cv::INTER_NEAREST);
   return straight;
 }
 
@@ -193,19 +205,18 @@ bool hasShapeOf(const LensCalibration& lens, int width_px, int height_px) {
 common::RgbdFrame makeFrame(const RgbdCalibration& calibration, common::Image color, const common::DepthCodes& depth) {
   common::RgbdFrame frame;
   frame.camera = cameraOf(calibration.color, color.width_px, color.height_px);
-  frame.color =
-      calibration.color.isDistorted() ? undistorted(calibration.color, frame.camera, color) : std::move(color);
-  const DepthImage measured = inMetres(depth, calibration.depth_units_per_m);
+  const LensMap color_map = lensMap(calibration.color, frame.camera);
+  frame.color = undistorted(color_map, std::move(color));
+  DepthImage measured = inMetres(depth, calibration.depth_units_per_m);
   if (calibration.is_registered) {
-    frame.depth = calibration.color.isDistorted() ? undistorted(calibration.color, frame.camera, measured) : measured;
+    frame.depth = undistorted(color_map, std::move(measured));
     return frame;
   }
   const PinholeCamera depth_camera = cameraOf(calibration.depth, depth.width_px, depth.height_px);
   const common::Pose3 T_color_depth =
       T_camera_optical() * poseOf(calibration.depth_pose) * T_camera_optical().inverse();
-  frame.depth =
-      registered(calibration.depth.isDistorted() ? undistorted(calibration.depth, depth_camera, measured) : measured,
-                 depth_camera, frame.camera, T_color_depth);
+  frame.depth = registered(undistorted(lensMap(calibration.depth, depth_camera), std::move(measured)), depth_camera,
+                           frame.camera, T_color_depth);
   return frame;
 }
 
