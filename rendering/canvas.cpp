@@ -184,12 +184,8 @@ void Canvas::dashedPolyline(std::span<const Point> points, double width_px, doub
     for (double at = 0.0; at < length;) {
       const bool inked = phase < dash_px;
       const double step = std::min(length - at, inked ? dash_px - phase : dash_px + gap_px - phase);
-      const Point from = points[i - 1] + along * (at / length), to = points[i - 1] + along * ((at + step) / length);
-      if (inked) {
-        mask.segment(from, to, width_px);
-        mask.disc(from, 0.5 * width_px);
-        mask.disc(to, 0.5 * width_px);
-      }
+      if (inked)
+        mask.segment(points[i - 1] + along * (at / length), points[i - 1] + along * ((at + step) / length), width_px);
       at += std::max(step, 1e-6);
       phase += step;
       if (phase >= dash_px + gap_px - 1e-9) phase = 0.0;
