@@ -26,7 +26,7 @@ struct Property {
   std::optional<Scalar> count_type;
 };
 
-struct Element {
+struct PlyElement {
   std::string_view name;
   std::size_t count = 0;
   std::vector<Property> properties;
@@ -34,7 +34,7 @@ struct Element {
 
 struct PlyHeader {
   Encoding encoding = Encoding::kText;
-  std::vector<Element> elements;
+  std::vector<PlyElement> elements;
 };
 
 Scalar plyScalar(const Cursor& cursor, std::string_view word) {
@@ -114,7 +114,7 @@ class ElementReader {
         swapped_((encoding == Encoding::kBigEndian) == (std::endian::native == std::endian::little)) {}
 
   /// Each row of an element without properties would take nothing, and the count could be anything.
-  void read(const Element& element, Builder* builder) {
+  void read(const PlyElement& element, Builder* builder) {
     if (element.properties.empty() && element.count > 0) cursor_.fail("an element has no properties");
     for (std::size_t row = 0; row < element.count; ++row) {
       if (text_) cursor_.beginRow();
@@ -146,10 +146,10 @@ class ElementReader {
   bool swapped_;
 };
 
-bool isNamed(const Element& element, std::string_view name) { return common::lowerCase(element.name) == name; }
+bool isNamed(const PlyElement& element, std::string_view name) { return common::lowerCase(element.name) == name; }
 
 /// Assigns the roles of the points' properties, and notes those that are not used.
-void assignRoles(const Cursor& cursor, Element& element, bool binary, Builder& builder) {
+void assignRoles(const Cursor& cursor, PlyElement& element, bool binary, Builder& builder) {
   std::vector<std::string_view> names, scalars;
   for (const Property& property : element.properties) {
     names.push_back(property.name);
@@ -165,19 +165,20 @@ void assignRoles(const Cursor& cursor, Element& element, bool binary, Builder& b
 }
 
 void noteOtherElements(const PlyHeader& header, Builder& builder) {
-  for (const Element& element : header.elements)
+  for (const PlyElement& element : header.elements)
     if (element.count > 0 && !isNamed(element, "vertex"))
       builder.note(fmt::format("elements left out: {} of `{}`", element.count, common::printable(element.name)));
 }
 
 /// Whether no element with a row follows.
-bool isLast(const PlyHeader& header, const Element& element) {
+bool isLast(const PlyHeader& header, const PlyElement& element) {
   return std::all_of(header.elements.begin(), header.elements.end(),
-                     [&](const Element& other) { return &other <= &element || other.count == 0; });
+                     [&](const PlyElement& other) { return &other <= &element || other.count == 0; });
 }
 
 /// The points have been read, and `bytes_before` were left before.
-void noteSurplus(const Cursor& cursor, bool text, const Element& points, std::size_t bytes_before, Builder& builder) {
+void noteSurplus(const Cursor& cursor, bool text, const PlyElement& points, std::size_t bytes_before,
+                 Builder& builder) {
   if (points.count == 0) return;
   const std::size_t row_bytes = std::max<std::size_t>(1, (bytes_before - cursor.left()) / points.count);
   builder.noteSurplus(text ? cursor.rowsLeft() : cursor.left() / row_bytes, points.count);
@@ -190,7 +191,7 @@ StoredCloud parsePly(std::string_view bytes, const std::string& name, const Clou
   Builder builder(placement);
   PlyHeader header = readHeader(cursor, builder);
   ElementReader reader(cursor, header.encoding);
-  for (Element& element : header.elements) {
+  for (PlyElement& element : header.elements) {
     const bool points = isNamed(element, "vertex");
     if (points) assignRoles(cursor, element, header.encoding != Encoding::kText, builder);
     const std::size_t before = cursor.left();
