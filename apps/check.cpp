@@ -11,13 +11,13 @@
 #include "apps/dry_run.hpp"
 #include "apps/files_of_kind.hpp"
 #include "apps/given_map.hpp"
+#include "apps/leaf_libraries.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/output_file.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission.hpp"
 #include "behaviors/mission_check.hpp"
-#include "behaviors/registry.hpp"
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/drawing.hpp"
 #include "behaviors/tree/mocks.hpp"
@@ -30,6 +30,7 @@ namespace {
 
 struct CheckOptions {
   std::vector<std::string> missions;
+  std::vector<std::string> leaves;
   std::string system = "swiftlet";
   std::string dry_run;  ///< The script; empty: none.
   std::string draw;     ///< The SVG; empty: none.
@@ -73,22 +74,22 @@ tree::TreeFiles treesOf(const std::vector<NamedMission>& missions) {
 }
 
 /// What is odd about the maps that a mission may load is a warning, a map that cannot be used a problem.
-void addMapNotes(const std::string& file, behaviors::MissionVerdict& verdict) {
+void addMapNotes(const std::string& file, const behaviors::NodeTypes& types, behaviors::MissionVerdict& verdict) {
   try {
-    append(mapNotes(behaviors::Mission::fromFile(file).mapFiles(), file), verdict.warnings);
+    append(mapNotes(behaviors::Mission::fromFile(file, types).mapFiles(), file), verdict.warnings);
   } catch (const common::InputError& unusable) {
     append(unusable.problems(), verdict.problems);
   }
 }
 
 behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions& options, const System& system,
-                                const tree::TreeFiles& together) {
+                                const behaviors::NodeTypes& types, const tree::TreeFiles& together) {
   if (mission.file.empty()) return {mission.problems, {}, {}};
   behaviors::MissionLimits limits = missionLimits(system, true);
   limits.operator_goes_on = limits.operator_gives_goals = !options.headless;
-  if (options.mock_leaves) return behaviors::judgeMissionWithMocks(mission.file, limits, together);
-  behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file, limits, together);
-  if (verdict.problems.empty()) addMapNotes(mission.file, verdict);
+  if (options.mock_leaves) return behaviors::judgeMissionWithMocks(mission.file, limits, *types, together);
+  behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file, limits, *types, together);
+  if (verdict.problems.empty()) addMapNotes(mission.file, types, verdict);
   return verdict;
 }
 
@@ -122,13 +123,13 @@ void add(std::vector<tree::Problem>& all, const std::vector<tree::Problem>& foun
 }
 
 CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission>& missions,
-                     const tree::TreeFiles& together) {
+                     const behaviors::NodeTypes& types, const tree::TreeFiles& together) {
   const System system = loadSystem(options.system);
   CheckReport report;
   append(problemsOfSensors(system), report.problems);
   if (options.mock_leaves) add(report.warnings, together.warnings);
   for (const NamedMission& mission : missions) {
-    behaviors::MissionVerdict verdict = judge(mission, options, system, together);
+    behaviors::MissionVerdict verdict = judge(mission, options, system, types, together);
     add(report.problems, verdict.problems);
     add(report.warnings, verdict.warnings);
     if (!verdict.whose.empty()) report.nodes[mission.name] = std::move(verdict.whose);
@@ -148,8 +149,8 @@ void print(const CheckReport& report, std::size_t missions) {
   fmt::print("{} mission{} sound{}\n", missions, missions == 1 ? " is" : "s are", warnings);
 }
 
-void draw(const CheckOptions& options, const std::string& file, const tree::ParseOptions& parsing) {
-  const tree::Registry& ours = behaviors::missionRegistry();
+void draw(const CheckOptions& options, const tree::Registry& ours, const std::string& file,
+          const tree::ParseOptions& parsing) {
   const tree::MockedRegistry known =
       options.mock_leaves ? tree::withMocks(file, ours, parsing) : tree::MockedRegistry{ours, {}, parsing};
   const tree::ParseResult parsed = tree::parseFile(file, known.registry, known.options);
@@ -166,14 +167,15 @@ void requireOneTree(const CheckOptions& options) {
 int check(const CheckOptions& options) {
   requireOneTree(options);
   if (!options.draw.empty()) requireWritable(options.draw, "--draw");
+  const behaviors::NodeTypes types = nodesWith(options.leaves);
   const std::vector<NamedMission> missions = find(options.missions);
   tree::ParseOptions parsing;
   parsing.trees_elsewhere = treesOf(missions);
-  const CheckReport report = reportOn(options, missions, parsing.trees_elsewhere);
-  if (!options.draw.empty() && report.problems.empty()) draw(options, missions.front().file, parsing);
+  const CheckReport report = reportOn(options, missions, types, parsing.trees_elsewhere);
+  if (!options.draw.empty() && report.problems.empty()) draw(options, *types, missions.front().file, parsing);
   if (!options.dry_run.empty() && report.problems.empty()) {
     if (!options.json) print(report, missions.size());
-    return showDryRun({missions.front().file, options.dry_run, options.mock_leaves, options.json, parsing});
+    return showDryRun({missions.front().file, options.dry_run, options.mock_leaves, options.json, parsing}, *types);
   }
   if (options.json) {
     nlohmann::json all = {{"problems", jsonOf(report.problems)}, {"warnings", jsonOf(report.warnings)}};
@@ -193,6 +195,7 @@ void addCheck(Command& program) {
       program.command("check", "Validate missions without flying; every error and every warning with its place.");
   command.arguments("missions", options->missions, "Mission files.");
   command.option("--system", options->system, "The profile they are to be flown with.");
+  addLeavesOption(command, options->leaves);
   command.option("--dry-run", options->dry_run,
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "
                  "`TakeOff: RUNNING x3, SUCCESS`. The exit code is 1 unless the mission ends with SUCCESS.");

@@ -6,7 +6,6 @@
 #include "apps/command_line.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
-#include "behaviors/registry.hpp"
 #include "behaviors/tree/dry_run.hpp"
 #include "common/error.hpp"
 #include "common/printable.hpp"
@@ -49,10 +48,9 @@ tree::Status printJson(tree::DryRun& run) {
 
 }  // namespace
 
-int showDryRun(const DryRunOptions& options) {
-  tree::DryRun run(options.mission, behaviors::missionRegistry(),
-                   tree::readOutcomeScript(common::readText(options.script), options.script), options.mock_leaves,
-                   options.parsing);
+int showDryRun(const DryRunOptions& options, const tree::Registry& types) {
+  tree::DryRun run(options.mission, types, tree::readOutcomeScript(common::readText(options.script), options.script),
+                   options.mock_leaves, options.parsing);
   if (!run.problems().empty()) throw common::InputError(behaviors::toCommon(run.problems()));
   const tree::Status answer = options.json ? printJson(run) : printTicks(run);
   return answer == tree::Status::kSuccess ? kDone : kFailed;

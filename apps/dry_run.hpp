@@ -4,6 +4,7 @@
 #include <string>
 
 #include "behaviors/tree/parse_options.hpp"
+#include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::apps {
 
@@ -17,6 +18,6 @@ struct DryRunOptions {
 
 /// Prints each tick as it happens; as JSON all of them at the end. Returns the exit code: kFailed if the mission ends
 /// with FAILURE, or is still RUNNING after the last tick. Throws common::InputError for a script that cannot be used.
-int showDryRun(const DryRunOptions& options);
+int showDryRun(const DryRunOptions& options, const tree::Registry& types);
 
 }  // namespace swiftlet::apps

@@ -82,7 +82,7 @@ TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature
     throw common::InputError(
         common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});
   std::vector<TrialConfig> trials = {onlyCondition(evaluation::readTrial(file), options, file)};
-  prepare(trials);
+  prepare(trials, *options.types);
   TrialConfig trial = std::move(trials.front());
   trial.scenario = evaluation::pinned(trial.scenario, base);
   return trial;
@@ -162,7 +162,7 @@ class EnvelopeRun {
 
   /// nullopt if it was stopped from outside.
   std::optional<EnvelopeFlight> fly(const TrialConfig& trial, int seed, const fs::path& folder) const {
-    EnvelopeFlight flight = envelopeFlight(flyOne(trial, map_, seed, folder, stop_));
+    EnvelopeFlight flight = envelopeFlight(flyOne(trial, map_, seed, folder, stop_, {.types = options_.types}));
     const bool stopped = stop_, kept = !stopped && !flight.acceptable;
     flight.folder = kept ? folder.lexically_relative(out_).string() : "";
     if (!kept) fs::remove_all(folder);  // Hundreds of them; they can be flown again.

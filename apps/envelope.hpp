@@ -4,16 +4,19 @@
 #include <optional>
 #include <string>
 
+#include "behaviors/registry.hpp"
+
 namespace swiftlet::apps {
 
 struct EnvelopeOptions {
-  std::string trial;                                ///< One file.
-  std::string quantities = "config/envelope.yaml";  ///< The quantities to vary.
-  std::string only;                                 ///< Keys of these quantities alone, by commas; empty: all.
-  std::optional<int> repeat;                        ///< Flights at each value; nullopt: from the quantities' file.
-  std::optional<int> seed;                          ///< Of the first flight at each value; nullopt: from the trial.
-  int jobs = 1;                                     ///< Quantities at the same time.
-  std::string system;                               ///< Empty: that of the trial.
+  std::string trial;                                       ///< One file.
+  behaviors::NodeTypes types = behaviors::missionNodes();  ///< Of its mission.
+  std::string quantities = "config/envelope.yaml";         ///< The quantities to vary.
+  std::string only;                                        ///< Keys of these quantities alone, by commas; empty: all.
+  std::optional<int> repeat;  ///< Flights at each value; nullopt: from the quantities' file.
+  std::optional<int> seed;    ///< Of the first flight at each value; nullopt: from the trial.
+  int jobs = 1;               ///< Quantities at the same time.
+  std::string system;         ///< Empty: that of the trial.
   std::string out;
   std::string write;  ///< Page that gets picture and table; empty: no page.
   bool json = false;

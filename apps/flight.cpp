@@ -169,7 +169,8 @@ std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map)
   for (const std::string& file : missionFiles(setup.scenario, setup.mission_file)) {
     try {
       const std::string found = findMission(file);
-      behaviors::Mission mission = soundMission(found, setup.system, has_map);
+      behaviors::Mission mission =
+          behaviors::Mission::fromFile(found, missionLimits(setup.system, has_map), setup.types);
       std::vector<autonomy::OfferedMap> maps =
           offeredMaps(mission.mapFiles(), found, static_cast<std::uint64_t>(setup.scenario.seed));
       missions.push_back({found, std::move(mission), std::move(maps)});

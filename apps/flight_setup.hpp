@@ -26,7 +26,8 @@ class WebLink;
 
 struct FlightSetup {
   System system;
-  std::string mission_file;              ///< Of every vehicle without a mission file of its own.
+  behaviors::NodeTypes types = behaviors::missionNodes();  ///< Of the missions.
+  std::string mission_file;                                ///< Of every vehicle without a mission file of its own.
   simulation::Scenario scenario;         ///< World, starts, weather, seed; vehicle and laser are taken from the system.
   std::shared_ptr<const FlightMap> map;  ///< The map to localize in; null: no given map.
   std::vector<evaluation::OperatorStep> operator_steps = {};

@@ -10,6 +10,7 @@
 #include "apps/files_of_kind.hpp"
 #include "apps/flight.hpp"
 #include "apps/groot_link.hpp"
+#include "apps/leaf_libraries.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/mission_shelf.hpp"
 #include "apps/progress_line.hpp"
@@ -40,6 +41,7 @@ const std::string kWorld = "worlds/unb_case1.sdf";
 
 struct FlyOptions {
   std::string mission;
+  std::vector<std::string> leaves;
   std::string world;
   std::vector<std::string> model_paths;
   bool allow_incomplete_world = false;
@@ -102,6 +104,7 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
 FlightSetup setupOf(const FlyOptions& options) {
   for (const std::string& url : options.public_urls) (void)web::parsePublicUrl(url);
   FlightSetup setup;
+  setup.types = nodesWith(options.leaves);
   setup.mission_file = findMission(options.mission);
   const evaluation::TrialConfig trial = conditionsOf(options);
   setup.system = loadSystem(trial.system);
@@ -223,11 +226,11 @@ void printEnd(const FlightResult& result, bool json) {
 }
 
 /// What `check` warns of does not keep the vehicle on the ground.
-void showWarnings(const std::vector<FlightMission>& missions, bool headless) {
+void showWarnings(const std::vector<FlightMission>& missions, const tree::Registry& types, bool headless) {
   behaviors::MissionLimits limits;
   limits.operator_goes_on = limits.operator_gives_goals = !headless;
   for (const FlightMission& mission : missions) {
-    for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits).warnings)
+    for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits, types).warnings)
       showError(lineOf(warning, true));
     showNotes(mapNotes(mission.mission.mapFiles(), mission.file));
   }
@@ -241,15 +244,16 @@ std::unique_ptr<WebLink> servePage(const FlyOptions& options, const FlightSetup&
   page.title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
                            std::filesystem::path(setup.scenario.world).stem().string());
   page.hull_diameter_m = setup.system.vehicle.hull_diameter_m;
-  return std::make_unique<WebLink>(std::move(page), vehicleNames(setup.scenario),
-                                   std::make_unique<FolderShelf>(setup.mission_file, shippedMissions(),
-                                                                 static_cast<std::uint64_t>(setup.scenario.seed)));
+  return std::make_unique<WebLink>(
+      std::move(page), vehicleNames(setup.scenario),
+      std::make_unique<FolderShelf>(setup.mission_file, shippedMissions(),
+                                    static_cast<std::uint64_t>(setup.scenario.seed), setup.types));
 }
 
 int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
-  showWarnings(missions, options.headless);
+  showWarnings(missions, *setup.types, options.headless);
   if (!options.map.empty()) {
     setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
     showNotes(setup.map->notes);
@@ -269,7 +273,7 @@ int fly(const FlyOptions& options) {
   }
   std::unique_ptr<GrootLink> groot;
   if (options.groot) {
-    groot = std::make_unique<GrootLink>(options.listen, *options.groot);
+    groot = std::make_unique<GrootLink>(options.listen, *options.groot, *setup.types);
     const std::string line = fmt::format("groot   {}:{}\n", options.listen, groot->port());
     if (options.json)
       showError(line);
@@ -301,6 +305,7 @@ void addFly(Command& program) {
   auto options = std::make_shared<FlyOptions>();
   Command command = program.command("fly", "Fly a mission in the simulator; the page shows it live.");
   command.argument("mission", options->mission, "Mission file (XML).");
+  addLeavesOption(command, options->leaves);
   command.option("--world", options->world, fmt::format("World to fly in (SDF). Default: {}.", kWorld));
   command.option("--model-path", options->model_paths,
                  "Folder that holds models which the world includes; may be given several times.");

@@ -1,8 +1,5 @@
 #include "apps/groot_link.hpp"
 
-#include <string>
-
-#include "behaviors/registry.hpp"
 #include "common/world.hpp"
 #include "common/world/mission_layer.hpp"
 
@@ -13,8 +10,8 @@ namespace {
 constexpr int kGrootPatience_ms = 50;
 
 /// The element <TreeNodesModel> of the palette.
-std::string grootModels() {
-  const std::string palette = tree::writeTreeNodesModel(behaviors::missionRegistry());
+std::string grootModels(const tree::Registry& types) {
+  const std::string palette = tree::writeTreeNodesModel(types);
   const std::string tail = "</TreeNodesModel>";
   const std::size_t begin = palette.find("<TreeNodesModel>"), end = palette.rfind(tail);
   return palette.substr(begin, end + tail.size() - begin) + "\n";
@@ -22,11 +19,12 @@ std::string grootModels() {
 
 }  // namespace
 
-GrootLink::GrootLink(const std::string& address, int port)
-    : server_(address, port), thread_([this](const std::stop_token& stop) { answer(stop); }) {}
+GrootLink::GrootLink(const std::string& address, int port, const tree::Registry& types)
+    : server_(address, port),
+      thread_([this, models = grootModels(types)](const std::stop_token& stop) { answer(models, stop); }) {}
 
-void GrootLink::answer(const std::stop_token& stop) {
-  interfaces::GrootMonitor monitor(grootModels());
+void GrootLink::answer(const std::string& models, const std::stop_token& stop) {
+  interfaces::GrootMonitor monitor(models);
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
     if (const std::uint64_t newest = world_.sequence(); newest != seen) {

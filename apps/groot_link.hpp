@@ -1,9 +1,11 @@
 // Groot2 beside the flight: the thread that answers it, and the mailbox between it and the loop.
 #pragma once
 
+#include <string>
 #include <thread>
 
 #include "autonomy/loop/flight_sink.hpp"
+#include "behaviors/tree/registry.hpp"
 #include "common/mailbox.hpp"
 #include "interfaces/links/groot/groot_server.hpp"
 
@@ -13,13 +15,13 @@ namespace swiftlet::apps {
 class GrootLink {
  public:
   /// Listens at once; throws common::InputError when it cannot.
-  GrootLink(const std::string& address, int port);
+  GrootLink(const std::string& address, int port, const tree::Registry& types);
 
   int port() const { return server_.port(); }
   common::LatestValue<common::World>& world() { return world_; }
 
  private:
-  void answer(const std::stop_token& stop);
+  void answer(const std::string& models, const std::stop_token& stop);
 
   common::LatestValue<common::World> world_;
   interfaces::GrootServer server_;

@@ -43,16 +43,13 @@ std::string lineOf(tree::Problem problem, bool warning) {
   return common::printable(toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]")) + "\n";
 }
 
-std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map) {
+std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map,
+                                             const tree::Registry& types) {
   try {
-    return behaviors::checkMission(findMission(mission), missionLimits(system, has_map));
+    return behaviors::checkMission(findMission(mission), missionLimits(system, has_map), types);
   } catch (const common::InputError& missing) {
     return missing.problems();
   }
-}
-
-behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map) {
-  return behaviors::Mission::fromFile(findMission(file), missionLimits(system, has_map));
 }
 
 }  // namespace swiftlet::apps

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "apps/system.hpp"
-#include "behaviors/mission.hpp"
 #include "behaviors/mission_limits.hpp"
 #include "behaviors/tree/problem.hpp"
+#include "behaviors/tree/registry.hpp"
 #include "simulation/scenario.hpp"
 
 namespace swiftlet::apps {
@@ -22,9 +22,7 @@ std::string lineOf(tree::Problem problem, bool warning);
 
 /// Every problem of a mission, that of its file included, if it is to be flown with this system, and with a map of
 /// the place or without.
-std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map = true);
-
-/// The mission of that file for a flight: read once and checked. Throws common::InputError with all problems.
-behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map);
+std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map,
+                                             const tree::Registry& types);
 
 }  // namespace swiftlet::apps

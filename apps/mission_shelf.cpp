@@ -7,7 +7,6 @@
 
 #include "apps/given_map.hpp"
 #include "behaviors/mission.hpp"
-#include "behaviors/registry.hpp"
 #include "behaviors/tree/parameters.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
@@ -33,19 +32,20 @@ std::string firstComment(const std::string& text) {
 
 /// The maps that a mission may load, read now: in flight no file is read. A text that is no mission has no maps;
 /// the check of missions reports why. Throws common::InputError for a map that cannot be used.
-std::vector<common::OfferedMap> mapsOf(const std::string& text, const std::string& file, std::uint64_t seed) {
+std::vector<common::OfferedMap> mapsOf(const std::string& text, const std::string& file, std::uint64_t seed,
+                                       const behaviors::NodeTypes& types) {
   std::optional<behaviors::Mission> mission;
   try {
-    mission = behaviors::Mission::fromText(text, file);
+    mission = behaviors::Mission::fromText(text, file, types);
   } catch (const common::InputError&) {
     return {};
   }
   return offeredMaps(mission->mapFiles(), file, seed);
 }
 
-nlohmann::json parametersJson(const std::string& text, const std::string& file) {
+nlohmann::json parametersJson(const std::string& text, const std::string& file, const tree::Registry& types) {
   auto list = nlohmann::json::array();
-  for (const tree::Parameter& parameter : tree::parametersOf(text, file, behaviors::missionRegistry()))
+  for (const tree::Parameter& parameter : tree::parametersOf(text, file, types))
     list.push_back({{"key", parameter.key},
                     {"node", parameter.node},
                     {"port", parameter.port->name},
@@ -86,7 +86,7 @@ std::string FolderShelf::list() {
       missions.push_back({{"file", file.string()},
                           {"name", file.stem().string()},
                           {"about", firstComment(text)},
-                          {"parameters", parametersJson(text, file.string())}});
+                          {"parameters", parametersJson(text, file.string(), *types_)}});
     } catch (const common::InputError&) {
       // A file that has just gone, or that may not be read, is not offered.
     }
@@ -100,10 +100,9 @@ tl::expected<common::StartMissionCommand, std::string> FolderShelf::take(
   if (std::find(offered.begin(), offered.end(), fs::path(file)) == offered.end())
     return tl::unexpected("there is no mission `" + fs::path(file).filename().string() + "` any more: choose another");
   try {
-    tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file,
-                                                 behaviors::missionRegistry(), parameters);
+    tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file, *types_, parameters);
     if (!changed.problems.empty()) return tl::unexpected(common::withoutFolders(toString(changed.problems.front())));
-    std::vector<common::OfferedMap> maps = mapsOf(changed.text, file, map_seed_);
+    std::vector<common::OfferedMap> maps = mapsOf(changed.text, file, map_seed_, types_);
     return common::StartMissionCommand{file, std::move(changed.text), std::move(maps)};
   } catch (const common::InputError& error) {
     return tl::unexpected(common::forOperator(error));

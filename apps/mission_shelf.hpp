@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "behaviors/registry.hpp"
 #include "web/server/mission_shelf.hpp"
 
 namespace swiftlet::apps {
@@ -13,8 +14,9 @@ class FolderShelf final : public web::MissionShelf {
  public:
   /// `first` is a mission of its own, listed before those of `folder`; a folder that does not exist has no missions.
   /// `map_seed`: of the particles, in the maps that missions load.
-  FolderShelf(std::filesystem::path first, std::filesystem::path folder, std::uint64_t map_seed)
-      : first_(std::move(first)), folder_(std::move(folder)), map_seed_(map_seed) {}
+  FolderShelf(std::filesystem::path first, std::filesystem::path folder, std::uint64_t map_seed,
+              behaviors::NodeTypes types)
+      : first_(std::move(first)), folder_(std::move(folder)), map_seed_(map_seed), types_(std::move(types)) {}
 
   std::string list() override;
   tl::expected<common::StartMissionCommand, std::string> take(
@@ -27,6 +29,7 @@ class FolderShelf final : public web::MissionShelf {
   std::filesystem::path first_;
   std::filesystem::path folder_;
   std::uint64_t map_seed_;
+  behaviors::NodeTypes types_;
 };
 
 /// The folder of missions that findData finds; a path that does not exist if it finds no folder.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "apps/command.hpp"
+#include "apps/leaf_libraries.hpp"
 #include "apps/show.hpp"
-#include "behaviors/registry.hpp"
 #include "behaviors/tree/problem.hpp"
 
 namespace swiftlet::apps {
@@ -13,6 +13,7 @@ namespace {
 
 struct NodesOptions {
   std::vector<std::string> names;
+  std::vector<std::string> leaves;
   bool xml = false;
   bool xsd = false;
   bool markdown = false;
@@ -47,7 +48,8 @@ int printNodes(const NodesOptions& options) {
     showError("nodes: expected names of nodes, or one of --xml, --xsd and --markdown\n");
     return kBadInput;
   }
-  const tree::Registry& registry = behaviors::missionRegistry();
+  const behaviors::NodeTypes types = nodesWith(options.leaves);
+  const tree::Registry& registry = *types;
   if (!options.names.empty()) return printNamed(options.names, registry);
   show(options.xml        ? tree::writeTreeNodesModel(registry)
        : options.xsd      ? tree::writeSchema(registry)
@@ -63,6 +65,7 @@ void addNodes(Command& program) {
   Command command = program.command("nodes", "Print the node types of missions, or the ports of those that are named.");
   command.optionalArguments("nodes", options->names,
                             "Nodes of which to print each port with unit, bounds and meaning.");
+  addLeavesOption(command, options->leaves);
   command.flag("--xml", options->xml, "The palette that Groot2 loads: missions/groot2/palette.xml.");
   command.flag("--xsd", options->xsd, "A schema for other editors: missions/swiftlet.xsd.");
   command.flag("--markdown", options->markdown, "A table with bounds and defaults: docs/nodes.md.");

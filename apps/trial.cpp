@@ -15,6 +15,7 @@
 #include "apps/files_of_kind.hpp"
 #include "apps/flight.hpp"
 #include "apps/flights_in_parallel.hpp"
+#include "apps/leaf_libraries.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
@@ -39,6 +40,7 @@ using evaluation::TrialResults;
 
 struct TrialOptions {
   std::string trials;
+  std::vector<std::string> leaves;
   std::optional<int> repeat;  ///< Flights of each trial; nullopt: from the trial.
   int jobs = 1;
   std::optional<int> seed;  ///< Of the first flight; nullopt: from the trial.
@@ -72,6 +74,7 @@ EnvelopeOptions envelopeOptions(const TrialOptions& options) {
   refuseIf(options.control_log, "--control-log", kNotKept);
   refuseIf(options.record_rgbd, "--record-rgbd", kNotKept);
   EnvelopeOptions envelope{.trial = options.trials,
+                           .types = nodesWith(options.leaves),
                            .only = options.only,
                            .repeat = options.repeat,
                            .seed = options.seed,
@@ -109,8 +112,9 @@ fs::path runFolder(const TrialConfig& trial, int seed, const fs::path& out) {
 
 /// All flights of one trial, `jobs` at a time; the results are in the order of the seeds. A flight that cannot
 /// begin ends the trial, and its exception is thrown once `result` has the others.
-void flyAll(const TrialConfig& trial, const TrialOptions& options, const VehicleMemorySetup& memory,
-            const fs::path& out, const std::atomic<bool>& stop, TrialProgress& progress, TrialResult& result) {
+void flyAll(const TrialConfig& trial, const TrialOptions& options, const behaviors::NodeTypes& types,
+            const VehicleMemorySetup& memory, const fs::path& out, const std::atomic<bool>& stop,
+            TrialProgress& progress, TrialResult& result) {
   const auto [first_seed, count] = seedsOf(trial, options);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::vector<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
@@ -121,7 +125,7 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const Vehicle
       progress.flies(name, flight.simulated_s);
     };
     auto flown = flyOne(trial, map, seed, runFolder(trial, seed, out), stop,
-                        {memory, options.control_log, options.record_rgbd, tell});
+                        {types, memory, options.control_log, options.record_rgbd, tell});
     std::string lines;
     for (const evaluation::FlightScore& score : flown) lines += flightLine(trial, score) + "\n";
     progress.over(lines, std::all_of(flown.begin(), flown.end(), [](const auto& score) { return score.passed(); }));
@@ -178,7 +182,7 @@ void refuseSameNames(const std::vector<TrialConfig>& trials, const fs::path& fil
 
 /// The trials to be flown, read and checked, with missions that suit their systems: a mistake in the last trial
 /// is reported before the first flight.
-std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
+std::vector<TrialConfig> preparedTrials(const TrialOptions& options, const tree::Registry& types) {
   const fs::path file_or_folder = findTrial(options.trials);
   std::vector<TrialConfig> trials;
   for (TrialConfig& trial : evaluation::readTrials(file_or_folder)) {
@@ -189,8 +193,8 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
     for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
   refuseSameNames(trials, file_or_folder);
-  prepare(trials);
-  for (const std::string& warning : warningsOfOperator(trials)) showError(warning);
+  prepare(trials, types);
+  for (const std::string& warning : warningsOfOperator(trials, types)) showError(warning);
   for (const TrialConfig& trial : trials) {
     const Seeds seeds = seedsOf(trial, options);
     checkSeeds(seeds.first, seeds.count);
@@ -227,7 +231,8 @@ bool anyFlown(const TrialResults& results) {
 int trial(const TrialOptions& options) {
   const std::atomic<bool>& stop = stopOnSignals().first;
   outliveReaders();
-  const std::vector<TrialConfig> trials = preparedTrials(options);
+  const behaviors::NodeTypes types = nodesWith(options.leaves);
+  const std::vector<TrialConfig> trials = preparedTrials(options, *types);
   const VehicleMemorySetup memory = memoryFor(trials, options);
   const fs::path out = trialFolder(options.out, "trial", kTrialResults);
   checkRunFolders(trials, options, out);
@@ -241,7 +246,7 @@ int trial(const TrialOptions& options) {
     if (stop) break;
     results.trials.push_back({trial.name, trial.system, trial.paper, {}, trial.criteria, trial.figureBounds()});
     try {
-      flyAll(trial, options, memory, out, stop, progress, results.trials.back());
+      flyAll(trial, options, types, memory, out, stop, progress, results.trials.back());
     } catch (...) {
       progress.close();
       if (anyFlown(results)) writeResults(results, out);
@@ -267,6 +272,7 @@ void addTrial(Command& program) {
   auto options = std::make_shared<TrialOptions>();
   Command command = program.command("trial", "Fly scripted trials and score them against the truth.");
   command.argument("trial", options->trials, "Trial file (YAML), or a folder of them.");
+  addLeavesOption(command, options->leaves);
   command.option("--repeat", options->repeat, {1, 10'000},
                  "Flights of each trial, seeds S, S+1, ...; default: what it says.");
   command.option("--jobs", options->jobs, {1, 64}, "Flights at the same time.");

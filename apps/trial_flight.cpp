@@ -122,7 +122,8 @@ std::vector<std::pair<std::string, std::string*>> missionsOf(TrialConfig& trial)
 }
 
 /// Finds the system and the missions, and checks what does not need the world.
-void checkFiles(TrialConfig& trial, std::set<std::string>& judged_systems, std::vector<common::Problem>& problems) {
+void checkFiles(TrialConfig& trial, std::set<std::string>& judged_systems, const tree::Registry& types,
+                std::vector<common::Problem>& problems) {
   const auto addOnce = [&](const common::Problem& problem) {  // Several conditions are of one file.
     const std::string text = toString(problem);
     if (std::none_of(problems.begin(), problems.end(), [&](const auto& told) { return toString(told) == text; }))
@@ -136,17 +137,18 @@ void checkFiles(TrialConfig& trial, std::set<std::string>& judged_systems, std::
     if (const auto missing = findMissionOf(trial, key, *mission))
       addOnce(*missing);
     else
-      for (auto& problem : missionProblems(*mission, system, trial.map.given())) problems.push_back(std::move(problem));
+      for (auto& problem : missionProblems(*mission, system, trial.map.given(), types))
+        problems.push_back(std::move(problem));
   }
   checkControllers(trial, system, problems);
 }
 
 }  // namespace
 
-void prepare(std::vector<TrialConfig>& trials) {
+void prepare(std::vector<TrialConfig>& trials, const tree::Registry& types) {
   std::vector<common::Problem> problems;
   std::set<std::string> judged_systems;
-  for (TrialConfig& trial : trials) checkFiles(trial, judged_systems, problems);
+  for (TrialConfig& trial : trials) checkFiles(trial, judged_systems, types, problems);
   if (!problems.empty()) throw common::InputError(std::move(problems));
   for (TrialConfig& trial : trials) {
     findMap(trial);
@@ -156,7 +158,7 @@ void prepare(std::vector<TrialConfig>& trials) {
   if (!problems.empty()) throw common::InputError(std::move(problems));
 }
 
-std::vector<std::string> warningsOfOperator(const std::vector<TrialConfig>& trials) {
+std::vector<std::string> warningsOfOperator(const std::vector<TrialConfig>& trials, const tree::Registry& types) {
   std::set<std::string> lines;
   for (const TrialConfig& trial : trials) {
     const auto commands = [&](evaluation::OperatorAction action) {
@@ -168,7 +170,7 @@ std::vector<std::string> warningsOfOperator(const std::vector<TrialConfig>& tria
     limits.operator_gives_goals =
         commands(evaluation::OperatorAction::kGoal) || commands(evaluation::OperatorAction::kHome);
     for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
-      for (const tree::Problem& warning : behaviors::operatorWarnings(findMission(mission), limits))
+      for (const tree::Problem& warning : behaviors::operatorWarnings(findMission(mission), limits, types))
         lines.insert(lineOf(warning, true));
   }
   return {lines.begin(), lines.end()};
@@ -201,6 +203,7 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
   FlightSetup setup = setupOf(trial, map, seed, folder);
+  setup.types = extras.types;
   setup.memory = extras.memory;
   setup.control_log = extras.control_log;
   setup.record_rgbd = extras.record_rgbd;

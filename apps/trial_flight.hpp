@@ -19,10 +19,11 @@ namespace swiftlet::apps {
 
 /// Finds the maps and the worlds of trials, and checks their missions for the systems that fly them. Throws
 /// common::InputError with the problems of all missions.
-void prepare(std::vector<evaluation::TrialConfig>& trials);
+void prepare(std::vector<evaluation::TrialConfig>& trials, const tree::Registry& types = behaviors::missionRegistry());
 
 /// Warnings of missions that wait for an operator, in trials whose script does not answer: a line each.
-std::vector<std::string> warningsOfOperator(const std::vector<evaluation::TrialConfig>& trials);
+std::vector<std::string> warningsOfOperator(const std::vector<evaluation::TrialConfig>& trials,
+                                            const tree::Registry& types);
 
 /// The map that the flights of a trial are given; null without a given map. A map that a robot makes first lies in
 /// `out`.
@@ -30,6 +31,7 @@ std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, 
 
 /// What the flights of a trial have beyond it.
 struct FlightExtras {
+  behaviors::NodeTypes types = behaviors::missionNodes();  ///< Of the missions.
   VehicleMemorySetup memory = {};
   bool control_log = false;                                  ///< Whether the runs keep control.tsv.
   bool record_rgbd = false;                                  ///< Whether the runs keep the frames of the RGB-D camera.

@@ -15,7 +15,7 @@ std::optional<common::CommandResult> MissionDesk::take(const common::OperatorCom
 
 common::CommandResult MissionDesk::start(std::uint64_t id, const common::StartMissionCommand& command) {
   try {
-    next_ = behaviors::Mission::fromText(command.xml, command.name, limits_);
+    next_ = behaviors::Mission::fromText(command.xml, command.name, limits_, mission_.types());
   } catch (const common::InputError& wrong) {
     return {id, false, forOperator(wrong)};
   }

@@ -11,6 +11,8 @@ tree::NodeManifest AvoidObstacle::manifest() {
       .kind = tree::NodeKind::kAction,
       .ports = {},
       .description = "Gives the vehicle to the reactive layer while that retreats from an obstacle; skipped otherwise.",
+      .details = "In flight only.",
+      .ends = "SUCCESS when the danger is over",
       .may_skip = true};
 }
 

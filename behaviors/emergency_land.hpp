@@ -3,6 +3,7 @@
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::behaviors {
@@ -14,7 +15,10 @@ class EmergencyLand final : public IntentLeaf {
     return {.id = "EmergencyLand",
             .kind = tree::NodeKind::kAction,
             .ports = {},
-            .description = "Descends at once where it is, without the position."};
+            .description = "Descends at once where it is, without the position.",
+            .details = "By the raw height alone; then it switches the motors off. It cannot be taken back.",
+            .ends = "SUCCESS when it stands",
+            .traits = LeafTraits{.vehicle = VehicleUse::kLands}};
   }
 
  private:

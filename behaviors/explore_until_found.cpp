@@ -1,5 +1,6 @@
 #include "behaviors/explore_until_found.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/target_ports.hpp"
 #include "common/world.hpp"
 
@@ -12,7 +13,14 @@ tree::NodeManifest ExploreUntilFound::manifest() {
       .id = "ExploreUntilFound",
       .kind = tree::NodeKind::kAction,
       .ports = {targetNamePort(), targetCountPort(), rangePort()},
-      .description = "Explores, and looks at everything with the camera, until targets are found."};
+      .description = "Explores, and looks at everything with the camera, until targets are found.",
+      .details =
+          "It explores until `count` targets of that name are found (any, without a name), and then looks at every "
+          "free place that the camera has not seen from within `range_m`.",
+      .ends =
+          "SUCCESS when they are found and the vehicle has stopped; FAILURE when nothing is left to look at, or when "
+          "exploring fails",
+      .traits = LeafTraits{.needs_camera = true, .about_targets = true}};
   for (tree::PortManifest& port : ExplorePorts::manifests()) manifest.ports.push_back(std::move(port));
   return manifest;
 }

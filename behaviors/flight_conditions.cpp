@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "behaviors/target_ports.hpp"
@@ -34,7 +35,8 @@ tree::NodeManifest IsBatteryLow::manifest() {
                      .minimum = 0.0,
                      .maximum = 1.0,
                      .description = "Charge, as a share of the full battery."}},
-          .description = "The battery has at most this charge left."};
+          .description = "The battery has at most this charge left.",
+          .ends = "at once"};
 }
 
 std::string IsBatteryLow::objection(const FlightTick& tick) const {
@@ -53,7 +55,8 @@ tree::NodeManifest IsHomeReachable::manifest() {
                      .minimum = 0.0,
                      .maximum = 1.0,
                      .description = "Charge to spare, as a share of the full battery."}},
-          .description = "The charge suffices to fly home and land."};
+          .description = "The charge suffices to fly home and land.",
+          .ends = "at once"};
 }
 
 std::string IsHomeReachable::objection(const FlightTick& tick) const {
@@ -76,7 +79,9 @@ tree::NodeManifest IsLost::manifest() {
                      .minimum = 0.0,
                      .maximum = 100.0,
                      .description = "Standard deviation of the position from which on it counts as lost."}},
-          .description = "The vehicle does not know where it is."};
+          .description = "The vehicle does not know where it is.",
+          .details = "The position is unknown, or has drifted further than that.",
+          .ends = "at once"};
 }
 
 std::string IsLost::objection(const FlightTick& tick) const {
@@ -92,7 +97,8 @@ std::string IsLost::objection(const FlightTick& tick) const {
 tree::NodeManifest IsOperatorHolding::manifest() {
   return {.id = "IsOperatorHolding",
           .kind = NodeKind::kCondition,
-          .description = "The operator holds the mission, or an emergency does."};
+          .description = "The operator holds the mission, or an emergency does.",
+          .ends = "at once"};
 }
 
 std::string IsOperatorHolding::objection(const FlightTick& tick) const {
@@ -108,7 +114,8 @@ tree::NodeManifest IsPersonNear::manifest() {
                      .minimum = 0.0,
                      .maximum = 30.0,
                      .description = "Distance from the vehicle's centre to the edge of the person."}},
-          .description = "The laser sees a moving person near the vehicle."};
+          .description = "The laser sees a moving person near the vehicle.",
+          .ends = "at once"};
 }
 
 std::string IsPersonNear::objection(const FlightTick& tick) const {
@@ -126,7 +133,8 @@ std::string IsPersonNear::objection(const FlightTick& tick) const {
 tree::NodeManifest IsExplored::manifest() {
   return {.id = "IsExplored",
           .kind = NodeKind::kCondition,
-          .description = "Explore has left no frontier open: every remaining one has a reason."};
+          .description = "Explore has left no frontier open: every remaining one has a reason.",
+          .ends = "at once"};
 }
 
 std::string IsExplored::objection(const FlightTick& tick) const {
@@ -148,7 +156,8 @@ tree::NodeManifest IsAt::manifest() {
                      .minimum = 0.01,
                      .maximum = 100.0,
                      .description = "Greatest horizontal distance, and greatest difference in height."}},
-          .description = "The vehicle is near a place."};
+          .description = "The vehicle is near a place.",
+          .ends = "at once"};
 }
 
 std::string IsAt::objection(const FlightTick& tick) const {
@@ -172,7 +181,10 @@ tree::NodeManifest IsTargetFound::manifest() {
   return {.id = "IsTargetFound",
           .kind = NodeKind::kCondition,
           .ports = {targetNamePort(), targetCountPort()},
-          .description = "The camera has found targets."};
+          .description = "The camera has found targets.",
+          .details = "That many of that name, each seen from enough places.",
+          .ends = "at once",
+          .traits = LeafTraits{.needs_camera = true, .about_targets = true}};
 }
 
 std::string IsTargetFound::objection(const FlightTick& tick) const {

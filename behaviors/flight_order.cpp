@@ -68,7 +68,7 @@ class Walk {
 
   Exits walkLeaf(const tree::Node& node, std::string_view id, Whereabouts entry) {
     if (nowhere(entry)) return {};
-    const VehicleUse use = traitsOf(recordOf(node)).vehicle;
+    const auto use = traitsOf(recordOf(node)).vehicle;
     if (use == VehicleUse::kNone) return {entry, entry};
     if (use == VehicleUse::kTakesOff) {
       takes_off_ = true;

@@ -28,18 +28,27 @@ std::vector<tree::PortManifest> personPorts() {
 }  // namespace
 
 tree::NodeManifest FollowMe::manifest() {
-  return {.id = "FollowMe",
-          .kind = tree::NodeKind::kAction,
-          .ports = personPorts(),
-          .description = "Follows the nearest person who walks.",
-          .may_succeed = false};
+  return {
+      .id = "FollowMe",
+      .kind = tree::NodeKind::kAction,
+      .ports = personPorts(),
+      .description = "Follows the nearest person who walks.",
+      .details =
+          "It waits for the nearest person within 6 m who walks and follows along the places where that person walked, "
+          "the camera on that person: keeps `distance_m` - 0.3 m to a person who stands, plus 0.6 s of the speed of "
+          "one who walks away; gives way to a person who comes too near; turns about while it waits. A person who is "
+          "hidden is looked for where people may have walked to, and one who stands so long that the map explains the "
+          "place is assumed to be there. `mode=\"brisk\"` keeps up with somebody who walks at 1 m/s.",
+      .ends = "never SUCCESS: end it by what stands above it (`Timeout`); FAILURE when nobody was seen for `lost_s`",
+      .may_succeed = false};
 }
 
 tree::NodeManifest ReturnToMe::manifest() {
   return {.id = "ReturnToMe",
           .kind = tree::NodeKind::kAction,
           .ports = personPorts(),
-          .description = "Flies back to the person who was followed."};
+          .description = "Flies back to the person who was followed.",
+          .ends = "SUCCESS near that person; FAILURE if nobody was followed, or nobody is seen for `lost_s`"};
 }
 
 PersonLeaf::PersonLeaf(const tree::NodeSetup& setup, bool until_near)

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
@@ -100,7 +101,11 @@ tree::NodeManifest FollowPath::manifest() {
                      .type = PortType::kString,
                      .description = "The modes of the legs to the points, `careful | fast`; the last one holds for the "
                                     "rest. Not given: `mode`."}},
-          .description = "Flies through points to the last one."};
+          .description = "Flies through points to the last one.",
+          .details =
+              "The points before the last are passed within `corner_m`, without a stop; `modes=\"careful | fast\"` "
+              "gives each leg its mode, the last one holds for the rest.",
+          .ends = "SUCCESS at the last point, or beside it as for `MoveToGoal`"};
 }
 
 tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::string& text) {
@@ -171,7 +176,10 @@ tree::NodeManifest Patrol::manifest() {
                      .minimum = 0.0,
                      .maximum = 3600.0,
                      .description = "Time at each point."}},
-          .description = "Visits points in turn, again and again."};
+          .description = "Visits points in turn, again and again.",
+          .details = "It waits at each; a point that cannot be reached is left out, with an event.",
+          .ends = "SUCCESS after `rounds` rounds, never with `rounds=\"0\"`; FAILURE after a round without any point",
+          .traits = LeafTraits{.never_succeeds_at_0 = "rounds"}};
 }
 
 void Patrol::onStart(tree::TickContext& context) {

@@ -7,10 +7,13 @@
 namespace swiftlet::behaviors {
 
 tree::NodeManifest GoHome::manifest() {
-  return {.id = "GoHome",
-          .kind = tree::NodeKind::kAction,
-          .ports = {tolerancePort(), clearancePort()},
-          .description = "Flies back to the take-off place."};
+  return {
+      .id = "GoHome",
+      .kind = tree::NodeKind::kAction,
+      .ports = {tolerancePort(), clearancePort()},
+      .description = "Flies back to the take-off place.",
+      .details = "Also if SLAM corrects that in flight; where it is not free, to the nearest free place within 0.4 m.",
+      .ends = "SUCCESS within the tolerance"};
 }
 
 GoHome::GoHome(const tree::NodeSetup& setup)

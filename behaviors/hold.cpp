@@ -7,6 +7,7 @@ tree::NodeManifest Hold::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {},
           .description = "Stays where it is while the operator holds or an emergency does; skipped otherwise.",
+          .ends = "SUCCESS when the hold ends",
           .may_skip = true};
 }
 

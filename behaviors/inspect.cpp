@@ -1,5 +1,6 @@
 #include "behaviors/inspect.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
@@ -30,7 +31,12 @@ tree::NodeManifest Inspect::manifest() {
                          "the point, or the present height where the point has no z."},
                     clearancePort(),
                     modePort()},
-          .description = "Orbits a point with the camera on it."};
+          .description = "Orbits a point with the camera on it.",
+          .details =
+              "Counter-clockwise, the camera's axis on it, at the height where the axis meets a point with z; parts of "
+              "the circle that are not free are left out.",
+          .ends = "SUCCESS after `turns`; FAILURE when no place of the circle is free",
+          .traits = LeafTraits{.needs_camera = true}};
 }
 
 Inspect::Inspect(const tree::NodeSetup& setup)

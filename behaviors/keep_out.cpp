@@ -1,5 +1,6 @@
 #include "behaviors/keep_out.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
@@ -9,7 +10,10 @@ tree::NodeManifest KeepOut::manifest() {
   return {.id = "KeepOut",
           .kind = tree::NodeKind::kAction,
           .ports = {polygonPort("that the hull stays out of")},
-          .description = "Keeps the vehicle out of an area for the rest of the flight."};
+          .description = "Keeps the vehicle out of an area for the rest of the flight.",
+          .details = "It does not fly and may stand before the take-off; the zone stays when the leaf is halted.",
+          .ends = "SUCCESS when that holds; FAILURE for a polygon that is not valid, or that holds the take-off place",
+          .traits = LeafTraits{.keeps_out = true}};
 }
 
 RequestLeaf::RequestOrProblem KeepOut::makeRequest(const FlightTick& tick) {

@@ -1,23 +1,25 @@
-// What the leaves of a mission do, as far as the checks of missions need it: a line a leaf. How a leaf may end is in
-// its manifest.
+// What the checks of missions need to know of a leaf beyond its ports: LeafTraits in its manifest (`traits`).
 #pragma once
 
-#include <string_view>
+#include <optional>
 #include <vector>
 
-#include "behaviors/tree/node_record.hpp"
-#include "behaviors/tree/outcomes.hpp"
-#include "behaviors/tree/tree.hpp"
+namespace swiftlet::tree {
+class Tree;
+struct NodeRecord;
+struct Outcomes;
+}  // namespace swiftlet::tree
 
 namespace swiftlet::behaviors {
 
-/// What a leaf does with the vehicle whenever it is ticked. AvoidObstacle and Hold are active only in flight: kNone.
+/// What a leaf does with the vehicle whenever it is ticked.
 enum class VehicleUse : unsigned char { kNone, kTakesOff, kFlies, kLands };
 /// A map of the place that was made before the flight.
 enum class MapUse : unsigned char { kNone, kNeeds, kLoads };
 
 struct LeafTraits {
-  VehicleUse vehicle = VehicleUse::kNone;
+  /// nullopt: a FlightLeaf that cannot be SKIPPED flies, and nothing else does.
+  std::optional<VehicleUse> vehicle = std::nullopt;
   bool needs_camera = false;
   bool about_targets = false;  ///< Those that the profile names.
   MapUse map = MapUse::kNone;
@@ -28,10 +30,8 @@ struct LeafTraits {
   const char* never_succeeds_at_0 = nullptr;  ///< The port; null: no port decides that.
 };
 
-/// Null for a type that is no leaf of a mission, as the nodes of the engine.
-const LeafTraits* findTraits(std::string_view id);
-/// No trait at all for a node of the engine.
-const LeafTraits& traitsOf(const tree::NodeRecord& node);
+/// With `vehicle`. A node of the engine has no trait.
+LeafTraits traitsOf(const tree::NodeRecord& node);
 
 /// How the nodes of a mission may end, by node id.
 std::vector<tree::Outcomes> missionOutcomes(const tree::Tree& tree);

@@ -1,5 +1,7 @@
 #include "behaviors/load_map.hpp"
 
+#include "behaviors/leaf_traits.hpp"
+
 namespace swiftlet::behaviors {
 
 tree::NodeManifest LoadMap::manifest() {
@@ -9,7 +11,12 @@ tree::NodeManifest LoadMap::manifest() {
                      .type = tree::PortType::kString,
                      .required = true,
                      .description = "A map of map_server (YAML), beside the mission's file or where missions are."}},
-          .description = "Gives the flight another map to find itself in."};
+          .description = "Gives the flight another map to find itself in.",
+          .details =
+              "From now on it is the given one, also before the take-off. `check`, `fly` and `trial` read it before "
+              "the flight and refuse one that cannot be used.",
+          .ends = "SUCCESS at once; FAILURE for a map that was not read before the flight",
+          .traits = LeafTraits{.map = MapUse::kLoads}};
 }
 
 RequestLeaf::RequestOrProblem LoadMap::makeRequest(const FlightTick&) {

@@ -1,5 +1,6 @@
 #include "behaviors/localize.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
@@ -12,7 +13,12 @@ tree::NodeManifest Localize::manifest() {
   return {.id = "Localize",
           .kind = tree::NodeKind::kAction,
           .ports = {clearancePort()},
-          .description = "Explores until the vehicle knows where it is in the map it was given."};
+          .description = "Explores until the vehicle knows where it is in the map it was given.",
+          .details = "The map is that of `--map` or of LoadMap.",
+          .ends =
+              "SUCCESS when it is localized; FAILURE if no map was given, if it is found to be that of another place, "
+              "or if nothing is left to explore",
+          .traits = LeafTraits{.map = MapUse::kNeeds}};
 }
 
 Status Localize::act(tree::TickContext& context) {

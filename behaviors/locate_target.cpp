@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/target_ports.hpp"
 #include "common/geometry.hpp"
@@ -90,7 +91,13 @@ tree::NodeManifest LocateTarget::manifest() {
                  .type = PortType::kString,
                  .direction = tree::Direction::kOutput,
                  .description = "Name and number of the target, as a part of a file's name."}},
-      .description = "Looks at a target from several sides until its place is known well."};
+      .description = "Looks at a target from several sides until its place is known well.",
+      .details =
+          "It flies to where the camera sees the nearest target of that name well, found or candidate, and looks until "
+          "the place is known to `sigma_m`; writes `place`, and `file` as a part of a file's name (`red_1`). Each "
+          "LocateTarget in a mission takes a target that no earlier one has ended with.",
+      .ends = "SUCCESS with the camera on it; FAILURE when no other target is known, or when all sides were not enough",
+      .traits = LeafTraits{.needs_camera = true, .about_targets = true}};
 }
 
 LocateTarget::LocateTarget(const tree::NodeSetup& setup)

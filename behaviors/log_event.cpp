@@ -12,6 +12,8 @@ tree::NodeManifest LogEvent::manifest() {
           .ports = {{.name = "text", .type = PortType::kString, .required = true, .description = "What happened."},
                     choicePort("severity", common::kSeverities, "How it is shown.")},
           .description = "Writes an event.",
+          .details = "Into the run and onto the page.",
+          .ends = "SUCCESS at once",
           .may_fail = false};
 }
 

@@ -1,12 +1,19 @@
 #include "behaviors/look_around.hpp"
 
+#include "behaviors/leaf_traits.hpp"
+
 namespace swiftlet::behaviors {
 
 tree::NodeManifest LookAround::manifest() {
   tree::NodeManifest manifest{.id = "LookAround",
                               .kind = tree::NodeKind::kAction,
                               .ports = {rangePort()},
-                              .description = "Looks with the camera at every free place of the map."};
+                              .description = "Looks with the camera at every free place of the map.",
+                              .details =
+                                  "From within `range_m`, the nearest unseen place first; what stands on the floor "
+                                  "there and on a table must be in the picture.",
+                              .ends = "SUCCESS when no such place is left",
+                              .traits = LeafTraits{.needs_camera = true}};
   for (tree::PortManifest& port : ExplorePorts::manifests()) manifest.ports.push_back(std::move(port));
   return manifest;
 }

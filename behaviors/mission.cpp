@@ -9,7 +9,6 @@
 #include "behaviors/mission_check.hpp"
 #include "behaviors/narrator.hpp"
 #include "behaviors/operator_command.hpp"
-#include "behaviors/registry.hpp"
 #include "behaviors/tree/observers.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "behaviors/wait_for_operator.hpp"
@@ -23,8 +22,8 @@ using common::MissionState;
 using tree::Status;
 
 struct Mission::Impl {
-  explicit Impl(tree::Tree parsed)
-      : tree(std::move(parsed)), narrator(tree), live(tree), observers({&narrator, &live}) {}
+  Impl(NodeTypes known, tree::Tree parsed)
+      : types(std::move(known)), tree(std::move(parsed)), narrator(tree), live(tree), observers({&narrator, &live}) {}
 
   /// What `act` does to the tree in one tick, reported to the observers.
   template <typename Act>
@@ -44,6 +43,7 @@ struct Mission::Impl {
   std::string question() const;
   static bool holds(const Context& context);
 
+  NodeTypes types;  ///< Before the tree, which refers to it.
   tree::Tree tree;
   Narrator narrator;
   LiveTree live;
@@ -85,20 +85,21 @@ Mission::Mission(Mission&&) noexcept = default;
 Mission& Mission::operator=(Mission&&) noexcept = default;
 Mission::~Mission() = default;
 
-Mission Mission::fromFile(const std::string& path) {
-  return Mission(std::make_unique<Impl>(sound(tree::parseFile(path, missionRegistry()))));
+Mission Mission::fromFile(const std::string& path, const NodeTypes& types) {
+  return Mission(std::make_unique<Impl>(types, sound(tree::parseFile(path, *types))));
 }
 
-Mission Mission::fromFile(const std::string& path, const MissionLimits& limits) {
-  return Mission(std::make_unique<Impl>(flyable(tree::parseFile(path, missionRegistry()), limits)));
+Mission Mission::fromFile(const std::string& path, const MissionLimits& limits, const NodeTypes& types) {
+  return Mission(std::make_unique<Impl>(types, flyable(tree::parseFile(path, *types), limits)));
 }
 
-Mission Mission::fromText(const std::string& text, const std::string& name, const MissionLimits& limits) {
-  return Mission(std::make_unique<Impl>(flyable(tree::parseText(text, name, missionRegistry()), limits)));
+Mission Mission::fromText(const std::string& text, const std::string& name, const NodeTypes& types) {
+  return Mission(std::make_unique<Impl>(types, sound(tree::parseText(text, name, *types))));
 }
 
-Mission Mission::fromText(const std::string& text, const std::string& name) {
-  return Mission(std::make_unique<Impl>(sound(tree::parseText(text, name, missionRegistry()))));
+Mission Mission::fromText(const std::string& text, const std::string& name, const MissionLimits& limits,
+                          const NodeTypes& types) {
+  return Mission(std::make_unique<Impl>(types, flyable(tree::parseText(text, name, *types), limits)));
 }
 
 TickResult Mission::tick(Context& context) {
@@ -156,6 +157,8 @@ std::string Mission::Impl::question() const {
     if (std::string question = waiter->question(); !question.empty()) return question;
   return {};
 }
+
+const NodeTypes& Mission::types() const { return impl_->types; }
 
 const std::string& Mission::name() const { return impl_->tree.name(); }
 

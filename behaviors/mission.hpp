@@ -9,6 +9,7 @@
 
 #include "behaviors/context.hpp"
 #include "behaviors/mission_limits.hpp"
+#include "behaviors/registry.hpp"
 #include "common/error.hpp"
 #include "common/world/mission_status.hpp"
 
@@ -27,13 +28,15 @@ std::string flownAfterHold(const std::string& hold_reason);
 
 class Mission {
  public:
-  /// Throws common::InputError with every problem of the XML.
-  static Mission fromFile(const std::string& path);
+  /// Of nodes of these types. Throws common::InputError with every problem of the XML.
+  static Mission fromFile(const std::string& path, const NodeTypes& types = missionNodes());
   /// Also throws for anything that cannot work in flight within these limits, by the rules of checkMission.
-  static Mission fromFile(const std::string& path, const MissionLimits& limits);
+  static Mission fromFile(const std::string& path, const MissionLimits& limits,
+                          const NodeTypes& types = missionNodes());
   /// Messages use `name` as the file.
-  static Mission fromText(const std::string& text, const std::string& name);
-  static Mission fromText(const std::string& text, const std::string& name, const MissionLimits& limits);
+  static Mission fromText(const std::string& text, const std::string& name, const NodeTypes& types = missionNodes());
+  static Mission fromText(const std::string& text, const std::string& name, const MissionLimits& limits,
+                          const NodeTypes& types = missionNodes());
   Mission(Mission&&) noexcept;
   Mission& operator=(Mission&&) noexcept;
   ~Mission();
@@ -59,6 +62,8 @@ class Mission {
   std::optional<double> maxHeight_m() const;
   /// The maps that its LoadMaps name, as they name them; each once.
   std::vector<std::string> mapFiles() const;
+  /// What it was read with.
+  const NodeTypes& types() const;
   /// The ID of the main tree.
   const std::string& name() const;
 

@@ -9,7 +9,6 @@
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/limits_check.hpp"
 #include "behaviors/mission_warnings.hpp"
-#include "behaviors/registry.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 
@@ -32,12 +31,13 @@ std::vector<std::string> ownersOf(const tree::Tree& tree, const std::vector<tree
     int nodes = 0;
     std::map<std::string, std::string> types = {};  ///< With a remark.
   };
-  std::array<Owner, 3> owners = {{{"of the engine"}, {"of Swiftlet"}, {"mocks"}}};
-  const tree::Registry engine = tree::Registry::standard();
+  std::array<Owner, 4> owners = {{{"of the engine"}, {"of Swiftlet"}, {"of --leaves"}, {"mocks"}}};
+  const tree::Registry engine = tree::Registry::standard(), swiftlet = missionRegistry();
   for (const tree::NodeRecord& record : tree.nodes()) {
     const std::string id(typeNameOf(record));
     const auto mock = std::find_if(mocks.begin(), mocks.end(), [&](const tree::Mock& known) { return known.id == id; });
-    Owner& owner = owners[mock != mocks.end() ? 2 : record.manifest == nullptr || engine.find(id) != nullptr ? 0 : 1];
+    const bool of_engine = record.manifest == nullptr || engine.find(id) != nullptr;
+    Owner& owner = owners[mock != mocks.end() ? 3 : of_engine ? 0 : swiftlet.find(id) != nullptr ? 1 : 2];
     ++owner.nodes;
     std::string& remark = owner.types[id];
     if (mock == mocks.end()) continue;
@@ -66,18 +66,19 @@ bool hasBehaviour(const tree::Tree& tree) {
 
 }  // namespace
 
-MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits, const tree::TreeFiles& together) {
+MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits, const tree::Registry& types,
+                            const tree::TreeFiles& together) {
   tree::ParseOptions options;
   options.trees_elsewhere = together;
-  return verdictOf(tree::parseFile(path, missionRegistry(), options), limits);
+  return verdictOf(tree::parseFile(path, types, options), limits);
 }
 
-MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits,
+MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits, const tree::Registry& types,
                                      const tree::TreeFiles& together) {
   tree::ParseOptions options;
   options.trees_elsewhere = together;
   options.user_sets_entries = together.helpers.contains(path);
-  const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry(), options);
+  const tree::MockedRegistry mocked = tree::withMocks(path, types, options);
   tree::ParseResult parsed = tree::parseFile(path, mocked.registry, mocked.options);
   std::vector<std::string> whose;
   if (parsed.tree) whose = ownersOf(*parsed.tree, mocked.mocks);
@@ -122,13 +123,15 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
   return problems;
 }
 
-std::vector<tree::Problem> operatorWarnings(const std::string& path, const MissionLimits& limits) {
-  const tree::ParseResult parsed = tree::parseFile(path, missionRegistry());
+std::vector<tree::Problem> operatorWarnings(const std::string& path, const MissionLimits& limits,
+                                            const tree::Registry& types) {
+  const tree::ParseResult parsed = tree::parseFile(path, types);
   return parsed.tree ? operatorWarnings(*parsed.tree, limits) : std::vector<tree::Problem>();
 }
 
-std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits) {
-  return toCommon(judgeMission(path, limits).problems);
+std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits,
+                                          const tree::Registry& types) {
+  return toCommon(judgeMission(path, limits, types).problems);
 }
 
 }  // namespace swiftlet::behaviors

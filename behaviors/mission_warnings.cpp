@@ -28,7 +28,7 @@ class Warnings {
 
   std::vector<tree::Problem> findOfOperator() {
     for (const tree::NodeRecord& record : tree_.nodes()) {
-      const LeafTraits& traits = traitsOf(record);
+      const LeafTraits traits = traitsOf(record);
       if (isUnreached(record.node->id())) continue;
       if (traits.obeys_operator && !limits_.operator_gives_goals)
         warn(record.node->id(), "nobody gives it a goal, and the vehicle holds here", kOperatorHint);
@@ -88,7 +88,7 @@ class Warnings {
 
   void checkLanding() {
     for (const tree::NodeRecord& record : tree_.nodes()) {
-      const LeafTraits& traits = traitsOf(record);
+      const LeafTraits traits = traitsOf(record);
       const bool lands = traits.vehicle == VehicleUse::kLands || traits.obeys_operator;
       if (!lands || isUnreached(record.node->id())) continue;
       if (mayEndInTheAir(tree_))

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
@@ -23,7 +24,9 @@ tree::NodeManifest OperatorCommand::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {tolerancePort(), clearancePort()},
           .description = "Flies to the goals the operator gives, or home, and holds between.",
-          .may_succeed = false};
+          .ends = "never",
+          .may_succeed = false,
+          .traits = LeafTraits{.obeys_operator = true}};
 }
 
 OperatorCommand::OperatorCommand(const tree::NodeSetup& setup)

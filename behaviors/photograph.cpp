@@ -1,5 +1,6 @@
 #include "behaviors/photograph.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
@@ -8,7 +9,10 @@ tree::NodeManifest Photograph::manifest() {
   return {.id = "Photograph",
           .kind = tree::NodeKind::kAction,
           .ports = {fileNamePort("photo")},
-          .description = "Stops, and takes a picture with the camera, which looks ahead, with its place."};
+          .description = "Stops, and takes a picture with the camera, which looks ahead, with its place.",
+          .details = "Into the run's folder, as `photo-NN-FILE.jpg`, with the camera's place in a `.json`.",
+          .ends = "SUCCESS with the picture; FAILURE when no frame comes for 2 s",
+          .traits = LeafTraits{.needs_camera = true, .writes_file = true}};
 }
 
 void Photograph::onStart(tree::TickContext& context) {

@@ -1,9 +1,5 @@
 #include "behaviors/registry.hpp"
 
-#include <cstdint>
-#include <map>
-#include <string>
-
 #include "behaviors/avoid_obstacle.hpp"
 #include "behaviors/emergency_land.hpp"
 #include "behaviors/explore.hpp"
@@ -33,66 +29,47 @@
 #include "behaviors/wait_for_operator.hpp"
 
 namespace swiftlet::behaviors {
-namespace {
-
-/// Scripts name the choices of ports in capitals: `mode := far ? BRISK : CAREFUL`.
-void addChoices(tree::Registry& registry) {
-  std::map<std::string, std::int64_t> numbers;
-  for (const auto& [id, type] : registry.types())
-    for (const tree::PortManifest& port : type.manifest.ports)
-      for (std::size_t i = 0; i < port.choices.size(); ++i) {
-        std::string name = port.choices[i];
-        for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-        numbers[name] = static_cast<std::int64_t>(i);
-      }
-  for (const auto& [name, number] : numbers) registry.addConstant(name, number);
+tree::Registry missionRegistry() {
+  tree::Registry registry = tree::Registry::standard();
+  registry.add<TakeOff>();
+  registry.add<Land>();
+  registry.add<EmergencyLand>();
+  registry.add<Hold>();
+  registry.add<Explore>();
+  registry.add<ExploreUntilFound>();
+  registry.add<LoadMap>();
+  registry.add<Localize>();
+  registry.add<Relocalize>();
+  registry.add<MoveToGoal>();
+  registry.add<TurnTo>();
+  registry.add<FollowPath>();
+  registry.add<Patrol>();
+  registry.add<GoHome>();
+  registry.add<Survey>();
+  registry.add<Inspect>();
+  registry.add<LocateTarget>();
+  registry.add<LookAround>();
+  registry.add<FollowMe>();
+  registry.add<ReturnToMe>();
+  registry.add<AvoidObstacle>();
+  registry.add<OperatorCommand>();
+  registry.add<KeepOut>();
+  registry.add<SetFlightMode>();
+  registry.add<WaitForOperator>();
+  registry.add<SaveMap>();
+  registry.add<Photograph>();
+  registry.add<LogEvent>();
+  registry.add<IsBatteryLow>();
+  registry.add<IsHomeReachable>();
+  registry.add<IsLost>();
+  registry.add<IsOperatorHolding>();
+  registry.add<IsPersonNear>();
+  registry.add<IsExplored>();
+  registry.add<IsAt>();
+  registry.add<IsTargetFound>();
+  return registry;
 }
 
-}  // namespace
-
-const tree::Registry& missionRegistry() {
-  static const tree::Registry kRegistry = [] {
-    tree::Registry registry = tree::Registry::standard();
-    registry.add<TakeOff>();
-    registry.add<Land>();
-    registry.add<EmergencyLand>();
-    registry.add<Hold>();
-    registry.add<Explore>();
-    registry.add<ExploreUntilFound>();
-    registry.add<LoadMap>();
-    registry.add<Localize>();
-    registry.add<Relocalize>();
-    registry.add<MoveToGoal>();
-    registry.add<TurnTo>();
-    registry.add<FollowPath>();
-    registry.add<Patrol>();
-    registry.add<GoHome>();
-    registry.add<Survey>();
-    registry.add<Inspect>();
-    registry.add<LocateTarget>();
-    registry.add<LookAround>();
-    registry.add<FollowMe>();
-    registry.add<ReturnToMe>();
-    registry.add<AvoidObstacle>();
-    registry.add<OperatorCommand>();
-    registry.add<KeepOut>();
-    registry.add<SetFlightMode>();
-    registry.add<WaitForOperator>();
-    registry.add<SaveMap>();
-    registry.add<Photograph>();
-    registry.add<LogEvent>();
-    registry.add<IsBatteryLow>();
-    registry.add<IsHomeReachable>();
-    registry.add<IsLost>();
-    registry.add<IsOperatorHolding>();
-    registry.add<IsPersonNear>();
-    registry.add<IsExplored>();
-    registry.add<IsAt>();
-    registry.add<IsTargetFound>();
-    addChoices(registry);
-    return registry;
-  }();
-  return kRegistry;
-}
+NodeTypes missionNodes() { return std::make_shared<const tree::Registry>(missionRegistry()); }
 
 }  // namespace swiftlet::behaviors

@@ -1,11 +1,18 @@
-// The node types of a mission.
+// The node types of missions.
 #pragma once
+
+#include <memory>
 
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::behaviors {
 
-/// The engine's nodes and the behaviours.
-const tree::Registry& missionRegistry();
+/// What missions are read with. Immutable; each mission shares it, as its tree needs it.
+using NodeTypes = std::shared_ptr<const tree::Registry>;
+
+/// The engine's nodes and Swiftlet's leaves, made anew: leaves of one's own may be added (`registry.add<Circle>()`).
+tree::Registry missionRegistry();
+/// The same, shared.
+NodeTypes missionNodes();
 
 }  // namespace swiftlet::behaviors

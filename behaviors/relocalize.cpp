@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 #include "common/goal.hpp"
 #include "common/world.hpp"
@@ -25,16 +26,22 @@ constexpr int kDirections = 4;  ///< In a corridor two of them are free.
 }  // namespace
 
 tree::NodeManifest Relocalize::manifest() {
-  return {.id = "Relocalize",
-          .kind = tree::NodeKind::kAction,
-          .ports = {clearancePort(),
-                    {.name = "radius_m",
-                     .type = PortType::kDouble,
-                     .default_value = "1.5",
-                     .minimum = 0.5,
-                     .maximum = 10.0,
-                     .description = "Distance from where the vehicle began that it flies to see more."}},
-          .description = "Looks around for its place in the given map, as if it did not know it."};
+  return {
+      .id = "Relocalize",
+      .kind = tree::NodeKind::kAction,
+      .ports = {clearancePort(),
+                {.name = "radius_m",
+                 .type = PortType::kDouble,
+                 .default_value = "1.5",
+                 .minimum = 0.5,
+                 .maximum = 10.0,
+                 .description = "Distance from where the vehicle began that it flies to see more."}},
+      .description = "Looks around for its place in the given map, as if it did not know it.",
+      .details =
+          "It turns about once and then flies out by `radius_m` and back in up to four directions that are free, until "
+          "the place is known.",
+      .ends = "SUCCESS when it is; FAILURE without a given map, in that of another place, or after the last direction",
+      .traits = LeafTraits{.map = MapUse::kNeeds}};
 }
 
 void Relocalize::onStart(tree::TickContext& context) {

@@ -1,5 +1,6 @@
 #include "behaviors/save_map.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
@@ -8,7 +9,10 @@ tree::NodeManifest SaveMap::manifest() {
   return {.id = "SaveMap",
           .kind = tree::NodeKind::kAction,
           .ports = {fileNamePort("map")},
-          .description = "Writes the present map into the folder of the run."};
+          .description = "Writes the present map into the folder of the run.",
+          .details = "As `map-FILE.pgm` and `.yaml`.",
+          .ends = "SUCCESS at once",
+          .traits = LeafTraits{.writes_file = true}};
 }
 
 RequestLeaf::RequestOrProblem SaveMap::makeRequest(const FlightTick&) {

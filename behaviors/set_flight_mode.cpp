@@ -9,6 +9,10 @@ tree::NodeManifest SetFlightMode::manifest() {
           .kind = tree::NodeKind::kAction,
           .ports = {choicePort("mode", common::kFlightModes, "How fast and how closely paths are flown.")},
           .description = "Sets the flight mode of what follows.",
+          .details =
+              "Where a behaviour names none of its own; at first it is fast. Brisk flies at 1.2 m/s where thrust and "
+              "the distance to what is near permit.",
+          .ends = "SUCCESS at once",
           .may_fail = false};
 }
 

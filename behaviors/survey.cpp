@@ -24,7 +24,12 @@ tree::NodeManifest Survey::manifest() {
                      .description = "Height above the take-off floor. Not given: the present height."},
                     clearancePort(),
                     modePort()},
-          .description = "Flies over an area in lanes."};
+          .description = "Flies over an area in lanes.",
+          .details =
+              "The lanes are along its longest edge, without `spacing_m` as far apart as the strip of floor that the "
+              "camera sees, less an overlap of 40 % (1 m without a camera). A place of a lane that is not free is "
+              "moved aside by up to half a lane, or left out.",
+          .ends = "SUCCESS after the last lane; FAILURE when no place is free"};
 }
 
 std::string surveyProblem(const common::Polygon& area) {

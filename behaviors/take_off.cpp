@@ -1,5 +1,6 @@
 #include "behaviors/take_off.hpp"
 
+#include "behaviors/leaf_traits.hpp"
 #include "common/goal.hpp"
 
 namespace swiftlet::behaviors {
@@ -20,7 +21,10 @@ tree::NodeManifest TakeOff::manifest() {
                      .maximum = 100.0,
                      .description = "Greatest height of the whole mission, for a building that is high enough; "
                                     "without it that of the vehicle."}},
-          .description = "Climbs from the floor to a height and hovers."};
+          .description = "Climbs from the floor to a height and hovers.",
+          .details = "`max_height_m` allows the whole mission more height than the vehicle's sheet does.",
+          .ends = "SUCCESS when it hovers there",
+          .traits = LeafTraits{.vehicle = VehicleUse::kTakesOff}};
 }
 
 IntentLeaf::IntentOrProblem TakeOff::makeIntent(const FlightTick&) {

@@ -11,7 +11,8 @@ tree::NodeManifest TurnTo::manifest() {
   return {.id = "TurnTo",
           .kind = tree::NodeKind::kAction,
           .ports = {headingPort(true)},
-          .description = "Turns on the spot."};
+          .description = "Turns on the spot.",
+          .ends = "SUCCESS when it looks there"};
 }
 
 IntentLeaf::IntentOrProblem TurnTo::makeIntent(const FlightTick& tick) {

@@ -4,24 +4,31 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/leaf_traits.hpp"
+
 namespace swiftlet::behaviors {
 
 using tree::PortType;
 
 tree::NodeManifest WaitForOperator::manifest() {
-  return {.id = "WaitForOperator",
-          .kind = tree::NodeKind::kAction,
-          .ports = {{.name = "question",
-                     .type = PortType::kString,
-                     .default_value = "Go on?",
-                     .description = "What the page asks the operator."},
-                    {.name = "timeout_s",
-                     .type = PortType::kDuration,
-                     .default_value = "0",
-                     .minimum = 0.0,
-                     .maximum = 86400.0,
-                     .description = "Time after which the node fails; 0: it waits without a limit."}},
-          .description = "Waits until the operator says go on."};
+  return {
+      .id = "WaitForOperator",
+      .kind = tree::NodeKind::kAction,
+      .ports = {{.name = "question",
+                 .type = PortType::kString,
+                 .default_value = "Go on?",
+                 .description = "What the page asks the operator."},
+                {.name = "timeout_s",
+                 .type = PortType::kDuration,
+                 .default_value = "0",
+                 .minimum = 0.0,
+                 .maximum = 86400.0,
+                 .description = "Time after which the node fails; 0: it waits without a limit."}},
+      .description = "Waits until the operator says go on.",
+      .details =
+          "On the page, or by `POST /api/go_on`; the vehicle holds meanwhile, and the time of a hold does not count.",
+      .ends = "SUCCESS when the operator says so; FAILURE after `timeout_s`, if that is not 0",
+      .traits = LeafTraits{.asks_operator = true}};
 }
 
 std::string WaitForOperator::question() const {

@@ -1,6 +1,7 @@
 // Description of a node type: its name, kind and ports.
 #pragma once
 
+#include <any>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct NodeManifest {
   NodeKind kind = NodeKind::kAction;
   std::vector<PortManifest> ports = {};
   std::string description = {};  ///< One sentence.
+  std::string details = {};      ///< What more its user should know, for documents; may be empty.
+  std::string ends = {};         ///< "SUCCESS when it hovers there", for documents; may be empty.
   /// Whether it may answer SKIPPED on its own (leaves), or only if its children do.
   bool may_skip = false;
   /// Of nodes with children that need a number of them; others take what their kind does.
@@ -28,6 +31,8 @@ struct NodeManifest {
   /// Leaves: whether it may end with SUCCESS, and with FAILURE for any other reason than a port that has no value.
   bool may_succeed = true;
   bool may_fail = true;
+  /// What the checks of an application need to know of its own leaf; the engine does not read it.
+  std::any traits = {};
 
   const PortManifest* findPort(std::string_view name) const;
   /// Controls: 1 or more; decorators: 1; leaves: 0.

@@ -84,6 +84,9 @@ Registry Registry::standard() {
 }
 
 void Registry::add(NodeManifest manifest, NodeBuilder build) {
+  for (const PortManifest& port : manifest.ports)
+    for (std::size_t i = 0; i < port.choices.size(); ++i)
+      addConstant(constantOf(port.choices[i]), static_cast<std::int64_t>(i));
   const std::string id = manifest.id;
   types_.insert_or_assign(id, NodeType{std::move(manifest), std::move(build)});
 }
@@ -91,6 +94,11 @@ void Registry::add(NodeManifest manifest, NodeBuilder build) {
 const NodeType* Registry::find(std::string_view id) const {
   const auto found = types_.find(id);
   return found == types_.end() ? nullptr : &found->second;
+}
+
+std::string constantOf(std::string choice) {
+  for (char& c : choice) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return choice;
 }
 
 std::vector<std::string> Registry::ids() const {

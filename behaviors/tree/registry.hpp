@@ -29,7 +29,8 @@ class Registry {
   /// The control nodes, decorators and leaves of the engine.
   static Registry standard();
 
-  /// Replaces a type with the same id.
+  /// Replaces a type with the same id. Scripts may name the choices of its ports, in capitals, for their numbers:
+  /// `mode := far ? BRISK : CAREFUL`.
   void add(NodeManifest manifest, NodeBuilder build);
   /// A class with `static NodeManifest manifest()` and a constructor from NodeSetup.
   template <typename T>
@@ -49,6 +50,9 @@ class Registry {
   std::map<std::string, NodeType, std::less<>> types_;
   Constants constants_;
 };
+
+/// The name by which scripts know the number of that choice.
+std::string constantOf(std::string choice);
 
 /// The palette that an editor (Groot2) loads: <root><TreeNodesModel> with every type of the registry that the editor
 /// does not have itself.
