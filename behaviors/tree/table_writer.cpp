@@ -28,15 +28,18 @@ std::string valueText(const PortManifest& port) {
 
 std::string writeNodeTable(const Registry& registry) {
   std::string text =
-      "# Nodes of missions\n\nMade from the node registry by `swiftlet nodes --markdown`; a test fails when it is "
-      "stale. What they "
-      "mean is in\n[behaviors](behaviors.md).\n\n| node | kind | what it does | ports |\n| --- | --- | --- | --- |\n";
+      "# Nodes of missions\n\nMade from what each node says of itself, by `scripts/nodes`; a test fails when it is "
+      "stale. How a tree works\nis in [behaviors](behaviors.md).\n\n"
+      "| node | kind | what it does | ends | ports |\n| --- | --- | --- | --- | --- |\n";
   for (const auto& [id, type] : registry.types()) {
     std::string ports;
     for (const PortManifest& port : type.manifest.ports)
       ports += (ports.empty() ? "`" : "; `") + port.name + "`: " + valueText(port);
-    text += "| `" + id + "` | " + toString(type.manifest.kind) + " | " + cell(type.manifest.description) + " | " +
-            cell(ports) + " |\n";
+    const NodeManifest& manifest = type.manifest;
+    const std::string what = manifest.description + (manifest.details.empty() ? "" : " " + manifest.details);
+    text += "| `" + id + "` | " + toString(manifest.kind);
+    for (const std::string& column : {what, manifest.ends, ports}) text += " | " + cell(column);
+    text += " |\n";
   }
   return text;
 }
@@ -66,6 +69,8 @@ std::string writeNodeList(const Registry& registry) {
 
 std::string writeNodeHelp(const NodeManifest& manifest) {
   std::string text = manifest.id + ": " + manifest.description + "\n";
+  if (!manifest.details.empty()) text += "  " + manifest.details + "\n";
+  if (!manifest.ends.empty()) text += "  Ends: " + manifest.ends + "\n";
   for (const PortManifest& port : manifest.ports)
     text += "  " + port.name + ": " + valueText(port) + "\n" +
             (port.description.empty() ? "" : "      " + port.description + "\n");

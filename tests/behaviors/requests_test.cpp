@@ -138,13 +138,14 @@ TEST(EmergencyLand, EndsOnTheFloor) {
 }
 
 TEST(Constants, AreTheChoicesOfPortsInCapitals) {
-  for (const auto& [id, type] : missionRegistry().types())
+  const tree::Registry registry = missionRegistry();
+  for (const auto& [id, type] : registry.types())
     for (const tree::PortManifest& port : type.manifest.ports)
       for (const std::string& choice : port.choices) {
         std::string name = choice;
         for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-        const auto known = missionRegistry().constants().find(name);
-        ASSERT_NE(known, missionRegistry().constants().end()) << name;
+        const auto known = registry.constants().find(name);
+        ASSERT_NE(known, registry.constants().end()) << name;
         const auto value = tree::readValue(port, std::to_string(known->second)).value;
         EXPECT_EQ(value, tree::Value(choice)) << id << "." << port.name << ": one name, two numbers";
       }

@@ -138,6 +138,7 @@ TEST(Nodes, PrintsAListAndThePortsOfThoseThatAreNamed) {
   EXPECT_THAT(runSwiftlet({"nodes"}).out, HasSubstr("\nTakeOff: Climbs from the floor to a height and hovers.\n"));
   EXPECT_EQ(runSwiftlet({"nodes", "TurnTo"}).out,
             "TurnTo: Turns on the spot.\n"
+            "  Ends: SUCCESS when it looks there\n"
             "  yaw_deg: a number in degrees from -360 to 360, required\n"
             "      Heading in the map frame, counter-clockwise; 0 is that of the take-off, or the x axis of the given "
             "map.\n");
