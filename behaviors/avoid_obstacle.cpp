@@ -1,9 +1,25 @@
-#include "behaviors/avoid_obstacle.hpp"
+// AvoidObstacle: active in flight while the reactive layer retreats from something unmapped or closing.
+// SKIPPED otherwise, SUCCESS when the danger is over. The layer itself acts at the laser rate under every intent; this
+// node stays active for it, so that no other intent works against the retreat. [UNB III-A, Fig. 5]
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/flight_leaf.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class AvoidObstacle final : public FlightLeaf {
+ public:
+  using FlightLeaf::FlightLeaf;
+  static tree::NodeManifest manifest();
+
+ private:
+  std::string whyItWants(const tree::TickContext& context) const override;
+  bool onAsked(const tree::TickContext& context) const override;
+  tree::Status act(tree::TickContext& context) override;
+};
 
 tree::NodeManifest AvoidObstacle::manifest() {
   return {
@@ -31,5 +47,9 @@ tree::Status AvoidObstacle::act(tree::TickContext& context) {
   emitIntent(flightTick(context), common::AvoidIntent{});
   return tree::Status::kRunning;
 }
+
+}  // namespace
+
+void addAvoidObstacle(tree::Registry& registry) { registry.add<AvoidObstacle>(); }
 
 }  // namespace swiftlet::behaviors

@@ -1,12 +1,43 @@
-#include "behaviors/follow_me.hpp"
+// FollowMe: stays `distance_m` behind a walking person, with the camera on that person; RUNNING until a node above
+// it ends it, and FAILURE when no person is seen for `lost_s`. ReturnToMe: flies to where the person was last followed;
+// SUCCESS near that person.
+#include "behaviors/leaves.hpp"
 
+#include <string>
+
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
 
 using tree::PortType;
 
-namespace {
+/// What both share.
+class PersonLeaf : public IntentLeaf {
+ public:
+  PersonLeaf(const tree::NodeSetup& setup, bool until_near);
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  bool until_near_;
+  tree::Input<double> distance_m_;
+  tree::Input<tree::Duration> lost_s_;
+  tree::Input<double> clearance_m_;
+  tree::Input<std::string> mode_;
+};
+
+class FollowMe final : public PersonLeaf {
+ public:
+  explicit FollowMe(const tree::NodeSetup& setup) : PersonLeaf(setup, false) {}
+  static tree::NodeManifest manifest();
+};
+
+class ReturnToMe final : public PersonLeaf {
+ public:
+  explicit ReturnToMe(const tree::NodeSetup& setup) : PersonLeaf(setup, true) {}
+  static tree::NodeManifest manifest();
+};
 
 std::vector<tree::PortManifest> personPorts() {
   return {{.name = "distance_m",
@@ -24,8 +55,6 @@ std::vector<tree::PortManifest> personPorts() {
           clearancePort(),
           modePort()};
 }
-
-}  // namespace
 
 tree::NodeManifest FollowMe::manifest() {
   return {
@@ -70,6 +99,13 @@ IntentLeaf::IntentOrProblem PersonLeaf::makeIntent(const FlightTick& tick) {
   if (!mode) return tl::unexpected(mode_.problem());
   return common::FollowIntent{*distance_m, 1e-9 * static_cast<double>(lost->nanoseconds), until_near_, *clearance_m,
                               *mode};
+}
+
+}  // namespace
+
+void addFollowMe(tree::Registry& registry) {
+  registry.add<FollowMe>();
+  registry.add<ReturnToMe>();
 }
 
 }  // namespace swiftlet::behaviors

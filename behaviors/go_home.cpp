@@ -1,10 +1,28 @@
-#include "behaviors/go_home.hpp"
+// GoHome: SUCCESS when the vehicle is within tolerance_m of the take-off place. SLAM may correct that place in `map`
+// during the flight; a correction of more than half the tolerance renews the intent.
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class GoHome final : public IntentLeaf {
+ public:
+  explicit GoHome(const tree::NodeSetup& setup);
+  static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  bool isOutdated(const FlightTick& tick) const override;
+
+  tree::Input<double> tolerance_m_;
+  tree::Input<double> clearance_m_;
+  common::GoToIntent made_;
+};
 
 tree::NodeManifest GoHome::manifest() {
   return {
@@ -37,5 +55,9 @@ bool GoHome::isOutdated(const FlightTick& tick) const {
   const Eigen::Vector2d home_map_m = tick.flight.world->vehicle->home_map.position_m();
   return (home_map_m - made_.goal_map_m).norm() > 0.5 * made_.tolerance_m;
 }
+
+}  // namespace
+
+void addGoHome(tree::Registry& registry) { registry.add<GoHome>(); }
 
 }  // namespace swiftlet::behaviors

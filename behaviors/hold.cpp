@@ -1,6 +1,21 @@
-#include "behaviors/hold.hpp"
+// Hold: active while the operator holds or an emergency does; SKIPPED otherwise, SUCCESS when the hold ends.
+#include "behaviors/leaves.hpp"
+
+#include "behaviors/flight_leaf.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class Hold final : public FlightLeaf {
+ public:
+  using FlightLeaf::FlightLeaf;
+  static tree::NodeManifest manifest();
+
+ private:
+  std::string whyItWants(const tree::TickContext& context) const override;
+  bool onAsked(const tree::TickContext& context) const override { return flightTick(context).flight.hold; }
+  tree::Status act(tree::TickContext& context) override;
+};
 
 tree::NodeManifest Hold::manifest() {
   return {.id = "Hold",
@@ -22,5 +37,9 @@ tree::Status Hold::act(tree::TickContext& context) {
   emitHold(tick);
   return tree::Status::kRunning;
 }
+
+}  // namespace
+
+void addHold(tree::Registry& registry) { registry.add<Hold>(); }
 
 }  // namespace swiftlet::behaviors

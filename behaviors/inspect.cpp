@@ -1,12 +1,31 @@
-#include "behaviors/inspect.hpp"
+// Inspect: orbits `point` at `radius_m` with the camera on it. SUCCESS after `turns`; parts of the circle that are not
+// free are left out; FAILURE when no part is. The place of the point in a given map is looked up once, when it
+// begins.
+#include "behaviors/leaves.hpp"
 
+#include <string>
+
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
 
 using tree::PortType;
+
+class Inspect final : public IntentLeaf {
+ public:
+  explicit Inspect(const tree::NodeSetup& setup);
+  static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  tree::Input<tree::Point> point_;
+  tree::Input<double> radius_m_, turns_, height_m_, clearance_m_;
+  tree::Input<std::string> mode_;
+};
 
 tree::NodeManifest Inspect::manifest() {
   return {.id = "Inspect",
@@ -66,5 +85,9 @@ IntentLeaf::IntentOrProblem Inspect::makeIntent(const FlightTick& tick) {
   if (!verdict) return tl::unexpected(verdict.error().text);
   return common::InspectIntent{*verdict, point->z, *radius_m, *turns, height_m, *clearance_m, *mode};
 }
+
+}  // namespace
+
+void addInspect(tree::Registry& registry) { registry.add<Inspect>(); }
 
 }  // namespace swiftlet::behaviors

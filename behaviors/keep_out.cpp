@@ -1,10 +1,25 @@
-#include "behaviors/keep_out.hpp"
+// KeepOut: the vehicle keeps out of `polygon` for the rest of the flight, whatever it does: planning, exploring, flying
+// home, and braking. SUCCESS when that holds; FAILURE for a polygon that cannot be kept out of, or whose
+// place in the given map is not known. It stays where it was made, also if the localization moves the given map.
+#include "behaviors/leaves.hpp"
 
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
+#include "behaviors/request_leaf.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class KeepOut final : public RequestLeaf {
+ public:
+  explicit KeepOut(const tree::NodeSetup& setup) : RequestLeaf(setup), polygon_(setup, "polygon") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  RequestOrProblem makeRequest(const FlightTick& tick) override;
+  tree::Input<tree::Points> polygon_;
+};
 
 tree::NodeManifest KeepOut::manifest() {
   return {.id = "KeepOut",
@@ -23,5 +38,9 @@ RequestLeaf::RequestOrProblem KeepOut::makeRequest(const FlightTick& tick) {
   if (!places) return tl::unexpected(places.error());
   return common::KeepOutRequest{places->inMap(*points)};
 }
+
+}  // namespace
+
+void addKeepOut(tree::Registry& registry) { registry.add<KeepOut>(); }
 
 }  // namespace swiftlet::behaviors

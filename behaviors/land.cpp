@@ -1,8 +1,20 @@
-#include "behaviors/land.hpp"
+// Land: SUCCESS when the vehicle stands on the floor.
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class Land final : public IntentLeaf {
+ public:
+  using IntentLeaf::IntentLeaf;
+  static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick&) override { return common::LandIntent{}; }
+};
 
 tree::NodeManifest Land::manifest() {
   return {.id = "Land",
@@ -16,5 +28,9 @@ tree::NodeManifest Land::manifest() {
           .ends = "SUCCESS when it stands",
           .traits = LeafTraits{.vehicle = VehicleUse::kLands}};
 }
+
+}  // namespace
+
+void addLand(tree::Registry& registry) { registry.add<Land>(); }
 
 }  // namespace swiftlet::behaviors

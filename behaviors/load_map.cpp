@@ -1,8 +1,25 @@
-#include "behaviors/load_map.hpp"
+// LoadMap: from now on `file` is the given map, in which the flight finds its place and the mission names its places.
+// It starts no flight, and may come before the take-off. SUCCESS when the map is loaded; FAILURE for a map that was not
+// read before the flight. `check`, `fly` and `trial` read it and refuse one that cannot be used.
+#include "behaviors/leaves.hpp"
+
+#include <string>
 
 #include "behaviors/leaf_traits.hpp"
+#include "behaviors/request_leaf.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class LoadMap final : public RequestLeaf {
+ public:
+  explicit LoadMap(const tree::NodeSetup& setup) : RequestLeaf(setup), file_(setup, "file") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  RequestOrProblem makeRequest(const FlightTick& tick) override;
+  tree::Input<std::string> file_;
+};
 
 tree::NodeManifest LoadMap::manifest() {
   return {.id = "LoadMap",
@@ -24,5 +41,9 @@ RequestLeaf::RequestOrProblem LoadMap::makeRequest(const FlightTick&) {
   if (!file) return tl::unexpected(file_.problem());
   return common::LoadMapRequest{*file};
 }
+
+}  // namespace
+
+void addLoadMap(tree::Registry& registry) { registry.add<LoadMap>(); }
 
 }  // namespace swiftlet::behaviors

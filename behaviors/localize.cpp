@@ -1,13 +1,27 @@
-#include "behaviors/localize.hpp"
+// Localize: explores until the vehicle is localized in the given map, which is SUCCESS. FAILURE if there is no such
+// map, if it is found to be that of another place, or if nothing is left to explore.
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
 
 using tree::Status;
+
+class Localize final : public FlightLeaf {
+ public:
+  explicit Localize(const tree::NodeSetup& setup) : FlightLeaf(setup), clearance_m_(setup, "clearance_m") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  tree::Input<double> clearance_m_;
+};
 
 tree::NodeManifest Localize::manifest() {
   return {.id = "Localize",
@@ -41,5 +55,9 @@ Status Localize::act(tree::TickContext& context) {
   }
   return Status::kRunning;
 }
+
+}  // namespace
+
+void addLocalize(tree::Registry& registry) { registry.add<Localize>(); }
 
 }  // namespace swiftlet::behaviors

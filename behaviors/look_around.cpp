@@ -1,8 +1,23 @@
-#include "behaviors/look_around.hpp"
+// LookAround: looks with the camera at every free place of the map. SUCCESS when none is left that can be looked at.
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/explore_ports.hpp"
 #include "behaviors/leaf_traits.hpp"
+#include "behaviors/looking_leaf.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class LookAround final : public LookingLeaf {
+ public:
+  explicit LookAround(const tree::NodeSetup& setup) : LookingLeaf(setup), range_m_(setup, "range_m"), ports_(setup) {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  tree::Input<double> range_m_;
+  ExplorePorts ports_;
+};
 
 tree::NodeManifest LookAround::manifest() {
   tree::NodeManifest manifest{.id = "LookAround",
@@ -28,5 +43,9 @@ tree::Status LookAround::act(tree::TickContext& context) {
   return lookOn(tick, {*range_m, limits->clearance_m, limits->bounds, limits->leave_building}) ? tree::Status::kRunning
                                                                                                : tree::Status::kSuccess;
 }
+
+}  // namespace
+
+void addLookAround(tree::Registry& registry) { registry.add<LookAround>(); }
 
 }  // namespace swiftlet::behaviors

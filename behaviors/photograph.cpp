@@ -1,9 +1,30 @@
-#include "behaviors/photograph.hpp"
+// Photograph: stops, and writes the next picture of the RGB-D camera into the run's folder, with the pose of the
+// camera. SUCCESS when it is handed to the writer; FAILURE without a camera, or when no frame comes.
+#include "behaviors/leaves.hpp"
 
+#include <cstdint>
+#include <string>
+
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class Photograph final : public FlightLeaf {
+ public:
+  explicit Photograph(const tree::NodeSetup& setup) : FlightLeaf(setup), file_(setup, "file") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  void onStart(tree::TickContext& context) override;
+  void onResume(tree::TickContext& context) override;
+  tree::Status act(tree::TickContext& context) override;
+
+  tree::Input<std::string> file_;
+  std::uint64_t request_id_ = 0;  ///< 0 until the vehicle has stopped.
+};
 
 tree::NodeManifest Photograph::manifest() {
   return {.id = "Photograph",
@@ -36,5 +57,9 @@ tree::Status Photograph::act(tree::TickContext& context) {
   if (!answer) return tree::Status::kRunning;
   return answer->done ? tree::Status::kSuccess : fail(context, answer->reason);
 }
+
+}  // namespace
+
+void addPhotograph(tree::Registry& registry) { registry.add<Photograph>(); }
 
 }  // namespace swiftlet::behaviors

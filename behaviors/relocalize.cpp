@@ -1,9 +1,21 @@
-#include "behaviors/relocalize.hpp"
+// Relocalize: forgets the pose in the given map, turns about once where it is and, until the vehicle is localized,
+// flies to free places around and back.
+//
+//   forget --> turn by 120 deg, three times --> fly out, fly back, in four directions --> FAILURE
+//                    |                               |
+//                    +------> localized: SUCCESS <---+
+//
+// FAILURE without a given map, in a map that is found to be that of another place, and after the last of these.
+#include "behaviors/leaves.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
 #include "common/goal.hpp"
@@ -12,18 +24,43 @@
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
 
 using tree::PortType;
 using tree::Status;
 
-namespace {
+class Relocalize final : public FlightLeaf {
+ public:
+  explicit Relocalize(const tree::NodeSetup& setup)
+      : FlightLeaf(setup), clearance_m_(setup, "clearance_m"), radius_m_(setup, "radius_m") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  void onStart(tree::TickContext& context) override;
+  void planLooks(const FlightTick& tick, double clearance_m, double radius_m);
+  void nextLook(const FlightTick& tick);
+  /// What is flown now; null after the last look.
+  const common::GoToIntent* flown() const;
+
+  struct Look {
+    common::GoToIntent out;
+    bool returns = false;  ///< It ends with the flight back; a turn where the vehicle is does not.
+  };
+
+  tree::Input<double> clearance_m_, radius_m_;
+  std::uint64_t request_id_ = 0;  ///< 0 before it has asked.
+  bool forgotten_ = false;
+  std::vector<Look> looks_;
+  std::size_t look_ = 0;     ///< The place that is being flown to.
+  bool flies_back_ = false;  ///< It flies back from that place.
+  common::GoToIntent back_;  ///< To where the vehicle began.
+};
 
 /// The places about the vehicle need little precision: a gust must not keep it at one.
 constexpr double kTolerance_m = 0.15;
 constexpr int kTurns = 3;       ///< A laser sees 240 to 270 degrees; three turns show all of it twice.
 constexpr int kDirections = 4;  ///< In a corridor two of them are free.
-
-}  // namespace
 
 tree::NodeManifest Relocalize::manifest() {
   return {
@@ -122,5 +159,9 @@ Status Relocalize::act(tree::TickContext& context) {
   }
   return fail(context, fmt::format("looked around, and the place is still {}", toString(localization->state)));
 }
+
+}  // namespace
+
+void addRelocalize(tree::Registry& registry) { registry.add<Relocalize>(); }
 
 }  // namespace swiftlet::behaviors

@@ -1,9 +1,25 @@
-#include "behaviors/save_map.hpp"
+// SaveMap: writes the present map into the run's folder, as map-FILE.pgm and map-FILE.yaml. SUCCESS when it is handed
+// to the writer.
+#include "behaviors/leaves.hpp"
+
+#include <string>
 
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/ports.hpp"
+#include "behaviors/request_leaf.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class SaveMap final : public RequestLeaf {
+ public:
+  explicit SaveMap(const tree::NodeSetup& setup) : RequestLeaf(setup), file_(setup, "file") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  RequestOrProblem makeRequest(const FlightTick& tick) override;
+  tree::Input<std::string> file_;
+};
 
 tree::NodeManifest SaveMap::manifest() {
   return {.id = "SaveMap",
@@ -21,5 +37,9 @@ RequestLeaf::RequestOrProblem SaveMap::makeRequest(const FlightTick&) {
   if (std::string problem = fileNameProblem(*file); !problem.empty()) return tl::unexpected(problem);
   return common::SaveMapRequest{*file};
 }
+
+}  // namespace
+
+void addSaveMap(tree::Registry& registry) { registry.add<SaveMap>(); }
 
 }  // namespace swiftlet::behaviors

@@ -1,8 +1,24 @@
-#include "behaviors/set_flight_mode.hpp"
+// SetFlightMode: what follows is flown in `mode`, wherever a behaviour names no mode of its own. SUCCESS at once.
+#include "behaviors/leaves.hpp"
 
+#include <string>
+
+#include "behaviors/flight_tick.hpp"
 #include "behaviors/ports.hpp"
+#include "behaviors/tree/leaf.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class SetFlightMode final : public tree::Leaf {
+ public:
+  explicit SetFlightMode(const tree::NodeSetup& setup) : Leaf(setup), mode_(setup, "mode") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  tree::Input<std::string> mode_;
+};
 
 tree::NodeManifest SetFlightMode::manifest() {
   return {.id = "SetFlightMode",
@@ -22,5 +38,9 @@ tree::Status SetFlightMode::act(tree::TickContext& context) {
   flightTick(context).mode = chosenOf(common::kFlightModes, *mode);
   return tree::Status::kSuccess;
 }
+
+}  // namespace
+
+void addSetFlightMode(tree::Registry& registry) { registry.add<SetFlightMode>(); }
 
 }  // namespace swiftlet::behaviors

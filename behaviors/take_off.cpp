@@ -1,9 +1,22 @@
-#include "behaviors/take_off.hpp"
+// TakeOff: SUCCESS when the vehicle hovers at height_m above the take-off floor.
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "common/goal.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class TakeOff final : public IntentLeaf {
+ public:
+  explicit TakeOff(const tree::NodeSetup& setup) : IntentLeaf(setup), height_m_(setup, "height_m") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  tree::Input<double> height_m_;
+};
 
 tree::NodeManifest TakeOff::manifest() {
   return {.id = "TakeOff",
@@ -32,5 +45,9 @@ IntentLeaf::IntentOrProblem TakeOff::makeIntent(const FlightTick&) {
   if (!height_m) return tl::unexpected(height_m_.problem());
   return common::TakeOffIntent{*height_m};
 }
+
+}  // namespace
+
+void addTakeOff(tree::Registry& registry) { registry.add<TakeOff>(); }
 
 }  // namespace swiftlet::behaviors

@@ -1,11 +1,24 @@
-#include "behaviors/turn_to.hpp"
+// TurnTo: SUCCESS when the vehicle, staying where it is, looks along yaw_deg in `map`, or in the given map.
+#include "behaviors/leaves.hpp"
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
+
+class TurnTo final : public IntentLeaf {
+ public:
+  explicit TurnTo(const tree::NodeSetup& setup) : IntentLeaf(setup), yaw_deg_(setup, "yaw_deg") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  tree::Input<double> yaw_deg_;
+};
 
 tree::NodeManifest TurnTo::manifest() {
   return {.id = "TurnTo",
@@ -28,5 +41,9 @@ IntentLeaf::IntentOrProblem TurnTo::makeIntent(const FlightTick& tick) {
   intent.clearance_m = 0.0;   // It stands here already.
   return intent;
 }
+
+}  // namespace
+
+void addTurnTo(tree::Registry& registry) { registry.add<TurnTo>(); }
 
 }  // namespace swiftlet::behaviors

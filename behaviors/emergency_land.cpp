@@ -1,12 +1,12 @@
 // EmergencyLand: descends at once where the vehicle is, by the raw height alone, and switches the motors off. SUCCESS
 // on the ground. It cannot be revoked: a release does not end the descent.
-#pragma once
+#include "behaviors/leaves.hpp"
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
-#include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::behaviors {
+namespace {
 
 class EmergencyLand final : public IntentLeaf {
  public:
@@ -24,5 +24,9 @@ class EmergencyLand final : public IntentLeaf {
  private:
   IntentOrProblem makeIntent(const FlightTick&) override { return common::EmergencyLandIntent{}; }
 };
+
+}  // namespace
+
+void addEmergencyLand(tree::Registry& registry) { registry.add<EmergencyLand>(); }
 
 }  // namespace swiftlet::behaviors
