@@ -84,28 +84,28 @@ PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, co
 }
 
 tree::NodeManifest FollowPath::manifest() {
-  return {.id = "FollowPath",
-          .kind = tree::NodeKind::kAction,
-          .ports = {pointsPort(),
-                    tolerancePort(),
-                    shiftPort(),
-                    clearancePort(),
-                    modePort(),
-                    {.name = "corner_m",
-                     .type = PortType::kDouble,
-                     .default_value = "0.30",
-                     .minimum = 0.01,
-                     .maximum = 5.0,
-                     .description = "A point before the last one is passed when nearer than this."},
-                    {.name = "modes",
-                     .type = PortType::kString,
-                     .description = "The modes of the legs to the points, `careful | fast`; the last one holds for the "
-                                    "rest. Not given: `mode`."}},
-          .description = "Flies through points to the last one.",
-          .details =
-              "The points before the last are passed within `corner_m`, without a stop; `modes=\"careful | fast\"` "
-              "gives each leg its mode, the last one holds for the rest.",
-          .ends = "SUCCESS at the last point, or beside it as for `MoveToGoal`"};
+  return {
+      .id = "FollowPath",
+      .kind = tree::NodeKind::kAction,
+      .ports = {pointsPort(),
+                tolerancePort(),
+                shiftPort(),
+                clearancePort(),
+                modePort(),
+                {.name = "corner_m",
+                 .type = PortType::kDouble,
+                 .default_value = "0.30",
+                 .minimum = 0.01,
+                 .maximum = 5.0,
+                 .description = "A point before the last one is passed when nearer than this."},
+                {.name = "modes",
+                 .type = PortType::kString,
+                 .description = "The modes of the legs to the points, `careful | fast`; the last one holds for the "
+                                "rest. Not given: `mode`."}},
+      .description = "Flies through points to the last one.",
+      .details =
+          "The points before the last are passed without a stop; `modes=\"careful | fast\"` gives each leg its mode.",
+      .ends = "SUCCESS at the last point, or beside it as for `MoveToGoal`"};
 }
 
 tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::string& text) {

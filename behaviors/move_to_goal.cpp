@@ -27,24 +27,21 @@ class MoveToGoal final : public IntentLeaf {
 };
 
 tree::NodeManifest MoveToGoal::manifest() {
-  return {
-      .id = "MoveToGoal",
-      .kind = tree::NodeKind::kAction,
-      .ports = {placePort("goal"),
-                tolerancePort(),
-                shiftPort(),
-                clearancePort(),
-                {.name = "height_m",
-                 .type = tree::PortType::kDouble,
-                 .description =
-                     "Height above the take-off floor, where the goal has no z. Not given: the present height."},
-                headingPort(false),
-                modePort()},
-      .description = "Flies to a point of the map.",
-      .details =
-          "`mode` is what `SetFlightMode` said if it is not given. Where the goal has not been free for some seconds, "
-          "the nearest free place within `shift_m` will do, and the event says so; `shift_m=\"0\"`: never.",
-      .ends = "SUCCESS within the tolerance, and, with `yaw_deg`, when it looks there"};
+  return {.id = "MoveToGoal",
+          .kind = tree::NodeKind::kAction,
+          .ports = {placePort("goal"),
+                    tolerancePort(),
+                    shiftPort(),
+                    clearancePort(),
+                    {.name = "height_m",
+                     .type = tree::PortType::kDouble,
+                     .description =
+                         "Height above the take-off floor, where the goal has no z. Not given: the present height."},
+                    headingPort(false),
+                    modePort()},
+          .description = "Flies to a point of the map.",
+          .details = "An event says when a place beside the goal had to do.",
+          .ends = "SUCCESS within the tolerance, and, with `yaw_deg`, when it looks there"};
 }
 
 MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)

@@ -26,9 +26,8 @@ tree::NodeManifest Survey::manifest() {
                     modePort()},
           .description = "Flies over an area in lanes.",
           .details =
-              "The lanes are along its longest edge, without `spacing_m` as far apart as the strip of floor that the "
-              "camera sees, less an overlap of 40 % (1 m without a camera). A place of a lane that is not free is "
-              "moved aside by up to half a lane, or left out.",
+              "The lanes are along its longest edge, and the strips of floor that the camera sees overlap by 40 %. A "
+              "place of a lane that is not free is moved aside by up to half a lane, or left out.",
           .ends = "SUCCESS after the last lane; FAILURE when no place is free"};
 }
 

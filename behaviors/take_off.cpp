@@ -35,7 +35,6 @@ tree::NodeManifest TakeOff::manifest() {
                      .description = "Greatest height of the whole mission, for a building that is high enough; "
                                     "without it that of the vehicle."}},
           .description = "Climbs from the floor to a height and hovers.",
-          .details = "`max_height_m` allows the whole mission more height than the vehicle's sheet does.",
           .ends = "SUCCESS when it hovers there",
           .traits = LeafTraits{.vehicle = VehicleUse::kTakesOff}};
 }
