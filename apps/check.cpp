@@ -114,12 +114,8 @@ struct CheckReport {
 
 /// A file that several missions use is reported once.
 void add(std::vector<tree::Problem>& all, const std::vector<tree::Problem>& found) {
-  for (const tree::Problem& problem : found) {
-    const auto isSame = [&](const tree::Problem& known) {
-      return known.path == problem.path && toString(known) == toString(problem);
-    };
-    if (std::none_of(all.begin(), all.end(), isSame)) all.push_back(problem);
-  }
+  for (const tree::Problem& problem : found)
+    if (std::find(all.begin(), all.end(), problem) == all.end()) all.push_back(problem);
 }
 
 CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission>& missions,

@@ -13,6 +13,8 @@ struct Location {
   std::string file;
   int line = 0;
   int column = 0;
+
+  bool operator==(const Location&) const = default;
 };
 
 struct Problem {
@@ -21,6 +23,8 @@ struct Problem {
   std::string message;  ///< What is wrong, with the offending text, and what was expected.
   std::string hint;     ///< "did you mean `x`?"; may be empty.
   std::string path{};   ///< "Main/Sequence[2]/Land", the node in its tree; empty if it is about no node.
+
+  bool operator==(const Problem&) const = default;
 };
 
 /// "file:line:column: element: message, hint".
