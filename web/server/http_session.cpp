@@ -160,7 +160,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     telemetry.look();
     if (!telemetry.world().value) return sendError(503, "there is no state yet");
     Response response = make(200, "application/json");
-    response.body() = completeJson(*telemetry.world().value, telemetry.observe(), telemetry.eventsAfter(0));
+    response.body() = completeJson(*telemetry.world().value, telemetry.observe(), telemetry.events().after(0));
     send(std::move(response));
   }
 

@@ -15,7 +15,7 @@ class Map3dSession final : public WebSocket {
  private:
   void collect(common::Time now) override {
     vehicle_.telemetry.encodeMap3d();
-    for (SharedText& message : reader_.next(vehicle_.telemetry.submaps(), now, kMostPointBytes))
+    for (SharedText& message : reader_.next(vehicle_.telemetry.parts().submaps(), now, kMostPointBytes))
       queue(std::move(message), true);
   }
 

@@ -1,5 +1,9 @@
 #include "web/server/page_session.hpp"
 
+#include <span>
+
+#include "common/world/vehicle_layer.hpp"
+
 namespace swiftlet::web {
 namespace {
 
@@ -29,25 +33,26 @@ class PageSession final : public WebSocket {
   void collect(common::Time now) override {
     Telemetry& telemetry = vehicle_.telemetry;
     telemetry.encodeParts();
-    if (const auto events = telemetry.eventsAfter(last_event_); !events.empty()) {
+    if (const auto events = telemetry.events().after(last_event_); !events.empty()) {
       last_event_ = events.back().number;
       queueText(eventsJson(events));
     }
     if (!telemetry.world().value) return;
+    const WorldParts& parts = telemetry.parts();
     if (map_beat_.due(now)) {
       map_beat_.done(now);
-      queueTiles(tiles_.next(telemetry.tiles(), kMostTileBytes));
-      queueTiles(given_tiles_.next(telemetry.givenTiles(), kMostTileBytes));
+      queueTiles(tiles_.next(parts.tiles(), kMostTileBytes));
+      queueTiles(given_tiles_.next(parts.givenTiles(), kMostTileBytes));
     }
-    queuePart(telemetry.givenMap(), given_map_version_, false);
-    queuePart(telemetry.levels(), levels_version_, false);
-    queuePart(telemetry.frontiers(), frontiers_version_, false);
-    collectTrail(telemetry);
-    if (telemetry.tree().version() != tree_version_) {
-      queueText(telemetry.tree().since(tree_version_));
-      tree_version_ = telemetry.tree().version();
+    queuePart(parts.givenMap(), given_map_version_, false);
+    queuePart(parts.levels(), levels_version_, false);
+    queuePart(parts.frontiers(), frontiers_version_, false);
+    collectTrail(telemetry.world().value->vehicle->trail.points_map_m(), parts.trailVersion());
+    if (parts.tree().version() != tree_version_) {
+      queueText(parts.tree().since(tree_version_));
+      tree_version_ = parts.tree().version();
     }
-    queuePart(telemetry.laser(), laser_version_, true);
+    queuePart(parts.laser(), laser_version_, true);
     queue(telemetry.state(), false);
   }
 
@@ -55,10 +60,9 @@ class PageSession final : public WebSocket {
     if (!tiles.empty()) queue(std::make_shared<const std::string>(std::move(tiles)), true);
   }
 
-  void collectTrail(const Telemetry& telemetry) {
-    const auto trail = telemetry.world().value->vehicle->trail.points_map_m();
-    if (telemetry.trailVersion() != trail_version_) {
-      trail_version_ = telemetry.trailVersion();
+  void collectTrail(std::span<const Eigen::Vector2d> trail, std::uint64_t version) {
+    if (version != trail_version_) {
+      trail_version_ = version;
       trail_sent_ = 0;
     } else if (trail.size() == trail_sent_) {
       return;

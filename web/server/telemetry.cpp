@@ -1,43 +1,14 @@
 #include "web/server/telemetry.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <string>
 
 #include "common/world/map3d_layer.hpp"
-#include "common/world/map_layer.hpp"
-#include "common/world/mission_layer.hpp"
 
 namespace swiftlet::web {
 namespace {
 
-/// Events that a new page gets: more than it shows without scrolling.
-constexpr std::size_t kKeptEvents = 200;
 /// The real-time factor is that of the last three seconds: steady, and soon right after a pause.
 constexpr double kClockWindow_s = 3.0;
-/// Denser end points of a scan are not sent: they fall on one pixel of the page.
-constexpr double kLaserSpacing_m = 0.04;
-
-/// The scan, thinned for the page.
-std::string laserBytes(const common::LaserPoints& laser) {
-  std::string bytes(4, '\0');
-  Eigen::Vector2f last = Eigen::Vector2f::Constant(1e9f);
-  std::size_t count = 0;
-  for (const Eigen::Vector2f& p : laser.points_map_m) {
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 320.0f || (p - last).norm() < kLaserSpacing_m) continue;
-    last = p;
-    for (const float coordinate : {p.x(), p.y()}) {
-      const auto cm = static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(100.0f * coordinate)));
-      bytes += static_cast<char>(cm & 255);
-      bytes += static_cast<char>(cm >> 8);
-    }
-    if (++count == 2000) break;
-  }
-  bytes[0] = 2;
-  bytes[2] = static_cast<char>(count & 255);
-  bytes[3] = static_cast<char>(count >> 8);
-  return bytes;
-}
-
 }  // namespace
 
 void Telemetry::look() {
@@ -84,51 +55,14 @@ Observation Telemetry::observe() const {
   return seen;
 }
 
-void Telemetry::followTrail() {
-  const common::Trail& next = world_.value->vehicle->trail;
-  if (!next.continues(trail_)) ++trail_version_;
-  trail_ = next;
-}
-
 void Telemetry::encodeParts() {
   if (!world_.value) return;
   state_ = std::make_shared<const std::string>(stateJson(*world_.value, observe()));
-  if (world_.sequence == encoded_sequence_) return;
-  encoded_sequence_ = world_.sequence;
-  encodeMap(*world_.value->map);
-  if (encoded_mission_ != world_.value->mission) tree_.update(world_.value->mission->status.tree);
-  encoded_mission_ = world_.value->mission;
-  const auto& laser = world_.value->vehicle->laser;
-  if (laser && encoded_laser_ != laser) laser_.set(laserBytes(*laser));
-  encoded_laser_ = laser;
-  followTrail();
-}
-
-void Telemetry::encodeMap(const common::MapLayer& map) {
-  if (!encoded_map_ || encoded_map_->frontiers != map.frontiers)
-    frontiers_.set(frontiersJson(*map.frontiers, map.grid->resolution_m()));
-  if (!encoded_map_ || encoded_map_->levels != map.levels) levels_.set(levelsJson(*map.levels));
-  tiles_.update(map.flown);
-  if (!encoded_map_ || encoded_map_->given != map.given) given_map_.set(givenMapJson(map.given.get()));
-  if (map.given) given_tiles_.update(map.given->grid);
-  encoded_map_ = world_.value->map;
+  parts_.update(world_.value);
 }
 
 void Telemetry::encodeMap3d() {
-  if (world_.value && world_.value->map3d) submaps_.update(*world_.value->map3d);
-}
-
-void Telemetry::postEvent(const common::Event& event) {
-  const std::scoped_lock lock(events_mutex_);
-  events_.push_back({++event_count_, event});
-  if (events_.size() > kKeptEvents) events_.pop_front();
-}
-
-std::vector<NumberedEvent> Telemetry::eventsAfter(std::uint64_t number) const {
-  const std::scoped_lock lock(events_mutex_);
-  const auto first = std::find_if(events_.begin(), events_.end(),
-                                  [number](const NumberedEvent& event) { return event.number > number; });
-  return {first, events_.end()};
+  if (world_.value) parts_.updateMap3d(*world_.value);
 }
 
 }  // namespace swiftlet::web

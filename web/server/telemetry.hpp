@@ -1,22 +1,19 @@
 // The server's view of the flight: the newest world and camera frame with the time they were seen, the parts of the
-// world encoded once for all pages, the events. Use it on the thread of the event loop only, except postEvent().
+// world encoded once for all pages, the events. Use it on the thread of the event loop only, except events().
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "common/rgbd_frame.hpp"
 #include "common/world.hpp"
-#include "common/world/vehicle_layer.hpp"
+#include "web/server/event_feed.hpp"
 #include "web/server/state_json.hpp"
-#include "web/server/submap_feed.hpp"
-#include "web/server/tile_feed.hpp"
-#include "web/server/tree_feed.hpp"
 #include "web/server/web_server.hpp"
+#include "web/server/world_parts.hpp"
 
 namespace swiftlet::web {
 
@@ -37,18 +34,6 @@ struct Seen {
   }
 };
 
-/// A text for the pages with a number that rises when it changes.
-struct Part {
-  SharedText text;
-  std::uint64_t version = 0;
-
-  void set(std::string next) {
-    if (text && *text == next) return;
-    text = std::make_shared<const std::string>(std::move(next));
-    ++version;
-  }
-};
-
 class Telemetry {
  public:
   Telemetry(const WebServer::Sources& sources, std::function<common::Time()> unix_time)
@@ -65,34 +50,19 @@ class Telemetry {
   const Seen<common::RgbdFrame>& depth() const { return depth_; }
   Observation observe() const;
 
-  /// encodeParts(), which a page's tick calls, updates the parts below; null before the first world.
+  /// encodeParts(), which a page's tick calls, updates the state and the parts; both are empty before the first world.
   void encodeParts();
-  const SharedText& state() const { return state_; }
-  const Part& frontiers() const { return frontiers_; }
-  const Part& levels() const { return levels_; }
-  /// The map of this flight alone.
-  const TileFeed& tiles() const { return tiles_; }
-  /// The given map, in its own cells; empty without one.
-  const TileFeed& givenTiles() const { return given_tiles_; }
-  const Part& givenMap() const { return given_map_; }
-  const TreeFeed& tree() const { return tree_; }
-  /// encodeMap3d(), which the tick of a page with a 3D view calls, updates it.
+  /// encodeMap3d(), which the tick of a page with a 3D view calls, updates the submaps of the parts.
   void encodeMap3d();
-  const SubmapFeed& submaps() const { return submaps_; }
-  /// Little endian: u8 2, u8 0, u16 number of points, then i16 x, i16 y in centimetres; null: no scan.
-  const Part& laser() const { return laser_; }
-  /// Rises if earlier points of the trail have moved.
-  std::uint64_t trailVersion() const { return trail_version_; }
+  const SharedText& state() const { return state_; }
+  const WorldParts& parts() const { return parts_; }
 
-  void postEvent(const common::Event& event);
-  /// The events after `number`, oldest first.
-  std::vector<NumberedEvent> eventsAfter(std::uint64_t number) const;
+  /// Any thread may post events.
+  EventFeed& events() { return events_; }
 
  private:
   void startAgain(common::Time at);
   void lookAtDepth(common::Time at);
-  void encodeMap(const common::MapLayer& map);
-  void followTrail();
 
   WebServer::Sources sources_;
   std::function<common::Time()> unix_time_;
@@ -102,22 +72,9 @@ class Telemetry {
   Seen<common::RgbdFrame> depth_;
   /// (unix, simulated) seconds of the recent worlds.
   std::deque<std::pair<double, double>> clock_;
-
-  std::uint64_t encoded_sequence_ = 0;
   SharedText state_;
-  Part frontiers_, levels_, laser_, given_map_;
-  std::shared_ptr<const common::MapLayer> encoded_map_;
-  std::shared_ptr<const common::LaserPoints> encoded_laser_;
-  TileFeed tiles_, given_tiles_;
-  TreeFeed tree_;
-  std::shared_ptr<const common::MissionLayer> encoded_mission_;
-  SubmapFeed submaps_;
-  common::Trail trail_;
-  std::uint64_t trail_version_ = 1;
-
-  mutable std::mutex events_mutex_;
-  std::deque<NumberedEvent> events_;
-  std::uint64_t event_count_ = 0;
+  WorldParts parts_;
+  EventFeed events_;
 };
 
 }  // namespace swiftlet::web

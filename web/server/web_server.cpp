@@ -156,7 +156,7 @@ bool WebServer::cameraWanted(std::size_t vehicle) const {
 }
 
 void WebServer::postEvent(const common::Event& event, std::size_t vehicle) {
-  impl_->core->vehicle(vehicle).telemetry.postEvent(event);
+  impl_->core->vehicle(vehicle).telemetry.events().post(event);
 }
 
 void WebServer::stop() {
