@@ -2,19 +2,13 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "apps/build_version.hpp"
 #include "apps/flight_sinks.hpp"
 #include "apps/groot_link.hpp"
 #include "apps/web_link.hpp"
 #include "common/world.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "common/world/mission_layer.hpp"
-#include "evaluation/knowable_frame.hpp"
 #include "evaluation/statistics.hpp"
-#include "interfaces/run_files.hpp"
-#include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -79,39 +73,6 @@ void addFrameFigures(const autonomy::AutonomyCounts& counts, common::Time now,
   }
 }
 
-std::unique_ptr<VisualOdometrySink> visualOdometryOf(const FlightSetup& setup) {
-  if (!setup.visual_odometry_alone || !setup.system.rgbd_camera) return nullptr;
-  return std::make_unique<VisualOdometrySink>(setup.system.config.autonomy.estimator.rgbd.mapper,
-                                              setup.system.rgbd_camera->mount.pose());
-}
-
-std::unique_ptr<RgbdSink> rgbdSinkOf(const FlightSetup& setup, const interfaces::RunFolder& folder,
-                                     const simulation::SimulatedVehicle& vehicle) {
-  if (!setup.record_rgbd) return nullptr;
-  return std::make_unique<RgbdSink>(
-      folder.path(), vehicle, vehicle.scenario().sensors.rgbd_errors.T_body_camera(setup.system.rgbd_camera->mount));
-}
-
-interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
-                            const std::string& mission_file) {
-  interfaces::RunInfo info;
-  info.mission = std::filesystem::path(mission_file).stem().string();
-  info.mission_file = mission_file;
-  info.world = setup.scenario.world;
-  info.system = setup.system.name;
-  info.vehicle = vehicle.name();
-  info.seed = setup.scenario.seed;
-  info.version = buildVersion();
-  info.started = setup.started;
-  const simulation::Nature calm = simulation::Nature::calm();
-  const simulation::Nature& nature = setup.scenario.nature ? *setup.scenario.nature : calm;
-  info.nature = nature.name();
-  info.nature_yaml = nature.valuesIn(vehicle.scenario());
-  info.sheets = setup.system.keptSheets();
-  if (setup.memory.read) info.vehicle_memory_yaml = toYaml(*setup.memory.read);
-  return info;
-}
-
 }  // namespace
 
 VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
@@ -119,51 +80,27 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
                              const std::filesystem::path& folder)
     : setup_(setup),
       hooks_(hooks),
-      number_(number),
       web_(hooks.web ? &hooks.web->channel(number) : nullptr),
       vehicle_(std::make_unique<simulation::SimulatedVehicle>(arena, number)),
       name_(vehicle_->name()),
-      recorder_(vehicle_->T_world_map(),
-                evaluation::knowableFrame(vehicle_->T_world_map(), vehicle_->scenario().sensors.laser_errors),
-                setup.map ? setup.map->T_world_given : std::nullopt),
       script_(setup.operator_steps, name_),
       autonomy_(makeAutonomy(setup, name_, std::move(mission.mission), job_meter_)),
-      folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.namingKeptSheets().toYaml(true)),
-      pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
-      map3d_(folder_),
-      control_log_(setup.control_log ? std::make_unique<ControlLogSink>(folder_.path(), *vehicle_) : nullptr),
-      rgbd_(rgbdSinkOf(setup, folder_, *vehicle_)),
-      visual_odometry_(visualOdometryOf(setup)),
-      sinks_(makeSinks()),
-      loop_(*vehicle_, autonomy_, commands(), sinks()) {
+      record_(setup, *vehicle_, mission.file, folder, observers(number)),
+      loop_(*vehicle_, autonomy_, commands(), record_.sinks()) {
+  end_.outcome = Outcome::kFlying;
   if (setup.wait) autonomy_.waitForStart();
   autonomy_.offerMaps(std::move(mission.maps));
-  recorder_.watch(setup.phases);
-  autonomy_.setFilterListener(control_log_.get());
+  autonomy_.setFilterListener(record_.filterListener());
 }
 
 VehicleFlight::~VehicleFlight() = default;
 
-std::vector<std::unique_ptr<autonomy::FlightSink>> VehicleFlight::makeSinks() {
-  std::vector<std::unique_ptr<autonomy::FlightSink>> sinks;
-  sinks.push_back(std::make_unique<FolderSink>(folder_));
-  sinks.push_back(std::make_unique<TruthSink>(*vehicle_, recorder_));
-  sinks.push_back(std::make_unique<OperatorSink>(script_));
-  if (hooks_.event) sinks.push_back(std::make_unique<EventSink>(hooks_.event));
-  if (web_) sinks.push_back(std::make_unique<PageSink>(*web_));
-  if (hooks_.groot && number_ == 0) sinks.push_back(std::make_unique<GrootSink>(*hooks_.groot));
-  return sinks;
-}
-
-/// The pictures last: they show what the others have written.
-std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
-  std::vector<autonomy::FlightSink*> all;
-  for (const auto& sink : sinks_) all.push_back(sink.get());
-  if (control_log_) all.push_back(control_log_.get());
-  if (rgbd_) all.push_back(rgbd_.get());
-  if (visual_odometry_) all.push_back(visual_odometry_.get());
-  all.push_back(&pictures_);
-  all.push_back(&map3d_);
+VehicleFlightRecord::Observers VehicleFlight::observers(std::size_t number) {
+  VehicleFlightRecord::Observers all;
+  all.push_back(std::make_unique<OperatorSink>(script_));
+  if (hooks_.event) all.push_back(std::make_unique<EventSink>(hooks_.event));
+  if (web_) all.push_back(std::make_unique<PageSink>(*web_));
+  if (hooks_.groot && number == 0) all.push_back(std::make_unique<GrootSink>(*hooks_.groot));
   return all;
 }
 
@@ -177,7 +114,7 @@ void VehicleFlight::tell(common::Severity severity, std::string source, std::str
                          common::Concern concern) {
   const common::Event event{loop_.now(), severity, std::move(source), std::move(text), std::move(reason),
                             name_,       concern};
-  for (autonomy::FlightSink* sink : sinks()) sink->event(event);
+  for (autonomy::FlightSink* sink : record_.sinks()) sink->event(event);
 }
 
 common::LosslessQueue<common::OperatorCommand>& VehicleFlight::commands() {
@@ -195,9 +132,10 @@ void VehicleFlight::landIfAsked() {
 
 /// The flight continues; only its record is lost.
 void VehicleFlight::warnOfUnwrittenFiles() {
-  if (warned_of_unwritten_files_ || !folder_.failure()) return;
+  const std::optional<std::string>& failure = record_.folder().failure();
+  if (warned_of_unwritten_files_ || !failure) return;
   warned_of_unwritten_files_ = true;
-  tell(common::Severity::kWarning, "record", "the run is no longer recorded; the flight goes on", *folder_.failure());
+  tell(common::Severity::kWarning, "record", "the run is no longer recorded; the flight goes on", *failure);
 }
 
 void VehicleFlight::step(common::Time now) {
@@ -209,7 +147,7 @@ void VehicleFlight::step(common::Time now) {
 }
 
 bool VehicleFlight::over() {
-  if (outcome_ != Outcome::kFlying) return true;
+  if (end_.outcome != Outcome::kFlying) return true;
   if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
   if (loop_.now().seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
   if (autonomy_.finished() && cameToRest()) {
@@ -231,33 +169,28 @@ bool VehicleFlight::cameToRest() {
 }
 
 bool VehicleFlight::end(Outcome outcome, std::string reason) {
-  outcome_ = outcome;
-  reason_ = std::move(reason);
+  end_.outcome = outcome;
+  end_.reason = std::move(reason);
   return true;
 }
 
 void VehicleFlight::finish(double wall_s, MemoryWatch& memory) {
   loop_.finish();
-  pictures_.drawNow(*autonomy_.world());
-  map3d_.writeNow(*autonomy_.world());
-  if (control_log_) control_log_->finish();
-  interfaces::FlightEnd end;
-  end.outcome = outcome_;
-  end.reason = reason_;
-  end.wall_time_s = wall_s;
-  end.machine = machineUse(memory);
-  end.ground_truth_map = recorder_.record().truth_map;
-  evaluation::FlightRecord record = recorder_.finish();
+  record_.writeLast(*autonomy_.world());
+  end_.wall_time_s = wall_s;
+  end_.machine = machineUse(memory);
+  end_.ground_truth_map = record_.truth_map();
+  evaluation::FlightRecord record = record_.take();
   record.operator_answers = script_.answers();
-  if (visual_odometry_) record.visual_odometry = visual_odometry_->record();
-  if (hooks_.score) hooks_.score(record, *vehicle_, end);
-  end.figures.push_back({"late_scans", static_cast<double>(autonomy_.counts().late_scans)});
-  addFrameFigures(autonomy_.counts(), loop_.now(), end.figures);
-  if (rgbd_ && rgbd_->leftOut() > 0)
-    end.figures.push_back({"rgbd_frames_not_recorded", static_cast<double>(rgbd_->leftOut())});
-  if (const auto& map3d = autonomy_.world()->map3d; map3d && map3d->frame) addCameraFigures(map3d->camera, end.figures);
-  keepMemory(end);
-  folder_.finish(end);
+  if (hooks_.score) hooks_.score(record, *vehicle_, end_);
+  end_.figures.push_back({"late_scans", static_cast<double>(autonomy_.counts().late_scans)});
+  addFrameFigures(autonomy_.counts(), loop_.now(), end_.figures);
+  if (const std::size_t frames = record_.framesLeftOut(); frames > 0)
+    end_.figures.push_back({"rgbd_frames_not_recorded", static_cast<double>(frames)});
+  if (const auto& map3d = autonomy_.world()->map3d; map3d && map3d->frame)
+    addCameraFigures(map3d->camera, end_.figures);
+  if (setup_.memory.kept) record_.keepMemory(autonomy_.learned(), end_);
+  record_.finish(end_);
   if (web_) showEnd();
   vehicle_.reset();
 }
@@ -276,30 +209,16 @@ common::MachineUse VehicleFlight::machineUse(MemoryWatch& memory) const {
   return use;
 }
 
-/// A crash contains no lesson for the next flight.
-void VehicleFlight::keepMemory(interfaces::FlightEnd& end) {
-  if (!setup_.memory.kept) return;
-  const autonomy::VehicleMemory learned = autonomy_.learned();
-  end.vehicle_memory_yaml = toYaml(learned);
-  if (setup_.memory.file.empty() || outcome_ == Outcome::kCrashed) return;
-  if (const auto written = writeVehicleMemory(setup_.memory.file, learned); !written)
-    memory_failure_ = fmt::format("--vehicle-memory: cannot be written: {}; what was learned is in {}",
-                                  written.error().message, (folder_.path() / interfaces::kMemoryLearnedFile).string());
-}
-
 void VehicleFlight::showEnd() const {
   auto last = std::make_shared<common::World>(*autonomy_.world());
   auto mission = std::make_shared<common::MissionLayer>(*last->mission);
-  mission->ending = {std::string(interfaces::toString(outcome_)), reason_};
+  mission->ending = {std::string(interfaces::toString(end_.outcome)), end_.reason};
   last->mission = std::move(mission);
   web_->world().post(std::move(last));
 }
 
 VehicleResult VehicleFlight::result() const {
-  std::optional<std::string> failure = memory_failure_ ? memory_failure_ : folder_.failure();
-  if (!failure && control_log_) failure = control_log_->failure();
-  if (!failure && rgbd_) failure = rgbd_->failure();
-  return {name_, folder_.summary(), folder_.path(), failure};
+  return {name_, record_.folder().summary(), record_.folder().path(), record_.failure()};
 }
 
 }  // namespace swiftlet::apps

@@ -7,14 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/control_log_sink.hpp"
 #include "apps/flight_setup.hpp"
-#include "apps/map3d_sink.hpp"
 #include "apps/memory_watch.hpp"
-#include "apps/picture_sink.hpp"
-#include "apps/rgbd_sink.hpp"
 #include "apps/timed_jobs.hpp"
-#include "apps/visual_odometry_sink.hpp"
+#include "apps/vehicle_flight_record.hpp"
 #include "autonomy/autonomy.hpp"
 #include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
@@ -52,44 +48,32 @@ class VehicleFlight {
   VehicleResult result() const;
 
  private:
-  std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks();
-  std::vector<autonomy::FlightSink*> sinks();
+  VehicleFlightRecord::Observers observers(std::size_t number);
   void tell(common::Severity severity, std::string source, std::string text, std::string reason,
             common::Concern concern = common::Concern::kNone);
   common::LosslessQueue<common::OperatorCommand>& commands();
   void landIfAsked();
   void warnOfUnwrittenFiles();
   common::MachineUse machineUse(MemoryWatch& memory) const;
-  void keepMemory(interfaces::FlightEnd& end);
   bool cameToRest();
   bool end(interfaces::Outcome outcome, std::string reason);
   void showEnd() const;
 
   const FlightSetup& setup_;
   const FlightHooks& hooks_;
-  std::size_t number_;
   WebChannel* web_;  ///< Null without a page.
   std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
   std::string name_;  ///< Empty when it flies alone.
-  evaluation::FlightRecorder recorder_;
   evaluation::OperatorScript script_;
   std::shared_ptr<JobMeter> job_meter_ = std::make_shared<JobMeter>();
   autonomy::Autonomy autonomy_;
-  interfaces::RunFolder folder_;
-  PictureSink pictures_;
-  Map3dSink map3d_;
-  std::unique_ptr<ControlLogSink> control_log_;          ///< Null unless requested.
-  std::unique_ptr<RgbdSink> rgbd_;                       ///< Null unless requested.
-  std::unique_ptr<VisualOdometrySink> visual_odometry_;  ///< Null unless requested.
-  std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
+  VehicleFlightRecord record_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;
   std::optional<common::Time> motors_off_since_;  ///< When the autonomy was found to have finished.
   bool asked_to_land_ = false;
   bool warned_of_unwritten_files_ = false;
-  std::optional<std::string> memory_failure_;  ///< Why the vehicle's memory could not be written.
-  interfaces::Outcome outcome_ = interfaces::Outcome::kFlying;
-  std::string reason_;
+  interfaces::FlightEnd end_;
 };
 
 }  // namespace swiftlet::apps

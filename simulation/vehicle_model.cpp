@@ -30,7 +30,7 @@ VehicleModel::VehicleModel(PlacedVehicle placed, const WorldModel& world, const 
       autopilot_(placed_.scenario.vehicle, placed_.scenario.quadrotor, placed_.scenario.autopilot),
       referee_(world, rays, placed_.scenario),
       sensors_(placed_.scenario, faults_, placed_.stream_seed, world),
-      command_link_(placed_.scenario.sensors.command_link, placed_.stream_seed, "command"),
+      setpoint_link_(placed_.scenario.sensors.command_link, placed_.stream_seed),
       hands_(placed_.scenario.hands.begin(), placed_.scenario.hands.end()) {
   referee_.lookDown(quadrotor_.state());
   updateTruth(Time());
@@ -50,25 +50,13 @@ WalkedAround VehicleModel::asWalkedAround() const {
 
 void VehicleModel::begin(const std::vector<Actor>& around) { sensors_.begin(quadrotor_.state(), around); }
 
-void VehicleModel::apply(Time now, const common::Setpoint& setpoint) {
-  if (const auto arrival = command_link_.arrival(commands_++, now))
-    commands_under_way_.emplace_back(*arrival, setpoint);
-}
-
-void VehicleModel::receiveSetpoints(Time now) {
-  while (!commands_under_way_.empty() && commands_under_way_.front().first <= now) {
-    autopilot_.receive(commands_under_way_.front().second, commands_under_way_.front().first);
-    commands_under_way_.pop_front();
-  }
-}
-
 void VehicleModel::fly(Time now, std::uint64_t step, const Eigen::Vector3d& wind_world_m_s) {
   stopped_ = truth_.crashed;
   if (stopped_) {
     fall();
     return;
   }
-  receiveSetpoints(now);
+  while (const auto arrived = setpoint_link_.next(now)) autopilot_.receive(arrived->setpoint, arrived->time);
   if (step % kStepsPerAutopilotTick == 0) stepAutopilot(now, step / kStepsPerAutopilotTick);
   push(now);
   lead(now);

@@ -4,10 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/sensor_event.hpp"
@@ -18,8 +16,8 @@
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/referee.hpp"
-#include "simulation/sensors/link.hpp"
 #include "simulation/sensors/sensor_suite.hpp"
+#include "simulation/setpoint_link.hpp"
 #include "simulation/truth.hpp"
 #include "simulation/variation.hpp"
 #include "simulation/walkers.hpp"
@@ -61,13 +59,12 @@ class VehicleModel {
 
   void take(common::Time until, std::vector<common::SensorEvent>& events) { sensors_.take(until, events); }
   /// Sends a setpoint at `now`; it arrives after the latency of the link.
-  void apply(common::Time now, const common::Setpoint& setpoint);
+  void apply(common::Time now, const common::Setpoint& setpoint) { setpoint_link_.send(now, setpoint); }
   /// As FaultSchedule::tellPhase().
   void tellPhase(std::vector<std::string> words) { faults_.tellPhase(std::move(words)); }
   void setCameraConsumer(bool wanted) { sensors_.setCameraConsumer(wanted); }
 
  private:
-  void receiveSetpoints(common::Time now);
   void stepAutopilot(common::Time now, std::uint64_t tick);
   void push(common::Time now);
   void lead(common::Time now);
@@ -81,10 +78,8 @@ class VehicleModel {
   Autopilot autopilot_;
   Referee referee_;
   SensorSuite sensors_;
-  Link command_link_;
+  SetpointLink setpoint_link_;
   std::vector<Hand> hands_;
-  std::uint64_t commands_ = 0;
-  std::deque<std::pair<common::Time, common::Setpoint>> commands_under_way_;
   std::array<double, 4> throttles_{};
   QuadrotorState before_step_;
   Truth truth_;

@@ -5,6 +5,8 @@
 
 #include "fixtures.hpp"
 #include "simulation/sensors/link.hpp"
+#include "simulation/sensors/sensor_streams.hpp"
+#include "simulation/setpoint_link.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -91,6 +93,31 @@ TEST(Link, ScansThatOvertakeAreDeliveredByTheirArrival) {
     reordered += scans[i]->stamps.measured < scans[i - 1]->stamps.measured ? 1 : 0;
   }
   EXPECT_GT(reordered, 5);
+}
+
+TEST(SetpointLink, DeliversInTheOrderOfSendingAndOnlyWhatHasArrived) {
+  SetpointLink link({.latency_s = 0.02, .jitter_s = 0.05, .loss_rate = 0.0, .in_order = false}, 1);
+  for (int i = 0; i < 100; ++i) {
+    common::Setpoint setpoint;
+    setpoint.thrust_n = i;
+    link.send(Time::fromSeconds(0.01 * i), setpoint);
+  }
+  EXPECT_FALSE(link.next(Time::fromSeconds(0.019)));
+  int received = 0;
+  for (int ms = 20; ms < 2000; ++ms)
+    while (const auto arrived = link.next(Time::fromSeconds(1e-3 * ms))) {
+      EXPECT_EQ(arrived->setpoint.thrust_n, received++);
+      EXPECT_LE(arrived->time, Time::fromSeconds(1e-3 * ms));
+    }
+  EXPECT_EQ(received, 100);
+}
+
+TEST(SensorClock, KeepsItsRateOverAFlight) {
+  SensorClock clock(40.0);
+  int frames = 0;
+  for (int ms = 0; ms < 600'000; ++ms)
+    for (; clock.due(Time::fromSeconds(1e-3 * ms)); ++clock.frame) ++frames;
+  EXPECT_EQ(frames, 24'000);
 }
 
 }  // namespace
