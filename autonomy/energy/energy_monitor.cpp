@@ -8,17 +8,16 @@
 #include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
-
 namespace {
 
-/// From this drop of the gauge on, the gauge shows the capacity better than the data sheet.
-constexpr double kTellingDrop = 0.05;
-/// A gauge has moved by more than this. Coarse ones move by 1 %.
-constexpr double kMoved = 0.002;
-/// A gauge that does not move while this share of the capacity is drawn stands still.
-constexpr double kUnmoved = 0.05;
 /// Slow links send the battery once a second.
 constexpr double kUnheard_s = 2.5;
+/// Time constant that smooths current and power.
+constexpr double kPowerFilter_s = 20.0;
+/// Time constant of the speed along paths.
+constexpr double kHomeSpeedFilter_s = 30.0;
+/// Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.
+constexpr double kHomeStops_s = 2.0;
 /// The mean current is that of the flight, and not of motors that spool up, after this time and once the present
 /// current differs from it by no more than this share.
 constexpr double kSettled_s = 6.0, kSettledWithin = 0.25;
@@ -38,8 +37,7 @@ void EnergyConfig::describe(common::config::Fields& fields) {
 }
 
 EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent)
-    : config_(config),
-      capacity_as_(3600.0 * vehicle.battery_capacity_ah),
+    : charge_(3600.0 * vehicle.battery_capacity_ah),
       home_speed_m_s_(config.home_speed_m_s),
       curve_(vehicle),
       voltage_exponent_(voltage_exponent) {}
@@ -47,12 +45,7 @@ EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleCo
 void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, double thrust_margin, double speed_m_s) {
   const double dt_s = last_ ? std::max(0.0, (sample.stamps.measured - last_->stamps.measured).seconds()) : 0.0;
   const double current_a = currentOf_a(sample);
-  if (!last_ || std::abs(sample.remaining - moved_to_) > kMoved) {
-    moved_to_ = sample.remaining;
-    drawn_at_move_as_ = drawn_as_;
-    drawn_since_move_as_ = 0.0;
-  }
-  // What was drawn before the battery was charged, or removed, says nothing about the present reading of the gauge.
+  charge_.read(sample.remaining);
   const bool takes_off = airborne && !airborne_;
   airborne_ = airborne;
   if (takes_off) {
@@ -62,18 +55,16 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     power_w_ = sample.voltage_v * current_a;
     voltage_v_ = sample.voltage_v;
     margin_ = thrust_margin;
-    remaining_at_take_off_ = moved_to_ = sample.remaining;
-    drawn_as_ = drawn_at_move_as_ = drawn_since_move_as_ = 0.0;
+    charge_.takeOff(sample.remaining);
     settled_ = false;
   } else if (airborne) {
     // A plain mean at first: the motors draw little in the samples before the vehicle has lifted.
-    const double filter_s = std::min(config_.power_filter_s, (sample.stamps.measured - taken_off_).seconds());
+    const double filter_s = std::min(kPowerFilter_s, (sample.stamps.measured - taken_off_).seconds());
     current_a_ = smoothed(current_a_, current_a, dt_s, filter_s);
     power_w_ = smoothed(power_w_, sample.voltage_v * current_a, dt_s, filter_s);
     margin_ = smoothed(margin_, thrust_margin, dt_s, filter_s);
     voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, filter_s);
-    if (hasCurrent(sample)) drawn_as_ += current_a * dt_s;
-    drawn_since_move_as_ += current_a * dt_s;
+    charge_.draw(current_a, dt_s, hasCurrent(sample));
     settled_ = settled_ || ((sample.stamps.measured - taken_off_).seconds() >= kSettled_s &&
                             std::abs(current_a - current_a_) <= kSettledWithin * current_a_);
   }
@@ -84,9 +75,8 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
 /// Without a measured current: the mean current by which the gauge has fallen, or the last one while the drop is small.
 double EnergyMonitor::currentOf_a(const common::BatterySample& sample) const {
   if (hasCurrent(sample)) return sample.current_a;
-  const double drop = flown_ ? remaining_at_take_off_ - sample.remaining : 0.0;
-  const double flown_s = (sample.stamps.measured - taken_off_).seconds();
-  return drop > kTellingDrop && flown_s > 0.0 ? drop * capacity_as_ / flown_s : current_a_;
+  if (!flown_) return current_a_;
+  return charge_.meanCurrent_a(sample.remaining, (sample.stamps.measured - taken_off_).seconds()).value_or(current_a_);
 }
 
 void EnergyMonitor::followed(double speed_m_s, double dt_s) {
@@ -94,14 +84,8 @@ void EnergyMonitor::followed(double speed_m_s, double dt_s) {
   // Exploring stops and turns at every viewpoint, a path home does not: a mean would be too slow. This follows the
   // quantile: it rests where the speed is exceeded in a share of 1 - kCruise of the time.
   constexpr double kCruise = 0.7, kRange_m_s = 0.5;
-  const double step_m_s = kRange_m_s * std::min(1.0, dt_s / config_.home_speed_filter_s);
+  const double step_m_s = kRange_m_s * std::min(1.0, dt_s / kHomeSpeedFilter_s);
   home_speed_m_s_ += speed_m_s > home_speed_m_s_ ? kCruise * step_m_s : (kCruise - 1.0) * step_m_s;
-}
-
-/// From the fuel gauge since the last take-off; before that, from the data sheet.
-double EnergyMonitor::capacity_as() const {
-  const double drop = remaining_at_take_off_ - moved_to_;
-  return drop > kTellingDrop && drawn_at_move_as_ > 0.0 ? drawn_at_move_as_ / drop : capacity_as_;
 }
 
 double EnergyMonitor::unheard_s(common::Time now) const {
@@ -111,14 +95,15 @@ double EnergyMonitor::unheard_s(common::Time now) const {
 
 std::string EnergyMonitor::countedOn(common::Time now) const {
   if (unheard_s(now) > 0.0) return fmt::format("no sample of the battery for {:.1f} s", kUnheard_s);
-  if (drawn_since_move_as_ > kUnmoved * capacity_as_)
-    return fmt::format("its gauge has stood still while {:.0f} % of the capacity were drawn", 100.0 * kUnmoved);
+  if (charge_.standsStill())
+    return fmt::format("its gauge has stood still while {:.0f} % of the capacity were drawn",
+                       100.0 * ChargeCounter::kUnmoved);
   return {};
 }
 
 double EnergyMonitor::remaining(common::Time now) const {
   if (countedOn(now).empty()) return last_->remaining;
-  return std::max(0.0, moved_to_ - (drawn_since_move_as_ + unheard_s(now) * current_a_) / capacity_as());
+  return charge_.counted(unheard_s(now) * current_a_);
 }
 
 common::EnergyLayer EnergyMonitor::layer(common::Time now, const FlightHome& home, double thrust_margin,
@@ -135,7 +120,7 @@ common::EnergyLayer EnergyMonitor::layer(common::Time now, const FlightHome& hom
         land_share, curve_.chargeAtMargin({last_->remaining, voltage_v_, margin_}, least_margin, voltage_exponent_));
   if (!flown_ || !(current_a_ > 0.0)) return layer;
   if (settled_)
-    layer.seconds_left = std::max(0.0, layer.battery_remaining - layer.land_share) * capacity_as() / current_a_;
+    layer.seconds_left = std::max(0.0, layer.battery_remaining - layer.land_share) * charge_.capacity_as() / current_a_;
   tellHome(home, layer);
   return layer;
 }
@@ -147,9 +132,9 @@ void EnergyMonitor::tellHome(const FlightHome& home, common::EnergyLayer& layer)
   layer.home_planned = home.planned_m.has_value();
   layer.home_m = home.planned_m.value_or(home.trail_m);
   const double fly_s = *layer.home_m / std::max(kLeast_m_s, home_speed_m_s_);
-  const double drawn_as = current_model_.drawn_as(fly_s, *layer.home_m) +
-                          current_model_.drawn_as(config_.home_stops_s + home.landing_s, 0.0);
-  layer.home_share = drawn_as / capacity_as();
+  const double drawn_as =
+      current_model_.drawn_as(fly_s, *layer.home_m) + current_model_.drawn_as(kHomeStops_s + home.landing_s, 0.0);
+  layer.home_share = drawn_as / charge_.capacity_as();
 }
 
 }  // namespace swiftlet::autonomy

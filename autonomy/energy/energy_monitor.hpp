@@ -5,6 +5,7 @@
 #include <string>
 
 #include "autonomy/energy/battery_curve.hpp"
+#include "autonomy/energy/charge_counter.hpp"
 #include "autonomy/energy/current_model.hpp"
 #include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
@@ -14,11 +15,7 @@
 namespace swiftlet::autonomy {
 
 struct EnergyConfig {
-  static constexpr double power_filter_s = 20.0;  ///< Time constant that smooths current and power.
   double home_speed_m_s = 0.75;
-  static constexpr double home_speed_filter_s = 30.0;  ///< Time constant of the speed along paths.
-  static constexpr double home_stops_s =
-      2.0;  ///< Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.
 
   void describe(common::config::Fields& fields);
 };
@@ -55,11 +52,9 @@ class EnergyMonitor {
   double currentOf_a(const common::BatterySample& sample) const;
   double unheard_s(common::Time now) const;
   double remaining(common::Time now) const;
-  double capacity_as() const;
   void tellHome(const FlightHome& home, common::EnergyLayer& layer) const;
 
-  EnergyConfig config_;
-  double capacity_as_;
+  ChargeCounter charge_;
   double home_speed_m_s_;
   std::optional<common::BatterySample> last_;
   BatteryCurve curve_;
@@ -72,12 +67,7 @@ class EnergyMonitor {
   bool flown_ = false;  ///< The smoothed values are those of a flight.
   bool airborne_ = false;
   bool settled_ = false;  ///< The smoothed current is that of the flight, and predicts how long the charge lasts.
-  double remaining_at_take_off_ = 0.0;
   common::Time taken_off_;
-  double drawn_as_ = 0.0;  ///< By the measured current, since the last take-off.
-  /// What the gauge said when it last moved, what had been drawn until then, and what has been drawn since.
-  double moved_to_ = 0.0;
-  double drawn_at_move_as_ = 0.0, drawn_since_move_as_ = 0.0;
 };
 
 }  // namespace swiftlet::autonomy

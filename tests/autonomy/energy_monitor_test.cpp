@@ -57,10 +57,9 @@ TEST_F(EnergyStory, TheTimeLeftEndsAtTheChargeOfTheLanding) {
 }
 
 TEST_F(EnergyStory, ThePathHomeTakesItsTimeAndALanding) {
-  const EnergyConfig config;
   landing_s_ = 5.0;
   draw(10.0, 18.0);
-  const double expected = (20.0 / config.home_speed_m_s + config.home_stops_s + 5.0) * 18.0 / (3600.0 * kCapacity_ah);
+  const double expected = (20.0 / EnergyConfig{}.home_speed_m_s + 2.0 + 5.0) * 18.0 / (3600.0 * kCapacity_ah);
   EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.01 * expected);
 }
 
@@ -83,12 +82,11 @@ TEST_F(EnergyStory, TheSpeedFlownSoFarPredictsTheTime) {
 
 TEST_F(EnergyStory, StopsBetweenViewpointsDoNotSlowThePathHome) {
   draw(10.0, 18.0);
-  const EnergyConfig config;
   for (int leg = 0; leg < 100; ++leg) {
     for (int i = 0; i < 100; ++i) monitor_.followed(0.3, 0.01);
     for (int i = 0; i < 300; ++i) monitor_.followed(0.8, 0.01);
   }
-  const double expected = (20.0 / 0.8 + config.home_stops_s) * 18.0 / (3600.0 * kCapacity_ah);
+  const double expected = (20.0 / 0.8 + 2.0) * 18.0 / (3600.0 * kCapacity_ah);
   EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.03 * expected);
 }
 

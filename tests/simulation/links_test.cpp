@@ -99,14 +99,14 @@ TEST(SetpointLink, DeliversInTheOrderOfSendingAndOnlyWhatHasArrived) {
   SetpointLink link({.latency_s = 0.02, .jitter_s = 0.05, .loss_rate = 0.0, .in_order = false}, 1);
   for (int i = 0; i < 100; ++i) {
     common::Setpoint setpoint;
-    setpoint.thrust_n = i;
+    setpoint.thrust = i;
     link.send(Time::fromSeconds(0.01 * i), setpoint);
   }
   EXPECT_FALSE(link.next(Time::fromSeconds(0.019)));
   int received = 0;
   for (int ms = 20; ms < 2000; ++ms)
     while (const auto arrived = link.next(Time::fromSeconds(1e-3 * ms))) {
-      EXPECT_EQ(arrived->setpoint.thrust_n, received++);
+      EXPECT_EQ(arrived->setpoint.thrust, received++);
       EXPECT_LE(arrived->time, Time::fromSeconds(1e-3 * ms));
     }
   EXPECT_EQ(received, 100);
