@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/autonomy.hpp"
+#include "autonomy/autonomy_config.hpp"
 #include "common/config_fwd.hpp"
 #include "common/error.hpp"
 #include "common/rgbd_camera_config.hpp"

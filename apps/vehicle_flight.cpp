@@ -82,9 +82,8 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       hooks_(hooks),
       web_(hooks.web ? &hooks.web->channel(number) : nullptr),
       vehicle_(std::make_unique<simulation::SimulatedVehicle>(arena, number)),
-      name_(vehicle_->name()),
-      script_(setup.operator_steps, name_),
-      autonomy_(makeAutonomy(setup, name_, std::move(mission.mission), job_meter_)),
+      script_(setup.operator_steps, vehicle_->name()),
+      autonomy_(makeAutonomy(setup, vehicle_->name(), std::move(mission.mission), job_meter_)),
       record_(setup, *vehicle_, mission.file, folder, observers(number)),
       loop_(*vehicle_, autonomy_, commands(), record_.sinks()) {
   end_.outcome = Outcome::kFlying;
@@ -112,8 +111,8 @@ void VehicleFlight::reportWarnings() {
 
 void VehicleFlight::tell(common::Severity severity, std::string source, std::string text, std::string reason,
                          common::Concern concern) {
-  const common::Event event{loop_.now(), severity, std::move(source), std::move(text), std::move(reason),
-                            name_,       concern};
+  const common::Event event{loop_.now(),      severity, std::move(source), std::move(text), std::move(reason),
+                            vehicle_->name(), concern};
   for (autonomy::FlightSink* sink : record_.sinks()) sink->event(event);
 }
 
@@ -218,7 +217,8 @@ void VehicleFlight::showEnd() const {
 }
 
 VehicleResult VehicleFlight::result() const {
-  return {name_, record_.folder().summary(), record_.folder().path(), record_.failure()};
+  const interfaces::RunFolder& folder = record_.folder();
+  return {folder.summary().info.vehicle, folder.summary(), folder.path(), record_.failure()};
 }
 
 }  // namespace swiftlet::apps

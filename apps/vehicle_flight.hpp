@@ -63,7 +63,6 @@ class VehicleFlight {
   const FlightHooks& hooks_;
   WebChannel* web_;  ///< Null without a page.
   std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
-  std::string name_;  ///< Empty when it flies alone.
   evaluation::OperatorScript script_;
   std::shared_ptr<JobMeter> job_meter_ = std::make_shared<JobMeter>();
   autonomy::Autonomy autonomy_;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "common/key_pose.hpp"
+#include "common/submap3d.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 

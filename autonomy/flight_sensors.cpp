@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "common/geometry.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 

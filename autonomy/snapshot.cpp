@@ -20,8 +20,7 @@ WorldParts partsOf(const Percept& percept, const Commander& commander, const Nav
   parts.map = {around.grid,         around.levels,      executor.desk().frontiers(), executor.desk().exploredArea_m2(),
                around.localization, around.T_map_given, commander.keepOut().zones(), around.flown,
                around.given};
-  for (const common::Disc& person : people.expectedAt(percept.now))
-    parts.people.people.push_back({person.center_map_m, person.radius_m});
+  parts.people.people = people.expectedAt(percept.now);
   parts.people.followed_map_m = executor.followedPerson_map_m();
   parts.map3d = around.map3d;
   parts.targets.targets = around.targets;

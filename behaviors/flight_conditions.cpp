@@ -233,8 +233,8 @@ std::string IsPersonNear::objection(const FlightTick& tick) const {
   const common::World& world = *tick.flight.world;
   const Eigen::Vector2d here_map_m = world.vehicle->state.T_map_body_planar().position_m();
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const common::Person& person : world.people->people)
-    nearest_m = std::min(nearest_m, (person.position_map_m - here_map_m).norm() - person.radius_m);
+  for (const common::Disc& person : world.people->people)
+    nearest_m = std::min(nearest_m, (person.center_map_m - here_map_m).norm() - person.radius_m);
   if (nearest_m < *distance_m) return {};
   return std::isfinite(nearest_m) ? fmt::format("the nearest person is {:.1f} m away", nearest_m) : "nobody is seen";
 }

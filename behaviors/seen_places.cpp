@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/line_of_sight.hpp"
+#include "common/rgbd_frame.hpp"
 
 namespace swiftlet::behaviors {
 namespace {

@@ -10,6 +10,8 @@ struct Disc {
   Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
 
+  bool operator==(const Disc&) const = default;
+
   bool covers(const Eigen::Vector2d& point_map_m) const {
     return (point_map_m - center_map_m).squaredNorm() <= radius_m * radius_m;
   }

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/pose2.hpp"
 
 namespace swiftlet::common {
 

@@ -21,7 +21,6 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
-#include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/place_names.hpp"
 

@@ -13,4 +13,7 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< 3 * width_px * height_px bytes.
 };
 
+/// What an image shows, for its encoder. A drawing has even areas and thin coloured lines, a photo has neither.
+enum class ImageContent { kDrawing, kPhoto };
+
 }  // namespace swiftlet::common

@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #include "common/flight_mode.hpp"
-#include "common/geometry.hpp"
 #include "common/place_names.hpp"
 #include "common/polygon.hpp"
+#include "common/pose2.hpp"
 
 namespace swiftlet::common {
 

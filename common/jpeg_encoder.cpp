@@ -7,9 +7,9 @@
 namespace swiftlet::common {
 
 struct JpegEncoder::Impl {
-  explicit Impl(JpegContent shown) : content(shown) {}
+  explicit Impl(ImageContent shown) : content(shown) {}
 
-  JpegContent content;
+  ImageContent content;
   tjhandle handle = tjInitCompress();
   unsigned char* buffer = nullptr;
   unsigned long capacity = 0;
@@ -20,7 +20,7 @@ struct JpegEncoder::Impl {
   }
 };
 
-JpegEncoder::JpegEncoder(JpegContent content) : impl_(std::make_unique<Impl>(content)) {
+JpegEncoder::JpegEncoder(ImageContent content) : impl_(std::make_unique<Impl>(content)) {
   SWIFTLET_CHECK(impl_->handle != nullptr);
 }
 JpegEncoder::~JpegEncoder() = default;
@@ -31,7 +31,7 @@ std::vector<std::uint8_t> JpegEncoder::encode(const Image& image, int quality) {
   SWIFTLET_CHECK(image.width_px > 0 && image.height_px > 0 && quality >= 1 && quality <= 100, image.width_px,
                  image.height_px, quality);
   SWIFTLET_CHECK(image.rgb.size() == 3 * static_cast<std::size_t>(image.width_px) * image.height_px);
-  const bool drawing = impl_->content == JpegContent::kDrawing;
+  const bool drawing = impl_->content == ImageContent::kDrawing;
   const int sampling = drawing ? TJSAMP_444 : TJSAMP_420;
   const unsigned long needed = tjBufSize(image.width_px, image.height_px, sampling);
   if (needed > impl_->capacity) {

@@ -9,14 +9,11 @@
 
 namespace swiftlet::common {
 
-/// What the image shows. A drawing keeps its full colour resolution, so that thin coloured lines do not bleed; a
-/// photo has half of it, as cameras give it too.
-enum class JpegContent { kDrawing, kPhoto };
-
-/// Reuses its buffers; one thread at a time.
+/// A drawing keeps its full colour resolution, so that thin coloured lines do not bleed; a photo has half of it, as
+/// cameras give it too. Reuses its buffers; one thread at a time.
 class JpegEncoder {
  public:
-  explicit JpegEncoder(JpegContent content = JpegContent::kDrawing);
+  explicit JpegEncoder(ImageContent content = ImageContent::kDrawing);
   ~JpegEncoder();
   JpegEncoder(JpegEncoder&&) noexcept;
   JpegEncoder& operator=(JpegEncoder&&) noexcept;

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "common/geometry.hpp"
+#include "common/pose2.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::common {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "common/geometry.hpp"
+#include "common/pose2.hpp"
 
 namespace swiftlet::common {
 

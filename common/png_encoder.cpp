@@ -47,10 +47,10 @@ Bytes encode(const Format& format, const Row& row) {
 
 }  // namespace
 
-Bytes encodePng(const Image& image, PngContent content) {
+Bytes encodePng(const Image& image, ImageContent content) {
   SWIFTLET_CHECK(image.width_px > 0 && image.height_px > 0, image.width_px, image.height_px);
   SWIFTLET_CHECK(image.rgb.size() == 3 * static_cast<std::size_t>(image.width_px) * image.height_px);
-  const bool drawn = content == PngContent::kDrawing;
+  const bool drawn = content == ImageContent::kDrawing;
   const Format format{image.width_px, image.height_px, 8, PNG_COLOR_TYPE_RGB, drawn ? PNG_FILTER_NONE : PNG_FILTER_UP,
                       drawn ? 6 : 3};
   return encode(format, [&](int y) { return &image.rgb[3 * static_cast<std::size_t>(y) * image.width_px]; });

@@ -9,12 +9,9 @@
 
 namespace swiftlet::common {
 
-/// What the image shows. Even areas of a drawing compress best and fastest as they are; a photo is predicted from
-/// neighbouring pixels first.
-enum class PngContent { kDrawing, kPhoto };
-
-/// 8-bit RGB. The image must have at least one pixel and as many bytes as its size says.
-std::vector<std::uint8_t> encodePng(const Image& image, PngContent content = PngContent::kDrawing);
+/// 8-bit RGB. Even areas of a drawing compress best and fastest as they are; a photo is predicted from neighbouring
+/// pixels first. The image must have at least one pixel and as many bytes as its size says.
+std::vector<std::uint8_t> encodePng(const Image& image, ImageContent content = ImageContent::kDrawing);
 /// 16-bit grey.
 std::vector<std::uint8_t> encodePng(const DepthCodes& depth);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/rgbd_frame.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::common {

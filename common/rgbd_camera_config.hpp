@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "common/config_fwd.hpp"
-#include "common/rgbd_frame.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::common {
+
+struct PinholeCamera;
 
 /// A camera that measures depth by the disparity of a projected pattern. Disparity is proportional to the inverse
 /// depth, so its steps and its noise are given as inverse depths, which hold for every image size.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/geometry.hpp"
 #include "common/gravity.hpp"
 #include "common/validation.hpp"
 

@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "common/config_fwd.hpp"
-#include "common/geometry.hpp"
 
 namespace swiftlet::common {
+
+struct Pose3;
 
 /// A mount: position in the body frame and roll, pitch, yaw in degrees (YAML), giving T_body_sensor.
 struct MountConfig {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <set>
 
+#include "common/rgbd_frame.hpp"
+
 namespace swiftlet::evaluation {
 namespace {
 

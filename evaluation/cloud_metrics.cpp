@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "common/rgbd_frame.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {

@@ -5,6 +5,7 @@
 #include "common/world.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
+#include "simulation/sensors/sensor_config.hpp"
 
 namespace swiftlet::evaluation {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/submap3d.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "evaluation/cloud_metrics.hpp"
 #include "evaluation/flight_recorder.hpp"

@@ -259,7 +259,8 @@ void RunFolder::saveMap(const std::string& name, const common::OccupancyGrid& gr
 void RunFolder::savePhoto(const std::string& name, const common::RgbdFrame& frame, const common::Pose3& T_map_camera) {
   constexpr int kQuality = 90;  // Of JPEG: photographs are kept, the stream is not.
   const std::string file = fmt::format("photo-{:02}-{}", ++impl_->photos, name);
-  const std::vector<std::uint8_t> jpeg = common::JpegEncoder(common::JpegContent::kPhoto).encode(frame.color, kQuality);
+  const std::vector<std::uint8_t> jpeg =
+      common::JpegEncoder(common::ImageContent::kPhoto).encode(frame.color, kQuality);
   const common::RollPitchYaw angles = common::rollPitchYaw(T_map_camera.rotation);
   const Eigen::Vector3d& at = T_map_camera.position_m;
   impl_->pictures.photos.push_back({fmt::format("{}, from ({:.2f}, {:.2f}, {:.2f}) at {:.0f} s", name, at.x(), at.y(),

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "common/sensor_event.hpp"
+#include "common/image.hpp"
 #include "rendering/color.hpp"
 
 namespace swiftlet::rendering {

@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "common/image.hpp"
 #include "common/occupancy_grid.hpp"
-#include "common/sensor_event.hpp"
 #include "rendering/theme.hpp"
 #include "rendering/viewport.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "common/sensor_event.hpp"
+#include "common/image.hpp"
 #include "rendering/map_picture.hpp"
 #include "rendering/theme.hpp"
 #include "rendering/viewport.hpp"

@@ -1,7 +1,7 @@
 // Smaller pictures for streams.
 #pragma once
 
-#include "common/sensor_event.hpp"
+#include "common/image.hpp"
 
 namespace swiftlet::rendering {
 

@@ -5,7 +5,10 @@
 #include <numbers>
 
 #include "common/config_fields.hpp"
+#include "common/geometry.hpp"
 #include "common/gravity.hpp"
+#include "simulation/quadrotor.hpp"
+#include "simulation/sensors/inertial_unit.hpp"
 
 namespace swiftlet::simulation {
 namespace {

@@ -3,42 +3,16 @@
 #pragma once
 
 #include <array>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
-#include "common/config_fwd.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
-#include "simulation/quadrotor.hpp"
-#include "simulation/sensors/inertial_unit.hpp"
+#include "simulation/plant_config.hpp"
 
 namespace swiftlet::simulation {
 
-/// How torques and thrust share the motors where they ask for more than a motor can give.
-enum class Mixing {
-  kClampEach,      ///< Each motor is clamped by itself, so that thrust and all torques suffer alike.
-  kAttitudeFirst,  ///< Roll and pitch are kept, at the expense of the yaw torque, then of the thrust.
-};
-
-struct AutopilotConfig {
-  double attitude_gain_1_s = 7.0;
-  double max_rate_rad_s = 4.0;
-  double max_yaw_rate_rad_s = 2.5;
-  double rate_gain_1_s = 18.0;
-  double yaw_rate_gain_1_s = 7.0;
-  double rate_integral_1_s2 = 12.0;
-  double link_timeout_s = 0.5;
-  double failsafe_thrust_share = 0.93;
-  double tilt_share = 1.0;
-  double tilt_expo = 0.0;
-  Mixing mixing = Mixing::kClampEach;
-  double program_share = 0.0;
-
-  void describe(common::config::Fields& fields);
-};
+struct AttitudeMeasurement;
 
 class Autopilot {
  public:

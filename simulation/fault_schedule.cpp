@@ -9,13 +9,20 @@ using common::Time;
 
 namespace {
 
+/// The prediction of a filter bridges shorter faults.
+constexpr double kLasting_s = 1.0;
+/// Less than twice the delay of the slowest shipped nature, 0.2 s.
+constexpr double kBridged_s = 0.4;
+/// Most of what a laser of 270 deg sees is left beside a narrower sector.
+constexpr double kNarrow_deg = 90.0;
+
 /// Whether the vehicle lacks what the sensor is for while the fault lasts.
 bool takesAway(const FaultConfig& fault) {
   switch (fault.kind) {
     case FaultKind::kLate:  // The charge changes slowly.
-      return fault.sensor != Sensor::kBattery && fault.late_s >= FaultSchedule::kBridged_s;
+      return fault.sensor != Sensor::kBattery && fault.late_s >= kBridged_s;
     case FaultKind::kBlocked:
-      return fault.to_deg - fault.from_deg >= FaultSchedule::kNarrow_deg;
+      return fault.to_deg - fault.from_deg >= kNarrow_deg;
     default:
       return true;
   }

@@ -26,13 +26,9 @@ class FaultSchedule {
   const FaultConfig* of(Sensor sensor, common::Time time) const;
   bool anyActive(common::Time time) const;
   /// The sensor without which no vehicle flies on: the IMU, the laser or the battery's, if one of their faults that
-  /// lasts for kLasting_s is active and takes away what the sensor is for. Delays below kBridged_s and a blocked sector
-  /// narrower than kNarrow_deg do not count.
+  /// lasts for a second is active and takes away what the sensor is for. Delays below 0.4 s and a blocked sector
+  /// narrower than 90 deg do not count.
   std::optional<Sensor> failedForFlight(common::Time time) const;
-
-  static constexpr double kLasting_s = 1.0;    ///< What the prediction of a filter bridges.
-  static constexpr double kBridged_s = 0.4;    ///< Less than twice the delay of the slowest shipped nature, 0.2 s.
-  static constexpr double kNarrow_deg = 90.0;  ///< Most of what a laser of 270 deg sees is left.
 
  private:
   struct Scheduled {

@@ -2,6 +2,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/geometry.hpp"
+#include "simulation/quadrotor.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -34,9 +35,10 @@ void HandConfig::describe(common::config::Fields& fields) {
   fields("yaw_deg", yaw_deg, {-180, 180}, "How far it turns the vehicle, counterclockwise.");
 }
 
-HandPull Hand::pull(common::Time now, const QuadrotorState& state) {
+void Hand::lead(common::Time now, Quadrotor& quadrotor) {
+  const QuadrotorState& state = quadrotor.state();
   const double time_s = now.seconds() - config_.time_s;
-  if (time_s < 0.0 || time_s >= config_.lasts_s || state.standing) return {};
+  if (time_s < 0.0 || time_s >= config_.lasts_s || state.standing) return;
   const Eigen::Vector2d position_m = state.T_world_body.position_m.head<2>();
   const double yaw_rad = common::yawOf(state.T_world_body.rotation);
   if (!grip_) grip_ = {position_m, yaw_rad};
@@ -47,15 +49,15 @@ HandPull Hand::pull(common::Time now, const QuadrotorState& state) {
   const double turn_rad = config_.yaw_deg * common::kRadPerDeg;
   const Eigen::Vector2d off_m = grip_->position_world_m + reach.share * displacement_m - position_m;
   const Eigen::Vector2d rate_off_m_s = rate * displacement_m - state.velocity_world_m_s.head<2>();
-  HandPull pull;
+  Eigen::Vector2d acceleration_world_m_s2;
   for (int axis = 0; axis < 2; ++axis)
-    pull.acceleration_world_m_s2[axis] =
+    acceleration_world_m_s2[axis] =
         acceleration * displacement_m[axis] + springAcceleration(off_m[axis], rate_off_m_s[axis], kGrip_rad_s);
-  pull.yaw_acceleration_rad_s2 =
+  const double yaw_acceleration_rad_s2 =
       acceleration * turn_rad + springAcceleration(common::wrapAngle(grip_->yaw_rad + reach.share * turn_rad - yaw_rad),
                                                    rate * turn_rad - state.angular_velocity_body_rad_s.z(),
                                                    kTurn_rad_s);
-  return pull;
+  quadrotor.lead(acceleration_world_m_s2, yaw_acceleration_rad_s2);
 }
 
 }  // namespace swiftlet::simulation

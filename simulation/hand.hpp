@@ -8,9 +8,10 @@
 
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
-#include "simulation/quadrotor.hpp"
 
 namespace swiftlet::simulation {
+
+class Quadrotor;
 
 /// Takes the vehicle at `time_s`, and releases it at rest after `lasts_s`.
 struct HandConfig {
@@ -23,18 +24,12 @@ struct HandConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// What a hand adds to the motion of the vehicle.
-struct HandPull {
-  Eigen::Vector2d acceleration_world_m_s2 = Eigen::Vector2d::Zero();
-  double yaw_acceleration_rad_s2 = 0.0;
-};
-
 class Hand {
  public:
   explicit Hand(const HandConfig& config) : config_(config) {}
 
-  /// At `now`, to be called at every step. Zero while it does not hold the vehicle, and while the vehicle stands.
-  HandPull pull(common::Time now, const QuadrotorState& state);
+  /// Moves the vehicle in the step that begins at `now`; nothing while it does not hold it, and while it stands.
+  void lead(common::Time now, Quadrotor& quadrotor);
 
  private:
   struct Grip {

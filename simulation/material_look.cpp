@@ -7,6 +7,7 @@
 #include <sdf/Material.hh>
 
 #include "common/random.hpp"
+#include "simulation/appearance/patterns.hpp"
 
 namespace swiftlet::simulation {
 namespace {

@@ -13,11 +13,12 @@
 #include "common/random.hpp"
 #include "common/read_bytes.hpp"
 #include "simulation/nature_ranges.hpp"
+#include "simulation/quadrotor.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-constexpr std::uint64_t kMostNatureDraws = 200;  // As kMostDraws of variation.hpp.
+constexpr std::uint64_t kMostNatureDraws = 200;  // As kMostDraws of variation.cpp.
 constexpr const char* kCharge = "battery_remaining";
 
 bool flies(const Scenario& scenario, double thrust_over_weight) {

@@ -222,6 +222,7 @@ void Quadrotor::lead(const Eigen::Vector2d& acceleration_world_m_s2, double yaw_
 }
 
 void Quadrotor::push(const Vector3d& impulse_world_n_s) {
+  constexpr double kPush_s = 0.1;
   push_world_n_s_ += impulse_world_n_s;
   push_left_s_ = kPush_s;
 }

@@ -3,43 +3,15 @@
 #pragma once
 
 #include <array>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/vehicle_config.hpp"
-#include "simulation/battery.hpp"
+#include "simulation/plant_config.hpp"
 
 namespace swiftlet::simulation {
-
-struct QuadrotorConfig {
-  double inertia_xx_kg_m2 = 0.020;
-  double inertia_yy_kg_m2 = 0.021;
-  double inertia_zz_kg_m2 = 0.036;
-  double arm_m = 0.165;
-  double torque_per_thrust_m = 0.016;
-  double motor_lag_s = 0.035;
-  double linear_drag_n_s_m = 0.25;
-  double quadratic_drag_n_s2_m2 = 0.06;
-  double angular_drag_n_m_s = 0.004;
-  double gear_height_m = 0.15;
-  double gear_radius_m = 0.15;
-  double mass_share = 1.0;
-  double thrust_share = 1.0;
-  double throttle_exponent = 1.0;
-  int weak_motor = 0;
-  double weak_motor_share = 1.0;
-  double ground_effect_radius_m = 0.0;
-  double wall_effect_share = 0.0;
-  double wall_effect_range_m = 0.127;
-  Battery::Config battery;
-
-  void describe(common::config::Fields& fields);
-};
 
 /// The airframe of a vehicle: the inertias, the arm, the drag and the rotors' power of a QuadrotorConfig are those for
 /// the mass and the arm of the default data sheet, and scale with those of another.
@@ -79,9 +51,8 @@ class Quadrotor {
   /// Tells where the nearest wall is, from now on: the direction to it, of any length, and the distance from the hull.
   void feelWall(const Eigen::Vector2d& towards_wall_world, double gap_m);
 
-  /// A push at the centre of mass, spread over kPush_s, as long as the touch of a hand.
+  /// A push at the centre of mass, spread over 0.1 s, as long as the touch of a hand.
   void push(const Eigen::Vector3d& impulse_world_n_s);
-  static constexpr double kPush_s = 0.1;
 
   /// Moves it in the next step beside all that acts on it, as a hand does: horizontally, and about the body's z.
   void lead(const Eigen::Vector2d& acceleration_world_m_s2, double yaw_acceleration_rad_s2);

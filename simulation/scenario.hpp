@@ -11,10 +11,9 @@
 #include "common/config_fwd.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
-#include "simulation/autopilot.hpp"
 #include "simulation/fault_config.hpp"
 #include "simulation/hand.hpp"
-#include "simulation/quadrotor.hpp"
+#include "simulation/plant_config.hpp"
 #include "simulation/sensors/sensor_config.hpp"
 
 namespace swiftlet::simulation {

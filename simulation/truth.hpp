@@ -8,9 +8,10 @@
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
-#include "simulation/sensors/sensor_config.hpp"
 
 namespace swiftlet::simulation {
+
+enum class Sensor;
 
 struct Truth {
   common::Time stamp;

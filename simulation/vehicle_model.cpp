@@ -59,7 +59,7 @@ void VehicleModel::fly(Time now, std::uint64_t step, const Eigen::Vector3d& wind
   while (const auto arrived = setpoint_link_.next(now)) autopilot_.receive(arrived->setpoint, arrived->time);
   if (step % kStepsPerAutopilotTick == 0) stepAutopilot(now, step / kStepsPerAutopilotTick);
   push(now);
-  lead(now);
+  for (Hand& hand : hands_) hand.lead(now, quadrotor_);
   before_step_ = quadrotor_.state();
   quadrotor_.step(throttles_, wind_world_m_s, referee_.floor_world_m(), kStep_s);
 }
@@ -82,13 +82,6 @@ void VehicleModel::push(Time now) {
   for (const PushConfig& push : placed_.scenario.pushes)
     if (now == Time() + kStep * std::llround(push.time_s / kStep_s))
       quadrotor_.push({push.x_n_s, push.y_n_s, push.z_n_s});
-}
-
-void VehicleModel::lead(Time now) {
-  for (Hand& hand : hands_) {
-    const HandPull pull = hand.pull(now, quadrotor_.state());
-    quadrotor_.lead(pull.acceleration_world_m_s2, pull.yaw_acceleration_rad_s2);
-  }
 }
 
 // The truth stays at the contact; only the hull that other vehicles can hit falls.

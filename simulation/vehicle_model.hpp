@@ -67,7 +67,6 @@ class VehicleModel {
  private:
   void stepAutopilot(common::Time now, std::uint64_t tick);
   void push(common::Time now);
-  void lead(common::Time now);
   void feelWall();
   void fall();
   void updateTruth(common::Time now);

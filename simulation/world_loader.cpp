@@ -21,6 +21,7 @@
 #include "common/error.hpp"
 #include "common/polygon.hpp"
 #include "common/read_bytes.hpp"
+#include "simulation/appearance/patterns.hpp"
 #include "simulation/material_look.hpp"
 #include "simulation/mesh_loader.hpp"
 #include "simulation/sdf_math.hpp"

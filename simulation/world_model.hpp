@@ -13,9 +13,10 @@
 
 #include "common/error.hpp"
 #include "common/geometry.hpp"
-#include "simulation/appearance/patterns.hpp"
 
 namespace swiftlet::simulation {
+
+enum class Pattern;
 
 /// Linear red, green, blue in [0, 1].
 using Color = Eigen::Vector3f;

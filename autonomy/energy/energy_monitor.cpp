@@ -10,7 +10,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// Slow links send the battery once a second.
+/// Slow links send the battery once a second (docs/decisions/fail_safes.md, 079).
 constexpr double kUnheard_s = 2.5;
 /// Time constant that smooths current and power.
 constexpr double kPowerFilter_s = 20.0;
@@ -19,7 +19,8 @@ constexpr double kHomeSpeedFilter_s = 30.0;
 /// Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.
 constexpr double kHomeStops_s = 2.0;
 /// The mean current is that of the flight, and not of motors that spool up, after this time and once the present
-/// current differs from it by no more than this share.
+/// current differs from it by no more than this share. Smoothed from the first sample on, it made a vehicle land at
+/// 396 s, far from home (docs/decisions/fail_safes.md).
 constexpr double kSettled_s = 6.0, kSettledWithin = 0.25;
 
 bool hasCurrent(const common::BatterySample& sample) {

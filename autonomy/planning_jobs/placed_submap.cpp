@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/submap3d.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/submap3d.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 

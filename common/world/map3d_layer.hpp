@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "common/geometry.hpp"
-#include "common/key_pose.hpp"
-#include "common/rgbd_frame.hpp"
-#include "common/submap3d.hpp"
 #include "common/time.hpp"
-#include "common/voxel_map.hpp"
 
 namespace swiftlet::common {
+
+struct KeyPoses;
+struct RgbdFrame;
+struct Submap3d;
+class VoxelMap;
 
 /// Mount and clock of the camera, as the flight has estimated them.
 struct CameraEstimate {

@@ -6,18 +6,12 @@
 
 #include <Eigen/Core>
 
+#include "common/disc.hpp"
+
 namespace swiftlet::common {
 
-/// A person who was seen just before the snapshot, as a disc.
-struct Person {
-  Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();
-  double radius_m = 0.0;
-
-  bool operator==(const Person&) const = default;
-};
-
 struct PeopleLayer {
-  std::vector<Person> people;
+  std::vector<Disc> people;                       ///< Those who were seen just before the snapshot.
   std::optional<Eigen::Vector2d> followed_map_m;  ///< Estimated place of the followed person.
 
   bool operator==(const PeopleLayer&) const = default;

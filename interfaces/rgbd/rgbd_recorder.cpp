@@ -71,7 +71,7 @@ Written RgbdRecorder::add(const common::RgbdFrame& frame) {
   }
   const std::string stamp = fmt::format("{:.6f}", frame.stamps.measured.seconds());
   const std::string color = "rgb/" + stamp + ".png", depth = "depth/" + stamp + ".png";
-  return writeImage(folder_ / color, encodePng(frame.color, common::PngContent::kPhoto))
+  return writeImage(folder_ / color, encodePng(frame.color, common::ImageContent::kPhoto))
       .and_then([&] { return writeImage(folder_ / depth, encodePng(codesOf(frame.depth))); })
       .and_then([&] { return colors_.append(stamp + " " + color + "\n"); })
       .and_then([&] { return depths_.append(stamp + " " + depth + "\n"); })

@@ -23,7 +23,7 @@ float inMillimetres_m(float depth_m) {
 FramePacket packed(const common::RgbdFrame& frame, int jpeg_quality) {
   const auto pixels = static_cast<std::size_t>(frame.camera.pixels());
   SWIFTLET_CHECK(pixels > 0 && frame.color.rgb.size() == 3 * pixels && frame.depth.depth_m.size() == pixels, pixels);
-  common::JpegEncoder jpeg(common::JpegContent::kPhoto);
+  common::JpegEncoder jpeg(common::ImageContent::kPhoto);
   return {frame.stamps, frame.row_time, frame.camera, jpeg.encode(frame.color, jpeg_quality), encodeDepth(frame.depth)};
 }
 

@@ -7,18 +7,8 @@
 
 namespace swiftlet::simulation {
 
-class FuelGauge {
- public:
-  /// `remaining_at_start` is the true charge, as a share of the full one.
-  FuelGauge(const FuelGaugeConfig& config, double remaining_at_start);
-
-  /// Estimate in [0, 1]; without errors exactly the true charge.
-  double remaining(const Battery& battery) const;
-  double current_a(const Battery& battery) const;
-
- private:
-  FuelGaugeConfig config_;
-  double remaining_at_start_;
-};
+/// Estimate in [0, 1]; without errors exactly the true charge. `charge_at_start` is the true one.
+double gaugedCharge(const FuelGaugeConfig& gauge, double charge_at_start, const Battery& battery);
+double gaugedCurrent_a(const FuelGaugeConfig& gauge, const Battery& battery);
 
 }  // namespace swiftlet::simulation

@@ -12,7 +12,7 @@ using common::kRadPerDeg;
 using common::RandomStream;
 using Eigen::Vector3d;
 
-constexpr double kGreatestSpecificForce_m_s2 = 157.0;  // 16 g.
+constexpr double kGreatestSpecificForce_m_s2 = 157.0;  // 16 g, the range of the MPU-6000 (data sheet).
 
 Vector3d gaussians(RandomStream& random, double standard_deviation) {
   const double x = random.gaussian(standard_deviation), y = random.gaussian(standard_deviation);

@@ -15,8 +15,11 @@ using common::Duration;
 using common::Time;
 
 constexpr float kErrorCode_m = 0.0F;
-constexpr double kStep_m = 0.001;           // The device counts millimetres.
-constexpr double kNoiseGrowsFrom_m = 10.0;  // Range noise is constant up to here, then proportional to the range.
+/// The device counts millimetres (data sheet of the Hokuyo UTM-30LX).
+constexpr double kStep_m = 0.001;
+/// Range noise is constant up to here, then proportional to the range: 10 mm up to 10 m and 30 mm at 30 m on the data
+/// sheet of the Hokuyo UTM-30LX.
+constexpr double kNoiseGrowsFrom_m = 10.0;
 
 /// The returned power goes with reflectance * cos(incidence) / range^2, so this times cos(incidence) is the square of
 /// the range at which the beam is lost.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "common/geometry.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::simulation {
@@ -117,6 +118,10 @@ void RgbdErrorsConfig::describe(common::config::Fields& fields) {
          "Time constant in which the exposure follows the brightness of the view; 0: the exposure is fixed.");
   fields("clock_offset_s", clock_offset_s, {-0.1, 0.1}, "What the camera's clock is ahead of the computer's at first.");
   fields("clock_drift_ppm", clock_drift_ppm, {-1000, 1000}, "What the camera's clock gains, in parts per million.");
+}
+
+common::Pose3 RgbdErrorsConfig::T_body_camera(const common::MountConfig& sheet) const {
+  return mount_error.pose() * sheet.pose();
 }
 
 void FuelGaugeConfig::describe(common::config::Fields& fields) {

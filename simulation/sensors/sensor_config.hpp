@@ -93,7 +93,7 @@ struct RgbdErrorsConfig {
 
   void describe(common::config::Fields& fields);
   /// The true pose of a camera that its data sheet mounts so.
-  common::Pose3 T_body_camera(const common::MountConfig& sheet) const { return mount_error.pose() * sheet.pose(); }
+  common::Pose3 T_body_camera(const common::MountConfig& sheet) const;
 };
 
 /// Errors of the fuel gauge, which counts the current from a charge that it guesses at the start.

@@ -1,6 +1,7 @@
 #include "simulation/sensors/sensor_suite.hpp"
 
 #include "common/random.hpp"
+#include "simulation/sensors/fuel_gauge.hpp"
 
 namespace swiftlet::simulation {
 
@@ -14,7 +15,6 @@ SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, 
       laser_(Sensor::kLaser, scenario.laser.rate_hz,
              LaserScanner(scenario.laser, scenario.sensors.laser_errors, world, seed)),
       camera_(scenario.sensors.camera, world, seed),
-      fuel_gauge_(scenario.sensors.fuel_gauge, scenario.battery_remaining),
       queue_(scenario, faults, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
       battery_clock_(scenario.sensors.battery_rate_hz),
@@ -65,8 +65,9 @@ void SensorSuite::stepSlow(Time now, const Battery& battery) {
     common::BatterySample sample;
     sample.stamps.measured = now;
     sample.voltage_v = battery.voltage_v() + random.gaussian(scenario_.sensors.battery_noise_v);
-    sample.remaining = fuel_gauge_.remaining(battery);
-    sample.current_a = fuel_gauge_.current_a(battery);
+    const FuelGaugeConfig& gauge = scenario_.sensors.fuel_gauge;
+    sample.remaining = gaugedCharge(gauge, scenario_.battery_remaining, battery);
+    sample.current_a = gaugedCurrent_a(gauge, battery);
     queue_.send(Sensor::kBattery, battery_clock_.frame++, now, sample);
   }
   const PilotConfig* stick = sticks(now);

@@ -11,7 +11,6 @@
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/scenario.hpp"
-#include "simulation/sensors/fuel_gauge.hpp"
 #include "simulation/sensors/inertial_unit.hpp"
 #include "simulation/sensors/sensor_streams.hpp"
 #include "simulation/world_model.hpp"
@@ -51,7 +50,6 @@ class SensorSuite {
   std::optional<LaserStream> vertical_laser_;
   CameraStream camera_;
   std::optional<RgbdStream> rgbd_;
-  FuelGauge fuel_gauge_;
   EventQueue queue_;
   SensorClock imu_clock_, battery_clock_, pilot_clock_;
 };

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/key_pose.hpp"
+#include "common/submap3d.hpp"
 #include "tests/autonomy/voxel_room.hpp"
 
 namespace swiftlet::autonomy {

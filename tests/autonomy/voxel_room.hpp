@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/key_pose.hpp"
+#include "common/submap3d.hpp"
+#include "common/voxel_map.hpp"
 #include "common/world/map3d_layer.hpp"
 
 namespace swiftlet::autonomy {

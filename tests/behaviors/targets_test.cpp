@@ -7,6 +7,7 @@
 
 #include "behaviors/seen_places.hpp"
 #include "common/rgbd_camera_config.hpp"
+#include "common/rgbd_frame.hpp"
 #include "tests/behaviors/check_text.hpp"
 #include "tests/behaviors/flight.hpp"
 

@@ -52,7 +52,7 @@ TEST(EncodeTest, Base64FollowsTheStandard) {
 
 TEST(EncodeTest, APhotoAsPngReadsBackAsTheSamePicture) {
   const Image image = pattern(40, 30);
-  const Bytes png = encodePng(image, PngContent::kPhoto);
+  const Bytes png = encodePng(image, ImageContent::kPhoto);
   const auto read = decodeColor({reinterpret_cast<const char*>(png.data()), png.size()});
   ASSERT_TRUE(read) << read.error().reason;
   EXPECT_EQ(read->rgb, image.rgb);

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "common/key_pose.hpp"
 #include "common/random.hpp"
+#include "common/submap3d.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/flight_score.hpp"

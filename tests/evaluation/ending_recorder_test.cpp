@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/sensors/sensor_config.hpp"
 #include "tests/support/layers.hpp"
 
 namespace swiftlet::evaluation {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/voxel_map.hpp"
+
 namespace swiftlet::testing {
 namespace {
 

@@ -10,6 +10,9 @@
 
 #include <Eigen/Geometry>
 
+#include "common/key_pose.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/submap3d.hpp"
 #include "common/world/map3d_layer.hpp"
 
 namespace swiftlet::testing {

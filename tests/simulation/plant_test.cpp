@@ -247,22 +247,21 @@ TEST(Vibration, GrowsWithTheThrust) {
 
 TEST(FuelGauge, WithoutErrorsReadsTheTruth) {
   Battery battery(kVehicle, {}, 0.83);
-  const FuelGauge gauge({}, 0.83);
   for (int i = 0; i < 1000; ++i) {
     battery.draw(180.0, 0.37);
-    ASSERT_EQ(gauge.remaining(battery), battery.remaining()) << "to the last bit";
-    ASSERT_EQ(gauge.current_a(battery), battery.current_a());
+    ASSERT_EQ(gaugedCharge({}, 0.83, battery), battery.remaining()) << "to the last bit";
+    ASSERT_EQ(gaugedCurrent_a({}, battery), battery.current_a());
   }
 }
 
 TEST(FuelGauge, GuessesTheChargeAtTheStartAndCountsAWrongCurrent) {
   Battery battery(kVehicle, {}, 0.8);
-  const FuelGauge gauge({.initial_error = 0.03, .gain_error = -0.05}, 0.8);
-  EXPECT_NEAR(gauge.remaining(battery), 0.83, 1e-12);
+  const FuelGaugeConfig gauge{.initial_error = 0.03, .gain_error = -0.05};
+  EXPECT_NEAR(gaugedCharge(gauge, 0.8, battery), 0.83, 1e-12);
   for (int i = 0; i < 600; ++i) battery.draw(150.0, 1.0);
-  EXPECT_NEAR(gauge.remaining(battery), 0.83 - 0.95 * (0.8 - battery.remaining()), 1e-12);
-  EXPECT_NEAR(gauge.current_a(battery), 0.95 * battery.current_a(), 1e-12);
-  EXPECT_EQ(FuelGauge({.initial_error = 0.1}, 1.0).remaining(Battery(kVehicle, {}, 1.0)), 1.0) << "never above full";
+  EXPECT_NEAR(gaugedCharge(gauge, 0.8, battery), 0.83 - 0.95 * (0.8 - battery.remaining()), 1e-12);
+  EXPECT_NEAR(gaugedCurrent_a(gauge, battery), 0.95 * battery.current_a(), 1e-12);
+  EXPECT_EQ(gaugedCharge({.initial_error = 0.1}, 1.0, Battery(kVehicle, {}, 1.0)), 1.0) << "never above full";
 }
 
 TEST(FuelGauge, ItsErrorsAreInTheSamplesThatTheVehicleSends) {

@@ -6,6 +6,8 @@
 #include <rapidcheck.h>
 #include <nlohmann/json.hpp>
 
+#include "common/submap3d.hpp"
+#include "common/voxel_map.hpp"
 #include "tests/rendering/example_flight.hpp"
 #include "web/server/command_desk.hpp"
 #include "web/server/state_json.hpp"

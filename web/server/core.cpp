@@ -11,6 +11,8 @@
 namespace swiftlet::web {
 namespace {
 
+/// Without watchers and without pending answers.
+constexpr int kIdleTicksPerSecond = 4;
 /// Connections at the same time that only send requests; a browser opens six.
 constexpr std::ptrdiff_t kMostForRequests = 64;
 /// Viewers may save this much of their bandwidth, for a map or a picture at once.

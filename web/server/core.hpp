@@ -19,8 +19,6 @@
 namespace swiftlet::web {
 
 inline constexpr int kTicksPerSecond = 100;
-/// Period without watchers and without pending answers.
-inline constexpr int kIdleTicksPerSecond = 4;
 
 /// A connection that the server can close and that may receive the tick.
 class Connection {

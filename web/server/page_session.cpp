@@ -38,7 +38,7 @@ class PageSession final : public WebSocket {
       queueText(eventsJson(events));
     }
     if (!telemetry.world().value) return;
-    const WorldParts& parts = telemetry.parts();
+    const PageParts& parts = telemetry.parts();
     if (map_beat_.due(now)) {
       map_beat_.done(now);
       queueTiles(tiles_.next(parts.tiles(), kMostTileBytes));

@@ -1,6 +1,6 @@
 // One page connected by WebSocket. Ten times a second it is sent what has changed since the last time:
 //   text   {"type": "hello" | "state" | "frontiers" | "levels" | "given_map" | "trail" | "events" | "tree", ...}
-//   binary map tiles (see TileReader) and laser points (see WorldParts::laser)
+//   binary map tiles (see TileReader) and laser points (see PageParts::laser)
 // A slow page skips states and gets the newest; nothing is queued for it.
 #pragma once
 

@@ -5,7 +5,7 @@
 namespace swiftlet::web {
 
 void refuse(int status, std::string reason, std::string allow) {
-  throw Refused{status, std::move(reason), std::move(allow)};
+  throw Refuse{status, std::move(reason), std::move(allow)};
 }
 
 std::string shown(std::string_view text) {

@@ -1,4 +1,4 @@
-// How a check of a request refuses it: by throwing the message to the client.
+// How a check of a request refuses it: by throwing the action that answers the client.
 #pragma once
 
 #include <string>
@@ -6,13 +6,13 @@
 
 namespace swiftlet::web {
 
-/// Thrown within route() only.
-struct Refused {
-  int status = 400;
+struct Refuse {
+  int status = 400;  ///< 400, 401, 403, 404, 405, 426
   std::string reason;
   std::string allow;  ///< For status 405: the allowed methods.
 };
 
+/// Throws a Refuse, which route() returns.
 [[noreturn]] void refuse(int status, std::string reason, std::string allow = {});
 
 /// Text of an unknown client, made safe for a message.

@@ -292,15 +292,6 @@ Action decide(const Request& request, const Policy& policy) {
   return ServeFile{fileOf(target->path)};
 }
 
-/// With the target as a path, and its own host if it is in the absolute form.
-Request inOriginForm(Request request) {
-  if (auto absolute = absoluteTarget(request.target)) {
-    request.host = std::move(absolute->authority);
-    request.target = std::move(absolute->target);
-  }
-  return request;
-}
-
 }  // namespace
 
 bool hasToken(const Request& request, const Policy& policy) {
@@ -312,8 +303,8 @@ bool hasToken(const Request& request, const Policy& policy) {
 Action route(const Request& request, const Policy& policy) {
   try {
     return decide(inOriginForm(request), policy);
-  } catch (const Refused& refused) {
-    return Refuse{refused.status, refused.reason, refused.allow};
+  } catch (const Refuse& refusal) {
+    return refusal;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "common/command.hpp"
 #include "web/server/picture_view.hpp"
 #include "web/server/public_url.hpp"
+#include "web/server/refusal.hpp"
 #include "web/server/request.hpp"
 
 namespace swiftlet::web {
@@ -48,11 +49,6 @@ struct StartMission {
   std::size_t vehicle = 0;
 };
 struct ConfirmToken {};
-struct Refuse {
-  int status = 400;  ///< 400, 401, 403, 404, 405, 426
-  std::string reason;
-  std::string allow;  ///< For status 405: the allowed methods.
-};
 
 using Action = std::variant<ServeFile, Redirect, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand,
                             ListMissions, StartMission, ConfirmToken, Refuse>;

@@ -7,6 +7,7 @@
 
 #include "common/operator_text.hpp"
 #include "common/rounding.hpp"
+#include "common/submap3d.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
 #include "common/world/map3d_layer.hpp"

@@ -4,6 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "common/rgbd_frame.hpp"
+#include "common/world/map3d_layer.hpp"
+
 namespace swiftlet::web {
 namespace {
 
@@ -17,6 +20,9 @@ constexpr float kLeastStep_m = 0.0005F;
 constexpr float kMostSteps = 32767.0F;
 /// Averaging moves a point within its cube, and cubes are smaller than this.
 constexpr float kSamePoint_m = 0.05F;
+/// Least period between two lists of the noisy points of the newest submap: they change often, and each list is sent
+/// whole.
+constexpr double kNoisyPeriod_s = 2.0;
 /// Number of points that are compared to decide whether a list continues another.
 constexpr std::size_t kCompared = 64;
 

@@ -23,8 +23,13 @@
 #include <string>
 #include <vector>
 
-#include "common/world/map3d_layer.hpp"
+#include "common/submap3d.hpp"
+#include "common/time.hpp"
 #include "web/server/tile_feed.hpp"
+
+namespace swiftlet::common {
+struct Map3dLayer;
+}
 
 namespace swiftlet::web {
 
@@ -66,11 +71,10 @@ class SubmapFeed {
 
 /// The lists of one page. New points come at once, those of the newest submap first. The points of a submap that has
 /// settled are sent once more when they have moved since, and so are those of one that was thinned; that takes at most
-/// kRefreshBytesPerSecond. The noisy points of the newest submap are sent again each kNoisyPeriod_s at most.
+/// kRefreshBytesPerSecond. The noisy points of the newest submap are sent again every 2 s at most.
 class SubmapReader {
  public:
   static constexpr double kRefreshBytesPerSecond = 200e3;
-  static constexpr double kNoisyPeriod_s = 2.0;
 
   /// The next messages, of about `most_bytes` or one message; empty when the page has everything it may have.
   std::vector<SharedText> next(const SubmapFeed& feed, common::Time now, std::size_t most_bytes);

@@ -108,13 +108,16 @@ tl::expected<Target, std::string> parseTarget(std::string_view target) {
   return result;
 }
 
-std::optional<AbsoluteTarget> absoluteTarget(std::string_view target) {
+Request inOriginForm(Request request) {
   constexpr std::string_view kScheme = "http://";
-  if (common::lowerCase(target.substr(0, kScheme.size())) != kScheme) return std::nullopt;
+  std::string_view target = request.target;
+  if (common::lowerCase(target.substr(0, kScheme.size())) != kScheme) return request;
   target.remove_prefix(kScheme.size());
   const std::string_view authority = target.substr(0, target.find_first_of("/?"));
   target.remove_prefix(authority.size());
-  return AbsoluteTarget{std::string(authority), (target.starts_with('/') ? "" : "/") + std::string(target)};
+  request.host = authority;
+  request.target = (target.starts_with('/') ? "" : "/") + std::string(target);
+  return request;
 }
 
 std::optional<Authority> parseAuthority(std::string_view text) {

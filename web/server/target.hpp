@@ -8,6 +8,8 @@
 
 #include <tl/expected.hpp>
 
+#include "web/server/request.hpp"
+
 namespace swiftlet::web {
 
 struct Target {
@@ -19,13 +21,9 @@ struct Target {
 /// segment, or names a query key twice.
 tl::expected<Target, std::string> parseTarget(std::string_view target);
 
-/// The parts of "http://localhost:8080/api/state", the absolute form of a target (RFC 9112, 3.2.2).
-struct AbsoluteTarget {
-  std::string authority;  ///< "localhost:8080", which takes the place of the Host header.
-  std::string target;     ///< "/api/state", as parseTarget() takes it.
-};
-/// nullopt for a target in another form.
-std::optional<AbsoluteTarget> absoluteTarget(std::string_view target);
+/// The request with a target that parseTarget() takes. One in the absolute form, "http://localhost:8080/api/state"
+/// (RFC 9112, 3.2.2), brings its own host, which takes the place of the Host header.
+Request inOriginForm(Request request);
 
 /// A host and perhaps a port, as in a Host header: "[::1]:8080" is {"::1", 8080}.
 struct Authority {

@@ -11,9 +11,9 @@
 #include "common/rgbd_frame.hpp"
 #include "common/world.hpp"
 #include "web/server/event_feed.hpp"
+#include "web/server/page_parts.hpp"
 #include "web/server/state_json.hpp"
 #include "web/server/web_server.hpp"
-#include "web/server/world_parts.hpp"
 
 namespace swiftlet::web {
 
@@ -55,7 +55,7 @@ class Telemetry {
   /// encodeMap3d(), which the tick of a page with a 3D view calls, updates the submaps of the parts.
   void encodeMap3d();
   const SharedText& state() const { return state_; }
-  const WorldParts& parts() const { return parts_; }
+  const PageParts& parts() const { return parts_; }
 
   /// Any thread may post events.
   EventFeed& events() { return events_; }
@@ -73,7 +73,7 @@ class Telemetry {
   /// (unix, simulated) seconds of the recent worlds.
   std::deque<std::pair<double, double>> clock_;
   SharedText state_;
-  WorldParts parts_;
+  PageParts parts_;
   EventFeed events_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/rgbd_frame.hpp"
 #include "tests/autonomy/maneuver_story.hpp"
 
 namespace swiftlet::autonomy {

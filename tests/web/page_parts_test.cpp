@@ -1,5 +1,5 @@
 // The parts of the world: a page is sent again what has changed, and nothing else.
-#include "web/server/world_parts.hpp"
+#include "web/server/page_parts.hpp"
 
 #include <memory>
 #include <vector>
@@ -12,9 +12,9 @@
 namespace swiftlet::web {
 namespace {
 
-TEST(WorldPartsTest, ALayerThatBothWorldsShareIsNotSentAgain) {
+TEST(PagePartsTest, ALayerThatBothWorldsShareIsNotSentAgain) {
   testing::ExampleFlight flight;
-  WorldParts parts;
+  PageParts parts;
   const auto first = flight.advance(2.0);
   parts.update(first);
   const std::uint64_t levels = parts.levels().version, laser = parts.laser().version, tree = parts.tree().version();
@@ -27,10 +27,10 @@ TEST(WorldPartsTest, ALayerThatBothWorldsShareIsNotSentAgain) {
   EXPECT_EQ(parts.tree().version(), tree);
 }
 
-TEST(WorldPartsTest, TheTrailIsSentWholeOnceItsPointsHaveMoved) {
+TEST(PagePartsTest, TheTrailIsSentWholeOnceItsPointsHaveMoved) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(2.0));
-  WorldParts parts;
+  PageParts parts;
   const auto withTrail = [&](const std::vector<Eigen::Vector2d>& points_map_m) {
     layers.vehicle.trail = common::Trail(points_map_m);
     parts.update(std::make_shared<const common::World>(layers.world()));

@@ -1,4 +1,4 @@
-#include "web/server/world_parts.hpp"
+#include "web/server/page_parts.hpp"
 
 #include <cmath>
 
@@ -38,7 +38,7 @@ std::string laserBytes(const common::LaserPoints& laser) {
 
 }  // namespace
 
-void WorldParts::update(const std::shared_ptr<const common::World>& world) {
+void PageParts::update(const std::shared_ptr<const common::World>& world) {
   if (world == encoded_) return;
   encodeMap(*world->map, encoded_ ? encoded_->map.get() : nullptr);
   if (!encoded_ || encoded_->mission != world->mission) tree_.update(world->mission->status.tree);
@@ -48,7 +48,7 @@ void WorldParts::update(const std::shared_ptr<const common::World>& world) {
   encoded_ = world;
 }
 
-void WorldParts::encodeMap(const common::MapLayer& map, const common::MapLayer* last) {
+void PageParts::encodeMap(const common::MapLayer& map, const common::MapLayer* last) {
   if (!last || last->frontiers != map.frontiers)
     frontiers_.set(frontiersJson(*map.frontiers, map.grid->resolution_m()));
   if (!last || last->levels != map.levels) levels_.set(levelsJson(*map.levels));
@@ -57,7 +57,7 @@ void WorldParts::encodeMap(const common::MapLayer& map, const common::MapLayer* 
   if (map.given) given_tiles_.update(map.given->grid);
 }
 
-void WorldParts::updateMap3d(const common::World& world) {
+void PageParts::updateMap3d(const common::World& world) {
   if (world.map3d) submaps_.update(*world.map3d);
 }
 

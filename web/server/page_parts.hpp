@@ -30,7 +30,7 @@ struct Part {
 };
 
 /// One thread. Every text is null before the first world.
-class WorldParts {
+class PageParts {
  public:
   /// Updates all parts but the submaps.
   void update(const std::shared_ptr<const common::World>& world);
