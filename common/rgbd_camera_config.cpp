@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
+#include "common/pose2.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/validation.hpp"
 
