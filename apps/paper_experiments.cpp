@@ -11,8 +11,8 @@
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "common/validation.hpp"
+#include "evaluation/figures.hpp"
 #include "evaluation/trial.hpp"
-#include "evaluation/trial_figures.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -42,8 +42,7 @@ bool isPhaseFigure(const TrialConfig& trial, std::string_view figure) {
 bool isFigure(const TrialConfig& trial, std::string_view figure) {
   if (figure.starts_with("phases.")) return isPhaseFigure(trial, figure.substr(7));
   if (figure == "flights.open_loop_error_m" || figure == "collisions") return true;
-  const auto& all = evaluation::trialFigures();
-  return std::any_of(all.begin(), all.end(), [&](const auto& known) { return figure == known.name; });
+  return evaluation::trialFigureProblem(std::string(figure)).empty();
 }
 
 std::vector<std::string> problemsOf(const PaperExperiment& row, const std::map<std::string, TrialConfig>& trials) {

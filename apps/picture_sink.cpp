@@ -31,7 +31,7 @@ void PictureSink::world(const std::shared_ptr<const common::World>& world) {
   if (now - drawn_ < kPicturePeriod || !jobs_->idle("pictures")) return;
   drawn_ = now;
   jobs_->submit("pictures", now_, kPictureLatency,
-                [this, world, summary = folder_.summary(), truth = recorder_.record().truth_map,
+                [this, world, summary = folder_.summary(), truth = recorder_.truth_map(),
                  hull_m = hull_diameter_m_]() -> common::JobRunner::Deliver {
                   auto pictures = reportPictures(*world, summary, truth, hull_m);
                   return [this, pictures = std::move(pictures)](common::Time) { folder_.show(pictures); };
@@ -39,7 +39,7 @@ void PictureSink::world(const std::shared_ptr<const common::World>& world) {
 }
 
 void PictureSink::drawNow(const common::World& world) {
-  folder_.show(reportPictures(world, folder_.summary(), recorder_.record().truth_map, hull_diameter_m_));
+  folder_.show(reportPictures(world, folder_.summary(), recorder_.truth_map(), hull_diameter_m_));
 }
 
 }  // namespace swiftlet::apps

@@ -90,10 +90,11 @@ EnvelopeOptions envelopeOptions(const TrialOptions& options) {
 std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
   const std::string vehicle = score.vehicle.empty() ? "" : fmt::format("{:<10} ", score.vehicle);
   std::string line = fmt::format("{:<24} seed {:<4} {}{:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed, vehicle,
-                                 score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
+                                 score.passed() ? "passed" : "FAILED", score.figure("mission_time_s").value_or(0.0),
+                                 score.figure("realtime_factor").value_or(0.0));
   for (const std::string& failure : score.failures) line += "\n    " + failure;
   if (!score.passed() && score.failures.empty()) line += "\n    " + evaluation::collisionText(score);
-  if (!score.coverage_problem.empty() && trial.criteria.coverage_min <= 0)
+  if (!score.coverage_problem.empty() && !trial.criteria.asksFor("coverage"))
     line += "\n    no coverage: " + score.coverage_problem;
   return line;
 }

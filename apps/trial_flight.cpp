@@ -199,8 +199,8 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
     evaluation::FlightScore& score = by_name[vehicle.name()];
     score = scoreOf(trial, seed, record, vehicle, end);
     score.vehicle = vehicle.name();
-    end.coverage = score.coverage;
-    for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
+    end.coverage = score.figure("coverage");
+    for (const auto& [name, value] : evaluation::reportedFigures(score)) end.figures.push_back({name, value});
   };
   FlightSetup setup = setupOf(trial, map, seed, folder);
   setup.types = extras.types;

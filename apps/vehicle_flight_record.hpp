@@ -29,7 +29,7 @@ class VehicleFlightRecord {
   std::vector<autonomy::FlightSink*> sinks();
   /// Null unless requested.
   perception::FilterListener* filterListener() { return control_log_.get(); }
-  const common::Trajectory& truth_map() const { return recorder_.record().truth_map; }
+  const common::Trajectory& truth_map() const { return recorder_.truth_map(); }
   const interfaces::RunFolder& folder() const { return folder_; }
 
   /// After the last tick: the pictures, the 3D map and the logs of the end.

@@ -1,11 +1,11 @@
-#include "evaluation/behavior_score.hpp"
-
+// The figures of what behaviours promise.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <set>
 
 #include "common/rgbd_frame.hpp"
+#include "evaluation/figure_measures.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -77,15 +77,22 @@ std::vector<Eigen::Vector3d> openFloor(const common::Polygon& area, const TrueWo
   return floor_world_m;
 }
 
-void addFollow(const FollowRecord& follow, BehaviorScore& score) {
-  if (follow.followed_s <= 0.0) return;
-  const double share = follow.in_distance_s / follow.followed_s;
-  score.follow_share = std::min(share, score.follow_share.value_or(share));
-  if (!score.follow_first_share) score.follow_first_share = share;
-  score.follow_last_share = share;
-  score.follow_nearest_m = std::min(follow.nearest_m, score.follow_nearest_m.value_or(follow.nearest_m));
-  score.follow_farthest_m = std::max(follow.farthest_m, score.follow_farthest_m.value_or(follow.farthest_m));
-  score.follow_lost_s = std::max(follow.lost_s, score.follow_lost_s.value_or(follow.lost_s));
+void raise(std::optional<double>& worst, double value) { worst = std::max(value, worst.value_or(value)); }
+void lower(std::optional<double>& worst, double value) { worst = std::min(value, worst.value_or(value)); }
+
+/// The share of the time with the person 1.5 to 3 m away: the least of the flight modes, one after the other, in which
+/// a person was followed, that of the first and that of the last mode.
+void measureFollow(const std::vector<FollowRecord>& follows, FlightScore& score) {
+  for (const FollowRecord& follow : follows) {
+    if (follow.followed_s <= 0.0) continue;
+    const double share = follow.in_distance_s / follow.followed_s;
+    lower(score["follow_share"], share);
+    if (!score["follow_first_share"]) score["follow_first_share"] = share;
+    score["follow_last_share"] = share;
+    lower(score["follow_nearest_m"], follow.nearest_m);
+    raise(score["follow_farthest_m"], follow.farthest_m);
+    raise(score["follow_lost_s"], follow.lost_s);
+  }
 }
 
 bool sees(const common::PinholeCamera& camera, const common::RgbdCameraConfig& sheet, const TrueWorld& world,
@@ -121,41 +128,16 @@ std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorl
   return 1.0 - static_cast<double>(unseen.size()) / whole;
 }
 
-BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world, const common::Pose3& T_world_map,
-                      const std::vector<common::Pose3>& T_world_body_views) {
-  BehaviorScore score;
-  if (record.keep_out_distance_m) score.keep_out_gap_m = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
+void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, FlightScore& score) {
+  const BehaviorRecord& record = flight.behaviors;
+  if (record.keep_out_distance_m) score["keep_out_gap_m"] = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
   for (const InspectingView& view : record.inspecting)
-    score.inspect_axis_max_deg = std::max(score.inspect_axis_max_deg.value_or(0.0),
-                                          angleToPoint_rad(view, world, T_world_map) / common::kRadPerDeg);
+    raise(score["inspect_axis_max_deg"], angleToPoint_rad(view, world, flight.T_world_map) / common::kRadPerDeg);
   for (const common::Polygon& area : record.surveyed)
-    if (const auto share = surveyCoverage(area, world, T_world_map, T_world_body_views))
-      score.survey_coverage = std::min(*share, score.survey_coverage.value_or(1.0));
-  for (const FollowRecord& follow : record.follows) addFollow(follow, score);
-  if (record.targets)
-    if (const auto targets = scoreTargets(record.targets->targets, world.targets, T_world_map)) {
-      score.targets_found = targets->found;
-      score.target_error_max_m = targets->error_max_m;
-      score.target_error_median_m = targets->error_median_m;
-      score.false_targets = targets->false_targets;
-    }
-  return score;
-}
-
-std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score) {
-  return {{"keep_out_gap_m", score.keep_out_gap_m},
-          {"inspect_axis_max_deg", score.inspect_axis_max_deg},
-          {"survey_coverage", score.survey_coverage},
-          {"follow_share", score.follow_share},
-          {"follow_first_share", score.follow_first_share},
-          {"follow_last_share", score.follow_last_share},
-          {"follow_nearest_m", score.follow_nearest_m},
-          {"follow_farthest_m", score.follow_farthest_m},
-          {"follow_lost_s", score.follow_lost_s},
-          {"targets_found", score.targets_found},
-          {"target_error_max_m", score.target_error_max_m},
-          {"target_error_median_m", score.target_error_median_m},
-          {"false_targets", score.false_targets}};
+    if (const auto share = surveyCoverage(area, world, flight.T_world_map, flight.T_world_body_views))
+      lower(score["survey_coverage"], *share);
+  measureFollow(record.follows, score);
+  if (record.targets) measureTargets(record.targets->targets, world.targets, flight.T_world_map, score);
 }
 
 }  // namespace swiftlet::evaluation

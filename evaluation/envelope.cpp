@@ -108,7 +108,7 @@ EnvelopeFlight envelopeFlight(const std::vector<FlightScore>& scores) {
   for (const FlightScore& score : scores) {
     if (!flight.acceptable) break;
     flight.seed = score.seed;
-    flight.goal_error_m = score.goal_error_m;
+    flight.goal_error_m = score.figure("goal_error_m");
     flight.folder = score.folder;
     flight.ending = score.verdict_reason.empty() ? score.outcome : score.verdict_reason;
     flight.acceptable = evaluation::acceptable(score.verdict);

@@ -2,28 +2,28 @@
 // it.
 #pragma once
 
-#include <deque>
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
-#include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
-#include "common/world/mission_status.hpp"
 #include "evaluation/behavior_recorder.hpp"
 #include "evaluation/conduct_recorder.hpp"
 #include "evaluation/ending_recorder.hpp"
+#include "evaluation/estimate_record.hpp"
+#include "evaluation/mission_record.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
-#include "evaluation/visual_odometry_score.hpp"
+#include "evaluation/visual_odometry_record.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -32,13 +32,6 @@ struct World;
 }  // namespace swiftlet::common
 
 namespace swiftlet::evaluation {
-
-/// An estimate with the truth at its own stamp, in the plane.
-struct ComparedEstimate {
-  common::Pose2 T_map_body;   ///< The estimate in the corrected map.
-  common::Pose2 T_odom_body;  ///< The estimate before the correction by the map.
-  common::Pose2 T_map_truth;  ///< The true pose in the vehicle's `map` frame.
-};
 
 /// A goal that the mission reported as reached, with the truth at that tick.
 struct ReachedGoal {
@@ -50,26 +43,6 @@ struct ReachedGoal {
   double error_raw_m = 0.0;   ///< As error_m, with the goal in FlightRecord::T_world_start.
 };
 
-/// How the flight localized in the map it was given. Times are those of snapshots.
-struct LocalizationRecord {
-  /// When it first reported a pose.
-  struct Found {
-    common::Time stamp;
-    double path_length_m = 0.0;  ///< True horizontal path until then.
-    double error_m = 0.0;
-    double error_rad = 0.0;
-  };
-  std::optional<Found> found;
-  double flown_s = 0.0;
-  double localized_s = 0.0;
-  double wrong_s = 0.0;  ///< Time localized, but farther from the truth than kWrong_m or more turned than kWrong_rad.
-  int times_lost = 0;
-
-  /// The bounds that the criterion `wrong_time_share_max` names.
-  static constexpr double kWrong_m = 0.5;
-  static constexpr double kWrong_rad = 10.0 * common::kRadPerDeg;
-};
-
 /// The record of a whole flight.
 struct FlightRecord {
   common::Pose3 T_world_map;    ///< The vehicle's `map` frame as it can know it; see knowableFrame().
@@ -77,21 +50,13 @@ struct FlightRecord {
   /// nullopt if no map was given, or if its pose in the world is not known.
   std::optional<LocalizationRecord> localization;
   std::vector<ReachedGoal> goals;
-  /// Errors of the estimate at the times of the estimates, while airborne.
-  std::vector<double> horizontal_errors_m;
-  std::vector<double> spatial_errors_m;
-  std::vector<double> yaw_errors_rad;
-  std::vector<double> horizontal_errors_raw_m;  ///< In T_world_start.
-  double true_distance_m = 0.0;                 ///< Length of the horizontal path while airborne.
-  double true_speed_max_m_s = 0.0;              ///< Greatest horizontal speed while airborne.
-  double cruise_height_world_m = 0.0;           ///< Median height of the body while airborne.
-  common::MissionState mission = common::MissionState::kReady;
-  std::string mission_reason;
-  double mission_time_s = 0.0;    ///< From the first tick of the mission to its end, or to the end of the flight.
+  EstimateRecord estimate;
+  double true_distance_m = 0.0;        ///< Length of the horizontal path while airborne.
+  double true_speed_max_m_s = 0.0;     ///< Greatest horizontal speed while airborne.
+  double cruise_height_world_m = 0.0;  ///< Median height of the body while airborne.
+  MissionRecord mission;
   double flight_time_s = 0.0;     ///< Simulated time from the first tick to the last.
   double explored_area_m2 = 0.0;  ///< 0 if nothing was explored.
-  int interruptions = 0;          ///< How often a running behaviour of the mission was suspended.
-  int resumed = 0;                ///< How many of the suspended behaviours resumed later.
   ConductRecord conduct;
   BehaviorRecord behaviors;
   EndingRecord ending;
@@ -102,7 +67,6 @@ struct FlightRecord {
   std::shared_ptr<const common::Map3dLayer> map3d;      ///< The last 3D map; null without one.
   std::optional<VisualOdometryRecord> visual_odometry;  ///< nullopt unless the trial requires it; set by the flight.
   std::vector<common::Pose3> T_world_body_views;        ///< True poses, 5 Hz while airborne: where the camera looked.
-  common::Trajectory truth_map;                         ///< In the `map` frame, 20 Hz while airborne, for pictures.
 };
 
 /// The flight loop calls it; each call is cheap enough for every tick. Calls come in the order of time.
@@ -134,36 +98,25 @@ class FlightRecorder {
   /// Call at every snapshot.
   void world(const common::World& world);
 
-  /// The record so far; cruise_height_world_m is missing.
-  const FlightRecord& record() const { return record_; }
+  /// The true path so far, see EstimateRecord.
+  const common::Trajectory& truth_map() const { return record_.estimate.truth_map; }
   FlightRecord finish() const;
 
  private:
   void tickPhases(const simulation::Truth& truth, const common::VehicleState& estimate,
                   const std::optional<Eigen::Vector3d>& reference_odom_m);
-  common::Pose3 truthInMap(const common::Pose3& T_world_body) const;
-  void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);
-  ComparedEstimate compared(const common::VehicleState& estimate, const common::Pose3& T_world_body) const;
-  void followTree(const common::TreeView& tree);
-  void followLocalization(const common::World& world);
+  void followPath(const simulation::Truth& truth);
 
   FlightRecord record_;
   ConductRecorder conduct_;
   BehaviorRecorder behaviors_;
   EndingRecorder ending_;
   std::vector<PhaseRecorder> phases_;
-  common::Pose2 T_world_given_;
-  common::LocalizationState localization_ = common::LocalizationState::kGlobal;
-  std::optional<common::Time> last_flown_;
-  std::deque<common::StampedPose> history_;   ///< The last true poses of the body in `world`.
-  std::deque<common::VehicleState> pending_;  ///< Estimates whose stamp is newer than the truth so far.
-  ComparedEstimate newest_;
-  std::optional<common::Time> first_tick_, last_estimate_, mission_begin_, next_trajectory_;
+  std::optional<common::Time> first_tick_;
   common::Time next_view_;
   std::vector<double> heights_world_m_;
   Eigen::Vector2d home_map_m_ = Eigen::Vector2d::Zero();
   std::uint64_t counted_intent_ = 0;
-  std::set<int> suspended_;  ///< Nodes of the tree that are suspended while their parent is not.
 };
 
 }  // namespace swiftlet::evaluation

@@ -1,5 +1,6 @@
 // The tables with a row for each flight of a trial.
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ namespace {
 using common::Mark;
 using common::Table;
 using common::TableCell;
+using enum FigureGroup;
 
 TableCell verdictCell(const FlightScore& flight) {
   return {flight.verdict == Verdict::kDone ? "done"
@@ -19,58 +21,49 @@ TableCell verdictCell(const FlightScore& flight) {
           acceptable(flight.verdict) ? Mark::kGood : Mark::kBad};
 }
 
+TableCell cellOf(const FlightFigure& figure, const FlightScore& flight) {
+  return {figure.column.shown(figure.written(flight))};
+}
+
+std::vector<const FlightFigure*> columnsOf(std::initializer_list<FigureGroup> groups) {
+  std::vector<const FlightFigure*> figures = figuresOf(groups);
+  std::erase_if(figures, [](const FlightFigure* figure) { return figure->column.title == nullptr; });
+  return figures;
+}
+
 }  // namespace
 
 Table flightTable(const TrialResult& trial) {
-  Table table{
-      "Flights of " + trial.name,
-      {"seed", "passed", "outcome", "verdict", "coverage", "goal err (m)", "home err (m)", "time (s)", "distance (m)",
-       "estimate RMS (m)", "wall err (m)", "clearance (m)", "interrupted", "resumed", "x real time"},
-      {}};
+  const auto figures = columnsOf({kCoverage, kGoals, kMission, kDistance, kEstimate, kClearance});
+  const FlightFigure& speed = flightFigure("realtime_factor");
+  Table table{"Flights of " + trial.name, {"seed", "passed", "outcome", "verdict"}, {}};
+  for (const FlightFigure* figure : figures) table.columns.emplace_back(figure->column.title);
+  for (const char* title : {"interrupted", "resumed", speed.column.title}) table.columns.emplace_back(title);
   for (const FlightScore& flight : trial.flights) {
     const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
-    table.rows.push_back({{flightName(flight), Mark::kNone, link},
-                          {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
-                          {flight.outcome},
-                          verdictCell(flight),
-                          {flight.coverage_problem.empty() ? percent(flight.coverage) : "open world"},
-                          {shown(flight.goal_error_m, 3)},
-                          {shown(flight.home_error_m, 3)},
-                          {shown(flight.mission_time_s, 1)},
-                          {shown(flight.distance_m, 1)},
-                          {shown(flight.estimate_rms_m, 3)},
-                          {shown(flight.map_wall_error_median_m, 3)},
-                          {shown(flight.min_clearance_m, 2)},
-                          {fmt::format("{}", flight.interruptions)},
-                          {fmt::format("{}", flight.resumed)},
-                          {shown(flight.realtime_factor, 1)}});
+    std::vector<TableCell> row = {{flightName(flight), Mark::kNone, link},
+                                  {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
+                                  {flight.outcome},
+                                  verdictCell(flight)};
+    for (const FlightFigure* figure : figures)
+      row.push_back(figure->group == kCoverage && !flight.coverage_problem.empty() ? TableCell{"open world"}
+                                                                                   : cellOf(*figure, flight));
+    row.push_back({fmt::format("{}", flight.interruptions)});
+    row.push_back({fmt::format("{}", flight.resumed)});
+    row.push_back(cellOf(speed, flight));
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 Table conductTable(const TrialResult& trial) {
-  Table table{"Conduct and raw errors of " + trial.name,
-              {"seed", "over 10 deg", "tilt max (deg)", "thrust margin", "touch-down (m/s)", "fault to safe (s)",
-               "home energy told", "needed", "laser latency (ms)", "95 % (ms)", "raw goal err (m)", "raw home err (m)",
-               "raw RMS (m)", "raw wall err (m)"},
-              {}};
-  const auto ms = [](const std::optional<double>& s) { return s ? fmt::format("{:.0f}", 1e3 * *s) : "-"; };
+  const auto figures = columnsOf({kConduct, kHomeEnergy, kLatency, kRawFrame});
+  Table table{"Conduct and raw errors of " + trial.name, {"seed"}, {}};
+  for (const FlightFigure* figure : figures) table.columns.emplace_back(figure->column.title);
   for (const FlightScore& flight : trial.flights) {
-    const ConductScore& conduct = flight.conduct;
-    table.rows.push_back({{flightName(flight)},
-                          {percent(conduct.tilted_share)},
-                          {shown(conduct.tilt_max_deg, 1)},
-                          {shown(conduct.thrust_margin_min, 2)},
-                          {shown(conduct.touch_down_speed_m_s, 2)},
-                          {shown(conduct.safe_action_s, 2)},
-                          {percent(conduct.home_energy_predicted)},
-                          {percent(conduct.home_energy_needed)},
-                          {ms(conduct.laser_latency_median_s)},
-                          {ms(conduct.laser_latency_p95_s)},
-                          {shown(flight.goal_error_raw_m, 3)},
-                          {shown(flight.home_error_raw_m, 3)},
-                          {shown(flight.estimate_rms_raw_m, 3)},
-                          {shown(flight.map_wall_error_median_raw_m, 3)}});
+    std::vector<TableCell> row = {{flightName(flight)}};
+    for (const FlightFigure* figure : figures) row.push_back(cellOf(*figure, flight));
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -83,7 +76,7 @@ Table phaseTable(const TrialResult& trial) {
   for (const FlightScore& flight : trial.flights)
     for (const PhaseScore& phase : flight.phases) {
       const auto cell = [&](const char* figure, int decimals) {
-        return TableCell{shown(phase.figure(figure), decimals)};
+        return TableCell{FigureColumn{figure, decimals}.shown(phase.figure(figure))};
       };
       table.rows.push_back({{flightName(flight)},
                             {phase.name, phase.missed().empty() ? Mark::kNone : Mark::kBad},

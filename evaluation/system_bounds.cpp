@@ -4,7 +4,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/validation.hpp"
-#include "evaluation/trial_figures.hpp"
+#include "evaluation/figures.hpp"
 
 namespace swiftlet::evaluation {
 

@@ -1,7 +1,6 @@
 // The cells of the tables of trials.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -9,14 +8,6 @@
 #include "evaluation/flight_score.hpp"
 
 namespace swiftlet::evaluation {
-
-inline std::string shown(const std::optional<double>& value, int decimals) {
-  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
-}
-
-inline std::string percent(const std::optional<double>& value) {
-  return value ? fmt::format("{:.1f} %", 100 * *value) : "-";
-}
 
 /// "7", or "7 beta" of several vehicles.
 inline std::string flightName(const FlightScore& flight) {

@@ -4,6 +4,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/validation.hpp"
+#include "evaluation/figure_measures.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
@@ -28,14 +29,14 @@ std::vector<std::string> TrialTarget::validate() const {
       .problems();
 }
 
-std::optional<TargetScore> scoreTargets(const std::vector<common::Target>& reported,
-                                        const std::vector<TrueTarget>& truth, const common::Pose3& T_world_map) {
-  if (truth.empty()) return std::nullopt;
-  TargetScore score;
+void measureTargets(const std::vector<common::Target>& reported, const std::vector<TrueTarget>& truth,
+                    const common::Pose3& T_world_map, FlightScore& score) {
+  if (truth.empty()) return;
+  double all_found = 0.0;
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < reported.size(); ++i) {
     if (reported[i].state != common::TargetState::kFound) continue;
-    score.false_targets += 1.0;
+    all_found += 1.0;
     for (std::size_t j = 0; j < truth.size(); ++j) {
       const double apart_m = (T_world_map * reported[i].position_map_m - truth[j].middle_world_m).norm();
       if (reported[i].name == truth[j].name && apart_m <= kTargetMatch_m) pairs.push_back({apart_m, j, i});
@@ -49,12 +50,12 @@ std::optional<TargetScore> scoreTargets(const std::vector<common::Target>& repor
     found[pair.truth] = used[pair.reported] = true;
     errors_m.push_back(pair.apart_m);
   }
-  score.found = static_cast<double>(errors_m.size()) / static_cast<double>(truth.size());
-  score.false_targets -= static_cast<double>(errors_m.size());
-  if (errors_m.empty()) return score;
-  score.error_max_m = quantile(errors_m, 1.0);
-  score.error_median_m = quantile(errors_m, 0.5);
-  return score;
+  const auto matched = static_cast<double>(errors_m.size());
+  score["targets_found"] = matched / static_cast<double>(truth.size());
+  score["false_targets"] = all_found - matched;
+  if (errors_m.empty()) return;
+  score["target_error_max_m"] = quantile(errors_m, 1.0);
+  score["target_error_median_m"] = quantile(errors_m, 0.5);
 }
 
 }  // namespace swiftlet::evaluation

@@ -1,5 +1,6 @@
 // Writes results.json.
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@ namespace swiftlet::evaluation {
 namespace {
 
 using nlohmann::ordered_json;
+using enum FigureGroup;
 
 ordered_json orNull(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ordered_json(common::rounded(*value)) : ordered_json(nullptr);
@@ -24,36 +26,30 @@ ordered_json visitJson(const MarkerVisit& visit) {
           {"open_loop_error_m", visit.open_loop_error_m ? pair(*visit.open_loop_error_m) : ordered_json(nullptr)}};
 }
 
-ordered_json localizationJson(const LocalizationScore& score) {
-  return {{"in_time", score.in_time},
-          {"path_length_m", orNull(score.path_length_m)},
-          {"error_m", orNull(score.error_m)},
-          {"error_rad", orNull(score.error_rad)},
-          {"time_share", orNull(score.time_share)},
-          {"wrong_share", orNull(score.wrong_share)},
-          {"times_lost", score.times_lost}};
+ordered_json valueJson(const FlightFigure& figure, const FlightScore& flight) {
+  const std::optional<double> value = figure.written(flight);
+  if (!value) return nullptr;
+  switch (figure.in_results) {
+    case FlightFigure::InResults::kCount:
+      return static_cast<std::int64_t>(*value);
+    case FlightFigure::InResults::kFlag:
+      return *value != 0.0;
+    default:
+      return orNull(value);
+  }
 }
 
-ordered_json map3dJson(const Map3dScore& score) {
-  ordered_json json = {{"points", score.points},
-                       {"error_median_m", orNull(score.error_median_m)},
-                       {"error_p95_m", orNull(score.error_p95_m)},
-                       {"aligned_median_m", orNull(score.aligned_median_m)},
-                       {"aligned_p95_m", orNull(score.aligned_p95_m)},
-                       {"coverage", orNull(score.coverage)}};
-  if (score.camera)
-    json["camera"] = {{"mount_rad", orNull(score.camera->mount_rad)},
-                      {"sheet_rad", orNull(score.camera->sheet_rad)},
-                      {"clock_s", orNull(score.camera->clock_s)}};
+/// Adds the figures of the groups.
+void add(std::initializer_list<FigureGroup> groups, const FlightScore& flight, ordered_json& json) {
+  for (const FlightFigure* figure : figuresOf(groups))
+    if (figure->in_results != FlightFigure::InResults::kNot)
+      json[figure->key != nullptr ? figure->key : figure->name] = valueJson(*figure, flight);
+}
+
+ordered_json objectOf(FigureGroup group, const FlightScore& flight) {
+  ordered_json json = ordered_json::object();
+  add({group}, flight, json);
   return json;
-}
-
-ordered_json machineJson(const common::MachineUse& machine) {
-  return {{"memory_peak_MB", orNull(machine.memory_peak_MB)},
-          {"frame_first_ms", orNull(machine.frame_first_ms)},
-          {"frame_last_ms", orNull(machine.frame_last_ms)},
-          {"plan_median_ms", orNull(machine.plan_median_ms)},
-          {"plan_max_ms", orNull(machine.plan_max_ms)}};
 }
 
 ordered_json phasesJson(const FlightScore& flight) {
@@ -73,63 +69,45 @@ ordered_json operatorJson(const FlightScore& flight) {
   return json;
 }
 
+/// What only some flights have.
+void addParts(const FlightScore& flight, ordered_json& json) {
+  if (flight.figure("map3d_points")) json["map3d"] = objectOf(kMap3d, flight);
+  if (flight.figure("camera_clock_error_s")) json["map3d"]["camera"] = objectOf(kCamera, flight);
+  if (flight.figure("visual_odometry_lost_share")) json["visual_odometry"] = objectOf(kVisualOdometry, flight);
+  if (flight.machine.memory_peak_MB) json["machine"] = objectOf(kMachine, flight);
+  if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
+  if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
+}
+
 ordered_json flightJson(const FlightScore& flight) {
   ordered_json visits = ordered_json::array();
   for (const MarkerVisit& visit : flight.visits) visits.push_back(visitJson(visit));
   ordered_json json = {{"seed", flight.seed}};
   if (!flight.vehicle.empty()) json["vehicle"] = flight.vehicle;
-  json.update(ordered_json{
-      {"passed", flight.passed()},
-      {"outcome", flight.outcome},
-      {"failures", flight.failures},
-      {"verdict", toString(flight.verdict)},
-      {"verdict_reason", flight.verdict_reason},
-      {"folder", flight.folder},
-      {"mission_done", flight.mission_done},
-      {"collisions", flight.collisions},
-      {"avoidable_collisions", flight.avoidable_collisions},
-      {"glass_contacts", flight.glass_contacts},
-      {"collision", flight.collision},
-      {"coverage", orNull(flight.coverage)},
-      {"coverage_problem", flight.coverage_problem},
-      {"goal_error_m", orNull(flight.goal_error_m)},
-      {"home_error_m", orNull(flight.home_error_m)},
-      {"marker_error_m", orNull(flight.marker_error_m)},
-      {"relocalization_error_m", orNull(flight.relocalization_error_m)},
-      {"open_loop_error_m", orNull(flight.open_loop_error_m)},
-      {"visits", visits},
-      {"mission_time_s", orNull(flight.mission_time_s)},
-      {"flight_time_s", orNull(flight.flight_time_s)},
-      {"distance_m", orNull(flight.distance_m)},
-      {"end_distance_m", orNull(flight.end_distance_m)},
-      {"speed_max_m_s", orNull(flight.speed_max_m_s)},
-      {"explored_area_m2", orNull(flight.explored_area_m2)},
-      {"reachable_area_m2", orNull(flight.reachable_area_m2)},
-      {"estimate_rms_m", orNull(flight.estimate_rms_m)},
-      {"estimate_spatial_rms_m", orNull(flight.estimate_spatial_rms_m)},
-      {"estimate_yaw_rms_rad", orNull(flight.estimate_yaw_rms_rad)},
-      {"map_wall_error_median_m", orNull(flight.map_wall_error_median_m)},
-      {"map_wall_error_p95_m", orNull(flight.map_wall_error_p95_m)},
-      {"goal_error_raw_m", orNull(flight.goal_error_raw_m)},
-      {"home_error_raw_m", orNull(flight.home_error_raw_m)},
-      {"estimate_rms_raw_m", orNull(flight.estimate_rms_raw_m)},
-      {"map_wall_error_median_raw_m", orNull(flight.map_wall_error_median_raw_m)},
-      {"localization", flight.localization ? localizationJson(*flight.localization) : ordered_json(nullptr)},
-      {"min_clearance_m", orNull(flight.min_clearance_m)},
-      {"min_walker_clearance_m", orNull(flight.min_walker_clearance_m)},
-      {"interruptions", flight.interruptions},
-      {"resumed", flight.resumed},
-      {"realtime_factor", orNull(flight.realtime_factor)}});
-  for (const auto& [name, figure] : figuresOf(flight.conduct)) json[name] = orNull(figure);
-  for (const auto& [name, figure] : figuresOf(flight.behaviors))
-    if (figure) json[name] = orNull(figure);
-  if (flight.map3d) json["map3d"] = map3dJson(*flight.map3d);
-  if (flight.visual_odometry)
-    json["visual_odometry"] = {{"rms_m", orNull(flight.visual_odometry->rms_m)},
-                               {"lost_share", orNull(flight.visual_odometry->lost_share)}};
-  if (flight.machine.memory_peak_MB) json["machine"] = machineJson(flight.machine);
-  if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
-  if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
+  json.update(ordered_json{{"passed", flight.passed()},
+                           {"outcome", flight.outcome},
+                           {"failures", flight.failures},
+                           {"verdict", toString(flight.verdict)},
+                           {"verdict_reason", flight.verdict_reason},
+                           {"folder", flight.folder},
+                           {"mission_done", flight.mission_done},
+                           {"collisions", flight.collisions},
+                           {"avoidable_collisions", flight.avoidable_collisions},
+                           {"glass_contacts", flight.glass_contacts},
+                           {"collision", flight.collision}});
+  add({kCoverage}, flight, json);
+  json["coverage_problem"] = flight.coverage_problem;
+  add({kGoals}, flight, json);
+  json["visits"] = visits;
+  add({kMission, kFlightTime, kDistance, kCourse, kSpace, kEstimate, kRawFrame}, flight, json);
+  json["localization"] = flight.figure("localized_in_time") ? objectOf(kLocalization, flight) : ordered_json(nullptr);
+  add({kClearance, kWalkers}, flight, json);
+  json["interruptions"] = flight.interruptions;
+  json["resumed"] = flight.resumed;
+  add({kSpeed, kConduct, kHomeEnergy, kLatency}, flight, json);
+  for (const FlightFigure* figure : figuresOf({kBehaviors}))
+    if (flight.figure(figure->name)) json[figure->name] = valueJson(*figure, flight);
+  addParts(flight, json);
   return json;
 }
 
@@ -146,9 +124,12 @@ ordered_json verdictsJson(const TrialResult& trial) {
 /// Of figures that some flights lack, which are ignored there.
 ordered_json seedsWithoutJson(const TrialResult& trial) {
   ordered_json json = ordered_json::object();
-  for (const TrialFigure& figure : trialFigures())
-    if (const auto seeds = seedsWithout(figure, trial.flights); !seeds.empty() && seeds.size() < trial.flights.size())
-      json[figure.name] = seeds;
+  for (const TrialFigure* figure : trialFigures()) {
+    std::vector<std::int64_t> seeds;
+    for (const FlightScore& flight : trial.flights)
+      if (!flight.figure(figure->figure)) seeds.push_back(flight.seed);
+    if (!seeds.empty() && seeds.size() < trial.flights.size()) json[figure->name] = seeds;
+  }
   return json;
 }
 
@@ -165,7 +146,7 @@ ordered_json trialJson(const TrialResult& trial) {
                        {"collisions", trial.collisions()},
                        {"glass_contacts", trial.glassContacts()},
                        {"verdicts", verdictsJson(trial)}};
-  for (const TrialFigure& figure : trialFigures()) json[figure.name] = orNull(valueOf(figure, trial.flights));
+  for (const TrialFigure* figure : trialFigures()) json[figure->name] = orNull(figure->of(trial.flights));
   json["seeds_without"] = seedsWithoutJson(trial);
   json["paper"] = paper;
   json["flights"] = flights;

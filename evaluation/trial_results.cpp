@@ -1,11 +1,7 @@
 #include "evaluation/trial_results.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "evaluation/judge.hpp"
+#include <utility>
 
 namespace swiftlet::evaluation {
 namespace {
@@ -41,32 +37,19 @@ int TrialResult::passed() const {
 }
 
 std::vector<std::string> TrialResult::missed() const {
-  Judge judge;
-  const auto median = [&](const char* what, std::optional<double> FlightScore::*member, double bound) {
-    const int lacking = summed(flights, [&](const FlightScore& flight) { return flight.*member ? 0 : 1; });
-    if (!flights.empty() && 2 * static_cast<std::size_t>(lacking) >= flights.size() && !std::isinf(bound))
-      judge.fail(fmt::format("{}: {} of {} flights lack the figure, at most {:g} was asked for", what, lacking,
-                             flights.size(), bound));
-    else
-      judge.atMost(what, medianOverAll(member, flights), bound);
+  std::vector<std::string> failures;
+  const auto add = [&](std::string failure) {
+    if (!failure.empty()) failures.push_back(std::move(failure));
   };
-  median("goal error median, m", &FlightScore::goal_error_m, criteria.goal_error_median_max_m);
-  median("home error median, m", &FlightScore::home_error_m, criteria.home_error_median_max_m);
-  judge.atMost("mission time median, s", figure("mission_time_median_s"), criteria.mission_time_median_max_s);
-  median("estimate RMS median, m", &FlightScore::estimate_rms_m, criteria.estimate_rms_median_max_m);
-  median("map wall error median, m", &FlightScore::map_wall_error_median_m, criteria.map_wall_error_median_max_m);
-  judge.atLeast("flights localized", figure("localized_flights"), criteria.localized_flights_min,
-                "no flight was given a map");
-  judge.atLeast("share of flights done", figure("done_share"), criteria.done_share_min);
-  for (const PhaseBound& bound : figure_bounds)
-    if (std::string failure = evaluation::missed(bound, figure(bound.figure)); !failure.empty())
-      judge.fail(std::move(failure));
+  const auto judge = [&](const TrialFigure& figure) { add(figure.failure(flights, criteria[figure.criterion.key])); };
+  for (const TrialFigure* figure : judgedOverFlights()) judge(*figure);
+  judge(trialFigure("done_share"));
+  for (const PhaseBound& bound : figure_bounds) add(evaluation::missed(bound, figure(bound.figure)));
   if (criteria.verdicts) {
-    judge.atMost("share of flights that landed or refused needlessly", figure("needless_share"),
-                 criteria.needless_share_max);
-    judge.atMost("crashes", count(Verdict::kCrashed), criteria.crashes_max);
+    judge(trialFigure("needless_share"));
+    add(Criterion{"crashes_max", "crashes"}.failure(count(Verdict::kCrashed), criteria.crashes_max));
   }
-  return judge.failures;
+  return failures;
 }
 
 bool TrialResult::met() const {

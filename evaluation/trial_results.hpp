@@ -10,7 +10,6 @@
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
-#include "evaluation/trial_figures.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -37,7 +36,7 @@ struct TrialResult {
   /// How many flights got that verdict.
   int count(Verdict verdict) const;
   /// One of trialFigures() by its name, which must exist: over the flights that have it; nullopt without one.
-  std::optional<double> figure(std::string_view figure_name) const { return trialFigure(figure_name, flights); }
+  std::optional<double> figure(std::string_view figure_name) const { return trialFigure(figure_name).of(flights); }
 };
 
 struct TrialResults {

@@ -147,7 +147,7 @@ VerdictFacts factsOf(const FlightRecord& record, const TrueWorld& world) {
   const simulation::Truth& last = record.last_truth;
   VerdictFacts facts;
   facts.crashed = last.crashed;
-  facts.mission_done = record.mission == common::MissionState::kDone;
+  facts.mission_done = record.mission.state == common::MissionState::kDone;
   facts.flew = ending.flew;
   facts.in_the_air = last.airborne;
   facts.at_home = (last.T_world_body.position_m - record.T_world_start.position_m).head<2>().norm() <= kHome_m;

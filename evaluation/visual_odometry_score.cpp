@@ -1,7 +1,7 @@
-#include "evaluation/visual_odometry_score.hpp"
-
+// The figures of visual odometry alone.
 #include <vector>
 
+#include "evaluation/figure_measures.hpp"
 #include "evaluation/trajectory_metrics.hpp"
 
 namespace swiftlet::evaluation {
@@ -12,16 +12,15 @@ constexpr common::Duration kGap = common::Duration::fromMilliseconds(200);
 
 }  // namespace
 
-std::optional<VisualOdometryScore> scoreOf(const VisualOdometryRecord& record, const common::Trajectory& truth) {
-  if (record.frames == 0) return std::nullopt;
-  VisualOdometryScore score;
-  score.lost_share = static_cast<double>(record.lost) / static_cast<double>(record.frames);
+void measureVisualOdometry(const VisualOdometryRecord& record, const common::Trajectory& truth, FlightScore& score) {
+  if (record.frames == 0) return;
+  score["visual_odometry_lost_share"] = static_cast<double>(record.lost) / static_cast<double>(record.frames);
   std::vector<PosePair> pairs;
   for (const common::StampedPose& estimate : record.body)
     if (const auto pose = common::poseAt(truth, estimate.stamp, kGap))
       pairs.push_back({estimate.stamp, estimate.pose, *pose});
-  if (const auto error = absoluteTrajectoryError(pairs, Alignment::kSpatial)) score.rms_m = error->translation_m.rmse;
-  return score;
+  if (const auto error = absoluteTrajectoryError(pairs, Alignment::kSpatial))
+    score["visual_odometry_rms_m"] = error->translation_m.rmse;
 }
 
 }  // namespace swiftlet::evaluation

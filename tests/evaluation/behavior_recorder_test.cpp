@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "evaluation/flight_score.hpp"
+#include "evaluation/figure_measures.hpp"
 #include "tests/simulation/fixtures.hpp"
 #include "tests/support/layers.hpp"
 
@@ -91,11 +91,14 @@ TEST_F(Behaviors, EachModeOfFollowingHasItsFiguresAndTheLeastShareCounts) {
   at(-2.0, 0.0);
   for (int i = 0; i < 30; ++i) at(0.0, 0.0);
   for (int i = 0; i < 10; ++i) at(-2.0, 0.0);
-  const BehaviorScore score = scoreOf(recorder_.record(), {}, {}, {});
-  EXPECT_NEAR(*score.follow_first_share, 1.0, 1e-9);
-  EXPECT_NEAR(*score.follow_last_share, 0.75, 1e-6);
-  EXPECT_EQ(score.follow_share, score.follow_last_share);
-  EXPECT_NEAR(*score.follow_farthest_m, 4.0, 1e-9);
+  FlightRecord flight;
+  flight.behaviors = recorder_.record();
+  FlightScore score;
+  measureBehaviors(flight, {}, score);
+  EXPECT_NEAR(*score["follow_first_share"], 1.0, 1e-9);
+  EXPECT_NEAR(*score["follow_last_share"], 0.75, 1e-6);
+  EXPECT_EQ(score["follow_share"], score["follow_last_share"]);
+  EXPECT_NEAR(*score["follow_farthest_m"], 4.0, 1e-9);
 }
 
 TEST_F(Behaviors, InspectingCountsOnceItHasTurnedToThePoint) {
@@ -154,11 +157,11 @@ TEST(BehaviorCriteria, AnUnmeasuredOrLesserDistanceIsAMiss) {
   score.mission_done = true;
   Criteria criteria;
   EXPECT_TRUE(missed(score, criteria).empty());
-  criteria.keep_out_gap_min_m = 0.02;
+  criteria["keep_out_gap_min_m"] = 0.02;
   EXPECT_EQ(missed(score, criteria).size(), 1u);
-  score.behaviors.keep_out_gap_m = 0.01;
+  score["keep_out_gap_m"] = 0.01;
   EXPECT_EQ(missed(score, criteria).size(), 1u);
-  score.behaviors.keep_out_gap_m = 0.03;
+  score["keep_out_gap_m"] = 0.03;
   EXPECT_TRUE(missed(score, criteria).empty());
 }
 

@@ -9,9 +9,8 @@
 #include "common/random.hpp"
 #include "common/submap3d.hpp"
 #include "common/world/map3d_layer.hpp"
+#include "evaluation/figure_measures.hpp"
 #include "evaluation/flight_recorder.hpp"
-#include "evaluation/flight_score.hpp"
-#include "evaluation/map3d_score.hpp"
 #include "small_world.hpp"
 
 namespace swiftlet::evaluation {
@@ -159,34 +158,38 @@ TEST_F(CloudMetrics, TheScoreOfAFlightsMap) {
   TrueWorld world;
   world.rays = &rays_;
   const Pose3 T_world_map{Eigen::Quaterniond::Identity(), {1.0, 1.0, 0.0}};
-  EXPECT_FALSE(scoreMap3d(FlightRecord(), world)) << "no camera";
-  EXPECT_FALSE(scoreMap3d(recordWith({}, T_world_map), world)) << "nothing mapped";
+  const auto measured = [&](const FlightRecord& record) {
+    FlightScore score;
+    measureMap3d(record, world, score);
+    return score;
+  };
+  EXPECT_FALSE(measured(FlightRecord()).figure("map3d_points")) << "no camera";
+  EXPECT_FALSE(measured(recordWith({}, T_world_map)).figure("map3d_points")) << "nothing mapped";
   Cloud cloud = truePoints(rays_, 40'000);
   for (Eigen::Vector3d& point : cloud) point += Eigen::Vector3d(0.03, 0.03, 0.03);
-  auto score = scoreMap3d(recordWith(cloud, T_world_map), world);
-  ASSERT_TRUE(score);
-  EXPECT_EQ(score->points, 40'000U);
-  EXPECT_NEAR(score->error_median_m, 0.03, 5e-3);
-  EXPECT_LT(score->aligned_median_m, 5e-3);
-  EXPECT_FALSE(score->coverage) << "no camera, no view";
+  FlightScore score = measured(recordWith(cloud, T_world_map));
+  EXPECT_EQ(score["map3d_points"], 40'000.0);
+  EXPECT_NEAR(score["map3d_error_median_m"].value(), 0.03, 5e-3);
+  EXPECT_LT(score["map3d_aligned_median_m"].value(), 5e-3);
+  EXPECT_FALSE(score["map3d_coverage"]) << "no camera, no view";
   world.rgbd_camera = camera();
-  score = scoreMap3d(recordWith(cloud, T_world_map), world);
-  EXPECT_GT(*score->coverage, 0.97);
+  EXPECT_GT(measured(recordWith(cloud, T_world_map)).figure("map3d_coverage").value(), 0.97);
   std::erase_if(cloud, [](const Eigen::Vector3d& point) { return point.z() < 0.5; });
-  EXPECT_LT(*scoreMap3d(recordWith(cloud, T_world_map), world)->coverage, 0.9) << "the floor is missing";
+  EXPECT_LT(measured(recordWith(cloud, T_world_map)).figure("map3d_coverage").value(), 0.9) << "the floor is missing";
 }
 
 TEST_F(CloudMetrics, CriteriaOfTheMapAreJudged) {
   FlightScore score;
   score.mission_done = true;
   Criteria criteria;
-  criteria.map3d_aligned_p95_max_m = 0.06;
-  criteria.map3d_coverage_min = 0.95;
+  criteria["map3d_aligned_p95_max_m"] = 0.06;
+  criteria["map3d_coverage_min"] = 0.95;
   EXPECT_EQ(missed(score, criteria).size(), 2U) << "not measured";
-  score.map3d = Map3dScore{1000, 0.05, 0.1, 0.02, 0.05, 0.96, {}};
+  score["map3d_error_median_m"] = score["map3d_aligned_p95_m"] = 0.05;
+  score["map3d_coverage"] = 0.96;
   EXPECT_TRUE(missed(score, criteria).empty());
-  score.map3d->coverage = 0.94;
-  criteria.map3d_error_max_m = 0.04;
+  score["map3d_coverage"] = 0.94;
+  criteria["map3d_error_max_m"] = 0.04;
   EXPECT_EQ(missed(score, criteria).size(), 2U);
 }
 

@@ -177,18 +177,18 @@ TEST_F(Conduct, TheLatencyOfScansIsByTheirStamps) {
     made.conduct = record();
     return made;
   }();
-  const ConductScore score = scoreOf(flight, {}, {}, 1, 0.0).conduct;
-  EXPECT_NEAR(score.laser_latency_median_s.value(), 0.030, 1e-9);
-  EXPECT_NEAR(score.laser_latency_p95_s.value(), 0.0345, 1e-9);
+  const FlightScore score = scoreOf(flight, {}, {}, 1, 0.0);
+  EXPECT_NEAR(score.figure("laser_latency_median_s").value(), 0.030, 1e-9);
+  EXPECT_NEAR(score.figure("laser_latency_p95_s").value(), 0.0345, 1e-9);
 }
 
 /// 1.6 kg and 28 N at a full battery.
 TEST_F(Conduct, TheThrustMarginIsThatOfTheLeastCharge) {
   FlightRecord flight;
   flight.conduct.charge_min = 0.4;
-  const double tired = scoreOf(flight, {}, {}, 1, 0.0).conduct.thrust_margin_min.value();
+  const double tired = scoreOf(flight, {}, {}, 1, 0.0).figure("thrust_margin_min").value();
   flight.conduct.charge_min = 1.0;
-  const double full = scoreOf(flight, {}, {}, 1, 0.0).conduct.thrust_margin_min.value();
+  const double full = scoreOf(flight, {}, {}, 1, 0.0).figure("thrust_margin_min").value();
   EXPECT_LT(full, 0.95 * 28.0 / (1.6 * 9.81));
   EXPECT_GT(full, 1.4);
   EXPECT_LT(tired, 0.95 * full);
@@ -197,29 +197,29 @@ TEST_F(Conduct, TheThrustMarginIsThatOfTheLeastCharge) {
 TEST_F(Conduct, EachCriterionFailsWhatMissesItAndWhatLacksItsFigure) {
   Criteria criteria;
   criteria.mission_done = false;
-  criteria.tilted_share_max = 0.01;
-  criteria.thrust_margin_min = 1.08;
-  criteria.touch_down_speed_max_m_s = 0.5;
-  criteria.safe_action_max_s = 0.5;
-  criteria.home_energy_error_max = 0.1;
+  criteria["tilted_share_max"] = 0.01;
+  criteria["thrust_margin_min"] = 1.08;
+  criteria["touch_down_speed_max_m_s"] = 0.5;
+  criteria["safe_action_max_s"] = 0.5;
+  criteria["home_energy_error_max"] = 0.1;
   FlightScore score;
   EXPECT_EQ(missed(score, criteria).size(), 5u);
-  score.conduct.tilted_share = 0.02;
-  score.conduct.thrust_margin_min = 1.02;
-  score.conduct.touch_down_speed_m_s = 0.8;
-  score.conduct.safe_action_s = INFINITY;
-  score.conduct.home_energy_error = 0.25;
+  score["tilted_share"] = 0.02;
+  score["thrust_margin_min"] = 1.02;
+  score["touch_down_speed_m_s"] = 0.8;
+  score["safe_action_s"] = INFINITY;
+  score["home_energy_error"] = 0.25;
   EXPECT_THAT(missed(score, criteria),
               ElementsAre("share of the time tilted: 0.020, at most 0.01 was asked for",
                           "thrust margin: 1.0200, at least 1.08 was asked for",
                           "touch-down speed, m/s: 0.800, at most 0.5 was asked for",
                           "time from fault to safe action, s: inf, at most 0.5 was asked for",
                           "error of the energy for the flight home: 0.250, at most 0.1 was asked for"));
-  score.conduct.tilted_share = 0.005;
-  score.conduct.thrust_margin_min = 1.2;
-  score.conduct.touch_down_speed_m_s = 0.3;
-  score.conduct.safe_action_s = 0.4;
-  score.conduct.home_energy_error = 0.05;
+  score["tilted_share"] = 0.005;
+  score["thrust_margin_min"] = 1.2;
+  score["touch_down_speed_m_s"] = 0.3;
+  score["safe_action_s"] = 0.4;
+  score["home_energy_error"] = 0.05;
   EXPECT_THAT(missed(score, criteria), testing::IsEmpty());
 }
 

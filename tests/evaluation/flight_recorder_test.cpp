@@ -53,14 +53,14 @@ TEST(FlightRecorder, MeasuresErrorsInTheTrueMapFrame) {
   recorder.tick(truthAt(0.0, {0, 0, 1}), estimateAt(0.0, {0.03, 0.04, 1}));
   recorder.tick(truthAt(0.1, {1, 0, 1}), estimateAt(0.1, {1.03, 0.04, 1.12}));
   const FlightRecord record = recorder.finish();
-  ASSERT_EQ(record.horizontal_errors_m.size(), 2u);
-  EXPECT_NEAR(record.horizontal_errors_m[1], 0.05, 1e-12);
-  EXPECT_NEAR(record.spatial_errors_m[1], 0.13, 1e-12);
-  EXPECT_NEAR(record.yaw_errors_rad[1], 0.0, 1e-12);
+  ASSERT_EQ(record.estimate.horizontal_errors_m.size(), 2u);
+  EXPECT_NEAR(record.estimate.horizontal_errors_m[1], 0.05, 1e-12);
+  EXPECT_NEAR(record.estimate.spatial_errors_m[1], 0.13, 1e-12);
+  EXPECT_NEAR(record.estimate.yaw_errors_rad[1], 0.0, 1e-12);
   EXPECT_NEAR(record.true_distance_m, 1.0, 1e-12);
   EXPECT_NEAR(record.cruise_height_world_m, 1.2, 1e-12);
-  ASSERT_EQ(record.truth_map.size(), 2u);
-  EXPECT_NEAR((record.truth_map[1].pose.position_m - Eigen::Vector3d(1, 0, 1)).norm(), 0, 1e-12);
+  ASSERT_EQ(record.estimate.truth_map.size(), 2u);
+  EXPECT_NEAR((record.estimate.truth_map[1].pose.position_m - Eigen::Vector3d(1, 0, 1)).norm(), 0, 1e-12);
 }
 
 TEST(FlightRecorder, IncludesTheCorrectionOfTheMapFrame) {
@@ -68,8 +68,8 @@ TEST(FlightRecorder, IncludesTheCorrectionOfTheMapFrame) {
   common::VehicleState state = estimateAt(0.0, {2, 0, 1});
   state.T_map_odom = {0.0, 0.1, M_PI_2};  // odom has drifted; map puts it right.
   recorder.tick(truthAt(0.0, {0, 2.1, 1}), state);
-  EXPECT_NEAR(recorder.finish().horizontal_errors_m.at(0), 0.0, 1e-12);
-  EXPECT_NEAR(recorder.finish().yaw_errors_rad.at(0), M_PI_2, 1e-12);
+  EXPECT_NEAR(recorder.finish().estimate.horizontal_errors_m.at(0), 0.0, 1e-12);
+  EXPECT_NEAR(recorder.finish().estimate.yaw_errors_rad.at(0), M_PI_2, 1e-12);
 }
 
 TEST(FlightRecorder, ComparesAnEstimateWithTheTruthAtItsStamp) {
@@ -80,20 +80,22 @@ TEST(FlightRecorder, ComparesAnEstimateWithTheTruthAtItsStamp) {
     recorder.tick(truthAt(now_s, along(now_s)), estimateAt(now_s - 0.035, along(now_s - 0.035)));
   }
   const auto late = recorder.finish();
-  EXPECT_NEAR(statisticsOf(late.horizontal_errors_m).max, 0.0, 1e-9) << "late by 35 ms, and exact";
-  EXPECT_EQ(late.horizontal_errors_m.size(), 17u) << "those of times before the first truth cannot be compared";
+  EXPECT_NEAR(statisticsOf(late.estimate.horizontal_errors_m).max, 0.0, 1e-9) << "late by 35 ms, and exact";
+  EXPECT_EQ(late.estimate.horizontal_errors_m.size(), 17u)
+      << "those of times before the first truth cannot be compared";
 
   FlightRecorder early(kTakeOff);
   for (int i = 0; i <= 20; ++i)
     early.tick(truthAt(0.01 * i, along(0.01 * i)), estimateAt(0.01 * i + 0.02, along(0.01 * i + 0.02)));
-  EXPECT_NEAR(statisticsOf(early.finish().horizontal_errors_m).max, 0.0, 1e-9);
-  EXPECT_EQ(early.finish().horizontal_errors_m.size(), 19u) << "the last two wait for a truth that did not come";
+  EXPECT_NEAR(statisticsOf(early.finish().estimate.horizontal_errors_m).max, 0.0, 1e-9);
+  EXPECT_EQ(early.finish().estimate.horizontal_errors_m.size(), 19u)
+      << "the last two wait for a truth that did not come";
 }
 
 TEST(FlightRecorder, CountsARepeatedEstimateOnce) {
   FlightRecorder recorder(kTakeOff);
   for (int i = 0; i < 5; ++i) recorder.tick(truthAt(0.01 * i, {0, 0, 1}), estimateAt(0.0, {0, 0, 1}));
-  EXPECT_EQ(recorder.finish().horizontal_errors_m.size(), 1u);
+  EXPECT_EQ(recorder.finish().estimate.horizontal_errors_m.size(), 1u);
 }
 
 TEST(FlightRecorder, MeasuresNothingOnTheGround) {
@@ -101,7 +103,7 @@ TEST(FlightRecorder, MeasuresNothingOnTheGround) {
   simulation::Truth truth = truthAt(0.0, {0, 0, 0});
   truth.airborne = false;
   recorder.tick(truth, estimateAt(0.0, {5, 5, 0}));
-  EXPECT_TRUE(recorder.finish().horizontal_errors_m.empty());
+  EXPECT_TRUE(recorder.finish().estimate.horizontal_errors_m.empty());
   EXPECT_EQ(recorder.finish().true_distance_m, 0.0);
 }
 
@@ -214,8 +216,8 @@ TEST(FlightRecorder, RecordsInterruptionsAndTheirEnds) {
   tree(5, "IDLE", "IDLE");  // Given up.
   tree(6, "SUSPENDED", "SUSPENDED");
   const FlightRecord record = recorder.finish();
-  EXPECT_EQ(record.interruptions, 3);
-  EXPECT_EQ(record.resumed, 1);
+  EXPECT_EQ(record.mission.interruptions, 3);
+  EXPECT_EQ(record.mission.resumed, 1);
 }
 
 TEST(FlightRecorder, MissionTimeRunsFromItsFirstTickToItsEnd) {
@@ -225,8 +227,8 @@ TEST(FlightRecorder, MissionTimeRunsFromItsFirstTickToItsEnd) {
   recorder.world(worldOf(50.0, MissionState::kHeld));
   recorder.world(worldOf(82.5, MissionState::kDone));
   recorder.world(worldOf(99.0, MissionState::kDone));
-  EXPECT_DOUBLE_EQ(recorder.finish().mission_time_s, 80.5);
-  EXPECT_EQ(recorder.finish().mission, MissionState::kDone);
+  EXPECT_DOUBLE_EQ(recorder.finish().mission.time_s, 80.5);
+  EXPECT_EQ(recorder.finish().mission.state, MissionState::kDone);
 }
 
 }  // namespace

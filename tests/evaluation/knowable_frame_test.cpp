@@ -87,9 +87,9 @@ TEST(KnowableFrame, ATurnedMapIsNoErrorOfTheEstimateButOneOfTheRawFrame) {
   }
   const FlightRecord record = recorder.finish();
   const double far_m = std::hypot(5.0, 1.0), turned_m = 2.0 * std::sin(0.5 * kMountYaw_rad) * far_m;
-  EXPECT_NEAR(record.horizontal_errors_m.back(), 0.0, 1e-9);
-  EXPECT_NEAR(record.horizontal_errors_raw_m.back(), turned_m, 1e-9);
-  EXPECT_NEAR(record.yaw_errors_rad.back(), 0.0, 1e-9);
+  EXPECT_NEAR(record.estimate.horizontal_errors_m.back(), 0.0, 1e-9);
+  EXPECT_NEAR(record.estimate.horizontal_errors_raw_m.back(), turned_m, 1e-9);
+  EXPECT_NEAR(record.estimate.yaw_errors_rad.back(), 0.0, 1e-9);
   ASSERT_EQ(record.goals.size(), 1u);
   EXPECT_NEAR(record.goals[0].error_m, 0.0, 1e-9);
   EXPECT_NEAR(record.goals[0].error_raw_m, turned_m, 1e-9);
@@ -108,7 +108,7 @@ TEST(KnowableFrame, DoesNotHideDriftOfTheHeading) {
     state.T_odom_body = turned(kMountYaw_rad) * common::lifted({0.5 * i, 0.0, 0.0}, 1.0);
     recorder.tick(truth, state);
   }
-  EXPECT_NEAR(recorder.finish().horizontal_errors_m.back(), 5.0 * 2.0 * std::sin(0.5 * kMountYaw_rad), 1e-9);
+  EXPECT_NEAR(recorder.finish().estimate.horizontal_errors_m.back(), 5.0 * 2.0 * std::sin(0.5 * kMountYaw_rad), 1e-9);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ FlightScore flight(Verdict verdict) {
   score.collisions = verdict == Verdict::kCrashed || verdict == Verdict::kForced || verdict == Verdict::kUnseen ? 1 : 0;
   score.avoidable_collisions = verdict == Verdict::kCrashed ? 1 : 0;
   score.glass_contacts = verdict == Verdict::kUnseen ? 1 : 0;
-  if (score.mission_done) score.goal_error_m = 0.02;
+  if (score.mission_done) score["goal_error_m"] = 0.02;
   return score;
 }
 
@@ -26,8 +26,8 @@ Criteria byVerdict() {
   Criteria criteria;
   criteria.mission_done = false;
   criteria.verdicts = true;
-  criteria.goal_error_max_m = 0.1;
-  criteria.touch_down_speed_max_m_s = 0.5;
+  criteria["goal_error_max_m"] = 0.1;
+  criteria["touch_down_speed_max_m_s"] = 0.5;
   return criteria;
 }
 
@@ -37,7 +37,7 @@ TrialResult trial(int done, std::vector<Verdict> others, const Criteria& criteri
   others.insert(others.end(), static_cast<std::size_t>(done), Verdict::kDone);
   for (const Verdict verdict : others) {
     FlightScore score = flight(verdict);
-    score.conduct.touch_down_speed_m_s = 0.3;
+    score["touch_down_speed_m_s"] = 0.3;
     score.seed = static_cast<std::int64_t>(result.flights.size());
     score.failures = missed(score, criteria);
     result.flights.push_back(score);
@@ -50,23 +50,23 @@ TEST(VerdictCriteria, AFlightThatEndedWithAReasonPassesWithoutTheFiguresOfItsMis
        {Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced, Verdict::kStruck, Verdict::kUnseen})
     EXPECT_THAT(missed(flight(good), byVerdict()), IsEmpty()) << toString(good);
   FlightScore hard = flight(Verdict::kLanded);
-  hard.conduct.touch_down_speed_m_s = 0.8;
+  hard["touch_down_speed_m_s"] = 0.8;
   EXPECT_THAT(missed(hard, byVerdict()), ElementsAre(HasSubstr("touch-down"))) << "what it did is judged";
   FlightScore inaccurate = flight(Verdict::kDone);
-  inaccurate.goal_error_m.reset();
-  inaccurate.conduct.touch_down_speed_m_s = 0.3;
+  inaccurate["goal_error_m"].reset();
+  inaccurate["touch_down_speed_m_s"] = 0.3;
   EXPECT_THAT(missed(inaccurate, byVerdict()), ElementsAre(HasSubstr("goal error"))) << "of a done one all is asked";
 }
 
 TEST(VerdictCriteria, AFaultThatNeverBeganHasTriedNothing) {
   Criteria criteria = byVerdict();
-  criteria.safe_action_max_s = 3.0;
+  criteria["safe_action_max_s"] = 3.0;
   for (const Verdict ended : {Verdict::kHome, Verdict::kLanded, Verdict::kRefused})
     EXPECT_THAT(missed(flight(ended), criteria),
                 ElementsAre("time from fault to safe action, s: not measured, at most 3 was asked for"))
         << toString(ended);
   FlightScore tried = flight(Verdict::kLanded);
-  tried.conduct.safe_action_s = 1.2;
+  tried["safe_action_s"] = 1.2;
   EXPECT_THAT(missed(tried, criteria), IsEmpty());
 }
 
@@ -117,7 +117,7 @@ TEST(VerdictCriteria, PhasesAndTheOperatorAreJudgedHoweverTheFlightEnded) {
 
 TEST(VerdictCriteria, TheShareThatMustBeDoneCounts) {
   Criteria criteria = byVerdict();
-  criteria.done_share_min = 0.9;
+  criteria["done_share_min"] = 0.9;
   EXPECT_TRUE(trial(18, {Verdict::kHome, Verdict::kLanded}, criteria).met());
   EXPECT_THAT(trial(17, {Verdict::kHome, Verdict::kHome, Verdict::kLanded}, criteria).missed(),
               ElementsAre(HasSubstr("share of flights done: 0.8500")));

@@ -113,7 +113,7 @@ class VerdictsOfRecords : public testing::Test {
   VerdictsOfRecords() {
     record_.T_world_start.position_m = record_.T_world_map.position_m = {1, 1, 0};
     record_.cruise_height_world_m = 1.0;
-    record_.mission = MissionState::kFailed;
+    record_.mission.state = MissionState::kFailed;
     record_.true_distance_m = 30.0;
     record_.last_truth.T_world_body.position_m = {1, 2, 0.1};
     record_.last_truth.battery_remaining = 0.79;

@@ -1,5 +1,5 @@
 // The score of visual odometry alone.
-#include "evaluation/visual_odometry_score.hpp"
+#include "evaluation/figure_measures.hpp"
 
 #include <cmath>
 
@@ -38,29 +38,34 @@ VisualOdometryRecord tracked(double drift) {
   return record;
 }
 
+FlightScore measured(const VisualOdometryRecord& record, const common::Trajectory& trajectory = truth()) {
+  FlightScore score;
+  measureVisualOdometry(record, trajectory, score);
+  return score;
+}
+
 TEST(VisualOdometryScore, ThePathCountsAndNotItsFrame) {
-  const auto score = scoreOf(tracked(0.0), truth());
-  ASSERT_TRUE(score && score->rms_m);
-  EXPECT_LT(*score->rms_m, 0.002) << "the truth between two samples";
-  EXPECT_EQ(score->lost_share, 0.0);
-  EXPECT_GT(*scoreOf(tracked(0.02), truth())->rms_m, 0.1);
+  const FlightScore score = measured(tracked(0.0));
+  EXPECT_LT(score.figure("visual_odometry_rms_m").value(), 0.002) << "the truth between two samples";
+  EXPECT_EQ(score.figure("visual_odometry_lost_share"), 0.0);
+  EXPECT_GT(measured(tracked(0.02)).figure("visual_odometry_rms_m").value(), 0.1);
 }
 
 TEST(VisualOdometryScore, LostFramesAreCountedAndTooFewHaveNoError) {
   VisualOdometryRecord record = tracked(0.0);
   record.frames = 2 * record.body.size();
   record.lost = record.body.size();
-  EXPECT_EQ(scoreOf(record, truth())->lost_share, 0.5);
+  EXPECT_EQ(measured(record).figure("visual_odometry_lost_share"), 0.5);
   record.body.resize(1);
-  EXPECT_FALSE(scoreOf(record, truth())->rms_m);
-  EXPECT_FALSE(scoreOf({}, truth()));
+  EXPECT_FALSE(measured(record).figure("visual_odometry_rms_m"));
+  EXPECT_FALSE(measured({}).figure("visual_odometry_lost_share"));
 }
 
 TEST(VisualOdometryScore, WhereTheTruthHasAGapNothingIsCompared) {
   VisualOdometryRecord record = tracked(0.0);
   common::Trajectory gap = truth();
   gap.erase(gap.begin() + 1, gap.end() - 1);
-  EXPECT_FALSE(scoreOf(record, gap)->rms_m);
+  EXPECT_FALSE(measured(record, gap).figure("visual_odometry_rms_m"));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 
 #include "common/trajectory.hpp"
 
@@ -16,15 +15,5 @@ struct VisualOdometryRecord {
   std::size_t frames = 0;   ///< Frames that came.
   std::size_t lost = 0;
 };
-
-struct VisualOdometryScore {
-  /// Absolute trajectory error after the best rigid motion of the whole trajectory; horizontal and vertical. nullopt if
-  /// too little was tracked to align it.
-  std::optional<double> rms_m;
-  double lost_share = 0.0;  ///< Of the frames that came.
-};
-
-/// `truth` as FlightRecord::truth_map. nullopt without a frame.
-std::optional<VisualOdometryScore> scoreOf(const VisualOdometryRecord& record, const common::Trajectory& truth);
 
 }  // namespace swiftlet::evaluation

@@ -1,0 +1,53 @@
+#include "evaluation/estimate_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Duration;
+using common::Pose3;
+
+/// The truth is kept for as long as an estimate may come late.
+constexpr Duration kHistory = Duration::fromMilliseconds(1000);
+/// 20 Hz: at 1 m/s a pose every 5 cm.
+constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(50);
+
+}  // namespace
+
+void EstimateRecord::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
+  history_.push_back({truth.stamp, truth.T_world_body});
+  while (truth.stamp - history_.front().stamp > kHistory) history_.pop_front();
+  if (!last_estimate_ || estimate.stamp > *last_estimate_) pending_.push_back(estimate);
+  last_estimate_ = std::max(estimate.stamp, last_estimate_.value_or(estimate.stamp));
+  for (; !pending_.empty() && pending_.front().stamp <= truth.stamp; pending_.pop_front()) {
+    const auto T_world_body = truthAt(pending_.front().stamp);
+    if (!T_world_body) continue;
+    newest_ = {common::planar(pending_.front().T_map_body()), common::planar(pending_.front().T_odom_body),
+               common::planar(truthInMap(*T_world_body))};
+    if (truth.airborne) compare(pending_.front(), *T_world_body);
+  }
+}
+
+Pose3 EstimateRecord::truthInMap(const Pose3& T_world_body) const {
+  const Pose3 T_body_axes = T_world_start_.inverse() * T_world_map_;
+  return T_world_map_.inverse() * T_world_body * T_body_axes;
+}
+
+void EstimateRecord::compare(const common::VehicleState& estimate, const Pose3& T_world_body) {
+  const Pose3 T_map_body = estimate.T_map_body();
+  const Pose3 T_map_truth = truthInMap(T_world_body);
+  const Pose3 T_start_truth = T_world_start_.inverse() * T_world_body;
+  const Eigen::Vector3d error_m = T_map_body.position_m - T_map_truth.position_m;
+  horizontal_errors_m.push_back(error_m.head<2>().norm());
+  horizontal_errors_raw_m.push_back((T_map_body.position_m - T_start_truth.position_m).head<2>().norm());
+  spatial_errors_m.push_back(error_m.norm());
+  yaw_errors_rad.push_back(
+      std::abs(common::wrapAngle(common::yawOf(T_map_body.rotation) - common::yawOf(T_map_truth.rotation))));
+  if (next_trajectory_ && estimate.stamp < *next_trajectory_) return;
+  next_trajectory_ = estimate.stamp + kTrajectoryPeriod;
+  truth_map.push_back({estimate.stamp, T_map_truth});
+}
+
+}  // namespace swiftlet::evaluation
