@@ -23,7 +23,6 @@
 #include "apps/trial_progress.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
-#include "evaluation/table_cells.hpp"
 #include "evaluation/trial.hpp"
 #include "evaluation/trial_results.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -93,7 +92,7 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
                                  score.passed() ? "passed" : "FAILED", score.figure("mission_time_s").value_or(0.0),
                                  score.figure("realtime_factor").value_or(0.0));
   for (const std::string& failure : score.failures) line += "\n    " + failure;
-  if (!score.passed() && score.failures.empty()) line += "\n    " + evaluation::collisionText(score);
+  if (!score.passed() && score.failures.empty()) line += "\n    " + score.collisionText();
   if (!score.coverage_problem.empty() && !trial.criteria.asksFor("coverage"))
     line += "\n    no coverage: " + score.coverage_problem;
   return line;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "autonomy/loop/flight_sink.hpp"
-#include "evaluation/visual_odometry_record.hpp"
+#include "evaluation/estimate_record.hpp"
 #include "mapping3d/model/mapper3d.hpp"
 
 namespace swiftlet::apps {

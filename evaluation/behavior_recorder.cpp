@@ -51,19 +51,21 @@ void BehaviorRecorder::follow(const simulation::Truth& truth, const common::Pose
   if (!follows) return;
   const Eigen::Vector2d person_world_m = people_world_m_.front();
   const double distance_m = (truth.T_world_body.position_m.head<2>() - person_world_m).norm();
-  const bool in_distance = distance_m >= FollowRecord::kNear_m && distance_m <= FollowRecord::kFar_m;
+  const bool in_distance =
+      distance_m >= BehaviorRecord::Follow::kNear_m && distance_m <= BehaviorRecord::Follow::kFar_m;
   if (record_.follows.empty() || record_.follows.back().mode != wanted->mode) {
     if (!in_distance) return;
     record_.follows.push_back({wanted->mode, 0.0, 0.0, distance_m, distance_m, 0.0});
     lost_now_s_ = 0.0;
   }
-  FollowRecord& record = record_.follows.back();
+  BehaviorRecord::Follow& record = record_.follows.back();
   record.followed_s += elapsed_s;
   if (in_distance) record.in_distance_s += elapsed_s;
   record.nearest_m = std::min(record.nearest_m, distance_m);
   record.farthest_m = std::max(record.farthest_m, distance_m);
   const Eigen::Vector2d believed_world_m = common::planar(T_world_map) * *followed_map_m_;
-  lost_now_s_ = (believed_world_m - person_world_m).norm() > FollowRecord::kWrong_m ? lost_now_s_ + elapsed_s : 0.0;
+  lost_now_s_ =
+      (believed_world_m - person_world_m).norm() > BehaviorRecord::Follow::kWrong_m ? lost_now_s_ + elapsed_s : 0.0;
   record.lost_s = std::max(record.lost_s, lost_now_s_);
 }
 

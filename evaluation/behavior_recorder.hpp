@@ -20,32 +20,32 @@ struct World;
 
 namespace swiftlet::evaluation {
 
-/// Where the vehicle truly was while it inspected a point.
-struct InspectingView {
-  common::Pose3 T_world_body;
-  Eigen::Vector2d point_map_m;
-  std::optional<double> point_height_m;  ///< Above the take-off floor; nullopt: not known.
-};
-
-/// How a person was followed in one flight mode, from when the vehicle was first at the right distance.
-struct FollowRecord {
-  common::FlightMode mode = common::FlightMode::kFast;
-  double followed_s = 0.0;
-  double in_distance_s = 0.0;  ///< Part of it with the person 1.5 to 3 m from the vehicle's centre.
-  double nearest_m = 0.0;
-  double farthest_m = 0.0;
-  double lost_s = 0.0;  ///< Longest time in which the estimated person was more than 1 m from the truth.
-
-  static constexpr double kNear_m = 1.5, kFar_m = 3.0, kWrong_m = 1.0;
-};
-
 struct BehaviorRecord {
+  /// Where the vehicle truly was while it inspected a point.
+  struct View {
+    common::Pose3 T_world_body;
+    Eigen::Vector2d point_map_m;
+    std::optional<double> point_height_m;  ///< Above the take-off floor; nullopt: not known.
+  };
+
+  /// How a person was followed in one flight mode, from when the vehicle was first at the right distance.
+  struct Follow {
+    common::FlightMode mode = common::FlightMode::kFast;
+    double followed_s = 0.0;
+    double in_distance_s = 0.0;  ///< Part of it with the person 1.5 to 3 m from the vehicle's centre.
+    double nearest_m = 0.0;
+    double farthest_m = 0.0;
+    double lost_s = 0.0;  ///< Longest time in which the estimated person was more than 1 m from the truth.
+
+    static constexpr double kNear_m = 1.5, kFar_m = 3.0, kWrong_m = 1.0;
+  };
+
   /// Least distance of the true centre of the airborne vehicle from a keep-out zone, negative inside; from when it was
   /// first outside of that zone. nullopt without a zone.
   std::optional<double> keep_out_distance_m;
-  std::vector<InspectingView> inspecting;               ///< At 10 Hz.
+  std::vector<View> inspecting;                         ///< At 10 Hz.
   std::vector<common::Polygon> surveyed;                ///< The areas whose survey succeeded.
-  std::vector<FollowRecord> follows;                    ///< In order of time; empty if no person was followed.
+  std::vector<Follow> follows;                          ///< In order of time; empty if no person was followed.
   std::shared_ptr<const common::TargetsLayer> targets;  ///< The last; null before the first snapshot.
 };
 

@@ -17,7 +17,7 @@ constexpr double kFloor_m = 0.05;
 /// A ray that ends this near to a place has met it.
 constexpr double kMet_m = 0.03;
 
-double angleToPoint_rad(const InspectingView& view, const TrueWorld& world, const common::Pose3& T_world_map) {
+double angleToPoint_rad(const BehaviorRecord::View& view, const TrueWorld& world, const common::Pose3& T_world_map) {
   const common::Pose3 T_world_camera = view.T_world_body * world.T_body_camera;
   const Eigen::Vector3d point_world_m =
       T_world_map * Eigen::Vector3d(view.point_map_m.x(), view.point_map_m.y(), view.point_height_m.value_or(0.0));
@@ -77,21 +77,21 @@ std::vector<Eigen::Vector3d> openFloor(const common::Polygon& area, const TrueWo
   return floor_world_m;
 }
 
-void raise(std::optional<double>& worst, double value) { worst = std::max(value, worst.value_or(value)); }
-void lower(std::optional<double>& worst, double value) { worst = std::min(value, worst.value_or(value)); }
+void keepGreatest(std::optional<double>& worst, double value) { worst = std::max(value, worst.value_or(value)); }
+void keepLeast(std::optional<double>& worst, double value) { worst = std::min(value, worst.value_or(value)); }
 
 /// The share of the time with the person 1.5 to 3 m away: the least of the flight modes, one after the other, in which
 /// a person was followed, that of the first and that of the last mode.
-void measureFollow(const std::vector<FollowRecord>& follows, FlightScore& score) {
-  for (const FollowRecord& follow : follows) {
+void measureFollow(const std::vector<BehaviorRecord::Follow>& follows, FlightScore& score) {
+  for (const BehaviorRecord::Follow& follow : follows) {
     if (follow.followed_s <= 0.0) continue;
     const double share = follow.in_distance_s / follow.followed_s;
-    lower(score["follow_share"], share);
+    keepLeast(score["follow_share"], share);
     if (!score["follow_first_share"]) score["follow_first_share"] = share;
     score["follow_last_share"] = share;
-    lower(score["follow_nearest_m"], follow.nearest_m);
-    raise(score["follow_farthest_m"], follow.farthest_m);
-    raise(score["follow_lost_s"], follow.lost_s);
+    keepLeast(score["follow_nearest_m"], follow.nearest_m);
+    keepGreatest(score["follow_farthest_m"], follow.farthest_m);
+    keepGreatest(score["follow_lost_s"], follow.lost_s);
   }
 }
 
@@ -131,11 +131,11 @@ std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorl
 void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, FlightScore& score) {
   const BehaviorRecord& record = flight.behaviors;
   if (record.keep_out_distance_m) score["keep_out_gap_m"] = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
-  for (const InspectingView& view : record.inspecting)
-    raise(score["inspect_axis_max_deg"], angleToPoint_rad(view, world, flight.T_world_map) / common::kRadPerDeg);
+  for (const BehaviorRecord::View& view : record.inspecting)
+    keepGreatest(score["inspect_axis_max_deg"], angleToPoint_rad(view, world, flight.T_world_map) / common::kRadPerDeg);
   for (const common::Polygon& area : record.surveyed)
     if (const auto share = surveyCoverage(area, world, flight.T_world_map, flight.T_world_body_views))
-      lower(score["survey_coverage"], *share);
+      keepLeast(score["survey_coverage"], *share);
   measureFollow(record.follows, score);
   if (record.targets) measureTargets(record.targets->targets, world.targets, flight.T_world_map, score);
 }

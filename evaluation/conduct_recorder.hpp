@@ -17,13 +17,13 @@ struct World;
 
 namespace swiftlet::evaluation {
 
-/// The charge for a flight home and its landing, as shares of the full battery.
-struct HomeEnergy {
-  double predicted = 0.0;  ///< By the vehicle, when the flight home began.
-  double needed = 0.0;     ///< By the truth, from then until it stood again.
-};
-
 struct ConductRecord {
+  /// The charge for a flight home and its landing, as shares of the full battery.
+  struct HomeEnergy {
+    double predicted = 0.0;  ///< By the vehicle, when the flight home began.
+    double needed = 0.0;     ///< By the truth, from then until it stood again.
+  };
+
   double airborne_s = 0.0;
   double tilted_s = 0.0;      ///< Part of airborne_s with more than kTilted_rad between the body's z axis and upright.
   double tilt_max_rad = 0.0;  ///< Greatest tilt while airborne.

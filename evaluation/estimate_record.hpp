@@ -1,6 +1,7 @@
 // The estimates of a flight against the truth at their own stamps.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -49,6 +50,15 @@ class EstimateRecord {
   std::deque<common::VehicleState> pending_;  ///< Estimates whose stamp is newer than the truth so far.
   ComparedEstimate newest_;
   std::optional<common::Time> last_estimate_, next_trajectory_;
+};
+
+/// Visual odometry alone, flown beside the estimate that the vehicle uses, without laser, inertial unit and height
+/// (Saeedi, Fig. 1: maps by visual odometry alone fail where those with the poses of the laser do not). As in the
+/// paper, loops are closed, and the poses are optimized.
+struct VisualOdometryRecord {
+  common::Trajectory body;  ///< In a frame of its own; frames that were lost are missing.
+  std::size_t frames = 0;   ///< Frames that came.
+  std::size_t lost = 0;
 };
 
 }  // namespace swiftlet::evaluation

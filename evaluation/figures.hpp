@@ -76,6 +76,7 @@ struct FigureColumn {
   int decimals = 3;
   double factor = 1.0;
   const char* unit = "";
+  bool always = false;  ///< Of the summary: in that of every trial.
 
   /// "-" without a value.
   std::string shown(const std::optional<double>& value) const;
@@ -88,7 +89,6 @@ struct TrialFigure {
   const char* name = nullptr;  ///< In results.json: "goal_error_max_m".
   Statistic statistic = Statistic::kMax;
   FigureColumn column = {};      ///< Of the summary, where a trial has its criterion or its paper has the figure.
-  bool always_shown = false;     ///< The summary has it for every trial.
   Criterion criterion = {};      ///< Over all flights.
   const char* figure = nullptr;  ///< Of each flight; flightFigures() sets it.
 

@@ -23,7 +23,6 @@
 #include "evaluation/mission_record.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
-#include "evaluation/visual_odometry_record.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {

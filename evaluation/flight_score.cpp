@@ -9,7 +9,6 @@
 #include "evaluation/figure_measures.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
-#include "evaluation/verdict_facts.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 
@@ -154,6 +153,10 @@ void measureCourse(const FlightRecord& record, double wall_time_s, FlightScore& 
 }
 
 }  // namespace
+
+std::string FlightScore::collisionText() const {
+  return fmt::format("collision ({}): {}", toString(verdict), collision);
+}
 
 std::optional<double>& FlightScore::operator[](std::string_view name) {
   SWIFTLET_CHECK(flightFigure(name).of == nullptr, name);

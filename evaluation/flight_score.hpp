@@ -46,6 +46,10 @@ struct FlightScore {
   std::vector<std::string> failures;
   /// No flight passes that ended in a collision, whoever is to blame for it.
   bool passed() const { return failures.empty() && collisions == 0; }
+  /// "7", or "7 beta" of several vehicles.
+  std::string name() const { return std::to_string(seed) + (vehicle.empty() ? "" : " ") + vehicle; }
+  /// "collision (struck): touched `walker_0`", of a flight that ended in one.
+  std::string collisionText() const;
 
   /// Sets a figure by its name in flightFigures(), where it must exist and not follow from others.
   std::optional<double>& operator[](std::string_view name);

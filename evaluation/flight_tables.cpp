@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/table_cells.hpp"
 #include "evaluation/trial_results.hpp"
 
 namespace swiftlet::evaluation {
@@ -41,7 +40,7 @@ Table flightTable(const TrialResult& trial) {
   for (const char* title : {"interrupted", "resumed", speed.column.title}) table.columns.emplace_back(title);
   for (const FlightScore& flight : trial.flights) {
     const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
-    std::vector<TableCell> row = {{flightName(flight), Mark::kNone, link},
+    std::vector<TableCell> row = {{flight.name(), Mark::kNone, link},
                                   {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
                                   {flight.outcome},
                                   verdictCell(flight)};
@@ -61,7 +60,7 @@ Table conductTable(const TrialResult& trial) {
   Table table{"Conduct and raw errors of " + trial.name, {"seed"}, {}};
   for (const FlightFigure* figure : figures) table.columns.emplace_back(figure->column.title);
   for (const FlightScore& flight : trial.flights) {
-    std::vector<TableCell> row = {{flightName(flight)}};
+    std::vector<TableCell> row = {{flight.name()}};
     for (const FlightFigure* figure : figures) row.push_back(cellOf(*figure, flight));
     table.rows.push_back(std::move(row));
   }
@@ -78,7 +77,7 @@ Table phaseTable(const TrialResult& trial) {
       const auto cell = [&](const char* figure, int decimals) {
         return TableCell{FigureColumn{figure, decimals}.shown(phase.figure(figure))};
       };
-      table.rows.push_back({{flightName(flight)},
+      table.rows.push_back({{flight.name()},
                             {phase.name, phase.missed().empty() ? Mark::kNone : Mark::kBad},
                             cell("time_s", 1),
                             cell("position_std_m", 3),

@@ -157,11 +157,10 @@ void PhaseRecorder::tick(const PhaseTick& tick) {
 void PhaseRecorder::follow(const PhaseTick& tick) {
   const double time_s = (tick.now - *course_.since).seconds();
   const double yaw_off_rad = common::wrapAngle(common::yawOf(tick.T_map_truth.rotation) - course_.yaw_begin_rad);
-  if (std::abs(yaw_off_rad) > PhaseCourse::kReturned_rad)
-    course_.yaw_last_off_s = std::max(course_.yaw_last_off_s, time_s);
+  if (std::abs(yaw_off_rad) > Course::kReturned_rad) course_.yaw_last_off_s = std::max(course_.yaw_last_off_s, time_s);
   if (config_.place_map_m.empty()) return;
   const Eigen::Vector2d place_m(config_.place_map_m[0], config_.place_map_m[1]);
-  if ((tick.T_map_truth.position_m.head<2>() - place_m).norm() > PhaseCourse::kReturned_m)
+  if ((tick.T_map_truth.position_m.head<2>() - place_m).norm() > Course::kReturned_m)
     course_.place_last_off_s = std::max(course_.place_last_off_s, time_s);
 }
 

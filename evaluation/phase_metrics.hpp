@@ -69,21 +69,6 @@ struct PhaseScore {
 /// The figures that such a phase has of a flight that came into it, without the heights of its levels.
 std::vector<std::string> phaseFigureNames(const PhaseConfig& config);
 
-/// When the phase lasts, how far the vehicle is off the pose at which it began, and until when it was far off.
-struct PhaseCourse {
-  std::optional<common::Time> since, last;  ///< First tick of the phase, and the last one that counts.
-  double time_s = 0.0;
-  double yaw_begin_rad = 0.0;
-  double yaw_off_max_rad = 0.0;               ///< From yaw_begin_rad, of the ticks that count.
-  double place_last_off_s = 0.0;              ///< Time from `since` at which the place was last off by kReturned_m.
-  double yaw_last_off_s = 0.0;                ///< The same for the yaw and kReturned_rad.
-  std::optional<double> control_error_max_m;  ///< Reference less estimate, in space.
-
-  /// The errors with which Grzonka 2012 holds place and yaw (V-D): nearer, the vehicle is back.
-  static constexpr double kReturned_m = 0.2;
-  static constexpr double kReturned_rad = 2.0 * common::kRadPerDeg;
-};
-
 /// What one control tick shows of the vehicle, in its frame `map`.
 struct PhaseTick {
   common::Time now;
@@ -111,6 +96,21 @@ class PhaseRecorder {
   PhaseScore finish() const;
 
  private:
+  /// When the phase lasts, how far the vehicle is off the pose at which it began, and until when it was far off.
+  struct Course {
+    std::optional<common::Time> since, last;  ///< First tick of the phase, and the last one that counts.
+    double time_s = 0.0;
+    double yaw_begin_rad = 0.0;
+    double yaw_off_max_rad = 0.0;               ///< From yaw_begin_rad, of the ticks that count.
+    double place_last_off_s = 0.0;              ///< Time from `since` at which the place was last off by kReturned_m.
+    double yaw_last_off_s = 0.0;                ///< The same for the yaw and kReturned_rad.
+    std::optional<double> control_error_max_m;  ///< Reference less estimate, in space.
+
+    /// The errors with which Grzonka 2012 holds place and yaw (V-D): nearer, the vehicle is back.
+    static constexpr double kReturned_m = 0.2;
+    static constexpr double kReturned_rad = 2.0 * common::kRadPerDeg;
+  };
+
   std::optional<Eigen::Vector3d> trueVelocityAt(common::Time time) const;
   void follow(const PhaseTick& tick);
   void addPlaces(PhaseFigures& figures) const;
@@ -119,7 +119,7 @@ class PhaseRecorder {
 
   PhaseConfig config_;
   bool in_phase_ = false;  ///< By the last snapshot.
-  PhaseCourse course_;
+  Course course_;
   std::deque<std::pair<common::Time, Eigen::Vector3d>> true_velocities_m_s_;  ///< Of the last ticks, in `map`.
   std::vector<double> x_m_, y_m_, height_m_, speed_m_s_, yaw_rad_, velocity_error_m_s_;
   std::vector<double> speed_x_m_s_, speed_y_m_s_;  ///< Sizes of the velocity along the axes of `map`.

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/table_cells.hpp"
 #include "evaluation/trial_results.hpp"
 
 namespace swiftlet::evaluation {
@@ -56,7 +55,7 @@ Mark markOf(const TrialFigure& column, const TrialResult& trial) {
 std::vector<const TrialFigure*> columnsFor(const std::vector<TrialResult>& trials) {
   std::vector<const TrialFigure*> columns = allColumns();
   std::erase_if(columns, [&](const TrialFigure* column) {
-    return !column->always_shown && std::none_of(trials.begin(), trials.end(), [&](const TrialResult& trial) {
+    return !column->column.always && std::none_of(trials.begin(), trials.end(), [&](const TrialResult& trial) {
       return boundOf(*column, trial.criteria) || paperFigure(*column, trial) != nullptr;
     });
   });
@@ -140,10 +139,10 @@ Table failureTable(const TrialResults& results) {
   for (const TrialResult& trial : results.trials) {
     for (const FlightScore& flight : trial.flights)
       for (const std::string& failure : flight.failures)
-        table.rows.push_back({{trial.name}, {flightName(flight)}, {failure, Mark::kBad}});
+        table.rows.push_back({{trial.name}, {flight.name()}, {failure, Mark::kBad}});
     for (const FlightScore& flight : trial.flights)
       if (!flight.passed() && flight.failures.empty())
-        table.rows.push_back({{trial.name}, {flightName(flight)}, {collisionText(flight), Mark::kBad}});
+        table.rows.push_back({{trial.name}, {flight.name()}, {flight.collisionText(), Mark::kBad}});
     for (const std::string& failure : trial.missed())
       table.rows.push_back({{trial.name}, {"all"}, {failure, Mark::kBad}});
   }

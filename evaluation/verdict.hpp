@@ -7,6 +7,9 @@
 
 namespace swiftlet::evaluation {
 
+struct FlightRecord;
+struct TrueWorld;
+
 enum class Verdict {
   kDone,        ///< The mission was done.
   kHome,        ///< It came home early and stands there, for a reason that the truth confirms.
@@ -61,6 +64,10 @@ struct Judgement {
   Verdict verdict = Verdict::kUnfinished;
   std::string reason;  ///< What the truth says, with figures.
 };
+
+/// From the record of a flight and the true world. Computes the true free space only for a flight that ended on the
+/// ground before its mission was done. Without rays in the world the places are unknown.
+VerdictFacts factsOf(const FlightRecord& record, const TrueWorld& world);
 
 Judgement judge(const VerdictFacts& facts);
 

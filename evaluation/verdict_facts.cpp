@@ -1,4 +1,4 @@
-#include "evaluation/verdict_facts.hpp"
+// The facts about the end of a flight, from its record and the true world.
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "common/small_matrices.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "evaluation/true_world.hpp"
+#include "evaluation/verdict.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 

@@ -150,7 +150,7 @@ TEST_F(Conduct, TheEnergyForTheFlightHomeIsThatUntilItStands) {
   tick(1.0);
   truth_.airborne = false;
   tick(1.0);
-  const HomeEnergy energy = record().home_energy.value();
+  const ConductRecord::HomeEnergy energy = record().home_energy.value();
   EXPECT_NEAR(energy.predicted, 0.05, 1e-9);
   EXPECT_NEAR(energy.needed, 0.04, 1e-9);
   EXPECT_NEAR(record().charge_min.value(), 0.56, 1e-9);

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "evaluation/flight_score.hpp"
-#include "evaluation/verdict_facts.hpp"
 #include "small_world.hpp"
 
 namespace swiftlet::evaluation {
