@@ -68,7 +68,7 @@ std::string modelYaml(control::VehicleModel model, const common::VehicleConfig& 
   for (AxisModel* axis : {&model.forward, &model.left, &model.up, &model.yaw}) *axis = roundedAxis(*axis);
   for (control::ThrustPoint& point : model.thrust)
     point = {common::rounded(point.voltage_v), rounded6(point.hover_command), common::rounded(point.seen_s)};
-  std::vector<common::Problem> problems = model.problemsFor(vehicle, {});
+  std::vector<common::Problem> problems = model.problemsFor(vehicle);
   for (const std::string& problem : common::config::problemsOf(model))
     problems.push_back({{}, "", problem, "the flights do not tell a model that could be flown"});
   if (!problems.empty()) throw common::InputError(std::move(problems));

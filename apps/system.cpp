@@ -174,8 +174,7 @@ void refuseUnfitModel(const System& system, const ProfilePlaces& places, const c
   std::vector<common::Problem> problems;
   const autonomy::AutonomyConfig& autonomy = system.config.autonomy;
   if (model)
-    for (const common::Problem& problem :
-         system.model->problemsFor(system.vehicle, autonomy.control.position.thrust.table))
+    for (const common::Problem& problem : system.model->problemsFor(system.vehicle))
       problems.push_back(
           {places.of("vehicle_model"), "vehicle_model",
            fmt::format("{}: {}: {}", toString(model->locationOf(problem.element)), problem.element, problem.message),

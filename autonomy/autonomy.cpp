@@ -65,7 +65,7 @@ bool Autonomy::finished() const {
 }
 
 VehicleMemory Autonomy::learned() const {
-  return {VehicleMemory::kVersion, vehicle_kind_, navigator_.controller().learnedThrust()};
+  return {VehicleMemory::kVersion, vehicle_kind_, navigator_.controller().thrust().table().points()};
 }
 
 AutonomyCounts Autonomy::counts() const {

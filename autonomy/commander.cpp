@@ -150,7 +150,7 @@ common::EnergyLayer Commander::energy(const Percept& percept, const Navigator& n
   FlightHome home{navigator.executor().desk().home_m(), 0.0, navigator.controller().landing_s()};
   if (last != nullptr && !home.planned_m)
     home.trail_m = common::polylineLength(trailBackWithoutLoops(last->vehicle->trail.points_map_m()));
-  return percept.consumption->layer(percept.now, home, navigator.controller().thrustMargin(),
+  return percept.consumption->layer(percept.now, home, navigator.controller().thrust().margin(),
                                     config_.battery_land_share, control::kKeptForHeight + config_.least_thrust_margin);
 }
 

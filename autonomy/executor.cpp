@@ -119,8 +119,9 @@ Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const 
   const double speed_m_s = velocity_map_m_s.norm();
   Eigen::Vector2d stopped_m = state.T_map_body_planar().position_m();
   if (speed_m_s > 0.0)
-    stopped_m += controller_.brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s * velocity_map_m_s;
-  return planning::displacementToOpenPlace_m(*map, stopped_m, controller_.escapeReach_m());
+    stopped_m += controller_.follower().brakingDistance_m(common::FlightMode::kCareful, speed_m_s) / speed_m_s *
+                 velocity_map_m_s;
+  return planning::displacementToOpenPlace_m(*map, stopped_m, control::BlindEscape::kReach_m);
 }
 
 }  // namespace swiftlet::autonomy

@@ -33,7 +33,8 @@ std::shared_ptr<const common::LaserPoints> pointsOf(const ScanOutcome& outcome) 
 
 Navigator::Navigator(const AutonomyConfig& config, const AutonomySetup& setup, common::EventLog& log)
     : camera_(setup.camera != nullptr ? std::optional(*setup.camera) : std::nullopt),
-      controller_(config.control, setup.vehicle, log, setup.model),
+      controller_(config.control, setup.vehicle, log, setup.model,
+                  setup.memory != nullptr ? setup.memory->thrust : control::ThrustPoints()),
       executor_(config.execution, setup.vehicle, config.estimator.slam.grid.resolution_m, controller_, *setup.jobs, log,
                 camera_ ? &*camera_ : nullptr),
       reactive_(config.reactive, setup.vehicle.hullRadius_m()),
@@ -41,14 +42,13 @@ Navigator::Navigator(const AutonomyConfig& config, const AutonomySetup& setup, c
       lower_obstacles_(setup.vehicle.hull_height_m),
       assist_(config.assist, setup.vehicle.max_tilt_deg, config.reactive.avoidance),
       readiness_(log) {
-  if (setup.memory != nullptr) controller_.recallThrust(setup.memory->thrust);
-  flown_.thrust_margin = controller_.thrustMargin();
+  flown_.thrust_margin = controller_.thrust().margin();
 }
 
 tl::expected<void, std::string> Navigator::switchController(std::string_view name) {
   const auto kind = control::controllerNamed(name);
   if (!kind) return tl::unexpected(std::string("there is no controller of that name"));
-  return controller_.switchController(*kind);
+  return controller_.command(control::SwitchController{*kind});
 }
 
 bool Navigator::knowsWallsAround(const common::VehicleState& state) const {
@@ -57,7 +57,7 @@ bool Navigator::knowsWallsAround(const common::VehicleState& state) const {
 
 std::optional<Eigen::Vector3d> Navigator::reference_odom_m() const {
   if (controller_.state() != FlightState::kFlying) return std::nullopt;
-  return controller_.reference().position_odom_m;
+  return controller_.follower().reference().position_odom_m;
 }
 
 // -------------------------------------------------------------------------------------------------- at the scan's rate
@@ -131,8 +131,9 @@ common::Setpoint Navigator::fly(const Decision& decision, const Percept& percept
   flown_.below_map_m = executor_.dip_m();
   flown_.at_flight_height = controller_.state() == FlightState::kFlying && executor_.dip_m() == 0.0;
   flown_.flight_height_m = flown_.airborne ? std::optional(map_height_m_) : std::nullopt;
-  flown_.thrust_margin = controller_.thrustMargin();
-  const bool far_from_goal = controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m;
+  flown_.thrust_margin = controller_.thrust().margin();
+  const bool far_from_goal =
+      controller_.follower().followsPath() && controller_.follower().remaining_m() > kFarFromGoal_m;
   flown_.path_speed_m_s =
       far_from_goal ? std::optional(percept.state.velocity_odom_m_s.head<2>().norm()) : std::nullopt;
   flown_.given_map = decision.given_map;
@@ -173,7 +174,7 @@ void Navigator::assistPilot(const Decision& decision, control::FlightTick& fligh
 void Navigator::followMapHeight(double height_m) {
   if (controller_.state() == FlightState::kTakingOff) map_height_m_ = height_m;
   if (controller_.state() == FlightState::kFlying)
-    map_height_m_ = controller_.reference().position_odom_m.z() + executor_.dip_m();
+    map_height_m_ = controller_.follower().reference().position_odom_m.z() + executor_.dip_m();
 }
 
 InertialContext Navigator::inertialContext(const control::FlightTick& flight, const common::Setpoint& setpoint) const {
@@ -182,7 +183,7 @@ InertialContext Navigator::inertialContext(const control::FlightTick& flight, co
   constexpr double kNearGround_m = 0.45;
   const common::VehicleState& state = flight.state;
   const bool low = state.height_above_ground_m < kNearGround_m || !state.vertical_valid ||
-                   state.verticalAge_s(setpoint.stamp) > control::EmergencyDescent::Config::blind_after_s;
+                   state.verticalAge_s(setpoint.stamp) > control::EmergencyDescent::kBlindAfter_s;
   return {control::isAirborne(controller_.state()), low && controller_.state() != FlightState::kFlying,
           flight.thrust_applies && !flight.pilot_flies, setpoint.thrust / controller_.carryingCommand()};
 }

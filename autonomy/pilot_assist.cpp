@@ -127,7 +127,7 @@ bool PilotAssist::fly(control::FlightController& controller, const planning::Avo
   double climb_m_s = config_.climb_m_s * wish(2.0 * (sticks_.thrust - hover_stick_), kClimbDeadBand);
   if (state.T_odom_body.position_m.z() > max_height_m) climb_m_s = std::min(climb_m_s, 0.0);
   (void)controller.followVelocity(velocity_map_m_s, acceleration_m_s2, *yaw_map_rad_, climb_m_s);
-  return (controller.reference().position_odom_m - state.T_odom_body.position_m).head<2>().norm() < kLeft_m;
+  return (controller.follower().reference().position_odom_m - state.T_odom_body.position_m).head<2>().norm() < kLeft_m;
 }
 
 bool PilotAssist::thrustApplies(double thrust) const { return std::abs(thrust - sticks_.thrust) <= kProgramShare; }

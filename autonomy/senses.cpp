@@ -22,7 +22,7 @@ Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup, common:
       inertial_(config.control.position.attitude_lag_s, log),
       given_map_(setup.given, log),
       battery_check_(log),
-      consumption_(config.energy, setup.vehicle, config.control.position.thrust.table.voltage_exponent) {}
+      consumption_(config.energy, setup.vehicle, control::ThrustTable::kVoltageExponent) {}
 
 bool Senses::sense(const common::SensorEvent& event) {
   if (!stamps_.accepts(event)) return false;

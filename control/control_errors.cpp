@@ -8,21 +8,21 @@
 
 namespace swiftlet::control {
 
-ControlErrors errorsOf(const ControlInput& input, const ControlLimits& limits) {
+ControlErrors errorsOf(const ControlInput& input) {
   ControlErrors errors;
   const common::VehicleState& state = input.state;
   const Reference& reference = input.reference;
   errors.heading_rad = common::yawOf(state.T_odom_body.rotation);
   errors.yaw_rad = common::wrapAngle(reference.yaw_odom_rad - errors.heading_rad);
   const double height_error_m = reference.position_odom_m.z() - state.T_odom_body.position_m.z();
-  errors.position_odom_m.z() = std::clamp(height_error_m, -limits.max_position_error_m, limits.max_position_error_m);
+  errors.position_odom_m.z() = std::clamp(height_error_m, -kMaxPositionError_m, kMaxPositionError_m);
   errors.velocity_odom_m_s.z() = reference.velocity_odom_m_s.z() - state.velocity_odom_m_s.z();
   errors.acceleration_odom_m_s2.z() = reference.acceleration_odom_m_s2.z();
   if (input.horizontal == Horizontal::kLevel) return errors;
   errors.velocity_odom_m_s.head<2>() = (reference.velocity_odom_m_s - state.velocity_odom_m_s).head<2>();
   if (input.horizontal == Horizontal::kVelocity) return errors;
-  errors.position_odom_m.head<2>() = limited(
-      reference.position_odom_m.head<2>() - state.T_odom_body.position_m.head<2>(), limits.max_position_error_m);
+  errors.position_odom_m.head<2>() =
+      limited(reference.position_odom_m.head<2>() - state.T_odom_body.position_m.head<2>(), kMaxPositionError_m);
   errors.acceleration_odom_m_s2.head<2>() = reference.acceleration_odom_m_s2.head<2>();
   return errors;
 }

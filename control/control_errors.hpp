@@ -1,23 +1,17 @@
 // The errors that a feedback law acts on, with the parts that may not be used set to zero.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "control/controller.hpp"
 
 namespace swiftlet::control {
 
-/// What the controllers of the papers have in common.
-struct ControlLimits {
-  static constexpr double max_position_error_m = 0.6;      ///< Greatest error of the position that is acted on.
-  static constexpr double max_acceleration_up_m_s2 = 4.0;  ///< Greatest vertical acceleration.
-  double max_integral_m_s2 = 2.0;                          ///< Greatest integral part of the acceleration.
-  static constexpr double max_yaw_rate_deg_s = 90.0;       ///< Greatest yaw rate.
-};
+// Bounds of the controllers.
+inline constexpr double kMaxPositionError_m = 0.6;  ///< Greatest error of the position that the papers' laws act on.
+inline constexpr double kMaxAccelerationUp_m_s2 = 4.0;  ///< Greatest vertical acceleration.
+inline constexpr double kMaxIntegral_m_s2 = 2.0;        ///< Greatest integral part of the acceleration.
+inline constexpr double kMaxYawRate_deg_s = 90.0;       ///< Greatest yaw rate of the papers' laws.
 
 struct ControlErrors {
   Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();         ///< Reference less state, limited.
@@ -28,10 +22,10 @@ struct ControlErrors {
 };
 
 /// By what `input.horizontal` allows: without a position its error is zero, and without a velocity that error is too.
-ControlErrors errorsOf(const ControlInput& input, const ControlLimits& limits);
+ControlErrors errorsOf(const ControlInput& input);
 
-/// Adds `rate * error * dt` to the integral, within its bound. Anti-windup: not while the vehicle was given less than
-/// was wanted and the integral would grow further.
+/// Adds `rate * error * dt` to the integral, within its bound `most`. Anti-windup: not while the vehicle was given less
+/// than was wanted and the integral would grow further.
 void integrate(Eigen::Vector3d& integral_m_s2, const Eigen::Vector3d& rate, const Eigen::Vector3d& error,
                const Eigen::Vector3d& refused_m_s2, double most_m_s2, double dt_s);
 

@@ -34,14 +34,14 @@ std::unique_ptr<Controller> makeController(ControllerKind kind, const Controller
                                            const common::VehicleConfig& vehicle, const VehicleModel* model) {
   switch (kind) {
     case ControllerKind::kCascadedPid:
-      return std::make_unique<CascadedPid>(choice.cascaded_pid, choice.limits, vehicle);
+      return std::make_unique<CascadedPid>(choice.cascaded_pid, vehicle);
     case ControllerKind::kVoltagePid:
-      return std::make_unique<VoltagePid>(choice.voltage_pid, choice.limits, vehicle, model);
+      return std::make_unique<VoltagePid>(choice.voltage_pid, vehicle, model);
     case ControllerKind::kLqr:
       if (model == nullptr || !model->hasAxes() || !Lqr::problemsOf(choice.lqr, *model).empty()) return nullptr;
-      return std::make_unique<Lqr>(choice.lqr, choice.limits, vehicle, *model);
+      return std::make_unique<Lqr>(choice.lqr, vehicle, *model);
     case ControllerKind::kSlidingMode:
-      return std::make_unique<SlidingMode>(choice.sliding_mode, choice.limits, vehicle);
+      return std::make_unique<SlidingMode>(choice.sliding_mode, vehicle);
     case ControllerKind::kSwiftlet:
       break;
   }

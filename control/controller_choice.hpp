@@ -19,9 +19,6 @@ namespace swiftlet::control {
 /// fly have an effect.
 struct ControllerChoiceConfig {
   ControllerKind kind = ControllerKind::kSwiftlet;
-  static constexpr double blend_s =
-      0.3;  ///< Time constant with which the step between two controllers fades when they are switched in flight.
-  ControlLimits limits;
   CascadedPid::Config cascaded_pid;
   VoltagePid::Config voltage_pid;
   Lqr::Config lqr;

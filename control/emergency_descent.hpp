@@ -4,12 +4,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "common/vehicle.hpp"
 #include "control/thrust_model.hpp"
@@ -45,7 +42,8 @@ class AlphaBetaFilter {
 };
 
 /// Growth of the error of a vertical speed that inertial samples carry without a measured height: the bias of an
-/// accelerometer after its calibration in flight.
+/// accelerometer after its calibration in flight. Measured: docs/decisions/fail_safes.md, "A descent without a measured
+/// height is carried".
 inline constexpr double kCarriedSpeed_m_s2 = 0.03;
 
 /// Height over the surface below, and vertical speed.
@@ -56,29 +54,12 @@ struct VerticalMotion {
 
 class EmergencyDescent {
  public:
-  struct Config {
-    static constexpr double descent_m_s = 0.6;             ///< Speed of descent.
-    static constexpr double touchdown_descent_m_s = 0.45;  ///< Speed of descent near the ground.
-    static constexpr double touchdown_height_m =
-        0.25;  ///< Height above where the vehicle stood at which the ground counts as near.
-    static constexpr double gain_1_s = 2.5;       ///< Vertical acceleration per error of the vertical speed.
-    static constexpr double integral_1_s2 = 0.8;  ///< Vertical acceleration per integrated error of the vertical speed.
-    static constexpr double filter_time_s =
-        0.09;                               ///< Time constant of the alpha-beta filter of raw heights (Tomic 2012).
-    static constexpr double jump_m = 0.15;  ///< A residual larger than this is a step of the ground.
-    static constexpr double blind_after_s =
-        0.5;  ///< Without a raw height for this long the last height and speed are carried on.
-    static constexpr double blind_push_m_s3 =
-        1.0;  ///< Rate at which thrust is taken away while a descent without a height does not sink.
-    static constexpr double rest_margin_m =
-        0.08;  ///< Less than this above where it stood before its flight the vehicle may be standing.
-    static constexpr double rest_s = 0.5;         ///< Low and still for this long the vehicle is on the ground.
-    static constexpr double blind_rest_s = 12.0;  ///< After a descent without a height for this long the motors stop.
-    static constexpr double brake_1_s =
-        2.0;  ///< Deceleration per last known velocity when no horizontal estimate is left.
-  };
+  static constexpr double kDescent_m_s = 0.6;            ///< Speed of descent.
+  static constexpr double kTouchdownDescent_m_s = 0.45;  ///< Speed of descent near the ground.
+  /// Without a raw height for this long the last height and speed are carried on.
+  static constexpr double kBlindAfter_s = 0.5;
 
-  EmergencyDescent(const Config& config);
+  EmergencyDescent();
 
   /// Call it in every state, so that the filter is ready when it is needed.
   void observe(const RawHeight& raw) { filter_.update(raw); }
@@ -104,7 +85,6 @@ class EmergencyDescent {
   double seenAcceleration_m_s2(common::Time now, double dt_s);
   double blindAcceleration_m_s2(common::Time now, double dt_s, const std::optional<VerticalMotion>& carried);
 
-  Config config_;
   AlphaBetaFilter filter_;
   Eigen::Vector2d velocity_left_m_s_ = Eigen::Vector2d::Zero();  ///< The velocity that is still to be braked.
   Eigen::Vector3d trim_level_m_s2_ = Eigen::Vector3d::Zero();

@@ -17,13 +17,17 @@
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world/flight_state.hpp"
+#include "control/blind_escape.hpp"
 #include "control/emergency_descent.hpp"
+#include "control/estimate_watch.hpp"
 #include "control/flight_state_machine.hpp"
 #include "control/margin_limits.hpp"
 #include "control/oscillation_guard.hpp"
 #include "control/path_follower.hpp"
 #include "control/surface_clearance.hpp"
 #include "control/switched_controller.hpp"
+#include "control/tick_clock.hpp"
+#include "control/vertical_flight.hpp"
 
 namespace swiftlet::control {
 
@@ -38,7 +42,11 @@ struct Land {};
 struct DisengageMotors {};
 /// Descends where it is, by the raw height, and switches the motors off on the ground; from any state in the air.
 struct EmergencyLand {};
-using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors, EmergencyLand>;
+/// Changes the controller in any state, in flight without a step. Refused for one without its model.
+struct SwitchController {
+  ControllerKind kind = ControllerKind::kSwiftlet;
+};
+using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors, EmergencyLand, SwitchController>;
 
 /// A path in `map`. It moves with the map when SLAM corrects T_map_odom.
 struct FlightPath {
@@ -74,52 +82,22 @@ struct FlightTick {
 class FlightController {
  public:
   struct Config {
-    static constexpr double spool_up_s = 0.8;  ///< Time from starting the motors to lifting.
     double climb_m_s = 0.5;
     double descent_m_s = 0.4;
-    static constexpr double touchdown_descent_m_s = 0.2;  ///< Descent speed near the ground.
-    static constexpr double touchdown_height_m =
-        0.4;  ///< Height over what is below at which the ground counts as near.
-    static constexpr double take_off_timeout_s =
-        15.0;  ///< Without hovering this long after the climb should have ended the vehicle lands again.
-    static constexpr double climb_acceleration_m_s2 = 0.8;  ///< Vertical acceleration of taking off and landing.
-    static constexpr double hover_tolerance_m = 0.10;       ///< Taking off ends this close to the height.
-    static constexpr double hover_speed_m_s = 0.15;  ///< Taking off ends only when the vehicle is slower than this.
-    static constexpr double hover_s = 0.4;  ///< Taking off ends when the vehicle has been close and slow for this long.
-    static constexpr double touchdown_thrust =
-        0.7;  ///< Below this share of the hover command the ground carries the vehicle.
-    static constexpr double touchdown_s =
-        0.3;  ///< The vehicle has landed when the ground has carried it for this long.
-    static constexpr double stopped_speed_m_s = 0.10;  ///< Slower than this the vehicle has stopped.
-    static constexpr double horizontal_loss_s =
-        1.0;  ///< Without a horizontal estimate for this long the vehicle lands level.
-    static constexpr double blind_speed_m_s = 0.3;  ///< Speed at which a vehicle that has lost its horizontal estimate
-                                                    ///< leaves the walls, by its velocity alone.
-    static constexpr double blind_acceleration_m_s2 = 0.6;  ///< Acceleration to blind_speed_m_s.
-    static constexpr double blind_s =
-        2.0;  ///< Longest flight by the velocity alone after the horizontal estimate was lost: a carried velocity that
-              ///< is off by 0.1 m/s leads 0.2 m astray in 2 s.
-    static constexpr double vertical_loss_s =
-        0.3;  ///< Without a vertical estimate for this long the emergency descent begins.
-    static constexpr double inertial_age_s =
-        0.1;  ///< An estimate whose newest inertial sample is older than this cannot be used.
-    static constexpr double inertial_loss_s = 0.2;  ///< The emergency descent begins when inertial samples that cannot
-                                                    ///< be used have been noticed for this long.
-    MarginLimits::Config margin;
     PathFollower::Config path;
     PositionController::Config position;
     ControllerChoiceConfig controller;
-    EmergencyDescent::Config emergency;
     SurfaceClearance::Config clearance;
-    OscillationGuard::Config oscillation;
 
     void describe(common::config::Fields& fields);
   };
 
-  /// `model` is what was identified of the vehicle, or null; it is read only here.
+  /// `model` is what was identified of the vehicle, or null; `learned` is what an earlier flight of this vehicle has
+  /// learned of its thrust. Both are read only here.
   FlightController(const Config& config, const common::VehicleConfig& vehicle, common::EventLog& log,
-                   const VehicleModel* model = nullptr);
+                   const VehicleModel* model = nullptr, const ThrustPoints& learned = {});
 
+  /// A refused command changes nothing and returns its reason.
   tl::expected<void, std::string> command(const FlightCommand& command);
   /// Allowed only while flying (Table 1). An empty path stops.
   tl::expected<void, std::string> follow(const FlightPath& path);
@@ -133,22 +111,18 @@ class FlightController {
   void hold();
   /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat.
   void lookAt(const std::optional<Eigen::Vector2d>& point_map_m) { look_at_map_m_ = point_map_m; }
-  /// Changes the controller in any state, in flight without a step. Fails, with the reason, for one without its model.
-  tl::expected<void, std::string> switchController(ControllerKind kind);
-  ControllerKind controllerKind() const { return position_.kind(); }
   /// The displacement, in `map`, that the vehicle flies by its velocity alone if the horizontal estimate is lost now,
-  /// at most escapeReach_m() long; zero to brake and stay. While it is flown, paths and velocities are refused.
-  void setEscape(const Eigen::Vector2d& displacement_map_m) { escape_map_m_ = displacement_map_m; }
-  double escapeReach_m() const { return config_.blind_s * config_.blind_speed_m_s; }
+  /// at most BlindEscape::kReach_m long; zero to brake and stay. While it is flown, paths and velocities are refused.
+  void setEscape(const Eigen::Vector2d& displacement_map_m) { escape_.plan(displacement_map_m); }
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
   /// How much higher than its path it flies because of what is below, within the greatest height.
-  double lift_m() const { return lift_m_; }
+  double lift_m() const { return clearance_.lift_m(); }
 
   /// Greatest height over the take-off floor. A take-off to more is refused, and paths stay below.
-  void setMaxHeight(double height_m) { max_height_m_ = height_m; }
-  double maxHeight_m() const { return max_height_m_; }
+  void setMaxHeight(double height_m) { vertical_.setMaxHeight(height_m); }
+  double maxHeight_m() const { return vertical_.maxHeight_m(); }
 
   common::Setpoint tick(const FlightTick& tick);
 
@@ -158,92 +132,62 @@ class FlightController {
   const std::string& groundedReason() const { return grounded_reason_; }
   /// On the ground, or flying with the reference at rest and the vehicle slow.
   bool stopped() const;
-  /// The last path is still being flown: no hold, no lost estimate and no pilot has interrupted it.
-  bool followsPath() const { return follower_.followsPath(); }
+  /// The path and its reference, without the lift over what is below.
+  const PathFollower& follower() const { return follower_; }
   const ThrustModel& thrust() const { return position_.thrust(); }
-  /// See ThrustModel::margin().
-  double thrustMargin() const { return position_.thrust().margin(); }
   /// The thrust that carries the weight: the learned hover command, and what the controller adds until that is learned.
   double carryingCommand() const;
-  /// What an earlier flight of this vehicle has learned, to be called before the first tick; and what is known now.
-  void recallThrust(const ThrustPoints& points) { position_.thrust().table().recall(points); }
-  ThrustPoints learnedThrust() const { return position_.thrust().table().points(); }
-  /// With the present thrust margin.
-  double speed_m_s(common::FlightMode mode) const { return margin_.speed() * config_.path.limits(mode).speed_m_s; }
-  double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
-    return 0.5 * speed_m_s * speed_m_s / (margin_.acceleration() * config_.path.limits(mode).acceleration_m_s2);
-  }
   /// Duration of a landing from the present height onto the take-off floor.
-  double landing_s() const;
-  /// Length of the rest of the last path.
-  double pathRemaining_m() const { return follower_.remaining_m(); }
-  /// The reference has reached the goal of the last path.
-  bool pathFinished() const { return follower_.finished(); }
-  const Reference& reference() const { return follower_.reference(); }
+  double landing_s() const { return vertical_.landing_s(last_state_.T_odom_body.position_m.z(), margin_); }
 
  private:
+  tl::expected<void, std::string> takeOffTo(double height_m);
+  /// Nothing if that state has been entered `already`.
+  tl::expected<void, std::string> comeDown(FlightInput input, common::FlightState already, const char* reason);
+  tl::expected<void, std::string> switchTo(ControllerKind kind);
+  tl::expected<void, std::string> apply(FlightInput input, const std::string& reason);
+  /// Why neither paths nor velocities, `what`, are flown now; empty if they are.
+  std::string refusalToFollow(std::string_view what) const;
+
   /// An input that the present state does not accept changes nothing.
   void transition(FlightInput input, const std::string& reason);
   void enter(common::FlightState from, common::FlightState entered);
-  void say(common::Severity severity, std::string text, std::string reason = {},
-           common::Concern concern = common::Concern::kNone);
-  void watch(const FlightTick& tick);
-  void watchInertial(std::string_view fault);
-  void watchHorizontal(const FlightTick& tick);
-  void escape();
-  void keepPathInMap(const common::VehicleState& state);
-  common::Setpoint setpointFor(const FlightTick& tick);
-  common::Setpoint takeOff(const FlightTick& tick);
-  std::optional<Eigen::Vector2d> pointToFace() const;
-  common::Setpoint fly(const FlightTick& tick);
-  Reference clearOfSurfaces(Reference reference);
-  common::Setpoint descend(const FlightTick& tick);
-  common::Setpoint descendInEmergency(const FlightTick& tick);
-  common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
-  void limitByMargin(const FlightTick& tick);
-  bool learnsThrust(const FlightTick& tick) const;
-  bool nearGround() const;
-  void moveVertically(double goal_m, double speed_m_s, double height_m);
-  Eigen::Vector2d velocityForBraking_m_s() const;
   void startEmergencyDescent();
   void beginAtVehicle();
-  /// Whether the condition has held for this long; `since` keeps when it began.
-  bool heldFor(std::optional<common::Time>& since, bool condition, double seconds) const;
 
-  Config config_;
+  void watch(const FlightTick& tick);
+  void watchHorizontal(const FlightTick& tick);
+  void escape();
+  void keepPathInMap(const common::Pose2& T_map_odom);
+  void limitByMargin(const FlightTick& tick);
+  bool learnsThrust(const FlightTick& tick) const;
+
+  common::Setpoint setpointFor(const FlightTick& tick);
+  common::Setpoint takeOff(const FlightTick& tick);
+  common::Setpoint descend(const FlightTick& tick);
+  common::Setpoint descendInEmergency(const FlightTick& tick);
+  std::optional<Eigen::Vector2d> pointToFace() const;
+  common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
+  /// The part of the horizontal state that may be used.
+  Horizontal horizontalFor(const FlightTick& tick) const;
+  bool velocityIsKnown() const;
+  double bodyYaw_odom_rad() const;
+
   FlightStateMachine machine_;
-  MarginLimits margin_;
+  VerticalFlight vertical_;
   PathFollower follower_;
   SwitchedController position_;
   EmergencyDescent emergency_;
+  BlindEscape escape_;
   SurfaceClearance clearance_;
+  MarginLimits margin_;
   OscillationGuard oscillation_;
-  double lift_m_ = 0.0;  ///< Lift of the last reference.
-  common::EventLog& log_;
-  std::string grounded_reason_;
-
-  common::Time now_;
-  bool ticked_ = false;
-  double dt_s_;
-  common::VehicleState last_state_;
-  common::Pose2 T_map_odom_;
-  double standing_height_m_ = 0.0;  ///< Height of the body origin over the take-off floor while standing.
-  double standing_raw_m_ = 0.0;     ///< Height that the mirror measures while standing.
-  double take_off_height_m_ = 1.0;
+  EstimateWatch watch_;
+  TickClock clock_;
+  common::VehicleState last_state_;  ///< The last finite one.
   std::optional<Eigen::Vector2d> look_at_map_m_;
-  double max_height_m_;
-  double height_reference_m_ = 0.0;  ///< Moved by the controller itself during take-off and landing.
-  double climb_reference_m_s_ = 0.0;
-  bool lifted_ = false;
-  common::Time state_since_;
-  std::optional<common::Time> spent_since_;      ///< Since when a take-off has had all of the thrust.
-  std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
-  std::optional<common::Time> horizontal_lost_;
-  Eigen::Vector2d escape_map_m_ = Eigen::Vector2d::Zero();
-  std::optional<common::Time> escapes_until_;  ///< Flies the escape until then.
-  std::optional<common::Time> vertical_lost_;
-  std::optional<common::Time> inertial_lost_;
-  std::string inertial_fault_;
+  std::string grounded_reason_;
+  common::EventLog& log_;
 };
 
 }  // namespace swiftlet::control

@@ -17,67 +17,68 @@ namespace {
 
 /// Greatest sudden change of the velocity vector that the reference filter is given.
 constexpr double kKink_m_s = 0.12;
+/// Points this close to the line between their neighbours are left out.
+constexpr double kSimplifyTolerance_m = 0.01;
+/// Goals farther than this are faced; nearer ones are flown to sideways.
+constexpr double kTurnDistance_m = 0.6;
+constexpr double kLookAhead_m = 0.5;  ///< The yaw faces the path this far ahead.
 /// Greatest distance of the reference from a new path. Beyond it, an extra line leads the reference to the path.
 constexpr double kOnPath_m = 0.03;
 /// The reference joins a new path within its first stretch of this length.
 constexpr double kJoin_m = 1.5;
-constexpr double kAtGoal_m = 1e-3;        ///< Far below the error of control: only ends the reference.
-constexpr double kAtRest_m_s = 1e-3;      ///< A reference this slow has stopped.
-constexpr double kYawReached_rad = 0.01;  ///< Half a degree, below the error of a hover, 1 deg.
-/// A shorter look-ahead gives no reliable direction.
-constexpr double kLeastLook_m = 0.05;
+constexpr double kLeastJoin_m = 0.3;     ///< Least distance along the path from abreast of the reference to the join.
+constexpr double kClimbSpeed_m_s = 0.5;  ///< Greatest vertical part of the speed, in every mode.
+/// Where the path leads this far off the nose, which the laser does not see, the vehicle turns first, and flies at most
+/// this fast.
+constexpr double kTurnFirst_rad = 100.0 * common::kRadPerDeg, kTurnFirstSpeed_m_s = 0.15;
+/// Curves are sampled: braking for them may be this much firmer than planned.
+constexpr double kFirmer = 1.2;
+constexpr double kFilter_rad_s = 5.0;  ///< Bandwidth of the reference filter.
+constexpr double kAtGoal_m = 1e-3;     ///< Far below the error of control: only ends the reference.
+constexpr double kAtRest_m_s = 1e-3;   ///< A reference this slow has stopped.
 
 }  // namespace
 
 PathFollower::PathFollower(const Config& config)
     : config_(config),
-      limits_(config.careful),
       speed_limit_m_s_(std::numeric_limits<double>::infinity()),
       pace_m_s_(std::numeric_limits<double>::infinity()),
-      laid_acceleration_m_s2_(limits_.acceleration_m_s2) {
+      yaw_(config.yaw_rate_deg_s) {
   reset(Eigen::Vector3d::Zero(), 0.0);
 }
 
 void PathFollower::reset(const Eigen::Vector3d& position_odom_m, double yaw_odom_rad) {
   reference_ = {};
   reference_.position_odom_m = position_odom_m;
-  reference_.yaw_odom_rad = hold_yaw_odom_rad_ = yaw_odom_rad;
-  goal_yaw_odom_rad_.reset();
-  faces_travel_ = false;
-  lay({position_odom_m}, limits_.acceleration_m_s2);
-  carrot_speed_m_s_ = 0.0;
+  reference_.yaw_odom_rad = yaw_odom_rad;
+  yaw_.hold(yaw_odom_rad);
+  lay({position_odom_m}, limits().acceleration_m_s2);
 }
 
+double PathFollower::climbSpeed_m_s() const { return speed_share_ * kClimbSpeed_m_s; }
+
 void PathFollower::lay(std::vector<Eigen::Vector3d> points, double acceleration_m_s2) {
-  points_ = std::move(points);
-  laid_acceleration_m_s2_ = acceleration_m_s2;
-  distances_m_ = distancesAlong(points_);
-  speeds_m_s_ = speedsAlong(points_, {limits_.speed_m_s, acceleration_m_s2, climbSpeed_m_s(), kKink_m_s});
-  carrot_m_ = 0.0;
+  carrot_.lay(std::move(points), {limits().speed_m_s, acceleration_m_s2, climbSpeed_m_s(), kKink_m_s},
+              kFirmer * limits().acceleration_m_s2);
   follows_path_ = false;
   pace_m_s_ = std::numeric_limits<double>::infinity();
-  velocity_target_.reset();
+  velocity_carrot_.reset();
 }
 
 void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
                            std::optional<double> goal_yaw_odom_rad) {
-  limits_ = config_.limits(mode);
+  mode_ = mode;
   if (points.empty()) {
     stop();
     return;
   }
-  points = simplified(points, config_.simplify_tolerance_m);
+  points = simplified(points, kSimplifyTolerance_m);
   bool turns = false;
   points = joined(points, turns);
-  lay(rounded(points, limits_.corner_deviation_m, turns), acceleration_share_ * limits_.acceleration_m_s2);
+  lay(rounded(points, limits().corner_deviation_m, turns), acceleration_share_ * limits().acceleration_m_s2);
   follows_path_ = true;
-  carrot_speed_m_s_ = 0.0;
-  if (points_.size() > 1) {
-    const Eigen::Vector3d direction = (points_[1] - points_[0]).normalized();
-    carrot_speed_m_s_ = std::max(0.0, reference_.velocity_odom_m_s.dot(direction));
-  }
-  goal_yaw_odom_rad_ = goal_yaw_odom_rad;
-  faces_travel_ = remaining_m() > config_.turn_distance_m;
+  carrot_.setSpeed(std::max(0.0, reference_.velocity_odom_m_s.dot(carrot_.line_m().normalized())));
+  yaw_.setGoal(goal_yaw_odom_rad, remaining_m() > kTurnDistance_m);
 }
 
 std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const {
@@ -108,9 +109,9 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
   // path.
   const double speed = velocity.norm();
   const Eigen::Vector3d heading = velocity / speed;
-  const Eigen::Vector3d target = pointOn(points, along, std::min(near_m + std::max(off_m, 0.3), along.back()));
+  const Eigen::Vector3d target = pointOn(points, along, std::min(near_m + std::max(off_m, kLeastJoin_m), along.back()));
   const double cosine = std::clamp(heading.dot((target - here).normalized()), -1.0, 1.0);
-  const double stop_m = 0.5 * speed * speed / limits_.acceleration_m_s2;
+  const double stop_m = 0.5 * speed * speed / limits().acceleration_m_s2;
   const double turn_m = 2.0 * stop_m * std::sqrt((1.0 - cosine) / std::max(1e-6, 1.0 + cosine));
   const Eigen::Vector3d corner = here + std::min(stop_m, turn_m) * heading;
   const auto [corner_m, corner_off_m] = nearestOn(points, along, corner, kJoin_m);
@@ -122,29 +123,23 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
 
 void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2,
                                double yaw_odom_rad) {
-  if (!velocity_target_) {
-    lay({reference_.position_odom_m}, limits_.acceleration_m_s2);
-    carrot_speed_m_s_ = 0.0;
-    velocity_target_ =
-        VelocityTarget{{}, 0.0, {reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()}};
+  if (!velocity_carrot_) {
+    lay({reference_.position_odom_m}, limits().acceleration_m_s2);
+    velocity_carrot_.emplace(Carrot{reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()});
   }
-  velocity_target_->velocity_odom_m_s = velocity_odom_m_s;
-  velocity_target_->acceleration_m_s2 = acceleration_m_s2;
-  goal_yaw_odom_rad_ = yaw_odom_rad;
-  faces_travel_ = false;
+  velocity_carrot_->setTarget(velocity_odom_m_s, acceleration_m_s2);
+  yaw_.setGoal(yaw_odom_rad, false);
 }
 
 void PathFollower::stop() {
   const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
   const double speed = velocity.norm();
+  const bool moves = speed > kAtRest_m_s;
   std::vector<Eigen::Vector3d> points{reference_.position_odom_m};
-  if (speed > kAtRest_m_s)
-    points.push_back(reference_.position_odom_m + velocity * (0.5 * speed / limits_.acceleration_m_s2));
-  lay(std::move(points), limits_.acceleration_m_s2);
-  carrot_speed_m_s_ = points_.size() > 1 ? speed : 0.0;
-  goal_yaw_odom_rad_.reset();
-  faces_travel_ = false;
-  hold_yaw_odom_rad_ = reference_.yaw_odom_rad;
+  if (moves) points.push_back(reference_.position_odom_m + velocity * (0.5 * speed / limits().acceleration_m_s2));
+  lay(std::move(points), limits().acceleration_m_s2);
+  if (moves) carrot_.setSpeed(speed);
+  yaw_.hold(reference_.yaw_odom_rad);
 }
 
 void PathFollower::setSpeedLimit(double speed_m_s) {
@@ -159,77 +154,34 @@ void PathFollower::setShares(double speed, double acceleration) {
 }
 
 void PathFollower::movePath(const common::Pose2& T_new_old) {
-  for (Eigen::Vector3d& point : points_) point.head<2>() = T_new_old * Eigen::Vector2d(point.head<2>());
-  if (goal_yaw_odom_rad_) *goal_yaw_odom_rad_ += T_new_old.yaw_rad;
-  if (velocity_target_) {
-    const Eigen::Rotation2Dd turn(T_new_old.yaw_rad);
-    velocity_target_->velocity_odom_m_s.head<2>() =
-        turn * Eigen::Vector2d(velocity_target_->velocity_odom_m_s.head<2>());
-  }
+  carrot_.move(T_new_old);
+  yaw_.turn(T_new_old.yaw_rad);
+  if (velocity_carrot_) velocity_carrot_->turn(T_new_old.yaw_rad);
 }
 
 const Reference& PathFollower::advance(double dt_s) {
-  pullReference(velocity_target_ ? advanceToVelocity(*velocity_target_, dt_s) : advanceAlongPath(dt_s), dt_s);
-  advanceYaw(dt_s);
+  pullReference(velocity_carrot_ ? velocity_carrot_->advance(dt_s) : carrot_.advance(dt_s, allowedSpeed_m_s()), dt_s);
+  std::optional<Eigen::Vector3d> ahead_odom_m;
+  if (remaining_m() > kTurnDistance_m) ahead_odom_m = carrot_.pointAhead(kLookAhead_m);
+  yaw_.advance(reference_, ahead_odom_m, !velocity_carrot_, dt_s);
   return reference_;
 }
 
-PathFollower::Carrot PathFollower::advanceToVelocity(VelocityTarget& target, double dt_s) {
-  Carrot& carrot = target.carrot;
-  const Eigen::Vector3d before = carrot.velocity_odom_m_s;
-  const Eigen::Vector3d change = target.velocity_odom_m_s - before;
-  const double most = target.acceleration_m_s2 * dt_s;
-  carrot.velocity_odom_m_s += change.norm() > most ? Eigen::Vector3d(change.normalized() * most) : change;
-  carrot.position_odom_m += 0.5 * (before + carrot.velocity_odom_m_s) * dt_s;
-  carrot.acceleration_odom_m_s2 = (carrot.velocity_odom_m_s - before) / dt_s;
-  return carrot;
-}
-
-PathFollower::Carrot PathFollower::advanceAlongPath(double dt_s) {
-  const double before = carrot_speed_m_s_, most = 1.2 * limits_.acceleration_m_s2;
-  // Curves are sampled: braking for them may be a little firmer than planned.
-  carrot_speed_m_s_ =
-      std::clamp(allowedSpeed(dt_s), std::max(0.0, before - most * dt_s), before + laid_acceleration_m_s2_ * dt_s);
-  carrot_m_ += 0.5 * (before + carrot_speed_m_s_) * dt_s;
-  const double end_m = distances_m_.back();
-  if (carrot_m_ >= end_m - 1e-5) {
-    carrot_m_ = end_m;
-    carrot_speed_m_s_ = 0.0;
+double PathFollower::allowedSpeed_m_s() const {
+  double speed_m_s = std::min({speed_share_ * limits().speed_m_s, speed_limit_m_s_, pace_m_s_});
+  const Eigen::Vector3d line_m = carrot_.line_m();
+  const double length_m = line_m.norm();
+  if (std::abs(line_m.z()) > 1e-6) speed_m_s = std::min(speed_m_s, climbSpeed_m_s() * length_m / std::abs(line_m.z()));
+  const double planar_m = line_m.head<2>().norm();
+  if (yaw_.facesTravel() && planar_m > 0.5 * length_m) {
+    const double off_nose_rad = common::wrapAngle(std::atan2(line_m.y(), line_m.x()) - reference_.yaw_odom_rad);
+    if (std::abs(off_nose_rad) > kTurnFirst_rad) speed_m_s = std::min(speed_m_s, kTurnFirstSpeed_m_s);
   }
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  if (points_.size() > 1) {
-    const std::size_t segment = segmentAt(carrot_m_);
-    direction = (points_[segment + 1] - points_[segment]).normalized();
-  }
-  return {pointOn(points_, distances_m_, carrot_m_), carrot_speed_m_s_ * direction,
-          std::clamp((carrot_speed_m_s_ - before) / dt_s, -most, most) * direction};
-}
-
-double PathFollower::allowedSpeed(double dt_s) const {
-  double speed = std::min({speed_share_ * limits_.speed_m_s, speed_limit_m_s_, pace_m_s_});
-  if (points_.size() < 2) return 0.0;
-  const std::size_t segment = segmentAt(carrot_m_);
-  const double to_next_m = distances_m_[segment + 1] - carrot_m_;
-  const double next = speeds_m_s_[segment + 1];
-  // v^2 = next^2 + 2 a (distance left after this step), solved for the speed at the end of the step, so that braking
-  // never needs more than a.
-  const double a = laid_acceleration_m_s2_, half = 0.5 * a * dt_s;
-  const double left2 = next * next + 2.0 * a * std::max(0.0, to_next_m) - a * dt_s * carrot_speed_m_s_;
-  speed = std::min(speed, std::max(0.0, std::sqrt(std::max(0.0, half * half + left2)) - half));
-  const Eigen::Vector3d along = points_[segment + 1] - points_[segment];
-  const double length_m = along.norm();
-  if (std::abs(along.z()) > 1e-6) speed = std::min(speed, climbSpeed_m_s() * length_m / std::abs(along.z()));
-  const double planar_m = along.head<2>().norm();
-  if (faces_travel_ && !look_at_odom_m_ && planar_m > 0.5 * length_m) {
-    const double off_nose = common::wrapAngle(std::atan2(along.y(), along.x()) - reference_.yaw_odom_rad);
-    if (std::abs(off_nose) > config_.turn_first_angle_deg * common::kRadPerDeg)
-      speed = std::min(speed, config_.turn_first_speed_m_s);
-  }
-  return speed;
+  return speed_m_s;
 }
 
 void PathFollower::pullReference(const Carrot& carrot, double dt_s) {
-  const double w = config_.filter_rad_s;
+  const double w = kFilter_rad_s;
   // x'' = c'' + 2 w (c' - x') + w^2 (c - x): critically damped, with no lag behind a carrot on a straight line. The
   // error decays exactly as (e0 + (e0' + w e0) t) exp(-w t).
   const Eigen::Vector3d carrot_before =
@@ -246,49 +198,10 @@ void PathFollower::pullReference(const Carrot& carrot, double dt_s) {
   reference_.acceleration_odom_m_s2 = carrot.acceleration_odom_m_s2 - 2.0 * w * error_rate_now - w * w * error_now;
 }
 
-void PathFollower::advanceYaw(double dt_s) {
-  double wanted_rad = hold_yaw_odom_rad_;
-  double turns_rad_s = 0.0;  // The rate of the bearing of a point that the vehicle flies past.
-  const double left_m = remaining_m();
-  if (look_at_odom_m_ && !velocity_target_) {
-    const Eigen::Vector2d look = *look_at_odom_m_ - reference_.position_odom_m.head<2>();
-    if (look.norm() > kLeastLook_m) {
-      hold_yaw_odom_rad_ = wanted_rad = std::atan2(look.y(), look.x());
-      const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
-      turns_rad_s = (look.y() * velocity.x() - look.x() * velocity.y()) / look.squaredNorm();
-    }
-  } else if (faces_travel_ && left_m > config_.turn_distance_m) {
-    const Eigen::Vector3d ahead = pointOn(points_, distances_m_, carrot_m_ + config_.look_ahead_m);
-    const Eigen::Vector2d look = (ahead - reference_.position_odom_m).head<2>();
-    if (look.norm() > kLeastLook_m) hold_yaw_odom_rad_ = wanted_rad = std::atan2(look.y(), look.x());
-  } else if (goal_yaw_odom_rad_) {
-    hold_yaw_odom_rad_ = wanted_rad = *goal_yaw_odom_rad_;
-  }
-  const double error = common::wrapAngle(wanted_rad - reference_.yaw_odom_rad);
-  const double most_rad_s = config_.yaw_rate_deg_s * common::kRadPerDeg;
-  const double step = config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * dt_s;
-  const double stoppable = std::sqrt(2.0 * config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * std::abs(error));
-  // The last step ends on the goal, so that the carrot does not oscillate about it.
-  const double rate = std::min({most_rad_s, stoppable, std::abs(error) / dt_s});
-  const double wanted_rad_s = std::clamp(turns_rad_s + std::copysign(rate, error), -most_rad_s, most_rad_s);
-  reference_.yaw_rate_rad_s =
-      std::clamp(wanted_rad_s, reference_.yaw_rate_rad_s - 1.2 * step, reference_.yaw_rate_rad_s + 1.2 * step);
-  reference_.yaw_odom_rad = common::wrapAngle(reference_.yaw_odom_rad + reference_.yaw_rate_rad_s * dt_s);
-}
-
-double PathFollower::remaining_m() const { return distances_m_.back() - carrot_m_; }
-
 bool PathFollower::finished() const {
-  const bool there = !velocity_target_ && remaining_m() <= 0.0 &&
-                     (reference_.position_odom_m - points_.back()).norm() <= kAtGoal_m &&
-                     reference_.velocity_odom_m_s.norm() <= kAtRest_m_s;
-  return there && (!goal_yaw_odom_rad_ ||
-                   std::abs(common::wrapAngle(*goal_yaw_odom_rad_ - reference_.yaw_odom_rad)) <= kYawReached_rad);
-}
-
-std::size_t PathFollower::segmentAt(double distance_m) const {
-  const auto after = std::upper_bound(distances_m_.begin() + 1, distances_m_.end() - 1, distance_m);
-  return static_cast<std::size_t>(after - distances_m_.begin()) - 1;
+  return !velocity_carrot_ && remaining_m() <= 0.0 &&
+         (reference_.position_odom_m - carrot_.goal()).norm() <= kAtGoal_m &&
+         reference_.velocity_odom_m_s.norm() <= kAtRest_m_s && yaw_.reached(reference_.yaw_odom_rad);
 }
 
 const PathFollower::Limits& PathFollower::Config::limits(FlightMode mode) const {

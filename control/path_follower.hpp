@@ -6,7 +6,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,7 +13,9 @@
 #include "common/config_fwd.hpp"
 #include "common/flight_mode.hpp"
 #include "common/geometry.hpp"
+#include "control/path_carrot.hpp"
 #include "control/reference.hpp"
+#include "control/yaw_reference.hpp"
 
 namespace swiftlet::control {
 
@@ -34,18 +35,7 @@ class PathFollower {
     Limits careful{0.6, 0.8, 0.05};
     Limits accurate{0.3, 0.3, 0.02};  ///< Tilts by 2 deg at most, so that a camera stays on its point.
     Limits brisk{1.2, 1.0, 0.08};
-    static constexpr double climb_speed_m_s = 0.5;  ///< Greatest vertical part of the speed, in every mode.
-    static constexpr double filter_rad_s = 5.0;     ///< Bandwidth of the reference filter.
-    static constexpr double simplify_tolerance_m =
-        0.01;  ///< Points this close to the line between their neighbours are left out.
-    static constexpr double turn_distance_m =
-        0.6;  ///< Goals farther than this are faced; nearer ones are flown to sideways.
     double yaw_rate_deg_s = 60.0;
-    static constexpr double yaw_acceleration_deg_s2 = 180.0;  ///< Greatest yaw acceleration.
-    static constexpr double look_ahead_m = 0.5;               ///< The yaw faces the path this far ahead.
-    static constexpr double turn_first_angle_deg =
-        100.0;  ///< Where the path leads this far off the nose, which the laser does not see, the vehicle turns first.
-    static constexpr double turn_first_speed_m_s = 0.15;  ///< Greatest speed while turning first.
 
     void describe(common::config::Fields& fields);
     const Limits& limits(common::FlightMode mode) const;
@@ -66,7 +56,7 @@ class PathFollower {
   /// Stops as fast as the mode's limits allow and holds there.
   void stop();
   /// While it is set, the yaw faces that point on paths and while holding; a velocity has a yaw of its own.
-  void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { look_at_odom_m_ = point_odom_m; }
+  void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { yaw_.lookAt(point_odom_m); }
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
   /// Greatest speed on the present path: 0 halts on it, infinity lifts the limit. A new path, velocity or stop lifts
@@ -84,53 +74,38 @@ class PathFollower {
 
   /// The last path is still being followed: no stop, velocity or reset has replaced it.
   bool followsPath() const { return follows_path_; }
-  double remaining_m() const;
+  /// Length of the rest of the path.
+  double remaining_m() const { return carrot_.remaining_m(); }
   /// The carrot is at the goal and the reference rests there (within 1 mm and 1 mm/s).
   bool finished() const;
 
- private:
-  /// The point that the reference is pulled after.
-  struct Carrot {
-    Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
-    Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
-    Eigen::Vector3d acceleration_odom_m_s2 = Eigen::Vector3d::Zero();
-  };
-  /// The velocity that is flown instead of a path.
-  struct VelocityTarget {
-    Eigen::Vector3d velocity_odom_m_s;
-    double acceleration_m_s2;
-    Carrot carrot;
-  };
+  /// Greatest speed in that mode, with the present share.
+  double speed_m_s(common::FlightMode mode) const { return speed_share_ * config_.limits(mode).speed_m_s; }
+  double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
+    return 0.5 * speed_m_s * speed_m_s / (acceleration_share_ * config_.limits(mode).acceleration_m_s2);
+  }
 
+ private:
+  const Limits& limits() const { return config_.limits(mode_); }
+  double climbSpeed_m_s() const;
+  /// The carrot begins at the first of the points, at rest.
   void lay(std::vector<Eigen::Vector3d> points, double acceleration_m_s2);
-  double climbSpeed_m_s() const { return speed_share_ * config_.climb_speed_m_s; }
   /// The path, joined to the reference's present position and velocity. `turns` is set if its first corner is flown at
   /// speed.
   std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
-  Carrot advanceAlongPath(double dt_s);
-  static Carrot advanceToVelocity(VelocityTarget& target, double dt_s);
+  /// The least of the limits of the mode, of the reactive layer, of the climb and of the view.
+  double allowedSpeed_m_s() const;
   void pullReference(const Carrot& carrot, double dt_s);
-  void advanceYaw(double dt_s);
-  double allowedSpeed(double dt_s) const;
-  std::size_t segmentAt(double distance_m) const;
 
   Config config_;
-  Limits limits_;
+  common::FlightMode mode_ = common::FlightMode::kCareful;
   double speed_limit_m_s_;
   double pace_m_s_;
   double speed_share_ = 1.0, acceleration_share_ = 1.0;
-  double laid_acceleration_m_s2_;  ///< With which the present lines are flown.
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<double> distances_m_;  ///< Distance of each point along the path.
-  std::vector<double> speeds_m_s_;   ///< Greatest speed at each point at which all later ones can still be met.
-  std::optional<double> goal_yaw_odom_rad_;
-  double carrot_m_ = 0.0;
-  double carrot_speed_m_s_ = 0.0;
+  PathCarrot carrot_;
+  std::optional<VelocityCarrot> velocity_carrot_;  ///< Flown instead of the path.
   bool follows_path_ = false;  ///< The lines are a path that was set, not the braking distance of a stop.
-  std::optional<VelocityTarget> velocity_target_;
-  double hold_yaw_odom_rad_ = 0.0;
-  bool faces_travel_ = false;
-  std::optional<Eigen::Vector2d> look_at_odom_m_;
+  YawReference yaw_;
   Reference reference_;
 };
 

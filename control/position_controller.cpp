@@ -10,6 +10,15 @@
 namespace swiftlet::control {
 
 using common::config::kPositive;
+namespace {
+
+/// Greatest velocity that a position error adds to the reference's.
+constexpr double kMaxCorrection_m_s = 1.0;
+constexpr double kMaxClimb_m_s = 1.0;  ///< Greatest climb speed that a height error adds to the reference's.
+/// Time from measurement to command, by which the vertical state is predicted.
+constexpr double kLatency_s = 0.03;
+
+}  // namespace
 
 PositionController::PositionController(const Config& config, const common::VehicleConfig& vehicle)
     : config_(config), vehicle_(vehicle) {}
@@ -21,7 +30,7 @@ void PositionController::reset() {
 }
 
 void PositionController::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel&) {
-  integral_m_s2_ = trim_odom_m_s2.cwiseMax(-config_.max_integral_m_s2).cwiseMin(config_.max_integral_m_s2);
+  integral_m_s2_ = trim_odom_m_s2.cwiseMax(-kMaxIntegral_m_s2).cwiseMin(kMaxIntegral_m_s2);
   trim_yaw_rad_.reset();
 }
 
@@ -40,12 +49,11 @@ common::Setpoint PositionController::tick(const ControlInput& input, ThrustModel
   wanted_m_s2.z() += reference.acceleration_odom_m_s2.z();
   if (horizontal == Horizontal::kPosition) wanted_m_s2.head<2>() += reference.acceleration_odom_m_s2.head<2>();
 
-  Actuation actuation = actuate(wanted_m_s2, yaw_rad, config_.max_acceleration_up_m_s2, on_ground, vehicle_, thrust);
+  Actuation actuation = actuate(wanted_m_s2, yaw_rad, kMaxAccelerationUp_m_s2, on_ground, vehicle_, thrust);
   actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, common::wrapAngle(reference.yaw_odom_rad - yaw_rad),
                                                     config_.yaw_p_1_s, config_.max_yaw_rate_deg_s);
   const Eigen::Vector3d rate_1_s2(config_.horizontal_i_1_s2, config_.horizontal_i_1_s2, config_.vertical_i_1_s2);
-  integrate(integral_m_s2_, rate_1_s2, missing_m_s, wanted_m_s2 - actuation.given_odom_m_s2, config_.max_integral_m_s2,
-            dt_s);
+  integrate(integral_m_s2_, rate_1_s2, missing_m_s, wanted_m_s2 - actuation.given_odom_m_s2, kMaxIntegral_m_s2, dt_s);
   if (!on_ground) integral_m_s2_.z() -= thrust.learn(integral_m_s2_.z(), dt_s);
   return actuation.setpoint;
 }
@@ -64,8 +72,8 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
   const double climb_error_m = reference.position_odom_m.z() - state.T_odom_body.position_m.z();
   const double climb_velocity_error_m_s = reference.velocity_odom_m_s.z() - state.velocity_odom_m_s.z();
   missing_m_s.z() = climb_velocity_error_m_s +
-                    std::clamp(config_.vertical_p_1_s * (climb_error_m + config_.latency_s * climb_velocity_error_m_s),
-                               -config_.max_climb_m_s, config_.max_climb_m_s);
+                    std::clamp(config_.vertical_p_1_s * (climb_error_m + kLatency_s * climb_velocity_error_m_s),
+                               -kMaxClimb_m_s, kMaxClimb_m_s);
   if (horizontal == Horizontal::kLevel) return missing_m_s;
 
   const Eigen::Vector2d velocity_m_s = state.velocity_odom_m_s.head<2>();
@@ -74,8 +82,7 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
     return missing_m_s;
   }
   const Eigen::Vector2d position_error_m = lagged_.point()->position_odom_m - state.T_odom_body.position_m.head<2>();
-  const Eigen::Vector2d correction =
-      limited(share * config_.horizontal_p_1_s * position_error_m, config_.max_correction_m_s);
+  const Eigen::Vector2d correction = limited(share * config_.horizontal_p_1_s * position_error_m, kMaxCorrection_m_s);
   // A reference that is faster, in a mode for that, keeps its speed.
   const Eigen::Vector2d& wanted_m_s = lagged_.point()->velocity_odom_m_s;
   missing_m_s.head<2>() =

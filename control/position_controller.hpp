@@ -25,15 +25,8 @@ class PositionController final : public Controller {
     double vertical_v_1_s = 4.5;
     double vertical_i_1_s2 = 2.0;
     double yaw_p_1_s = 2.0;
-    static constexpr double max_correction_m_s =
-        1.0;  ///< Greatest velocity that a position error adds to the reference's.
     double max_speed_m_s = 1.5;
-    static constexpr double max_climb_m_s = 1.0;  ///< Greatest climb speed that a height error adds to the reference's.
-    static constexpr double max_acceleration_up_m_s2 = 4.0;  ///< Greatest vertical acceleration.
-    static constexpr double max_integral_m_s2 = 2.0;         ///< Greatest integral part of the acceleration.
     double max_yaw_rate_deg_s = 90.0;
-    static constexpr double latency_s =
-        0.03;  ///< Time from measurement to command, by which the vertical state is predicted.
     double attitude_lag_s = 0.2;
     ThrustModel::Config thrust;
 

@@ -7,6 +7,7 @@
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "control/emergency_descent.hpp"
+#include "control/reference.hpp"
 
 namespace swiftlet::control {
 
@@ -15,24 +16,20 @@ class SurfaceClearance {
  public:
   struct Config {
     double least_m = 0.40;
-    static constexpr double climb_m_s = 0.4;  ///< Climb speed over an edge.
-    static constexpr double sink_m_s = 0.2;   ///< Descent speed behind an edge.
-    static constexpr double behind_s = 1.0;   ///< Time for which the hull is still over what its middle has passed.
 
     void describe(common::config::Fields& fields);
   };
 
-  explicit SurfaceClearance(const Config& config) : config_(config) {}
+  explicit SurfaceClearance(const Config& config) : least_m_(config.least_m) {}
 
   /// A distance to what is below, and the height of the body over the take-off floor when it was measured.
   void observe(const RawHeight& below, double height_m);
-  /// Call it once a tick while paths are flown, with the height of the path.
-  void advance(common::Time now, double wanted_m, double dt_s);
+  /// The reference, raised over what is below as far as `max_height_m` allows; never lowered. Call it once a tick while
+  /// paths are flown.
+  Reference raised(Reference path, common::Time now, double max_height_m, double dt_s);
   void reset();
-
-  /// To be added to the path's height, and its rate of change.
+  /// How much the last reference was raised.
   double lift_m() const { return lift_m_; }
-  double rate_m_s() const { return rate_m_s_; }
 
  private:
   struct Surface {
@@ -40,10 +37,10 @@ class SurfaceClearance {
     double height_m;  ///< Over the take-off floor.
   };
 
-  Config config_;
+  double least_m_;
   std::optional<Surface> highest_;  ///< Of what is, or was just now, below the hull.
+  double wanted_lift_m_ = 0.0;      ///< Without the greatest height.
   double lift_m_ = 0.0;
-  double rate_m_s_ = 0.0;
 };
 
 }  // namespace swiftlet::control

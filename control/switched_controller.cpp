@@ -7,13 +7,17 @@
 #include "control/usable_state.hpp"
 
 namespace swiftlet::control {
+namespace {
+
+/// Time constant with which the step between two controllers fades when they are switched in flight.
+constexpr double kBlend_s = 0.3;
+constexpr double kFaded = 1e-4;  ///< A ten-thousandth of a radian or of the thrust is no step.
+
+}  // namespace
 
 SwitchedController::SwitchedController(const ControllerChoiceConfig& choice, const PositionController::Config& position,
                                        const common::VehicleConfig& vehicle, const VehicleModel* model)
-    : blend_s_(choice.blend_s),
-      max_tilt_rad_(vehicle.max_tilt_deg * common::kRadPerDeg),
-      thrust_(position.thrust, vehicle),
-      kind_(choice.kind) {
+    : max_tilt_rad_(vehicle.max_tilt_deg * common::kRadPerDeg), thrust_(position.thrust, vehicle), kind_(choice.kind) {
   for (int i = 0; i < kControllerKinds; ++i)
     controllers_[static_cast<std::size_t>(i)] =
         makeController(static_cast<ControllerKind>(i), choice, position, vehicle, model);
@@ -67,8 +71,7 @@ void SwitchedController::blend(common::Setpoint& setpoint, double dt_s) {
   setpoint.pitch_rad = std::clamp(own[1] + step_[1], -max_tilt_rad_, max_tilt_rad_);
   setpoint.yaw_rate_rad_s = own[2] + step_[2];
   setpoint.thrust = thrust_.clamped(own[3] + step_[3]);
-  step_ *= std::exp(-dt_s / blend_s_);
-  constexpr double kFaded = 1e-4;  // A ten-thousandth of a radian or of the thrust is no step.
+  step_ *= std::exp(-dt_s / kBlend_s);
   if (step_.cwiseAbs().maxCoeff() < kFaded) step_.setZero();
 }
 

@@ -19,7 +19,7 @@ namespace swiftlet::control {
 /// ```
 ///   switchTo(kind): reset the next, give it the trim of the last
 ///   next tick:      step = last setpoint - first setpoint of the next
-///   from then on:   setpoint = setpoint of the next + step * exp(-t / blend_s)
+///   from then on:   setpoint = setpoint of the next + step * exp(-t / kBlend_s)
 /// ```
 /// Call at 100 Hz from one thread. A NaN in the state never reaches the setpoint, which is then level at hover thrust.
 class SwitchedController {
@@ -48,7 +48,6 @@ class SwitchedController {
   Controller& controller() const { return *controllers_[static_cast<std::size_t>(kind_)]; }
   void blend(common::Setpoint& setpoint, double dt_s);
 
-  double blend_s_;
   double max_tilt_rad_;
   ThrustModel thrust_;
   std::array<std::unique_ptr<Controller>, kControllerKinds> controllers_;

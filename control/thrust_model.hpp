@@ -16,11 +16,8 @@ namespace swiftlet::control {
 class ThrustModel {
  public:
   struct Config {
-    static constexpr double voltage_filter_s = 0.5;  ///< Time constant that smooths the measured voltage.
-    static constexpr double learning_time_s = 2.0;   ///< Time constant by which the hover command is learned.
     double min_thrust = 0.10;
     double max_thrust = 0.95;
-    ThrustTable::Config table;
 
     void describe(common::config::Fields& fields);
     std::vector<std::string> validate() const;
@@ -40,6 +37,8 @@ class ThrustModel {
   double commandFor(double acceleration_up_m_s2, double cos_tilt) const;
   /// A command within the valid range.
   double clamped(double command) const;
+  /// Whether a command is all of the thrust.
+  bool isGreatest(double command) const;
   /// Greatest thrust over the weight at the present voltage, by what was learned.
   double margin() const { return marginAt(voltage_v_); }
   double marginAt(double voltage_v) const { return config_.max_thrust / table_.hoverCommand(voltage_v); }

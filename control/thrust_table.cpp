@@ -10,6 +10,14 @@
 #include "control/battery_span.hpp"
 
 namespace swiftlet::control {
+namespace {
+
+/// After this time near a voltage its hover command follows only half of what is learned at another voltage. See
+/// docs/decisions/control.md, 033.
+constexpr double kFamiliar_s = 10.0;
+constexpr double kForget_s = 900.0;  ///< Time constant of flight by which what was learned loses its weight.
+
+}  // namespace
 
 std::vector<std::string> problemsOf(const ThrustPoints& points) {
   std::vector<std::string> problems;
@@ -41,8 +49,7 @@ std::optional<common::Problem> otherBatteryProblem(const ThrustPoints& points, c
   return std::nullopt;
 }
 
-ThrustTable::ThrustTable(const Config& config, const common::VehicleConfig& vehicle)
-    : config_(config), vehicle_(vehicle) {
+ThrustTable::ThrustTable(const common::VehicleConfig& vehicle) : vehicle_(vehicle) {
   const auto [low_v, high_v] = batterySpan(vehicle);
   for (std::size_t i = 0; i < kKnots; ++i) {
     voltages_v_[i] = low_v + (high_v - low_v) * static_cast<double>(i) / (kKnots - 1);
@@ -51,20 +58,19 @@ ThrustTable::ThrustTable(const Config& config, const common::VehicleConfig& vehi
 }
 
 double ThrustTable::sheetCommand(double voltage_v) const {
-  const double sag = std::pow(voltage_v / vehicle_.battery_full_v, config_.voltage_exponent);
+  const double sag = std::pow(voltage_v / vehicle_.battery_full_v, kVoltageExponent);
   return vehicle_.mass_kg * common::kGravity_m_s2 / (vehicle_.max_thrust_n * sag);
 }
 
 bool ThrustTable::isWithinBounds(const ThrustPoint& point) const {
   constexpr double kRounding = 1e-3;  // Of the share, in a file with few decimals.
   const double share = point.hover_command / sheetCommand(point.voltage_v);
-  return std::abs(share - 1.0) <= config_.max_correction + kRounding;
+  return std::abs(share - 1.0) <= kMaxCorrection + kRounding;
 }
 
 double ThrustTable::bounded(std::size_t knot, double log_command) const {
   const double sheet = std::log(sheetCommand(voltages_v_[knot]));
-  return std::clamp(log_command, sheet + std::log(1.0 - config_.max_correction),
-                    sheet + std::log(1.0 + config_.max_correction));
+  return std::clamp(log_command, sheet + std::log(1.0 - kMaxCorrection), sheet + std::log(1.0 + kMaxCorrection));
 }
 
 ThrustTable::Place ThrustTable::placeOf(double voltage_v) const {
@@ -77,7 +83,7 @@ ThrustTable::Place ThrustTable::placeOf(double voltage_v) const {
 double ThrustTable::logAt(double voltage_v) const {
   const Place place = placeOf(voltage_v);
   const double inside_v = std::clamp(voltage_v, voltages_v_.front(), voltages_v_.back());
-  const double beyond = -config_.voltage_exponent * std::log(voltage_v / inside_v);
+  const double beyond = -kVoltageExponent * std::log(voltage_v / inside_v);
   return std::lerp(log_commands_[place.below], log_commands_[place.below + 1], place.share) + beyond;
 }
 
@@ -89,7 +95,7 @@ double ThrustTable::learn(double voltage_v, double log_step, double dt_s) {
   // How far each knot follows: fully near the voltage, and elsewhere the less, the better its own value is known.
   std::array<double, kKnots> follow{};
   for (std::size_t i = 0; i < kKnots; ++i) {
-    const double familiar = seen_s_[i] / config_.familiar_s;
+    const double familiar = seen_s_[i] / kFamiliar_s;
     follow[i] = 1.0 / (1.0 + familiar * familiar);
   }
   follow[place.below] = std::max(follow[place.below], 1.0 - place.share);
@@ -112,7 +118,7 @@ void ThrustTable::keepFalling(std::size_t from) {
 }
 
 void ThrustTable::remember(const Place& place, double dt_s) {
-  const double kept = std::exp(-dt_s / config_.forget_s);
+  const double kept = std::exp(-dt_s / kForget_s);
   for (double& seen_s : seen_s_) seen_s *= kept;
   seen_s_[place.below] += (1.0 - place.share) * dt_s;
   seen_s_[place.below + 1] += place.share * dt_s;
@@ -129,7 +135,7 @@ void ThrustTable::recall(const ThrustPoints& points) {
     const double span_v = high.voltage_v - low.voltage_v;
     const double share = span_v > 0.0 ? std::clamp((voltage_v - low.voltage_v) / span_v, 0.0, 1.0) : 0.0;
     const double inside_v = std::clamp(voltage_v, points.front().voltage_v, points.back().voltage_v);
-    const double beyond = -config_.voltage_exponent * std::log(voltage_v / inside_v);
+    const double beyond = -kVoltageExponent * std::log(voltage_v / inside_v);
     log_commands_[i] = bounded(i, std::lerp(std::log(low.hover_command), std::log(high.hover_command), share) + beyond);
     seen_s_[i] = voltage_v == inside_v ? std::lerp(low.seen_s, high.seen_s, share) : 0.0;
   }
@@ -141,21 +147,20 @@ ThrustPoints ThrustTable::points() const {
   return points;
 }
 
-std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const common::VehicleConfig& vehicle,
-                                             const ThrustTable::Config& config) {
+std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const common::VehicleConfig& vehicle) {
   if (auto problem = otherBatteryProblem(points, vehicle)) return problem;
-  const ThrustTable table(config, vehicle);
+  const ThrustTable table(vehicle);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (table.isWithinBounds(points[i])) continue;
     const double sheet_command = table.sheetCommand(points[i].voltage_v);
-    return common::Problem{
-        {},
-        fmt::format("thrust[{}].hover_command", i),
-        fmt::format("{} at {} V is too far from the {:.3f} of the data sheet of `{}`: {:.3f} to "
-                    "{:.3f} would fit",
-                    points[i].hover_command, points[i].voltage_v, sheet_command, vehicle.name,
-                    (1.0 - config.max_correction) * sheet_command, (1.0 + config.max_correction) * sheet_command),
-        ""};
+    return common::Problem{{},
+                           fmt::format("thrust[{}].hover_command", i),
+                           fmt::format("{} at {} V is too far from the {:.3f} of the data sheet of `{}`: {:.3f} to "
+                                       "{:.3f} would fit",
+                                       points[i].hover_command, points[i].voltage_v, sheet_command, vehicle.name,
+                                       (1.0 - ThrustTable::kMaxCorrection) * sheet_command,
+                                       (1.0 + ThrustTable::kMaxCorrection) * sheet_command),
+                           ""};
   }
   return std::nullopt;
 }

@@ -35,17 +35,14 @@ std::optional<common::Problem> otherBatteryProblem(const ThrustPoints& points, c
 /// power law. The command never rises with the voltage. A value: not thread-safe.
 class ThrustTable {
  public:
-  struct Config {
-    static constexpr double voltage_exponent = 2.0;  ///< The thrust of a command goes with (voltage / full voltage) to
-                                                     ///< this power where nothing has been learned.
-    static constexpr double max_correction =
-        0.6;  ///< The learned hover command stays within 1 plus or minus this, times that of the data sheet.
-    static constexpr double familiar_s = 10.0;  ///< After this time near a voltage its hover command follows only half
-                                                ///< of what is learned at another voltage.
-    static constexpr double forget_s = 900.0;   ///< Time constant of flight by which what was learned loses its weight.
-  };
+  /// The thrust of a command goes with (voltage / full voltage) to this power where nothing has been learned: that of a
+  /// motor whose speed goes with the voltage and whose thrust goes with the square of its speed.
+  static constexpr double kVoltageExponent = 2.0;
+  /// The learned hover command stays within 1 plus or minus this, times that of the data sheet. See
+  /// docs/decisions/control.md, 033.
+  static constexpr double kMaxCorrection = 0.6;
 
-  ThrustTable(const Config& config, const common::VehicleConfig& vehicle);
+  explicit ThrustTable(const common::VehicleConfig& vehicle);
 
   /// Takes over the rows of an earlier flight; the knots between and beyond them follow the law above. Values outside
   /// the bounds about the data sheet are moved to the bound. Without rows it changes nothing.
@@ -76,7 +73,6 @@ class ThrustTable {
   void remember(const Place& place, double dt_s);
   void keepFalling(std::size_t from);
 
-  Config config_;
   common::VehicleConfig vehicle_;
   std::array<double, kKnots> voltages_v_{};
   std::array<double, kKnots> log_commands_{};
@@ -85,7 +81,6 @@ class ThrustTable {
 
 /// The first row that the table of the vehicle would not recall as it is: of another battery, or a command beyond the
 /// bounds about the data sheet.
-std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const common::VehicleConfig& vehicle,
-                                             const ThrustTable::Config& config);
+std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const common::VehicleConfig& vehicle);
 
 }  // namespace swiftlet::control

@@ -118,8 +118,7 @@ std::vector<std::string> VehicleModel::validate() const {
   return problems;
 }
 
-std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConfig& sheet,
-                                                       const ThrustTable::Config& table) const {
+std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConfig& sheet) const {
   std::vector<common::Problem> problems;
   if (vehicle != sheet.name)
     problems.push_back({{},
@@ -143,7 +142,7 @@ std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConf
   check("battery_capacity_ah", battery_capacity_ah, sheet.battery_capacity_ah, "Ah");
   // A table of another battery or vehicle has another C(U); no problem is reported for that.
   if (problems.size() > before || vehicle != sheet.name) return problems;
-  if (auto problem = problemOfRows(thrust, sheet, table)) problems.push_back(std::move(*problem));
+  if (auto problem = problemOfRows(thrust, sheet)) problems.push_back(std::move(*problem));
   return problems;
 }
 

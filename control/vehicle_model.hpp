@@ -56,10 +56,8 @@ struct VehicleModel {
   /// An axis that was identified must be one that a multirotor can have, see problemsOfAxis.
   std::vector<std::string> validate() const;
 
-  /// Why the model cannot be used for this vehicle, with its own keys and without places; empty if it fits. `table`
-  /// has the bounds of the controller that learns on from C(U).
-  std::vector<common::Problem> problemsFor(const common::VehicleConfig& vehicle,
-                                           const ThrustTable::Config& table) const;
+  /// Why the model cannot be used for this vehicle, with its own keys and without places; empty if it fits.
+  std::vector<common::Problem> problemsFor(const common::VehicleConfig& vehicle) const;
   /// Whether every degree of freedom was identified, as an LQR needs it.
   bool hasAxes() const;
 };

@@ -58,7 +58,7 @@ Progress Explore::fly(const ManeuverInput& input) {
 double Explore::reconsiderAfter_s() const {
   const double rest_m = common::polylineLength(flight_.remaining_map_m());
   return std::max(setup_.config.explore_period_s,
-                  setup_.config.explore_period_share * rest_m / setup_.controller.speed_m_s(intent_.mode));
+                  setup_.config.explore_period_share * rest_m / setup_.controller.follower().speed_m_s(intent_.mode));
 }
 
 bool Explore::look(const ManeuverInput& input) {

@@ -117,15 +117,15 @@ bool Follow::comesTooNear(const ManeuverInput& input) const {
 void Follow::giveWay(const ManeuverInput& input, const planning::CostMap& costs) {
   on_trail_ = false;
   const std::vector<PossibleWalk> walks = person_->walks(input.now);
-  const PursuitPath pursuit =
-      pursuitPath({costs, *input.grid, input.position_map_m(), walks, person_->trail_map_m(), intent_.distance_m,
-                   setup_.controller.speed_m_s(intent_.mode), config_.pursuit, config_.watch.walking.half_width_m});
+  const PursuitPath pursuit = pursuitPath({costs, *input.grid, input.position_map_m(), walks, person_->trail_map_m(),
+                                           intent_.distance_m, setup_.controller.follower().speed_m_s(intent_.mode),
+                                           config_.pursuit, config_.watch.walking.half_width_m});
   flyOrStay(pursuit.path, input);
 }
 
 /// From the reference on, so that the path grows where the person walks and stays where it was behind the vehicle.
 bool Follow::flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs) {
-  const Eigen::Vector2d reference_odom_m = setup_.controller.reference().position_odom_m.head<2>();
+  const Eigen::Vector2d reference_odom_m = setup_.controller.follower().reference().position_odom_m.head<2>();
   const Eigen::Vector2d person_map_m = person_->place_map_m(input.now);
   const planning::Path path = trailPath({costs, input.state.T_map_odom * reference_odom_m, person_map_m,
                                          person_->trail_map_m(), config_.pace.ends_at_m, config_.pace.aside_m});
@@ -141,7 +141,7 @@ bool Follow::flyAlongTrail(const ManeuverInput& input, const planning::CostMap& 
 /// A path of one point is a hold.
 void Follow::flyOrStay(const planning::Path& path, const ManeuverInput& input) {
   if (path.points_map_m.size() == 1) {
-    if (flight_.plan() != nullptr && !setup_.controller.pathFinished()) flight_.abandon();
+    if (flight_.plan() != nullptr && !setup_.controller.follower().finished()) flight_.abandon();
     target_map_m_.reset();
     return;
   }
@@ -181,7 +181,7 @@ Eigen::Vector2d Follow::placeBehind() const {
 
 /// Along a planned path, unless one leads there.
 void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m) {
-  const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
+  const bool under_way = flight_.plan() != nullptr && !setup_.controller.follower().finished();
   const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < config_.replan_m;
   if ((under_way && same) || !flight_.mayAsk()) return;
   target_map_m_ = target_map_m;

@@ -19,7 +19,7 @@ class LoweredFlight {
   void follow(const planning::Path* plan, const common::VehicleState& state);
 
   FlightHeights heights() const {
-    return {memory_.cruise_height_m, controller_.reference().position_odom_m.z(), memory_.lowered_m};
+    return {memory_.cruise_height_m, controller_.follower().reference().position_odom_m.z(), memory_.lowered_m};
   }
   /// How much lower than its paths' height the vehicle is to be; else 0.
   double dip_m() const;

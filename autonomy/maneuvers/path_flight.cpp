@@ -36,7 +36,7 @@ bool PathFlight::keep(const ManeuverInput& input) {
   if (!cost_map || !plan()) return true;
   const auto check =
       keeper_.check(input.now, mapsOf(*cost_map), input.position_map_m(),
-                    controller_.brakingDistance_m(mode_, input.state.velocity_odom_m_s.head<2>().norm()));
+                    controller_.follower().brakingDistance_m(mode_, input.state.velocity_odom_m_s.head<2>().norm()));
   if (!check.valid) {
     memory_.say(input.now, common::Severity::kInfo, "plan given up", check.reason);
     abandon();
@@ -122,7 +122,7 @@ std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {
 }
 
 Eigen::Vector2d PathFlight::wantedVelocity_map_m_s() const {
-  return velocityAlong(remaining_map_m(), std::min(pace_m_s_, controller_.speed_m_s(mode_)));
+  return velocityAlong(remaining_map_m(), std::min(pace_m_s_, controller_.follower().speed_m_s(mode_)));
 }
 
 }  // namespace swiftlet::autonomy

@@ -45,7 +45,7 @@ class PathFlight {
   bool arrived(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m);
 
   /// The present plan; null without one.
-  const planning::Path* plan() const { return controller_.followsPath() ? keeper_.plan() : nullptr; }
+  const planning::Path* plan() const { return controller_.follower().followsPath() ? keeper_.plan() : nullptr; }
   /// The rest of the plan, from the place where the vehicle was last seen; empty without a plan.
   std::vector<Eigen::Vector2d> remaining_map_m() const;
   /// The velocity along the plan at the mode's speed and the pace; zero without a plan.

@@ -45,11 +45,11 @@ Progress Retrace::step(const ManeuverInput& input) {
   if (setup_.retreat.active()) return Progress::running();
   if (intent_.path_map_m.empty()) return Progress::done("it is there already");
   if (input.keep_out) keepOut(*input.keep_out);
-  if (following_ && setup_.controller.pathFinished())
+  if (following_ && setup_.controller.follower().finished())
     return cut_ ? Progress::failed("stopped before a keep-out zone") : Progress::done("back where it came from");
   if (isStuck(input))
     return Progress::failed(fmt::format("something is in the way for {:.0f} s", setup_.config.give_up_s));
-  if (!setup_.controller.followsPath()) follow(input);
+  if (!setup_.controller.follower().followsPath()) follow(input);
   return Progress::running("flying back along the trail");
 }
 
@@ -110,8 +110,9 @@ std::span<const Eigen::Vector2d> Retrace::remaining(const Eigen::Vector2d& from_
 }
 
 Eigen::Vector2d Retrace::wantedVelocity_map_m_s(const common::VehicleState& state) const {
-  if (!following_ || !setup_.controller.followsPath()) return Eigen::Vector2d::Zero();
-  return velocityAlong(remaining(state.T_map_body_planar().position_m()), setup_.controller.speed_m_s(kMode));
+  if (!following_ || !setup_.controller.follower().followsPath()) return Eigen::Vector2d::Zero();
+  return velocityAlong(remaining(state.T_map_body_planar().position_m()),
+                       setup_.controller.follower().speed_m_s(kMode));
 }
 
 std::optional<Eigen::Vector2d> Retrace::goal_map_m() const {

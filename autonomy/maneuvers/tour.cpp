@@ -77,7 +77,7 @@ Progress Tour::fly(const ManeuverInput& input) {
   }
   (void)flight_.keep(input);
   if (flight_.mayAsk()) asked_.reset();  // An answer that came during a retreat was dropped.
-  const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
+  const bool under_way = flight_.plan() != nullptr && !setup_.controller.follower().finished();
   if (!under_way && !asked_ && ready(input)) flyOn(*map, input, *station);
   return {common::IntentState::kRunning, fmt::format("{}, {} of {} places", doing(input), passed(), stations_.size()),
           inspecting(input)};

@@ -6,7 +6,7 @@
 namespace swiftlet::control {
 
 common::Setpoint CascadedPid::tick(const ControlInput& input, ThrustModel& thrust) {
-  const ControlErrors errors = errorsOf(input, limits_);
+  const ControlErrors errors = errorsOf(input);
   const Eigen::Vector3d p(config_.horizontal_p_1_s2, config_.horizontal_p_1_s2, config_.vertical_p_1_s2);
   const Eigen::Vector3d i(config_.horizontal_i_1_s3, config_.horizontal_i_1_s3, config_.vertical_i_1_s3);
   const Eigen::Vector3d d(config_.horizontal_d_1_s, config_.horizontal_d_1_s, config_.vertical_d_1_s);
@@ -17,12 +17,11 @@ common::Setpoint CascadedPid::tick(const ControlInput& input, ThrustModel& thrus
 
   // The set points of the inner loops: roll, pitch and the thrust for the altitude.
   Actuation actuation =
-      actuate(wanted_m_s2, errors.heading_rad, limits_.max_acceleration_up_m_s2, input.on_ground, vehicle_, thrust);
-  actuation.setpoint.yaw_rate_rad_s =
-      yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
+      actuate(wanted_m_s2, errors.heading_rad, kMaxAccelerationUp_m_s2, input.on_ground, vehicle_, thrust);
+  actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, kMaxYawRate_deg_s);
 
-  integrate(integral_m_s2_, i, errors.position_odom_m, wanted_m_s2 - actuation.given_odom_m_s2,
-            limits_.max_integral_m_s2, input.dt_s);
+  integrate(integral_m_s2_, i, errors.position_odom_m, wanted_m_s2 - actuation.given_odom_m_s2, kMaxIntegral_m_s2,
+            input.dt_s);
   if (!input.on_ground) integral_m_s2_.z() -= thrust.learn(integral_m_s2_.z(), input.dt_s);
   return actuation.setpoint;
 }

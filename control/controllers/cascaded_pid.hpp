@@ -23,8 +23,7 @@ class CascadedPid final : public Controller {
     void describe(common::config::Fields& fields);
   };
 
-  CascadedPid(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle)
-      : config_(config), limits_(limits), vehicle_(vehicle) {}
+  CascadedPid(const Config& config, const common::VehicleConfig& vehicle) : config_(config), vehicle_(vehicle) {}
 
   void reset() override { integral_m_s2_.setZero(); }
   common::Setpoint tick(const ControlInput& input, ThrustModel& thrust) override;
@@ -33,7 +32,6 @@ class CascadedPid final : public Controller {
 
  private:
   Config config_;
-  ControlLimits limits_;
   common::VehicleConfig vehicle_;
   Eigen::Vector3d integral_m_s2_ = Eigen::Vector3d::Zero();
 };

@@ -76,13 +76,8 @@ std::vector<std::string> Lqr::problemsOf(const Config& config, const VehicleMode
   return problems;
 }
 
-Lqr::Lqr(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
-         const VehicleModel& model)
-    : config_(config),
-      limits_(limits),
-      vehicle_(vehicle),
-      model_(model),
-      lag_s_(model.forward.lag_s, model.left.lag_s, model.up.lag_s) {
+Lqr::Lqr(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel& model)
+    : vehicle_(vehicle), model_(model), lag_s_(model.forward.lag_s, model.left.lag_s, model.up.lag_s) {
   const AllGains gains = gainsOf(config, model);
   gains_ = {gains.horizontal.K, gains.horizontal.K, gains.up.K};
   // For a single integrator the Riccati equation leaves K = sqrt(q / r).
@@ -120,13 +115,12 @@ common::Setpoint Lqr::command(const Eigen::Vector3d& wanted_m_s2, const ControlI
   setpoint.pitch_rad = tilt_rad.x();
   setpoint.roll_rad = tilt_rad.y();
   // The integral's part is not bounded as an acceleration, because it corrects the model.
-  const double integral_m_s2 = gains_[2][0] * integral_m_s_.z(), most_m_s2 = limits_.max_acceleration_up_m_s2;
+  const double integral_m_s2 = gains_[2][0] * integral_m_s_.z(), most_m_s2 = kMaxAccelerationUp_m_s2;
   const double most_up_m_s2 = input.on_ground ? std::numeric_limits<double>::infinity() : most_m_s2;
   const double up_m_s2 = integral_m_s2 + std::clamp(wanted_m_s2.z() - integral_m_s2, -most_m_s2, most_up_m_s2);
   setpoint.thrust = thrust.clamped(thrust.hoverCommand() * (up_m_s2 - model_.up.offset) / model_.up.gain);
   setpoint.yaw_rate_rad_s =
-      (yawRate_rad_s(input, errors.yaw_rad, yaw_gain_1_s_, limits_.max_yaw_rate_deg_s) - model_.yaw.offset) /
-      model_.yaw.gain;
+      (yawRate_rad_s(input, errors.yaw_rad, yaw_gain_1_s_, kMaxYawRate_deg_s) - model_.yaw.offset) / model_.yaw.gain;
   if (input.on_ground || input.horizontal != Horizontal::kPosition) setpoint.yaw_rate_rad_s = 0.0;
   const Eigen::Vector2d given_level_m_s2(model_.forward.gain * tilt_rad.x() + model_.forward.offset,
                                          model_.left.gain * tilt_rad.y() + model_.left.offset);
@@ -137,7 +131,7 @@ common::Setpoint Lqr::command(const Eigen::Vector3d& wanted_m_s2, const ControlI
 
 common::Setpoint Lqr::tick(const ControlInput& input, ThrustModel& thrust) {
   if (!started_) setTrim(Eigen::Vector3d::Zero(), thrust);
-  const ControlErrors errors = errorsOf(input, limits_);
+  const ControlErrors errors = errorsOf(input);
   const Eigen::Vector3d wanted_m_s2 = wanted(errors);
   Eigen::Vector3d given_m_s2;
   const common::Setpoint setpoint = command(wanted_m_s2, input, errors, thrust, given_m_s2);
@@ -160,7 +154,7 @@ void Lqr::advance(const ControlErrors& errors, const Eigen::Vector3d& wanted_m_s
     const double refused_m_s2 = wanted_m_s2[axis] - given_m_s2[axis];
     if (integral_gain <= 0.0 || refused_m_s2 * errors.position_odom_m[axis] > 1e-9) continue;
     // The vertical one also compensates a thrust that is far from that of the identified flight.
-    const double most_m_s = (axis == 2 ? common::kGravity_m_s2 : limits_.max_integral_m_s2) / integral_gain;
+    const double most_m_s = (axis == 2 ? common::kGravity_m_s2 : kMaxIntegral_m_s2) / integral_gain;
     integral_m_s_[axis] = std::clamp(integral_m_s_[axis] + dt_s * errors.position_odom_m[axis], -most_m_s, most_m_s);
   }
 }

@@ -37,8 +37,7 @@ class Lqr final : public Controller {
   static std::vector<std::string> problemsOf(const Config& config, const VehicleModel& model);
 
   /// `model` has all axes (VehicleModel::hasAxes), and problemsOf() finds nothing; it is read only here.
-  Lqr(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
-      const VehicleModel& model);
+  Lqr(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel& model);
 
   void reset() override;
   common::Setpoint tick(const ControlInput& input, ThrustModel& thrust) override;
@@ -55,8 +54,6 @@ class Lqr final : public Controller {
   void advance(const ControlErrors& errors, const Eigen::Vector3d& wanted_m_s2, const Eigen::Vector3d& given_m_s2,
                double dt_s);
 
-  Config config_;
-  ControlLimits limits_;
   common::VehicleConfig vehicle_;
   VehicleModel model_;
   std::array<Eigen::RowVector4d, 3> gains_;

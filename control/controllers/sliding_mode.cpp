@@ -9,11 +9,15 @@
 namespace swiftlet::control {
 
 using common::config::kPositive;
+namespace {
+
+constexpr double kMaxDisturbance_m_s2 = 2.0;  ///< Greatest disturbance that is compensated.
+
+}  // namespace
 
 void SlidingMode::reset() {
   lagged_.reset();
-  on_surface_ = false;
-  integral_m_s_.setZero();
+  integral_m_s_.reset();
   disturbance_m_s2_.setZero();
   taken_up_m_s2_.setZero();
 }
@@ -27,15 +31,13 @@ common::Setpoint SlidingMode::tick(const ControlInput& input, ThrustModel& thrus
   // if there were no disturbance: sigma = de/dt - de/dt(0) + int(u0) dt (Utkin and Shi 1996).
   const Eigen::Vector3d nominal_m_s2 =
       p.cwiseProduct(errors.position_odom_m) + d.cwiseProduct(errors.velocity_odom_m_s);
-  if (!on_surface_) integral_m_s_ = -errors.velocity_odom_m_s;
-  on_surface_ = true;
+  if (!integral_m_s_) integral_m_s_ = -errors.velocity_odom_m_s;
   // u = a* + u0 + rho sat(sigma / boundary) - d, with d by time-delay estimation.
   const Eigen::Vector3d wanted_m_s2 = errors.acceleration_odom_m_s2 + slide(nominal_m_s2, errors) - disturbance_m_s2_;
 
   Actuation actuation =
-      actuate(wanted_m_s2, errors.heading_rad, limits_.max_acceleration_up_m_s2, input.on_ground, vehicle_, thrust);
-  actuation.setpoint.yaw_rate_rad_s =
-      yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
+      actuate(wanted_m_s2, errors.heading_rad, kMaxAccelerationUp_m_s2, input.on_ground, vehicle_, thrust);
+  actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, kMaxYawRate_deg_s);
   advanceSurface(nominal_m_s2, wanted_m_s2 - actuation.given_odom_m_s2, errors, input.dt_s);
   estimateDisturbance(input, actuation.given_odom_m_s2);
   // A thrust that has been learned is no longer a disturbance.
@@ -47,17 +49,17 @@ common::Setpoint SlidingMode::tick(const ControlInput& input, ThrustModel& thrus
 ControlErrors SlidingMode::laggedErrors(const ControlInput& input) {
   if (input.horizontal != Horizontal::kPosition) {
     lagged_.reset();
-    return errorsOf(input, limits_);
+    return errorsOf(input);
   }
   lagged_.advance(input.reference, config_.attitude_lag_s, input.dt_s);
   ControlInput delayed = input;
   delayed.reference.position_odom_m.head<2>() = lagged_.point()->position_odom_m;
   delayed.reference.velocity_odom_m_s.head<2>() = lagged_.point()->velocity_odom_m_s;
-  return errorsOf(delayed, limits_);
+  return errorsOf(delayed);
 }
 
 Eigen::Vector3d SlidingMode::slide(const Eigen::Vector3d& nominal_m_s2, const ControlErrors& errors) const {
-  const Eigen::Vector3d sigma_m_s = errors.velocity_odom_m_s + integral_m_s_;
+  const Eigen::Vector3d sigma_m_s = errors.velocity_odom_m_s + *integral_m_s_;
   return nominal_m_s2 + config_.switching_m_s2 * (sigma_m_s / config_.boundary_m_s).cwiseMax(-1.0).cwiseMin(1.0);
 }
 
@@ -67,8 +69,8 @@ void SlidingMode::advanceSurface(const Eigen::Vector3d& nominal_m_s2, const Eige
                                  const ControlErrors& errors, double dt_s) {
   for (int axis = 0; axis < 3; ++axis) {
     if (refused_m_s2[axis] * nominal_m_s2[axis] > 1e-9) continue;
-    const double sigma_m_s = errors.velocity_odom_m_s[axis] + integral_m_s_[axis] + dt_s * nominal_m_s2[axis];
-    integral_m_s_[axis] =
+    const double sigma_m_s = errors.velocity_odom_m_s[axis] + (*integral_m_s_)[axis] + dt_s * nominal_m_s2[axis];
+    (*integral_m_s_)[axis] =
         std::clamp(sigma_m_s, -config_.boundary_m_s, config_.boundary_m_s) - errors.velocity_odom_m_s[axis];
   }
 }
@@ -83,13 +85,13 @@ void SlidingMode::estimateDisturbance(const ControlInput& input, const Eigen::Ve
   const double share = common::followedShare(input.dt_s, config_.disturbance_filter_s);
   const Eigen::Vector3d seen_m_s2 = *input.acceleration_odom_m_s2 - taken_up_m_s2_;
   disturbance_m_s2_ += share * (seen_m_s2 - disturbance_m_s2_);
-  disturbance_m_s2_ = disturbance_m_s2_.cwiseMax(-config_.max_disturbance_m_s2).cwiseMin(config_.max_disturbance_m_s2);
+  disturbance_m_s2_ = disturbance_m_s2_.cwiseMax(-kMaxDisturbance_m_s2).cwiseMin(kMaxDisturbance_m_s2);
 }
 
 /// The part of sigma beyond the velocity error.
 Eigen::Vector3d SlidingMode::trim_odom_m_s2(const ThrustModel&) const {
   const double rate_1_s = config_.switching_m_s2 / config_.boundary_m_s;
-  return on_surface_ ? Eigen::Vector3d(rate_1_s * integral_m_s_ - disturbance_m_s2_) : -disturbance_m_s2_;
+  return integral_m_s_ ? Eigen::Vector3d(rate_1_s * *integral_m_s_ - disturbance_m_s2_) : -disturbance_m_s2_;
 }
 
 void SlidingMode::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel&) {

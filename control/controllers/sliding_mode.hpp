@@ -3,6 +3,8 @@
 // accelerometer with the previous commands answers to a gust before it has moved the vehicle.
 #pragma once
 
+#include <optional>
+
 #include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 #include "control/control_errors.hpp"
@@ -23,14 +25,12 @@ class SlidingMode final : public Controller {
     double disturbance_filter_s = 0.5;
     double attitude_lag_s = 0.2;
     double thrust_lag_s = 0.05;
-    static constexpr double max_disturbance_m_s2 = 2.0;  ///< Greatest disturbance that is compensated.
     double yaw_p_1_s = 2.0;
 
     void describe(common::config::Fields& fields);
   };
 
-  SlidingMode(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle)
-      : config_(config), limits_(limits), vehicle_(vehicle) {}
+  SlidingMode(const Config& config, const common::VehicleConfig& vehicle) : config_(config), vehicle_(vehicle) {}
 
   void reset() override;
   common::Setpoint tick(const ControlInput& input, ThrustModel& thrust) override;
@@ -45,12 +45,11 @@ class SlidingMode final : public Controller {
                       const ControlErrors& errors, double dt_s);
 
   Config config_;
-  ControlLimits limits_;
   common::VehicleConfig vehicle_;
   LaggedReference lagged_;
-  bool on_surface_ = false;  ///< The surface has been placed through the present state.
-  /// The integral part of the surface, so that sigma = de/dt + integral_m_s_.
-  Eigen::Vector3d integral_m_s_ = Eigen::Vector3d::Zero();
+  /// The integral part of the surface, so that sigma = de/dt + integral; nullopt until the surface has been placed
+  /// through the present state.
+  std::optional<Eigen::Vector3d> integral_m_s_;
   Eigen::Vector3d disturbance_m_s2_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d taken_up_m_s2_ = Eigen::Vector3d::Zero();  ///< The previous commands, as the vehicle follows them.
 };

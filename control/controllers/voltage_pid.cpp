@@ -14,9 +14,8 @@ namespace swiftlet::control {
 
 using common::kRadPerDeg;
 
-VoltagePid::VoltagePid(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
-                       const VehicleModel* model)
-    : config_(config), limits_(limits), vehicle_(vehicle) {
+VoltagePid::VoltagePid(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel* model)
+    : config_(config), vehicle_(vehicle) {
   if (model == nullptr) return;
   bench_pitch_ = model->bench_pitch;
   bench_roll_ = model->bench_roll;
@@ -25,7 +24,7 @@ VoltagePid::VoltagePid(const Config& config, const ControlLimits& limits, const 
 void VoltagePid::reset() { integral_.setZero(); }
 
 common::Setpoint VoltagePid::tick(const ControlInput& input, ThrustModel& thrust) {
-  const ControlErrors errors = errorsOf(input, limits_);
+  const ControlErrors errors = errorsOf(input);
   const double kp = config_.horizontal_p_deg_m * kRadPerDeg, kd = config_.horizontal_d_deg_s_m * kRadPerDeg;
   common::Setpoint setpoint;
 
@@ -40,7 +39,7 @@ common::Setpoint VoltagePid::tick(const ControlInput& input, ThrustModel& thrust
   setpoint.roll_rad = commandFor(-tilt_level_rad.y(), bench_roll_);
 
   // Equation 4: u = Kp (psi - psi*).
-  setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, limits_.max_yaw_rate_deg_s);
+  setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors.yaw_rad, config_.yaw_p_1_s, kMaxYawRate_deg_s);
 
   // Equation 5: u = C(U) + Kp (z - z*) + Ki e_z + Kd v_z. Grzonka 2009, equation 9, has no C(U).
   const double wanted = thrust.hoverCommand() + config_.vertical_p_1_m * errors.position_odom_m.z() + integral_.z() +
@@ -57,7 +56,7 @@ common::Setpoint VoltagePid::tick(const ControlInput& input, ThrustModel& thrust
 void VoltagePid::integrate(const ControlErrors& errors, const Eigen::Vector3d& refused, double dt_s) {
   const double horizontal = config_.horizontal_i_deg_m_s * kRadPerDeg;
   control::integrate(integral_, {horizontal, horizontal, config_.vertical_i_1_m_s}, errors.position_odom_m, refused,
-                     limits_.max_integral_m_s2 / common::kGravity_m_s2, dt_s);
+                     kMaxIntegral_m_s2 / common::kGravity_m_s2, dt_s);
 }
 
 void VoltagePid::learnOffset(ThrustModel& thrust, double dt_s) {

@@ -25,8 +25,7 @@ class VoltagePid final : public Controller {
   };
 
   /// `model` gives the mapping from commands to angles; null without one. It is read only here.
-  VoltagePid(const Config& config, const ControlLimits& limits, const common::VehicleConfig& vehicle,
-             const VehicleModel* model);
+  VoltagePid(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel* model);
 
   void reset() override;
   common::Setpoint tick(const ControlInput& input, ThrustModel& thrust) override;
@@ -39,7 +38,6 @@ class VoltagePid final : public Controller {
   void learnOffset(ThrustModel& thrust, double dt_s);
 
   Config config_;
-  ControlLimits limits_;
   common::VehicleConfig vehicle_;
   std::vector<CommandAngle> bench_pitch_, bench_roll_;
   /// K_i times the integrated errors: tilts in odom (x: the pitch that accelerates along x), and a share of the thrust.

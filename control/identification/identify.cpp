@@ -70,7 +70,7 @@ tl::expected<ThrustEm, std::string> usableThrust(const std::vector<FlightSamples
                                                  const common::VehicleConfig& vehicle) {
   auto thrust = thrustByVoltage(flights, vehicle);
   if (!thrust) return thrust;
-  if (const auto problem = problemOfRows(thrust->points, vehicle, {})) return tl::unexpected(problem->message);
+  if (const auto problem = problemOfRows(thrust->points, vehicle)) return tl::unexpected(problem->message);
   return thrust;
 }
 

@@ -20,14 +20,14 @@ TEST_F(ManeuverStory, HoldsBeforeTheFirstIntent) {
 TEST_F(ExecutorInFlight, TheSameIntentContinuesAndANewIntentRestarts) {
   want(to(6.0, 2.0));
   run(1.0);
-  ASSERT_TRUE(controller_.followsPath());
+  ASSERT_TRUE(controller_.follower().followsPath());
   want(to(6.0, 2.0));
   run(0.01);
   run(0.04);
-  EXPECT_FALSE(controller_.followsPath()) << "a new id stops the present path";
+  EXPECT_FALSE(controller_.follower().followsPath()) << "a new id stops the present path";
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "no plan outlives its intent";
   run(0.5);
-  EXPECT_TRUE(controller_.followsPath());
+  EXPECT_TRUE(controller_.follower().followsPath());
 }
 
 TEST_F(ExecutorInFlight, AnEndedIntentStaysEndedAndItsPlanIsDropped) {
@@ -46,7 +46,7 @@ TEST_F(ExecutorInFlight, ALateAnswerIsNotFlown) {
   runUntil([this] { return !jobs_->idle("planning"); }, 1.0);
   want(common::HoldIntent{});
   run(1.0);
-  EXPECT_FALSE(controller_.followsPath());
+  EXPECT_FALSE(controller_.follower().followsPath());
   EXPECT_TRUE(controller_.stopped());
 }
 
@@ -78,7 +78,7 @@ class ExecutorRetreating : public ManeuverInFlight {
     const Eigen::Vector2d moved_m = Eigen::Rotation2Dd(-yaw_rad_) * (position_m() - from_m);
     EXPECT_LT((moved_m - Eigen::Vector2d(-0.5, 0.0)).norm(), 0.02) << moved_m.transpose();
     EXPECT_NEAR(state_.T_map_body_planar().yaw_rad, yaw_rad_ + 0.4, 0.02);
-    EXPECT_FALSE(controller_.followsPath());
+    EXPECT_FALSE(controller_.follower().followsPath());
     EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
     EXPECT_FALSE(executor_.status().released);
   }

@@ -55,7 +55,7 @@ class ManeuverStory : public testing::Test {
   double distanceTo_m(const Eigen::Vector2d& place_map_m) const { return (place_map_m - position_m()).norm(); }
   /// The end of the path. The test may hold the vehicle elsewhere.
   common::Pose2 reference() const {
-    const control::Reference& r = controller_.reference();
+    const control::Reference& r = controller_.follower().reference();
     return kT_map_odom * common::Pose2{r.position_odom_m.x(), r.position_odom_m.y(), r.yaw_odom_rad};
   }
 
@@ -183,7 +183,7 @@ class ManeuverStory : public testing::Test {
     if (controller_.state() == FlightState::kTakingOff && z_m < ceiling_m_) climb_m_s = 0.5;
     if (controller_.state() == FlightState::kLanding && z_m > kStanding_m) climb_m_s = -0.4;
     if (controller_.state() == FlightState::kFlying && follows_) {
-      const control::Reference& r = controller_.reference();
+      const control::Reference& r = controller_.follower().reference();
       state_.T_odom_body = {common::quaternionFrom({0.0, 0.0, r.yaw_odom_rad}), r.position_odom_m};
       state_.velocity_odom_m_s = r.velocity_odom_m_s;
     } else if (controller_.state() != FlightState::kFlying) {

@@ -129,7 +129,7 @@ TEST(ClosedLoop, HoversOnSimulatedSensors) {
     Loop loop(seed);
     ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
     loop.until([] { return false; }, 4.0);
-    const Eigen::Vector3d at = loop.controller.reference().position_odom_m;
+    const Eigen::Vector3d at = loop.controller.follower().reference().position_odom_m;
     double horizontal2 = 0, height = 0;
     constexpr int kTicks = 1500;
     for (int i = 0; i < kTicks; ++i) {
@@ -155,13 +155,13 @@ double hoverAndCorner_m(control::ControllerKind kind) {
   Loop loop(Loop::scenario(3), false, control::flightConfig(kind), &model);
   EXPECT_TRUE(loop.hover()) << loop.vehicle.stopReason();
   loop.until([] { return false; }, 4.0);
-  const Eigen::Vector3d at = loop.controller.reference().position_odom_m;
+  const Eigen::Vector3d at = loop.controller.follower().reference().position_odom_m;
   double horizontal2 = 0;
   constexpr int kTicks = 800;
   for (int i = 0; i < kTicks && loop.tick(); ++i)
     horizontal2 += (loop.vehicle.trueT_map_body().position_m - at).head<2>().squaredNorm() / kTicks;
   EXPECT_TRUE(loop.controller.follow({{{0, 0, 1}, {1.5, 0, 1}, {1.5, -1, 1}}, common::FlightMode::kCareful, {}}));
-  EXPECT_TRUE(loop.until([&] { return loop.controller.pathFinished(); }, 20.0)) << loop.vehicle.stopReason();
+  EXPECT_TRUE(loop.until([&] { return loop.controller.follower().finished(); }, 20.0)) << loop.vehicle.stopReason();
   loop.until([] { return false; }, 3.0);
   EXPECT_LT((loop.vehicle.trueT_map_body().position_m - Eigen::Vector3d(1.5, -1, 1)).norm(), 0.2) << toString(kind);
   std::printf("%s: hover %.3f m RMS\n", toString(kind), std::sqrt(horizontal2));
@@ -184,7 +184,7 @@ TEST(ClosedLoop, WithoutAnAhrsItStartsByGravityAndFliesACorner) {
     Loop loop(Loop::scenario(gravity ? 7 : 8), false, {}, nullptr, estimation);
     ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
     ASSERT_TRUE(loop.controller.follow({{{0, 0, 1}, {2, 0, 1}, {2, -2, 1}}, common::FlightMode::kFast, 0.8}));
-    ASSERT_TRUE(loop.until([&] { return loop.controller.pathFinished(); }, 30.0)) << loop.vehicle.stopReason();
+    ASSERT_TRUE(loop.until([&] { return loop.controller.follower().finished(); }, 30.0)) << loop.vehicle.stopReason();
     loop.until([] { return false; }, 10.0);
     EXPECT_LT((loop.vehicle.trueT_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15);
     const auto tilt = common::rollPitchYaw(loop.estimator.state().T_odom_body.rotation);
@@ -249,9 +249,9 @@ TEST(ClosedLoop, ALaserThatIsLateFromTheStartTakesOffHoversAndFlies) {
     ASSERT_TRUE(loop.until(
         [&] {
           const Eigen::Vector3d off =
-              loop.vehicle.trueT_map_body().position_m - loop.controller.reference().position_odom_m;
+              loop.vehicle.trueT_map_body().position_m - loop.controller.follower().reference().position_odom_m;
           worst_m = std::max(worst_m, off.norm());
-          return loop.controller.pathFinished();
+          return loop.controller.follower().finished();
         },
         30.0))
         << latency_s << " s: " << loop.vehicle.stopReason();
@@ -270,10 +270,10 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
   ASSERT_TRUE(loop.until(
       [&] {
         const Eigen::Vector3d off =
-            loop.vehicle.trueT_map_body().position_m - loop.controller.reference().position_odom_m;
+            loop.vehicle.trueT_map_body().position_m - loop.controller.follower().reference().position_odom_m;
         worst_m = std::max(worst_m, off.head<2>().norm());
         worst_height_m = std::max(worst_height_m, std::abs(off.z()));
-        return loop.controller.pathFinished();
+        return loop.controller.follower().finished();
       },
       40.0))
       << loop.vehicle.stopReason();

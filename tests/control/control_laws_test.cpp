@@ -22,7 +22,6 @@ using testing::IsEmpty;
 struct Bench {
   common::VehicleConfig vehicle;
   ThrustModel thrust{{}, vehicle};
-  ControlLimits limits;
   ControlInput input;
 
   Bench() {
@@ -46,7 +45,7 @@ TEST(VoltagePid, IsEquations3To5) {
                   .vertical_i_1_m_s = 0,
                   .vertical_d_s_m = 0.3,
                   .yaw_p_1_s = 2.0},
-                 bench.limits, bench.vehicle, nullptr);
+                 bench.vehicle, nullptr);
   const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
   EXPECT_NEAR(setpoint.pitch_rad / common::kRadPerDeg, 10 * 0.1 - 20 * 0.05, 1e-9);
   EXPECT_NEAR(setpoint.roll_rad / common::kRadPerDeg, -(10 * -0.2), 1e-9);
@@ -56,7 +55,7 @@ TEST(VoltagePid, IsEquations3To5) {
 
 TEST(VoltagePid, ItsOffsetFollowsTheVoltage) {
   Bench bench;
-  VoltagePid pid({}, bench.limits, bench.vehicle, nullptr);
+  VoltagePid pid({}, bench.vehicle, nullptr);
   const double full = pid.tick(bench.input, bench.thrust).thrust;
   for (int i = 0; i < 1000; ++i) bench.thrust.observeVoltage(11.0, 0.01);
   const double tired = pid.tick(bench.input, bench.thrust).thrust;
@@ -68,7 +67,7 @@ TEST(VoltagePid, CommandsWhatTheBenchSaysForTheAngle) {
   bench.input.reference.position_odom_m.x() = 0.2;
   VehicleModel model = sheetModel();
   model.bench_pitch = {{-20, -10}, {0, 1}, {20, 11}};
-  VoltagePid pid({.horizontal_p_deg_m = 10, .horizontal_i_deg_m_s = 0}, bench.limits, bench.vehicle, &model);
+  VoltagePid pid({.horizontal_p_deg_m = 10, .horizontal_i_deg_m_s = 0}, bench.vehicle, &model);
   EXPECT_NEAR(pid.tick(bench.input, bench.thrust).pitch_rad / common::kRadPerDeg, (2.0 - 1.0) * 2.0, 1e-9);
 }
 
@@ -76,7 +75,7 @@ TEST(CascadedPid, IsAPidOfThePositionThatTiltsTheThrust) {
   Bench bench;
   bench.input.reference.position_odom_m = {0.1, 0.0, 1.0};
   bench.input.reference.velocity_odom_m_s = {0.2, 0.0, 0.0};
-  CascadedPid pid({.horizontal_p_1_s2 = 3, .horizontal_i_1_s3 = 0, .horizontal_d_1_s = 2}, bench.limits, bench.vehicle);
+  CascadedPid pid({.horizontal_p_1_s2 = 3, .horizontal_i_1_s3 = 0, .horizontal_d_1_s = 2}, bench.vehicle);
   const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
   EXPECT_NEAR(std::tan(setpoint.pitch_rad), (3 * 0.1 + 2 * 0.2) / common::kGravity_m_s2, 1e-9);
   EXPECT_NEAR(setpoint.thrust, bench.hover() / std::cos(setpoint.pitch_rad), 1e-9);
@@ -92,13 +91,13 @@ TEST(Lqr, HasTheGainsOfTheRiccatiEquation) {
   config.acceleration_m_s2 = 1.0;
   VehicleModel model = sheetModel();
   model.forward.lag_s = model.left.lag_s = 0.0;
-  const Lqr lqr(config, {}, {}, model);
+  const Lqr lqr(config, {}, model);
   EXPECT_NEAR(lqr.gains()[0][0], 0.0, 1e-12);
   EXPECT_NEAR(lqr.gains()[0][1], 2.0, 0.05);
   EXPECT_NEAR(lqr.gains()[0][2], std::sqrt(1.0 + 2.0 * 2.0), 0.05);
   EXPECT_NEAR(lqr.gains()[0][3], 0.0, 1e-12);
   model.forward.damping_1_s = model.left.damping_1_s = -1.0;
-  EXPECT_NEAR(Lqr(config, {}, {}, model).gains()[0][2], -1.0 + std::sqrt(1.0 + 1.0 + 4.0), 0.05);
+  EXPECT_NEAR(Lqr(config, {}, model).gains()[0][2], -1.0 + std::sqrt(1.0 + 1.0 + 4.0), 0.05);
 }
 
 // A dense oracle: the cost of a simulated flight with these gains is lower than with any gain a little off.
@@ -148,7 +147,7 @@ TEST(Lqr, SolvesTheModelForItsCommands) {
   model.up.gain = 20.0;
   Lqr::Config config;
   config.vertical_integral_m_s = 0.0;
-  Lqr lqr(config, bench.limits, bench.vehicle, model);
+  Lqr lqr(config, bench.vehicle, model);
   const common::Setpoint setpoint = lqr.tick(bench.input, bench.thrust);
   EXPECT_NEAR(setpoint.pitch_rad, -0.4 / 8.0, 1e-9);
   EXPECT_NEAR(setpoint.thrust, bench.hover() * common::kGravity_m_s2 / 20.0, 1e-9);
@@ -157,7 +156,7 @@ TEST(Lqr, SolvesTheModelForItsCommands) {
 TEST(SlidingMode, ReachesTheSurfaceAndStaysThere) {
   // A double integrator with a constant disturbance that the accelerometer does not see.
   Bench bench;
-  SlidingMode controller({}, bench.limits, bench.vehicle);
+  SlidingMode controller({}, bench.vehicle);
   double position_m = 0.3, velocity_m_s = 0.0;
   for (int i = 0; i < 3000; ++i) {
     bench.input.state.T_odom_body.position_m.x() = position_m;
@@ -180,7 +179,7 @@ TEST(SlidingMode, IsItsLawStepByStep) {
                           .vertical_d_1_s = 0.0,
                           .switching_m_s2 = 0.8,
                           .boundary_m_s = 0.5},
-                         bench.limits, bench.vehicle);
+                         bench.vehicle);
   bench.input.state.T_odom_body.position_m.x() = -0.1;
   bench.input.state.velocity_odom_m_s.x() = 0.05;
   const double nominal_m_s2 = 2.0 * 0.1 + 1.5 * -0.05;
@@ -201,7 +200,7 @@ TEST(SlidingMode, ItsDisturbanceIsWhatTheCommandsDoNotExplain) {
   bench.input.acceleration_odom_m_s2 = Eigen::Vector3d(-0.3, 0.0, 0.0);
   SlidingMode controller(
       {.horizontal_p_1_s2 = 0.0, .horizontal_d_1_s = 0.0, .disturbance_filter_s = 0.5, .attitude_lag_s = 0.2},
-      bench.limits, bench.vehicle);
+      bench.vehicle);
   double disturbance_m_s2 = 0.0, taken_up_m_s2 = 0.0;
   for (int i = 0; i < 100; ++i) {
     const double given_m_s2 = -disturbance_m_s2;
@@ -218,7 +217,7 @@ TEST(SlidingMode, ItsDisturbanceIsWhatTheCommandsDoNotExplain) {
 TEST(SlidingMode, ATrimThatWasTakenOverStaysInASteadyWind) {
   Bench bench;
   bench.input.acceleration_odom_m_s2 = Eigen::Vector3d::Zero();
-  SlidingMode controller({}, bench.limits, bench.vehicle);
+  SlidingMode controller({}, bench.vehicle);
   const Eigen::Vector3d trim_m_s2(0.8, -0.5, 0.0);
   controller.setTrim(trim_m_s2, bench.thrust);
   for (int i = 0; i < 100; ++i) {
@@ -231,12 +230,10 @@ TEST(SlidingMode, ATrimThatWasTakenOverStaysInASteadyWind) {
 // a = Kp e + Ki int(e) + Kd de/dt, with an integral that stops at its limit.
 TEST(CascadedPid, ItsIntegralGrowsWithTheErrorUpToItsLimit) {
   Bench bench;
-  bench.limits.max_integral_m_s2 = 0.3;
   bench.input.reference.position_odom_m = {0.1, 0.0, 1.0};
-  CascadedPid pid({.horizontal_p_1_s2 = 0.0, .horizontal_i_1_s3 = 2.0, .horizontal_d_1_s = 0.0}, bench.limits,
-                  bench.vehicle);
+  CascadedPid pid({.horizontal_p_1_s2 = 0.0, .horizontal_i_1_s3 = 10.0, .horizontal_d_1_s = 0.0}, bench.vehicle);
   for (int i = 0; i < 300; ++i) {
-    const double integral_m_s2 = std::min(2.0 * 0.1 * 0.01 * i, 0.3);
+    const double integral_m_s2 = std::min(10.0 * 0.1 * 0.01 * i, kMaxIntegral_m_s2);
     ASSERT_NEAR(std::tan(pid.tick(bench.input, bench.thrust).pitch_rad), integral_m_s2 / common::kGravity_m_s2, 1e-9)
         << "step " << i;
   }
@@ -248,7 +245,7 @@ TEST(CascadedPid, ItsHeadingTurnsRollAndPitch) {
   bench.input.reference.yaw_odom_rad = 0.5 * std::numbers::pi + 0.1;
   bench.input.reference.position_odom_m = {0.1, 0.0, 1.0};
   CascadedPid pid({.horizontal_p_1_s2 = 3, .horizontal_i_1_s3 = 0, .horizontal_d_1_s = 0, .yaw_p_1_s = 1.5},
-                  bench.limits, bench.vehicle);
+                  bench.vehicle);
   const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
   // What lies along x of odom is to the right of a vehicle that looks along y.
   EXPECT_NEAR(setpoint.pitch_rad, 0.0, 1e-9);
@@ -267,7 +264,7 @@ TEST(Lqr, TurnsByItsYawGainThroughTheModelOfTheYaw) {
   Lqr::Config config;
   config.yaw_rad = 0.25;
   config.yaw_rate_rad_s = 0.5;
-  Lqr lqr(config, bench.limits, bench.vehicle, model);
+  Lqr lqr(config, bench.vehicle, model);
   EXPECT_NEAR(lqr.tick(bench.input, bench.thrust).yaw_rate_rad_s, (0.5 / 0.25 * 0.1 - 0.02) / 0.8, 1e-9);
   bench.input.on_ground = true;
   EXPECT_EQ(lqr.tick(bench.input, bench.thrust).yaw_rate_rad_s, 0.0);
@@ -295,22 +292,21 @@ TEST(ControlErrors, UseOnlyWhatMayBeUsed) {
   input.reference.position_odom_m = {5, 0, 5};
   input.reference.velocity_odom_m_s = {4, 4, 4};
   input.reference.acceleration_odom_m_s2 = {1, 1, 0};
-  const ControlLimits limits;
-  EXPECT_NEAR(errorsOf(input, limits).position_odom_m.x(), limits.max_position_error_m, 1e-12);
-  EXPECT_NEAR(errorsOf(input, limits).velocity_odom_m_s.x(), 3.0, 1e-12);
+  EXPECT_NEAR(errorsOf(input).position_odom_m.x(), kMaxPositionError_m, 1e-12);
+  EXPECT_NEAR(errorsOf(input).velocity_odom_m_s.x(), 3.0, 1e-12);
   input.horizontal = Horizontal::kVelocity;
-  EXPECT_EQ(errorsOf(input, limits).position_odom_m.x(), 0.0);
-  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), 3.0);
-  EXPECT_EQ(errorsOf(input, limits).acceleration_odom_m_s2.x(), 0.0);
+  EXPECT_EQ(errorsOf(input).position_odom_m.x(), 0.0);
+  EXPECT_EQ(errorsOf(input).velocity_odom_m_s.x(), 3.0);
+  EXPECT_EQ(errorsOf(input).acceleration_odom_m_s2.x(), 0.0);
   input.horizontal = Horizontal::kLevel;
-  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), 0.0);
-  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.z(), 1.0);
+  EXPECT_EQ(errorsOf(input).velocity_odom_m_s.x(), 0.0);
+  EXPECT_EQ(errorsOf(input).velocity_odom_m_s.z(), 1.0);
 }
 
 /// "key: message, hint" of each reason.
 std::vector<std::string> unfit(const VehicleModel& model) {
   std::vector<std::string> texts;
-  for (const common::Problem& problem : model.problemsFor({}, {})) texts.push_back(toString(problem));
+  for (const common::Problem& problem : model.problemsFor({})) texts.push_back(toString(problem));
   return texts;
 }
 

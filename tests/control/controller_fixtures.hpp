@@ -32,6 +32,12 @@ inline FlightController::Config flightConfig(ControllerKind kind) {
   return config;
 }
 
+/// Whether that kind flies: a switch to it is then no event.
+inline bool flies(FlightController& controller, common::EventLog& log, ControllerKind kind) {
+  (void)log.take();
+  return controller.command(SwitchController{kind}) && log.take().empty();
+}
+
 /// In the words of a test's name.
 inline std::string nameOf(ControllerKind kind) {
   switch (kind) {

@@ -30,9 +30,9 @@ TEST_P(EachController, HoversOnAWanderingHorizon) {
     Flight flight(config_, &model_);
     flight.model.random = common::RandomStream(seed, "hover");
     flight.hover();
-    ASSERT_EQ(flight.controller.controllerKind(), GetParam());
+    ASSERT_TRUE(flies(flight.controller, flight.log, GetParam()));
     flight.run(5.0);
-    const Rms rms = hoverFor(flight, 30.0, flight.controller.reference().position_odom_m);
+    const Rms rms = hoverFor(flight, 30.0, flight.controller.follower().reference().position_odom_m);
     worst_m = std::max(worst_m, rms.horizontal_m);
     worst_height_m = std::max(worst_height_m, rms.worst_vertical_m);
   }
@@ -48,7 +48,7 @@ TEST_P(EachController, HoldsItsPlaceInAWindThatComesUp) {
   flight.run(3.0);
   flight.model.wind_m_s = {2.0, -1.0, 0.0};
   flight.run(12.0);
-  EXPECT_LT(hoverFor(flight, 20.0, flight.controller.reference().position_odom_m).horizontal_m, 0.07);
+  EXPECT_LT(hoverFor(flight, 20.0, flight.controller.follower().reference().position_odom_m).horizontal_m, 0.07);
 }
 
 TEST_P(EachController, FliesACornerAndLands) {
@@ -56,7 +56,7 @@ TEST_P(EachController, FliesACornerAndLands) {
   flight.hover();
   const Eigen::Vector3d goal(2.0, 2.0, 1.2);
   ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {2, 0, 1}, goal}, FlightMode::kCareful, 1.0}));
-  ASSERT_TRUE(flight.until([&] { return flight.controller.pathFinished(); }, 25.0));
+  ASSERT_TRUE(flight.until([&] { return flight.controller.follower().finished(); }, 25.0));
   flight.run(4.0);
   EXPECT_LT((flight.model.position_m - goal).norm(), 0.15);
   EXPECT_NEAR(flight.model.yaw_rad, 1.0, 0.1);
@@ -71,7 +71,7 @@ TEST_P(EachController, TakesOffWithAnEighthLessThrustAndComesHomeOnAnEmptierBatt
   flight.model.voltage_v = 11.6;
   flight.hover();
   flight.run(5.0);
-  EXPECT_LT(hoverFor(flight, 5.0, flight.controller.reference().position_odom_m).worst_vertical_m, 0.08);
+  EXPECT_LT(hoverFor(flight, 5.0, flight.controller.follower().reference().position_odom_m).worst_vertical_m, 0.08);
   EXPECT_NEAR(flight.controller.thrust().correction(), 1.0 / 0.88, 0.06);
 }
 
@@ -79,7 +79,7 @@ TEST_P(EachController, ReturnsFromAPushWithoutCirclingOrFalling) {
   Flight flight(config_, &model_);
   flight.hover();
   flight.run(3.0);
-  const Eigen::Vector3d at = flight.controller.reference().position_odom_m;
+  const Eigen::Vector3d at = flight.controller.follower().reference().position_odom_m;
   flight.model.position_m.x() -= 1.0;
   double lowest_m = 10.0;
   flight.until(
@@ -105,7 +105,7 @@ TEST_P(EachController, NeverPassesOnWhatIsNotANumber) {
   EXPECT_TRUE(std::isfinite(setpoint.roll_rad) && std::isfinite(setpoint.pitch_rad) &&
               std::isfinite(setpoint.yaw_rate_rad_s) && std::isfinite(setpoint.thrust));
   flight.run(5.0);
-  EXPECT_LT((flight.model.position_m - flight.controller.reference().position_odom_m).norm(), 0.3);
+  EXPECT_LT((flight.model.position_m - flight.controller.follower().reference().position_odom_m).norm(), 0.3);
 }
 
 // A gust moves the vehicle less when the accelerometer tells of it.
@@ -117,7 +117,7 @@ TEST(SlidingMode, TheEstimatedDisturbanceShortensAGust) {
     flight.hover();
     flight.run(5.0);
     flight.model.wind_m_s = {4.0, 0.0, 0.0};
-    const double at_m = flight.controller.reference().position_odom_m.x();
+    const double at_m = flight.controller.follower().reference().position_odom_m.x();
     double farthest_m = 0;
     flight.until(
         [&] {
@@ -144,7 +144,7 @@ TEST(Switching, LeavesNoStepInAnyCommandBetweenAnyTwo) {
       ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {9, 0, 1}}, FlightMode::kCareful, {}}));
       flight.run(4.0);
       const common::Setpoint before = flight.model.under_way.back();
-      ASSERT_TRUE(flight.controller.switchController(static_cast<ControllerKind>(to)));
+      ASSERT_TRUE(flight.controller.command(SwitchController{static_cast<ControllerKind>(to)}));
       flight.tick();
       const common::Setpoint after = flight.model.under_way.back();
       const std::string pair =
@@ -153,7 +153,7 @@ TEST(Switching, LeavesNoStepInAnyCommandBetweenAnyTwo) {
       EXPECT_NEAR(after.pitch_rad, before.pitch_rad, 0.2 * common::kRadPerDeg) << pair;
       EXPECT_NEAR(after.yaw_rate_rad_s, before.yaw_rate_rad_s, 0.01) << pair;
       EXPECT_NEAR(after.thrust, before.thrust, 0.005) << pair;
-      EXPECT_EQ(flight.controller.controllerKind(), static_cast<ControllerKind>(to));
+      EXPECT_TRUE(flies(flight.controller, flight.log, static_cast<ControllerKind>(to))) << pair;
       double worst_m = 0;
       flight.until(
           [&] {
@@ -170,14 +170,14 @@ TEST(Switching, LeavesNoStepInAnyCommandBetweenAnyTwo) {
 TEST(Switching, IsRefusedForAControllerWithoutItsModel) {
   Flight flight;
   flight.hover();
-  const auto refused = flight.controller.switchController(ControllerKind::kLqr);
+  const auto refused = flight.controller.command(SwitchController{ControllerKind::kLqr});
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error(), testing::HasSubstr("vehicle_model"));
-  EXPECT_EQ(flight.controller.controllerKind(), ControllerKind::kSwiftlet);
+  EXPECT_TRUE(flies(flight.controller, flight.log, ControllerKind::kSwiftlet));
   VehicleModel half = sheetModel();
   half.yaw.gain = 0.0;
   Flight other(FlightController::Config{}, &half);
-  EXPECT_FALSE(other.controller.switchController(ControllerKind::kLqr));
+  EXPECT_FALSE(other.controller.command(SwitchController{ControllerKind::kLqr}));
 }
 
 }  // namespace

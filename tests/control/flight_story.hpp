@@ -41,8 +41,9 @@ struct Flight {
   common::RandomStream accelerometer_noise{1, "accelerometer"};
 
   Flight() = default;
-  explicit Flight(const FlightController::Config& config, const VehicleModel* identified = nullptr)
-      : controller(config, common::VehicleConfig{}, log, identified) {}
+  explicit Flight(const FlightController::Config& config, const VehicleModel* identified = nullptr,
+                  const ThrustPoints& learned = {})
+      : controller(config, common::VehicleConfig{}, log, identified, learned) {}
 
   void tick() {
     FlightTick tick;

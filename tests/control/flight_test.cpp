@@ -16,7 +16,7 @@ TEST(Flight, HoldsAgainstWind) {
   flight.model.wind_m_s = {2.0, -1.0, 0.0};
   flight.hover();
   flight.run(8.0);
-  EXPECT_LT(hoverFor(flight, 20.0, flight.controller.reference().position_odom_m).horizontal_m, 0.04);
+  EXPECT_LT(hoverFor(flight, 20.0, flight.controller.follower().reference().position_odom_m).horizontal_m, 0.04);
 }
 
 double distanceTo(const std::vector<Eigen::Vector3d>& path, const Eigen::Vector3d& point) {
@@ -39,7 +39,7 @@ TEST(Flight, FollowsAPathWithCornersToItsGoal) {
   EXPECT_TRUE(flight.until(
       [&] {
         worst_m = std::max(worst_m, distanceTo(path, flight.model.position_m));
-        return flight.controller.pathFinished();
+        return flight.controller.follower().finished();
       },
       25.0));
   flight.run(1.5);
@@ -64,7 +64,7 @@ TEST(Flight, EachModeIsFlownAtItsSpeedAboveTheLimitOfCorrections) {
     flight.until(
         [&] {
           top_m_s = std::max(top_m_s, flight.model.velocity_m_s.x());
-          return flight.controller.pathFinished();
+          return flight.controller.follower().finished();
         },
         20.0);
     flight.run(1.0);
@@ -90,7 +90,7 @@ TEST(Flight, BrakesFromFullSpeedWithoutOvershootWhenHalted) {
   EXPECT_TRUE(flight.controller.stopped());
   EXPECT_LT(farthest_m, 1.0 / (2 * 1.2) + 0.3);  // Within attitude_lag_s it flies on.
   flight.controller.setSpeedLimit(std::numeric_limits<double>::infinity());
-  EXPECT_TRUE(flight.until([&] { return flight.controller.pathFinished(); }, 12.0));
+  EXPECT_TRUE(flight.until([&] { return flight.controller.follower().finished(); }, 12.0));
 }
 
 TEST(Flight, ACorrectionOfTheMapMovesTheHoldPointSmoothly) {

@@ -15,7 +15,7 @@ TEST(Flight, HoversWithinFiveCentimetresOnAWanderingHorizon) {
     flight.model.random = common::RandomStream(static_cast<std::uint64_t>(seed), "hover");
     flight.hover();
     flight.run(3.0);
-    const Rms rms = hoverFor(flight, 30.0, flight.controller.reference().position_odom_m);
+    const Rms rms = hoverFor(flight, 30.0, flight.controller.follower().reference().position_odom_m);
     worst_m = std::max(worst_m, rms.horizontal_m);
     worst_height_m = std::max(worst_height_m, rms.worst_vertical_m);
   }
@@ -35,7 +35,7 @@ TEST(Flight, AKnownErrorOfTheHorizonDoesNotMoveIt) {
       flight.knows_horizon = knows_horizon;
       flight.hover();
       flight.run(3.0);
-      sum_m += hoverFor(flight, 20.0, flight.controller.reference().position_odom_m).horizontal_m;
+      sum_m += hoverFor(flight, 20.0, flight.controller.follower().reference().position_odom_m).horizontal_m;
     }
     return sum_m / 5.0;
   };
@@ -52,7 +52,7 @@ TEST(Flight, TheTrimTurnsWithTheVehicle) {
   flight.model.attitude_correlation_s = 1e9;
   flight.hover();
   flight.run(8.0);
-  const Eigen::Vector3d place = flight.controller.reference().position_odom_m;
+  const Eigen::Vector3d place = flight.controller.follower().reference().position_odom_m;
   ASSERT_TRUE(flight.controller.follow({{place}, FlightMode::kFast, 2.8}));
   const Rms rms = hoverFor(flight, 6.0, place);
   std::printf("turn by 160 deg: %.3f m RMS\n", rms.horizontal_m);

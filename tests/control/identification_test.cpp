@@ -23,10 +23,10 @@ FlightSamples flown(Flight& flight, double seconds) {
   int next = 0;
   flight.until(
       [&] {
-        if (!flight.controller.followsPath() || flight.controller.pathFinished()) {
+        if (!flight.controller.follower().followsPath() || flight.controller.follower().finished()) {
           next = (next + 1) % static_cast<int>(square.size());
           (void)flight.controller.follow(
-              {{flight.controller.reference().position_odom_m, square[static_cast<std::size_t>(next)]},
+              {{flight.controller.follower().reference().position_odom_m, square[static_cast<std::size_t>(next)]},
                FlightMode::kFast,
                0.8 * next});
         }
@@ -112,7 +112,7 @@ TEST(Identify, WhatItFoundFliesAnotherFlightWithAnLqr) {
   flight.model.random = common::RandomStream(77, "held back");
   flight.hover();
   flight.run(5.0);
-  const Rms rms = hoverFor(flight, 30.0, flight.controller.reference().position_odom_m);
+  const Rms rms = hoverFor(flight, 30.0, flight.controller.follower().reference().position_odom_m);
   EXPECT_LT(rms.horizontal_m, 0.07);
   EXPECT_LT(rms.worst_vertical_m, 0.06);
 }

@@ -23,7 +23,7 @@ class OscillationGuardStory : public testing::Test {
     }
   }
 
-  OscillationGuard guard_{OscillationGuard::Config{}};
+  OscillationGuard guard_;
   double now_s_ = 0.0;
   double least_ = 1.0;
 };
@@ -37,7 +37,7 @@ TEST_F(OscillationGuardStory, AManoeuvreIsNoOscillation) {
 TEST_F(OscillationGuardStory, ALimitCycleTakesTheGainsBackAndTheyReturnSlowly) {
   fly(2.0, [](double t_s) { return 20.0 * std::sin(2.0 * M_PI * t_s / 0.6); });
   EXPECT_LT(guard_.share(), 0.5);
-  EXPECT_GE(guard_.share(), OscillationGuard::Config{}.least_share);
+  EXPECT_GE(guard_.share(), OscillationGuard::kLeastShare);
   const double swinging = guard_.share();
   fly(1.0, [](double) { return 0.0; });
   EXPECT_LT(guard_.share(), 0.5 * (1.0 + swinging)) << "the swing has only just ended";

@@ -18,9 +18,14 @@ struct Clearance : testing::Test {
       now = now + common::kControlPeriod;
       const double height_m = wanted_m + clearance.lift_m();
       if (i % 3 == 0) clearance.observe({now, height_m - surface_m}, height_m);
-      clearance.advance(now, wanted_m, common::kControlPeriod.seconds());
-      fastest_m_s = std::max(fastest_m_s, std::abs(clearance.rate_m_s()));
+      fastest_m_s = std::max(fastest_m_s, std::abs(raised(wanted_m).velocity_odom_m_s.z()));
     }
+  }
+
+  Reference raised(double wanted_m, double max_height_m = 10.0) {
+    Reference path;
+    path.position_odom_m.z() = wanted_m;
+    return clearance.raised(path, now, max_height_m, common::kControlPeriod.seconds());
   }
 
   Time now = Time::fromSeconds(5.0);
@@ -56,16 +61,25 @@ TEST_F(Clearance, AWrongHeightLiftsAllTheSame) {
   for (int i = 0; i < 200; ++i) {
     now = now + common::kControlPeriod;
     clearance.observe({now, 0.25 + clearance.lift_m()}, 1.3 + clearance.lift_m());
-    clearance.advance(now, 1.3, common::kControlPeriod.seconds());
+    (void)raised(1.3);
   }
   EXPECT_NEAR(clearance.lift_m(), 0.15, 1e-9);
+}
+
+TEST_F(Clearance, TheGreatestHeightBoundsTheLiftAndLowersNoPath) {
+  over(0.75, 1.0);
+  EXPECT_EQ(raised(1.0, 1.05).position_odom_m.z(), 1.05);
+  EXPECT_NEAR(clearance.lift_m(), 0.05, 1e-9);
+  EXPECT_EQ(raised(1.0, 0.8).position_odom_m.z(), 1.0);
+  EXPECT_EQ(clearance.lift_m(), 0.0);
+  EXPECT_NEAR(raised(1.0).position_odom_m.z(), 1.15, 1e-9);
 }
 
 TEST_F(Clearance, WithoutMeasurementsNothingIsBelow) {
   over(0.75, 1.0);
   for (int i = 0; i < 500; ++i) {
     now = now + common::kControlPeriod;
-    clearance.advance(now, 1.0, common::kControlPeriod.seconds());
+    (void)raised(1.0);
   }
   EXPECT_EQ(clearance.lift_m(), 0.0);
 }

@@ -16,7 +16,7 @@ TEST(ThrustMargin, LearnsTheHoverThrustOfAWeakAndSaggingVehicle) {
   flight.model.voltage_drop_v_s = 0.02;  // 1.2 V in a minute.
   flight.hover();
   flight.run(20.0);
-  const Rms rms = hoverFor(flight, 40.0, flight.controller.reference().position_odom_m);
+  const Rms rms = hoverFor(flight, 40.0, flight.controller.follower().reference().position_odom_m);
   EXPECT_LT(rms.worst_vertical_m, 0.05);
   EXPECT_NEAR(flight.controller.thrust().correction(), 1.0 / 0.88, 0.05);
 }
@@ -62,12 +62,12 @@ LineFlight flyLine(double voltage_v) {
           result.fastest_m_s = std::max(result.fastest_m_s, flight.model.velocity_m_s.head<2>().norm());
           result.greatest_command = std::max(result.greatest_command, flight.model.in_force.thrust);
           result.lowest_m = std::min(result.lowest_m, flight.model.position_m.z());
-          return flight.controller.pathFinished();
+          return flight.controller.follower().finished();
         },
         60.0));
   }
   result.seconds = flight.model.now.seconds() - begin_s;
-  result.margin = flight.controller.thrustMargin();
+  result.margin = flight.controller.thrust().margin();
   return result;
 }
 
@@ -94,18 +94,17 @@ TEST(ThrustMargin, WithoutThrustLeftTheIntegralDoesNotWindUp) {
   flight.run(1.5);
   flight.model.thrust_factor = 0.9;
   flight.run(3.0);
-  const Rms rms = hoverFor(flight, 5.0, flight.controller.reference().position_odom_m);
+  const Rms rms = hoverFor(flight, 5.0, flight.controller.follower().reference().position_odom_m);
   EXPECT_LT(rms.worst_vertical_m, 0.1);
 }
 
 TEST(ThrustMargin, StartsFromWhatAnEarlierFlightLearned) {
   const auto worstHeight = [](const ThrustPoints& recalled) {
-    Flight flight;
+    Flight flight({}, nullptr, recalled);
     flight.model.thrust_factor = 0.68;
-    flight.controller.recallThrust(recalled);
     flight.hover();
     const Rms rms = hoverFor(flight, 5.0, {0, 0, 1});
-    return std::pair{rms.vertical_m, flight.controller.learnedThrust()};
+    return std::pair{rms.vertical_m, flight.controller.thrust().table().points()};
   };
   const auto [first_m, learned] = worstHeight({});
   const auto [second_m, relearned] = worstHeight(learned);
@@ -143,11 +142,11 @@ TEST(ThrustMargin, NothingIsLearnedWhileInertialSamplesAreReplaced) {
     Flight flight;
     flight.hover();
     flight.run(5.0);
-    const ThrustPoints before = flight.controller.learnedThrust();
+    const ThrustPoints before = flight.controller.thrust().table().points();
     flight.model.vehicle.mass_kg *= 1.05;
     flight.inertial_contradicted = contradicted;
     flight.run(10.0);
-    const ThrustPoints after = flight.controller.learnedThrust();
+    const ThrustPoints after = flight.controller.thrust().table().points();
     double greatest = 0.0;
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
       greatest = std::max(greatest, std::abs(after[i].hover_command - before[i].hover_command));

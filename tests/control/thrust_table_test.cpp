@@ -16,6 +16,8 @@ namespace swiftlet::control {
 namespace {
 
 using common::VehicleConfig;
+
+const VehicleConfig kSheet;
 using testing::HasSubstr;
 
 constexpr double kStep_s = 0.01;
@@ -41,13 +43,13 @@ void discharge(ThrustTable& table, const TrueVehicle& truth, double from_v, doub
 }
 
 TEST(ThrustTable, StartsFromTheDataSheet) {
-  const ThrustTable table({}, {});
+  const ThrustTable table(kSheet);
   for (double voltage_v = 8.5; voltage_v < 13.0; voltage_v += 0.1)
     EXPECT_NEAR(table.hoverCommand(voltage_v), table.sheetCommand(voltage_v), 0.002) << voltage_v;
 }
 
 TEST(ThrustTable, LearnsAWeakVehicleAndPredictsVoltagesItHasNotSeen) {
-  ThrustTable table({}, {});
+  ThrustTable table(kSheet);
   const TrueVehicle weak{1.25, 2.0, {}};
   discharge(table, weak, 12.2, 12.0, 20.0);
   for (double voltage_v = 9.5; voltage_v < 12.6; voltage_v += 0.1)
@@ -55,7 +57,7 @@ TEST(ThrustTable, LearnsAWeakVehicleAndPredictsVoltagesItHasNotSeen) {
 }
 
 TEST(ThrustTable, LearnsAnotherLawOfTheVoltageAndKeepsWhatItLearnedAtOthers) {
-  ThrustTable table({}, {});
+  ThrustTable table(kSheet);
   const TrueVehicle other{1.1, 1.3, {}};
   discharge(table, other, 12.4, 10.2, 400.0);
   for (double voltage_v = 10.3; voltage_v < 12.25; voltage_v += 0.1)  // It began above the knot at 12.2 V.
@@ -63,7 +65,7 @@ TEST(ThrustTable, LearnsAnotherLawOfTheVoltageAndKeepsWhatItLearnedAtOthers) {
 }
 
 TEST(ThrustTable, FollowsAVehicleThatHasBecomeHeavier) {
-  ThrustTable table({}, {});
+  ThrustTable table(kSheet);
   discharge(table, {1.0, 2.0, {}}, 12.4, 10.2, 600.0);
   const TrueVehicle loaded{1.2, 2.0, {}};
   discharge(table, loaded, 12.4, 10.2, 600.0);
@@ -74,8 +76,7 @@ TEST(ThrustTable, FollowsAVehicleThatHasBecomeHeavier) {
 TEST(ThrustTable, ReturnsTheStepAtTheVoltageAndNeverRisesWithIt) {
   rc::check([] {
     common::RandomStream random(static_cast<std::uint64_t>(*rc::gen::inRange(1, 1'000'000)), "thrust");
-    const ThrustTable::Config config;
-    ThrustTable table(config, {});
+    ThrustTable table(kSheet);
     for (int i = 0; i < 300; ++i) {
       const double voltage_v = random.uniform(8.0, 13.3), before = table.hoverCommand(voltage_v);
       const double moved = table.learn(voltage_v, random.gaussian(0.05), random.uniform(0.0, 5.0));
@@ -87,14 +88,14 @@ TEST(ThrustTable, ReturnsTheStepAtTheVoltageAndNeverRisesWithIt) {
       }
       for (const ThrustPoint& point : table.points()) {
         const double share = point.hover_command / table.sheetCommand(point.voltage_v);
-        RC_ASSERT(std::abs(share - 1.0) <= config.max_correction + 1e-9);
+        RC_ASSERT(std::abs(share - 1.0) <= ThrustTable::kMaxCorrection + 1e-9);
       }
     }
   });
 }
 
 TEST(ThrustTable, RemembersWhatAnotherTableLearned) {
-  ThrustTable first({}, {}), second({}, {});
+  ThrustTable first(kSheet), second(kSheet);
   discharge(first, {1.2, 1.5, {}}, 12.4, 11.0, 100.0);
   second.recall(first.points());
   for (double voltage_v = 8.5; voltage_v < 13.0; voltage_v += 0.1)
@@ -105,11 +106,11 @@ TEST(ThrustTable, RemembersWhatAnotherTableLearned) {
 }
 
 TEST(ThrustTable, RecallsFewRowsByTheLawOfTheSheet) {
-  ThrustTable table({}, {});
+  ThrustTable table(kSheet);
   table.recall({{11.4, 0.8, 30.0}});
   EXPECT_NEAR(table.hoverCommand(11.4), 0.8, 0.01);
   EXPECT_NEAR(table.hoverCommand(12.6) / table.hoverCommand(11.4), std::pow(11.4 / 12.6, 2.0), 0.01);
-  ThrustTable bounded({}, {});
+  ThrustTable bounded(kSheet);
   bounded.recall({{11.4, 5.0, 30.0}});
   EXPECT_LT(bounded.hoverCommand(11.4), 1.61 * bounded.sheetCommand(11.4));
 }
@@ -131,7 +132,7 @@ TEST(ThrustModel, MarginIsTheGreatestCommandOverThatOfTheHover) {
 }
 
 TEST(MarginLimits, ShrinkSmoothlyAndKeepTheBrakingDistance) {
-  MarginLimits limits({});
+  MarginLimits limits;
   EXPECT_EQ(limits.shareAt(1.5), 1.0);
   EXPECT_EQ(limits.shareAt(1.2), 1.0);
   EXPECT_NEAR(limits.shareAt(1.125), 0.5 * (1.0 + 0.35), 1e-12);

@@ -72,7 +72,7 @@ TEST_F(DetourTest, SwitchesToAPathToTheGoalWithoutStopping) {
   run(0.5);
   detour_.breakOff();
   EXPECT_FALSE(detour_.active());
-  EXPECT_TRUE(controller_.followsPath());
+  EXPECT_TRUE(controller_.follower().followsPath());
   flight_.offer(straight(position_m(), {6.0, 2.0}), now_, state_);
   EXPECT_EQ(flight_.plan()->points_map_m.back(), Eigen::Vector2d(6.0, 2.0));
 }

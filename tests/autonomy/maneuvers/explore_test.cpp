@@ -58,8 +58,8 @@ TEST_F(ExploreManeuver, AViewpointCountsAfterHalfASecondThere) {
   follows_ = false;  // The reference flies on alone; the vehicle stays where the test puts it.
   ASSERT_GT(distanceTo_m(*executor_.goal_map_m()), 1.0);
   run(0.1);
-  EXPECT_TRUE(controller_.followsPath());
-  runUntil([this] { return controller_.pathFinished(); }, 15.0);
+  EXPECT_TRUE(controller_.follower().followsPath());
+  runUntil([this] { return controller_.follower().finished(); }, 15.0);
   const common::Pose2 there = reference();
   EXPECT_LT((there.position_m() - *executor_.goal_map_m()).norm(), 0.01);
   run(1.0);

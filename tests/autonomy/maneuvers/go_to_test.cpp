@@ -46,7 +46,7 @@ TEST_F(GoToManeuver, FliesThroughTheDoorToTheGoal) {
   build(true);
   want(to(6.0, 3.2));
   run(0.5);
-  EXPECT_TRUE(controller_.followsPath());
+  EXPECT_TRUE(controller_.follower().followsPath());
   EXPECT_FALSE(executor_.status().released);
   EXPECT_GT(executor_.wantedVelocity_map_m_s().x(), 0.5);
   EXPECT_EQ(executor_.goal_map_m(), Eigen::Vector2d(6.0, 3.2));
@@ -201,7 +201,7 @@ TEST_F(GoToManeuver, FailsWithThePlannersReasonWhenNoPathAppears) {
   EXPECT_NEAR(runUntil([this] { return ended(); }, 30.0), 12.1, 0.3);
   EXPECT_EQ(executor_.status().state, IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "goal (6.00, 2.00) is unreachable at clearance 0.10 m");
-  EXPECT_FALSE(controller_.followsPath());
+  EXPECT_FALSE(controller_.follower().followsPath());
 }
 
 TEST_F(GoToManeuver, FailsSoonForAGoalInSpaceNeverSeen) {
@@ -216,11 +216,11 @@ TEST_F(GoToManeuver, DropsABlockedPlanAndHolds) {
   build(true);
   want(to(6.0, 2.0));
   runUntil([this] { return position_m().x() > 2.0; }, 10.0);
-  ASSERT_TRUE(controller_.followsPath());
+  ASSERT_TRUE(controller_.follower().followsPath());
   fill(grid_, kDoor, kWallCell);
   EXPECT_LT(runUntil([this] { return timesSaid("plan given up") > 0; }, 5.0), 0.5);
   EXPECT_THAT(reasonOf("plan given up"), StartsWith("blocked before"));
-  EXPECT_FALSE(controller_.followsPath());
+  EXPECT_FALSE(controller_.follower().followsPath());
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
   run(1.5);
   EXPECT_TRUE(controller_.stopped());
@@ -233,13 +233,13 @@ TEST_F(GoToManeuver, DropsABlockedPlanAndHolds) {
 TEST_F(GoToManeuver, ResendsAPathThatWasDroppedWithTheEstimate) {
   want(to(6.5, 2.0));
   run(1.0);
-  ASSERT_TRUE(controller_.followsPath());
+  ASSERT_TRUE(controller_.follower().followsPath());
   state_.horizontal_valid = false;
   run(0.03);
-  ASSERT_FALSE(controller_.followsPath()) << "the controller holds";
+  ASSERT_FALSE(controller_.follower().followsPath()) << "the controller holds";
   state_.horizontal_valid = true;
   run(0.5);
-  EXPECT_TRUE(controller_.followsPath());
+  EXPECT_TRUE(controller_.follower().followsPath());
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
@@ -258,8 +258,9 @@ TEST_F(GoToManeuver, FliesInTheModeOfTheIntent) {
   careful.mode = common::FlightMode::kCareful;
   want(careful);
   runUntil([this] { return position_m().x() > 3.0; }, 15.0);
-  EXPECT_NEAR(state_.velocity_odom_m_s.norm(), controller_.speed_m_s(common::FlightMode::kCareful), 0.02);
-  EXPECT_NEAR(executor_.wantedVelocity_map_m_s().norm(), controller_.speed_m_s(common::FlightMode::kCareful), 1e-9);
+  EXPECT_NEAR(state_.velocity_odom_m_s.norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful), 0.02);
+  EXPECT_NEAR(executor_.wantedVelocity_map_m_s().norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful),
+              1e-9);
 }
 
 class GoToWithWavefront : public ManeuverInFlight {

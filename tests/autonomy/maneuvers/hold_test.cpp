@@ -14,7 +14,7 @@ TEST_F(HoldManeuver, StopsThePresentPathAndReleasesTheVehicleAtRest) {
   runUntil([this] { return position_m().x() > 2.5; }, 10.0);
   want(common::HoldIntent{});
   run(0.05);
-  EXPECT_FALSE(controller_.followsPath());
+  EXPECT_FALSE(controller_.follower().followsPath());
   EXPECT_FALSE(executor_.status().released) << "it still moves";
   EXPECT_EQ(executor_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
   run(2.0);

@@ -31,13 +31,15 @@ TEST_F(PathFlightTest, FliesAnOfferedPlanInItsModeAtTheFlightHeight) {
   EXPECT_TRUE(flight_.keep(input())) << "without a plan one is wanted";
   flight_.offer(straight({1.5, 2.0}, {5.0, 2.0}), now_, state_);
   EXPECT_FALSE(flight_.keep(input()));
-  EXPECT_NEAR(flight_.wantedVelocity_map_m_s().x(), controller_.speed_m_s(common::FlightMode::kAccurate), 1e-9);
+  EXPECT_NEAR(flight_.wantedVelocity_map_m_s().x(), controller_.follower().speed_m_s(common::FlightMode::kAccurate),
+              1e-9);
   runUntil([this] { return position_m().x() > 2.5; }, 20.0);
-  EXPECT_NEAR(state_.velocity_odom_m_s.head<2>().norm(), controller_.speed_m_s(common::FlightMode::kAccurate), 0.02);
+  EXPECT_NEAR(state_.velocity_odom_m_s.head<2>().norm(),
+              controller_.follower().speed_m_s(common::FlightMode::kAccurate), 0.02);
   (void)flight_.keep(input());
   ASSERT_EQ(flight_.remaining_map_m().size(), 2U);
   EXPECT_NEAR(flight_.remaining_map_m().front().x(), position_m().x(), 0.01) << "from where the vehicle is";
-  runUntil([this] { return controller_.pathFinished(); }, 30.0);
+  runUntil([this] { return controller_.follower().finished(); }, 30.0);
   EXPECT_NEAR(state_.T_odom_body.position_m.z(), 1.2, 0.02);
 }
 
@@ -50,7 +52,7 @@ TEST_F(PathFlightTest, KeepsAPlanUnlessAnotherIsClearlyBetterOrItIsReleased) {
   flight_.offer(path, now_, state_);
   EXPECT_EQ(flight_.plan()->points_map_m.size(), 2U) << "as good";
   flight_.release();
-  EXPECT_TRUE(controller_.followsPath()) << "the vehicle goes on";
+  EXPECT_TRUE(controller_.follower().followsPath()) << "the vehicle goes on";
   flight_.offer(path, now_, state_);
   EXPECT_EQ(flight_.plan()->points_map_m.size(), 3U);
 }

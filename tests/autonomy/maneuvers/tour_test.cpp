@@ -73,7 +73,7 @@ TEST_F(TourInFlight, ASurveyStopsWhereItHasRoom) {
   runUntil(
       [&] {
         const Eigen::Vector2d beside = (position_m() - Eigen::Vector2d(4.0, 2.0)).cwiseAbs().array() - 0.5;
-        if (controller_.pathFinished() && executor_.status().reason.starts_with("surveying")) {
+        if (controller_.follower().finished() && executor_.status().reason.starts_with("surveying")) {
           ++stops;
           least_m = std::min(least_m, beside.cwiseMax(0.0).norm());
         }
