@@ -8,19 +8,17 @@ namespace {
 struct Describe {
   const PlaceNames& names;
 
-  std::string operator()(const HoldIntent&) const { return "hold"; }
+  template <typename Kind>
+  std::string operator()(const Kind&) const {
+    return Kind::kText;
+  }
   std::string operator()(const TakeOffIntent& i) const { return fmt::format("take off to {:.2f} m", i.height_m); }
-  std::string operator()(const LandIntent&) const { return "land"; }
-  std::string operator()(const ExploreIntent&) const { return "explore"; }
   std::string operator()(const GoToIntent& i) const { return "go to " + placeOf(i, names); }
-  std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
-  std::string operator()(const EmergencyLandIntent&) const { return "emergency landing"; }
   std::string operator()(const SurveyIntent& i) const { return "survey an area with " + toString(i.area, names); }
   std::string operator()(const InspectIntent& i) const { return "inspect " + names.of(i.point_map_m); }
   std::string operator()(const FollowIntent& i) const {
     return i.until_near ? "return to the person" : "follow a person";
   }
-  std::string operator()(const RetraceIntent&) const { return "fly back along the trail"; }
 };
 
 }  // namespace

@@ -17,14 +17,22 @@
 
 namespace swiftlet::common {
 
+// An intent whose text names neither place nor figure has it as kText; the text of the others stands in intent.cpp.
+
 struct TakeOffIntent {
   double height_m = 1.0;  ///< Above the take-off floor.
 };
-struct LandIntent {};
+struct LandIntent {
+  static constexpr const char* kText = "land";
+};
 /// Descend at once where it is, without the position.
-struct EmergencyLandIntent {};
+struct EmergencyLandIntent {
+  static constexpr const char* kText = "emergency landing";
+};
 /// Stop and stay.
-struct HoldIntent {};
+struct HoldIntent {
+  static constexpr const char* kText = "hold";
+};
 /// A rectangle along the axes of `map`, or of a given map.
 struct MapBounds {
   Eigen::Vector2d min_named_m = Eigen::Vector2d::Zero();
@@ -36,6 +44,7 @@ struct MapBounds {
   }
 };
 struct ExploreIntent {
+  static constexpr const char* kText = "explore";
   double clearance_m = 0.10;        ///< Between hull and obstacle.
   std::optional<MapBounds> bounds;  ///< Space outside is left unexplored; nullopt: no limit.
   /// Fly also to where the laser would see too little to fix the position.
@@ -58,9 +67,12 @@ struct GoToIntent {
 /// Where the take-off place is not free, a place this near to it is home as well; the rest is left to the controller.
 inline constexpr double kHomeShift_m = 0.4;
 /// Leave the vehicle to the reactive layer until the danger is over.
-struct AvoidIntent {};
+struct AvoidIntent {
+  static constexpr const char* kText = "avoid obstacle";
+};
 /// Fly back along a path that was flown before, without planning.
 struct RetraceIntent {
+  static constexpr const char* kText = "fly back along the trail";
   std::vector<Eigen::Vector2d> path_map_m;  ///< The nearest place first; the last one is the goal.
   /// The unknown place that the vehicle wanted to see when it became uncertain of its position: exploring leaves it.
   std::optional<Eigen::Vector2d> lost_on_the_way_to_map_m;
