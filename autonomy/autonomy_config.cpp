@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/config_fields.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -30,11 +31,10 @@ void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
   avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
   explorer.laser_field_of_view_deg = std::min(explorer.laser_field_of_view_deg, laser.field_of_view_deg);
   explorer.laser_range_m = std::min(explorer.laser_range_m, laser.range_max_m);
-  execution.follow.watch.tracked_m = std::min(execution.follow.watch.tracked_m, estimator.people.max_range_m);
 }
 
 std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const {
-  return reactive.avoidance.validateAgainst(clearance_m, estimator.people.keep_out_m);
+  return reactive.avoidance.validateAgainst(clearance_m, perception::DynamicObstacles::kKeepOut_m);
 }
 
 }  // namespace swiftlet::autonomy

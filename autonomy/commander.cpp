@@ -183,7 +183,7 @@ void Commander::hear(const Percept& percept, const Navigator& navigator) {
 common::Intent Commander::nextIntent(const Percept& percept, const Navigator& navigator) {
   const Supervision& supervision = supervisor_.tick(percept.now, condition(percept, navigator));
   fillContext(supervision, navigator);
-  if (const auto wanted_to_see = navigator.executor().wantsToSee_map_m())
+  if (const auto wanted_to_see = navigator.executor().aim().wants_to_see_map_m)
     supervisor_intents_.remember(*wanted_to_see);
   else if (!supervision.hold)
     supervisor_intents_.forget();

@@ -45,7 +45,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
     : log_(log),
       filter_(config.fusion),
       start_(config.laser, laser, 0.5 * vehicle.hull_height_m, config.fusion.use_ahrs, log),
-      people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
+      people_({config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       laser_(config.laser, laser),
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs, log),
@@ -186,7 +186,7 @@ perception::ProjectedScan Estimator::project(const common::LaserScan& scan) cons
 /// Points on a moving person bias the match, so points where the tracker predicts people are removed. A position that
 /// known less well than the tolerance of that comparison is no basis: what the map does not explain may be a wall.
 perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedScan& scan, Time measured) const {
-  if (uncertainty_.drift_m() > perception::PeopleTracker::Config::explained_within_m) return scan;
+  if (uncertainty_.drift_m() > perception::DynamicObstacles::kExplainedWithin_m) return scan;
   return perception::withoutPeople(people_.expectedAt(measured), map_.T_map_odom() * planar(scan.T_odom_body), scan);
 }
 

@@ -51,7 +51,6 @@ struct EstimatorConfig {
   LaserPipelineConfig laser;  ///< Its keys are on the level of the estimator's own.
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
-  perception::PeopleTracker::Config people;
   perception::SlamMethodConfig slam;
   FlightLocalizerConfig localization;
   RgbdPipelineConfig rgbd;

@@ -46,12 +46,12 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   now_ = input.now;
   state_ = input.state;
   names_ = input.names;
-  if (input.anybody_walks) memory_.exploration.people_seen = now_;
+  if (input.anybody_walks) memory_.people_seen = now_;
   if (intent.id != intent_.id) begin(intent);
-  const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
-  lowered_.follow(path ? path->plan() : nullptr, state_);
+  const PathFlight* flight = aim().flight;
+  rememberLowered(memory_, flight ? flight->plan() : nullptr, controller_, state_);
   if (maneuver_) note(maneuver_->step(input));
-  if (desk_.due(now_)) desk_.ask(planningRequest(maneuver_ ? maneuver_->planningInput(input) : input, client()), now_);
+  if (desk_.due(now_)) desk_.ask(planningRequest(input, client(), {}, aim().left_out), now_);
   status_.released = controller_.stopped() && !retreat_.active();
 }
 
@@ -91,25 +91,9 @@ void Executor::receive(const PlanningAnswer& answer, Time now) {
 
 PlanningClient Executor::client() const { return {intent_.id, clearanceOf(intent_.kind, config_.clearance_m)}; }
 
-Eigen::Vector2d Executor::wantedVelocity_map_m_s() const {
-  return maneuver_ ? maneuver_->wantedVelocity_map_m_s(state_) : Eigen::Vector2d::Zero();
-}
-
 std::vector<Eigen::Vector2d> Executor::remainingPlan_map_m() const {
-  const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
-  return path ? path->remaining_map_m() : std::vector<Eigen::Vector2d>{};
-}
-
-std::optional<Eigen::Vector2d> Executor::goal_map_m() const {
-  return maneuver_ ? maneuver_->goal_map_m() : std::nullopt;
-}
-
-std::optional<Eigen::Vector2d> Executor::wantsToSee_map_m() const {
-  return maneuver_ ? maneuver_->wantsToSee_map_m() : std::nullopt;
-}
-
-std::optional<Eigen::Vector2d> Executor::followedPerson_map_m() const {
-  return maneuver_ ? maneuver_->followedPerson_map_m() : std::nullopt;
+  const PathFlight* flight = aim().flight;
+  return flight ? flight->remaining_map_m() : std::vector<Eigen::Vector2d>{};
 }
 
 Eigen::Vector2d Executor::escape_map_m(const common::VehicleState& state) const {

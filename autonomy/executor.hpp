@@ -9,7 +9,6 @@
 
 #include "autonomy/maneuvers/executor_config.hpp"
 #include "autonomy/maneuvers/flight_memory.hpp"
-#include "autonomy/maneuvers/lowered_flight.hpp"
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
 #include "autonomy/planning_jobs/planning_desk.hpp"
@@ -41,22 +40,18 @@ class Executor {
   void endRetreat() { retreat_.end(); }
 
   const common::IntentStatus& status() const { return status_; }
-  /// The velocity along the path being flown; zero without a path.
-  Eigen::Vector2d wantedVelocity_map_m_s() const;
+  /// What the maneuver is after now; nothing once the intent has ended.
+  Aim aim() const { return maneuver_ ? maneuver_->aim(state_) : Aim{}; }
   std::vector<Eigen::Vector2d> remainingPlan_map_m() const;
-  /// The place that the vehicle is flying to, if the intent has one.
-  std::optional<Eigen::Vector2d> goal_map_m() const;
-  /// The unknown place that the vehicle explores, if the intent is to explore.
-  std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
-  /// Estimated place of the person whom the vehicle follows, or returns to.
-  std::optional<Eigen::Vector2d> followedPerson_map_m() const;
   /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
   /// FlightController::setEscape.
   Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
   /// How much lower than its paths' height the vehicle flies, below something; else 0.
-  double dip_m() const { return lowered_.dip_m(); }
+  double dip_m() const { return autonomy::dip_m(memory_, controller_); }
   /// The newest cost map of the height at which the vehicle is; null before the first.
-  std::shared_ptr<const planning::CostMap> costMapHere() const { return desk_.costMapAt(lowered_.heights()); }
+  std::shared_ptr<const planning::CostMap> costMapHere() const {
+    return desk_.costMapAt(heightsOf(memory_, controller_));
+  }
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 
@@ -72,7 +67,6 @@ class Executor {
   PlanningDesk desk_;
   RetreatFlight retreat_;
   FlightMemory memory_;
-  LoweredFlight lowered_{memory_, controller_};
 
   common::Intent intent_;
   common::IntentStatus status_;

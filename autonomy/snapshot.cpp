@@ -16,12 +16,13 @@ WorldParts partsOf(const Percept& percept, const Commander& commander, const Nav
   parts.vehicle.drift_m = percept.drift_m;
   parts.mission = commander.missionLayer(last);
   parts.mission.intent = executor.status();
-  if (const auto goal_map_m = executor.goal_map_m()) parts.mission.goal_map_m = goal_map_m;
+  const Aim aim = executor.aim();
+  if (aim.goal_map_m) parts.mission.goal_map_m = aim.goal_map_m;
   parts.map = {around.grid,         around.levels,      executor.desk().frontiers(), executor.desk().exploredArea_m2(),
                around.localization, around.T_map_given, commander.keepOut().zones(), around.flown,
                around.given};
   parts.people.people = people.expectedAt(percept.now);
-  parts.people.followed_map_m = executor.followedPerson_map_m();
+  parts.people.followed_map_m = aim.person_map_m;
   parts.map3d = around.map3d;
   parts.targets.targets = around.targets;
   parts.energy = commander.energy(percept, navigator, last);

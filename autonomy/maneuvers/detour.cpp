@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// Longest time of going nearer or aside; a path is requested meanwhile (docs/decisions/planning.md, 005).
+constexpr double kDetour_s = 15.0;
+
+}  // namespace
 
 using common::Time;
 
@@ -30,9 +36,9 @@ Progress Detour::begin(const DetourPlan& plan, std::string reason, Time now, con
 
 void Detour::endWhenOver(const ManeuverInput& input) {
   if (!active_) return;
-  if (const planning::Path* path = flight_.plan(); path && (input.now - *since_).seconds() <= config_.detour_s) {
+  if (const planning::Path* path = flight_.plan(); path && (input.now - *since_).seconds() <= kDetour_s) {
     const Eigen::Vector2d left_m = path->points_map_m.back() - input.position_map_m();
-    if (left_m.norm() > config_.viewpoint_tolerance_m) return;
+    if (left_m.norm() > kViewpointTolerance_m) return;
   }
   active_ = false;
   since_ = input.now;

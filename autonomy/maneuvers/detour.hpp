@@ -9,6 +9,9 @@
 
 namespace swiftlet::autonomy {
 
+/// A viewpoint, or the end of a detour, counts as reached at this distance.
+inline constexpr double kViewpointTolerance_m = 0.15;
+
 /// One thread.
 ///
 ///            ask, then begin with the answer
@@ -19,7 +22,7 @@ namespace swiftlet::autonomy {
 ///     +-------------------------------------------+
 class Detour {
  public:
-  /// Period at which a maneuver asks for its own path while a detour is flown.
+  /// Period at which a maneuver asks for its own path while a detour is flown (docs/decisions/planning.md, 005).
   static constexpr double kAskAgain_s = 1.0;
 
   /// `flight` is the maneuver's own flight, which the detour borrows.

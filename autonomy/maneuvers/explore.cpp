@@ -1,37 +1,75 @@
-#include "autonomy/maneuvers/explore.hpp"
-
+// Explore: flies from viewpoint to viewpoint until every remaining frontier has a reason why it is left.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
+#include "autonomy/maneuvers/detour.hpp"
+#include "autonomy/maneuvers/path_maneuver.hpp"
+#include "autonomy/maneuvers/table.hpp"
 #include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
 
-constexpr double kLook_s = 0.5;  // Time at a viewpoint, until its scans are in the map and were processed.
+using common::Time;
+
+/// Time at a viewpoint, until its scans are in the map and were processed.
+constexpr double kLook_s = 0.5;
+/// Yaw error at which a viewpoint counts as reached.
+constexpr double kViewpointTolerance_deg = 12.0;
+/// Least time between choices of the next viewpoint, in seconds and as a share of the flight time to the present one.
+constexpr double kExplorePeriod_s = 0.5, kExplorePeriodShare = 0.15;
 /// A person seen within this time may block what could not be reached, or may have been mapped there. Then a detour is
-/// made, but not forever.
+/// made, but not forever (docs/decisions/planning.md, 005).
 constexpr double kLately_s = 30.0, kLookInto_s = 30.0;
 /// The last scans may not be in the map yet. Exploring is done only after this many equal answers while the vehicle
 /// stands still.
 constexpr int kDoneAnswers = 2;
 
-}  // namespace
+class Explore final : public PathManeuver {
+ public:
+  Explore(const common::ExploreIntent& intent, const ManeuverSetup& setup);
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  Aim aim(const common::VehicleState& state) const override;
 
-using common::Time;
+ private:
+  Progress fly(const ManeuverInput& input) override;
+  double reconsiderAfter_s() const;
+  /// True if it has looked long enough from the viewpoint, which is then finished.
+  bool look(const ManeuverInput& input);
+  void goOn(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state);
+  Progress nothingOpen(const planning::ExplorationResult& result, common::Time now);
+  Progress explored(const planning::ExplorationResult& result, common::Time now);
+  /// The longest frontier that a recently seen person may hide.
+  std::optional<Eigen::Vector2d> blockedFrontier(const planning::ExplorationResult& result, common::Time now) const;
+
+  common::ExploreIntent intent_;
+  Detour detour_;
+  std::string reason_;  ///< Reason of the last answer.
+  std::optional<common::Time> asked_;
+  std::optional<planning::Viewpoint> viewpoint_;
+  std::optional<common::Time> looks_since_;  ///< Since when it has been at the viewpoint with the right heading.
+  std::optional<common::Time> shut_in_since_;
+  int done_answers_ = 0;                    ///< Number of successive answers without an open frontier.
+  std::optional<common::Time> done_since_;  ///< Time of the first of these answers.
+  std::optional<Eigen::Vector2d> blocked_frontier_map_m_;
+};
 
 Explore::Explore(const common::ExploreIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "explore", intent.mode), intent_(intent), detour_(setup, flight_) {}
 
-std::optional<Eigen::Vector2d> Explore::goal_map_m() const {
-  return viewpoint_ ? std::optional(viewpoint_->pose_map.position_m()) : std::nullopt;
-}
-
-std::optional<Eigen::Vector2d> Explore::wantsToSee_map_m() const {
-  return viewpoint_ ? std::optional(viewpoint_->target_map_m) : std::nullopt;
+Aim Explore::aim(const common::VehicleState& state) const {
+  Aim aim = PathManeuver::aim(state);
+  if (viewpoint_) {
+    aim.goal_map_m = viewpoint_->pose_map.position_m();
+    aim.wants_to_see_map_m = viewpoint_->target_map_m;
+  }
+  return aim;
 }
 
 Progress Explore::fly(const ManeuverInput& input) {
@@ -47,8 +85,8 @@ Progress Explore::fly(const ManeuverInput& input) {
     detour_.ask(input, *blocked_frontier_map_m_);
   } else {
     asked_ = input.now;
-    flight_.ask(input, ExploreRequest{viewpoint_, setup_.memory.exploration.attempts, intent_.bounds,
-                                      setup_.memory.exploration.lost_map_m, intent_.leave_building});
+    flight_.ask(input, ExploreRequest{viewpoint_, setup_.memory.attempts, intent_.bounds, setup_.memory.lost_map_m,
+                                      intent_.leave_building});
   }
   return Progress::running();
 }
@@ -57,24 +95,22 @@ Progress Explore::fly(const ManeuverInput& input) {
 /// time that its path takes.
 double Explore::reconsiderAfter_s() const {
   const double rest_m = common::polylineLength(flight_.remaining_map_m());
-  return std::max(setup_.config.explore_period_s,
-                  setup_.config.explore_period_share * rest_m / setup_.controller.follower().speed_m_s(intent_.mode));
+  return std::max(kExplorePeriod_s, kExplorePeriodShare * rest_m / setup_.controller.follower().speed_m_s(intent_.mode));
 }
 
 bool Explore::look(const ManeuverInput& input) {
   if (!viewpoint_) return false;
   const common::Pose2 pose = input.state.T_map_body_planar();
   const double turn_rad = std::abs(common::wrapAngle(pose.yaw_rad - viewpoint_->pose_map.yaw_rad));
-  const bool near =
-      (pose.position_m() - viewpoint_->pose_map.position_m()).norm() < setup_.config.viewpoint_tolerance_m;
-  const bool turned = turn_rad < setup_.config.viewpoint_tolerance_deg * std::numbers::pi / 180.0;
+  const bool near = (pose.position_m() - viewpoint_->pose_map.position_m()).norm() < kViewpointTolerance_m;
+  const bool turned = turn_rad < kViewpointTolerance_deg * std::numbers::pi / 180.0;
   if (!near || !turned) {
     looks_since_.reset();
     return false;
   }
   if (!looks_since_) looks_since_ = input.now;
   if ((input.now - *looks_since_).seconds() < kLook_s) return false;
-  setup_.memory.exploration.attempts.push_back(planning::attemptFrom(*viewpoint_));
+  setup_.memory.attempts.push_back(planning::attemptFrom(*viewpoint_));
   viewpoint_.reset();
   flight_.release();
   return true;
@@ -123,7 +159,7 @@ Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time no
 }
 
 std::optional<Eigen::Vector2d> Explore::blockedFrontier(const planning::ExplorationResult& result, Time now) const {
-  const auto& people_seen = setup_.memory.exploration.people_seen;
+  const auto& people_seen = setup_.memory.people_seen;
   const bool people = people_seen && (now - *people_seen).seconds() < kLately_s;
   if (!people || (now - *done_since_).seconds() >= kLookInto_s) return std::nullopt;
   const common::Frontier* longest = nullptr;
@@ -139,9 +175,15 @@ Progress Explore::explored(const planning::ExplorationResult& result, Time now) 
         fmt::format("frontier of {:.2f} m at {} left: {}", frontier.length_m,
                     setup_.desk.costMap()->names().of(frontier.centroid_map_m), toString(frontier.reason)),
         frontier.explanation);
-  setup_.memory.exploration.attempts.clear();
+  setup_.memory.attempts.clear();
   return Progress::done(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason",
                                     result.explored_area_m2, result.frontiers.size()));
+}
+
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::ExploreIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<Explore>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

@@ -7,28 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "autonomy/planning_jobs/planning_request.hpp"
 #include "common/event_log.hpp"
 #include "common/time.hpp"
+#include "common/vehicle_state.hpp"
+#include "control/flight_controller.hpp"
+#include "perception/people/person_watch.hpp"
 #include "planning/exploration/exploration.hpp"
+#include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
-
-/// Results of exploring, so that an Explore that was interrupted does not look again from viewpoints that showed
-/// nothing new.
-struct ExplorationMemory {
-  std::vector<planning::ExplorationAttempt> attempts;  ///< Kept until everything is explored.
-  std::optional<common::Time> people_seen;             ///< When a moving person was last seen.
-  std::vector<Eigen::Vector2d> lost_map_m;             ///< Targets during whose approach the position became uncertain.
-};
-
-class PersonWatch;
-
-/// The followed person, so that a Follow that was interrupted, by avoiding an obstacle for example, keeps that
-/// person.
-struct FollowMemory {
-  std::shared_ptr<PersonWatch> person;  ///< Null: no person yet.
-  common::Time watched;                 ///< When it was last updated.
-};
 
 struct TourState;
 
@@ -46,8 +34,15 @@ struct FlightMemory {
   /// Where the vehicle stood before it last took off: there it can stand again. nullopt where the position was unknown.
   std::optional<Eigen::Vector2d> stood_map_m;
   bool told_laser_alone = false;  ///< An event has said that a laser cannot know whether there is room below.
-  ExplorationMemory exploration;
-  FollowMemory follow;
+  /// Viewpoints that showed nothing new, so that an Explore that was interrupted does not look again from them; kept
+  /// until everything is explored.
+  std::vector<planning::ExplorationAttempt> attempts;
+  std::vector<Eigen::Vector2d> lost_map_m;  ///< Targets of exploring on whose way the position became uncertain.
+  std::optional<common::Time> people_seen;  ///< When a moving person was last seen.
+  /// The followed person, so that a Follow that was interrupted, by avoiding an obstacle for example, keeps that
+  /// person; null: nobody yet.
+  std::shared_ptr<perception::PersonWatch> person;
+  common::Time person_watched;                    ///< When `person` was last updated.
   std::vector<std::shared_ptr<TourState>> tours;  ///< Those that have not ended, see Tour; the newest last.
   std::optional<Eigen::Vector2d> person_map_m;    ///< Last estimated place of the person who is, or was, followed.
 
@@ -55,5 +50,15 @@ struct FlightMemory {
     log.add({now, severity, "flight", std::move(text), std::move(reason)});
   }
 };
+
+/// The heights now: of paths, of the controller's reference, and of the plan that leads below something.
+FlightHeights heightsOf(const FlightMemory& memory, const control::FlightController& controller);
+
+/// How much lower than its paths' height the vehicle is to be: below something, and until it is back up; else 0.
+double dip_m(const FlightMemory& memory, const control::FlightController& controller);
+
+/// Remembers where it flies lower. `plan` is the plan that is flown; null without one.
+void rememberLowered(FlightMemory& memory, const planning::Path* plan, const control::FlightController& controller,
+                     const common::VehicleState& state);
 
 }  // namespace swiftlet::autonomy

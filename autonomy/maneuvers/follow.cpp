@@ -1,53 +1,117 @@
-#include "autonomy/maneuvers/follow.hpp"
-
+// Follow: keeps a distance from a walking person, with the nose on the person, along the trail that the person walked;
+// gives way where the person comes too near.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "autonomy/maneuvers/pursuit_path.hpp"
-#include "autonomy/maneuvers/trail_path.hpp"
-#include "autonomy/maneuvers/world_without_person.hpp"
+#include "autonomy/maneuvers/path_maneuver.hpp"
+#include "autonomy/maneuvers/table.hpp"
 #include "common/geometry.hpp"
 #include "common/segment.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
+#include "perception/people/person_watch.hpp"
+#include "planning/pursuit/pursuit_path.hpp"
+#include "planning/pursuit/trail_path.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
 
 using common::Time;
-
-namespace {
 
 /// A person without a track may stand where last seen for this long: while the vehicle tilts to accelerate or to brake,
 /// beams pass above and below the heights in which people are tracked.
 constexpr double kMayStand_s = 1.5;
+/// Time between two paths.
+constexpr double kReplan_s = 0.2;
+/// A place to fly to that moved by less counts as unchanged.
+constexpr double kReplan_m = 0.4;
+/// A person who was not seen for longer is reported as out of sight.
+constexpr double kLost_s = 3.0;
+/// Tolerance of the place where a person is expected.
+constexpr double kPersonTolerance_m = 0.5;
+/// The vehicle has returned to a person when it was near for this long.
+constexpr double kNear_s = 1.0;
+/// The vehicle waits ahead for a person for this long; then it turns around at this yaw rate.
+constexpr double kLooksAhead_s = 8.0, kLooksAround_deg_s = 25.0;
+/// The vehicle gives way to a person who comes too near within this time.
+constexpr double kGivesWay_s = 1.0;
 
-}  // namespace
+// Constant time headway. The values are measured in flights (docs/decisions/following.md, "Distance and speed").
+/// Behind a person who stands the distance is smaller than the wanted one by this, as the person may set off faster
+/// than the vehicle.
+constexpr double kStandsNearer_m = 0.3;
+/// Behind a person who walks the distance is larger by the path that the person walks in this time, as the person may
+/// stop faster than the vehicle.
+constexpr double kHeadway_s = 0.6;
+/// Speed over that of the person by the error of the distance.
+constexpr double kGain_1_s = 1.8;
+
+/// One thread.
+///
+///   looks for a walking person ----> follows --> lost: flies to where the person may be --> failed
+///                                       ^----------- seen again -----------+
+///   To return it first flies to where the last person was, and is done when it is near a person.
+class Follow final : public PathManeuver {
+ public:
+  Follow(const common::FollowIntent& intent, const ManeuverSetup& setup);
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  Aim aim(const common::VehicleState& state) const override;
+
+ private:
+  void watch(const ManeuverInput& input) override;
+  Progress fly(const ManeuverInput& input) override;
+  void begin(common::Time now);
+  Progress search(const ManeuverInput& input);
+  Progress progress(const ManeuverInput& input);
+  /// Flies behind the person, or gives way.
+  void pursue(const ManeuverInput& input);
+  bool comesTooNear(const ManeuverInput& input) const;
+  void giveWay(const ManeuverInput& input, const planning::CostMap& costs);
+  void flyOrStay(const planning::Path& path, const ManeuverInput& input);
+  bool flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs);
+  double pace_m_s(const ManeuverInput& input) const;
+  Eigen::Vector2d placeBehind() const;
+  void flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m);
+
+  common::FollowIntent intent_;
+  std::shared_ptr<perception::PersonWatch> person_;  ///< Never null after the first watch().
+  std::optional<Eigen::Vector2d> target_map_m_;
+  std::optional<common::Time> since_, near_since_;
+  std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for a person.
+  common::Time asked_;
+  bool on_trail_ = false;  ///< The plan leads along the trail.
+  bool lost_ = false;
+};
 
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
-    : PathManeuver(setup, "follow a person", intent.mode), config_(setup.config.follow), intent_(intent) {}
+    : PathManeuver(setup, "follow a person", intent.mode), intent_(intent) {}
 
 /// A person who was followed a moment ago is kept. To return, the last place of that person counts.
 void Follow::begin(Time now) {
   since_ = now;
-  FollowMemory& memory = setup_.memory.follow;
-  const bool recent = memory.person && (now - memory.watched).seconds() <= intent_.lost_s;
-  if (!recent || intent_.until_near) memory.person = std::make_shared<PersonWatch>(config_.watch);
+  FlightMemory& memory = setup_.memory;
+  const bool recent = memory.person && (now - memory.person_watched).seconds() <= intent_.lost_s;
+  if (!recent || intent_.until_near) memory.person = std::make_shared<perception::PersonWatch>();
   person_ = memory.person;
-  if (setup_.memory.person_map_m && intent_.until_near) person_->remember(*setup_.memory.person_map_m, now);
+  if (memory.person_map_m && intent_.until_near) person_->remember(*memory.person_map_m, now);
 }
 
-ManeuverInput Follow::planningInput(const ManeuverInput& input) const {
-  if (!person_ || !person_->known()) return input;
-  return worldWithoutPerson(
-      input, *person_,
-      {config_.watch.walking.half_width_m + input.grid->resolution_m(), config_.pursuit.mapped_within_m});
+Aim Follow::aim(const common::VehicleState& state) const {
+  Aim aim = PathManeuver::aim(state);
+  aim.goal_map_m = target_map_m_;
+  aim.person_map_m = setup_.memory.person_map_m;
+  if (person_ && person_->known()) aim.left_out = person_.get();
+  return aim;
 }
 
 void Follow::watch(const ManeuverInput& input) {
   if (!since_) begin(input.now);
   person_->choose(input.people, input.position_map_m());
   person_->update(input.people, {input.grid, input.seen}, input.now);
-  setup_.memory.follow.watched = input.now;
+  setup_.memory.person_watched = input.now;
 }
 
 Progress Follow::fly(const ManeuverInput& input) {
@@ -56,7 +120,7 @@ Progress Follow::fly(const ManeuverInput& input) {
   setup_.memory.person_map_m = place_map_m;
   setup_.controller.lookAt(place_map_m);
   (void)flight_.keep(input);
-  if ((input.now - asked_).seconds() >= config_.replan_s) pursue(input);
+  if ((input.now - asked_).seconds() >= kReplan_s) pursue(input);
   if (on_trail_) flight_.setPace(pace_m_s(input));
   return progress(input);
 }
@@ -64,15 +128,14 @@ Progress Follow::fly(const ManeuverInput& input) {
 Progress Follow::search(const ManeuverInput& input) {
   if (intent_.until_near) return Progress::failed("nobody was followed before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
-    return Progress::failed(
-        fmt::format("nobody walks within {:.0f} m for {:.0f} s", config_.watch.tracked_m, intent_.lost_s));
-  const double turned_rad =
-      common::kRadPerDeg * config_.looks_around_deg_s * ((input.now - *since_).seconds() - config_.looks_ahead_s);
+    return Progress::failed(fmt::format("nobody walks within {:.0f} m for {:.0f} s",
+                                        perception::DynamicObstacles::kMaxRange_m, intent_.lost_s));
+  const double turned_rad = common::kRadPerDeg * kLooksAround_deg_s * ((input.now - *since_).seconds() - kLooksAhead_s);
   if (!since_yaw_rad_) since_yaw_rad_ = input.state.T_map_body_planar().yaw_rad;
   if (turned_rad > 0.0) {
     const double yaw_rad = *since_yaw_rad_ + turned_rad;
-    setup_.controller.lookAt(input.position_map_m() +
-                             config_.watch.tracked_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
+    setup_.controller.lookAt(input.position_map_m() + perception::DynamicObstacles::kMaxRange_m *
+                                                          Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
   }
   return Progress::running("waits for somebody who walks");
 }
@@ -80,17 +143,16 @@ Progress Follow::search(const ManeuverInput& input) {
 Progress Follow::progress(const ManeuverInput& input) {
   const double unseen_s = person_->unseen_s(input.now);
   const double distance_m = (person_->place_map_m(input.now) - input.position_map_m()).norm();
-  if (unseen_s > config_.lost_s && !lost_)
+  if (unseen_s > kLost_s && !lost_)
     setup_.memory.say(input.now, common::Severity::kWarning, "the person is out of sight");
-  if (unseen_s <= config_.lost_s && lost_)
-    setup_.memory.say(input.now, common::Severity::kInfo, "the person is seen again");
-  lost_ = unseen_s > config_.lost_s;
+  if (unseen_s <= kLost_s && lost_) setup_.memory.say(input.now, common::Severity::kInfo, "the person is seen again");
+  lost_ = unseen_s > kLost_s;
   if (intent_.until_near) {
     const bool near =
-        distance_m < intent_.distance_m + config_.tolerance_m && input.state.velocity_odom_m_s.norm() < 0.2;
+        distance_m < intent_.distance_m + kPersonTolerance_m && input.state.velocity_odom_m_s.norm() < 0.2;
     if (!near) near_since_.reset();
     if (near && !near_since_) near_since_ = input.now;
-    if (near && (input.now - *near_since_).seconds() >= config_.near_s)
+    if (near && (input.now - *near_since_).seconds() >= kNear_s)
       return Progress::done(fmt::format("{:.1f} m from the person", distance_m));
   }
   if (unseen_s > intent_.lost_s) return Progress::failed(fmt::format("the person was not seen for {:.0f} s", unseen_s));
@@ -111,15 +173,15 @@ bool Follow::comesTooNear(const ManeuverInput& input) const {
   const double distance_m = offset_m.norm();
   if (distance_m < 1e-3) return true;
   const double closing_m_s = std::max(0.0, -person_->velocity_map_m_s().dot(offset_m) / distance_m);
-  return distance_m - config_.pace.gives_way_s * closing_m_s < intent_.distance_m - config_.pursuit.nearer_m;
+  return distance_m - kGivesWay_s * closing_m_s < intent_.distance_m - planning::kPursuitNearer_m;
 }
 
 void Follow::giveWay(const ManeuverInput& input, const planning::CostMap& costs) {
   on_trail_ = false;
-  const std::vector<PossibleWalk> walks = person_->walks(input.now);
-  const PursuitPath pursuit = pursuitPath({costs, *input.grid, input.position_map_m(), walks, person_->trail_map_m(),
-                                           intent_.distance_m, setup_.controller.follower().speed_m_s(intent_.mode),
-                                           config_.pursuit, config_.watch.walking.half_width_m});
+  const std::vector<common::PossibleWalk> walks = person_->walks(input.now);
+  const planning::PursuitPath pursuit =
+      planning::pursuitPath({costs, *input.grid, input.position_map_m(), walks, person_->trail_map_m(),
+                             intent_.distance_m, setup_.controller.follower().speed_m_s(intent_.mode)});
   flyOrStay(pursuit.path, input);
 }
 
@@ -127,11 +189,11 @@ void Follow::giveWay(const ManeuverInput& input, const planning::CostMap& costs)
 bool Follow::flyAlongTrail(const ManeuverInput& input, const planning::CostMap& costs) {
   const Eigen::Vector2d reference_odom_m = setup_.controller.follower().reference().position_odom_m.head<2>();
   const Eigen::Vector2d person_map_m = person_->place_map_m(input.now);
-  const planning::Path path = trailPath({costs, input.state.T_map_odom * reference_odom_m, person_map_m,
-                                         person_->trail_map_m(), config_.pace.ends_at_m, config_.pace.aside_m});
+  const planning::Path path =
+      planning::trailPath(costs, input.state.T_map_odom * reference_odom_m, person_map_m, person_->trail_map_m());
   if (path.points_map_m.size() == 1) {
     const double distance_m = (person_map_m - input.position_map_m()).norm();
-    if (person_->hidden() || distance_m > intent_.distance_m + config_.pursuit.farther_m) return false;
+    if (person_->hidden() || distance_m > intent_.distance_m + planning::kPursuitFarther_m) return false;
   }
   on_trail_ = on_trail_ || path.points_map_m.size() > 1;
   flyOrStay(path, input);
@@ -157,15 +219,13 @@ double Follow::pace_m_s(const ManeuverInput& input) const {
   if (rest_map_m.empty()) return 0.0;
   const Eigen::Vector2d to_person_m = person_->place_map_m(input.now) - rest_map_m.back();
   const double gap_m = to_person_m.norm() + common::polylineLength(rest_map_m);
-  const PaceConfig& pace = config_.pace;
   const double along_m_s = person_->velocity_map_m_s().dot(to_person_m.normalized());
-  const double standing_m = intent_.distance_m - pace.stands_nearer_m;
-  if (!person_->hidden())
-    return along_m_s + pace.gain_1_s * (gap_m - standing_m - pace.headway_s * std::max(0.0, along_m_s));
-  const double nearer_m_s = along_m_s + pace.gain_1_s * (gap_m - pace.ends_at_m);
+  const double standing_m = intent_.distance_m - kStandsNearer_m;
+  if (!person_->hidden()) return along_m_s + kGain_1_s * (gap_m - standing_m - kHeadway_s * std::max(0.0, along_m_s));
+  const double nearer_m_s = along_m_s + kGain_1_s * (gap_m - planning::kTrailEndsAt_m);
   if (person_->unseen_s(input.now) > kMayStand_s) return nearer_m_s;
   const double last_seen_m = (person_->trail_map_m().back() - input.position_map_m()).norm();
-  return std::min(nearer_m_s, pace.gain_1_s * (last_seen_m - standing_m));
+  return std::min(nearer_m_s, kGain_1_s * (last_seen_m - standing_m));
 }
 
 /// The place on the person's trail that is the wanted distance behind the person, along the trail.
@@ -182,10 +242,10 @@ Eigen::Vector2d Follow::placeBehind() const {
 /// Along a planned path, unless one leads there.
 void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m) {
   const bool under_way = flight_.plan() != nullptr && !setup_.controller.follower().finished();
-  const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < config_.replan_m;
+  const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < kReplan_m;
   if ((under_way && same) || !flight_.mayAsk()) return;
   target_map_m_ = target_map_m;
-  flight_.ask(planningInput(input), GoalRequest{target_map_m, config_.tolerance_m});
+  flight_.ask(input, GoalRequest{target_map_m, kPersonTolerance_m}, person_.get());
 }
 
 Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
@@ -194,6 +254,12 @@ Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::
   flight_.release();
   flight_.offer(**answer.path, now, state);
   return Progress::running();
+}
+
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::FollowIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<Follow>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

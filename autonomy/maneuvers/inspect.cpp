@@ -1,11 +1,15 @@
-#include "autonomy/maneuvers/inspect.hpp"
-
+// Inspect: orbits a point with the nose, and so the camera, on it. First it flies to the nearest place of the circle
+// and turns to the point. Parts of the circle that are not free are left out.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "autonomy/maneuvers/table.hpp"
+#include "autonomy/maneuvers/tour.hpp"
 #include "common/geometry.hpp"
 #include "common/goal.hpp"
 
@@ -31,7 +35,25 @@ double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pos
   return distance_height_m.y() - ahead_m * axis.z() / std::max(0.1, axis.x()) - T_body_camera.position_m.z();
 }
 
-}  // namespace
+class Inspect final : public Tour {
+ public:
+  Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup);
+
+ private:
+  void watch(const ManeuverInput& input) override;
+  common::Pose3 T_body_camera(const ManeuverInput& input) const;
+  double headingToSee_rad(const ManeuverInput& input) const;
+  std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
+  bool ready(const ManeuverInput& input) override;
+  bool inspecting(const ManeuverInput& input) const override;
+  void chooseHeight(const ManeuverInput& input);
+  bool isOnCircle(const ManeuverInput& input) const;
+  std::string doing(const ManeuverInput& input) const override;
+
+  common::InspectIntent intent_;
+  std::optional<common::Time> faces_since_;  ///< None while it looks elsewhere.
+  bool faced_ = false;                       ///< It has turned to the point since it began, or was interrupted.
+};
 
 Inspect::Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup)
     : Tour(setup, "inspect a point", intent.mode, kOnCircle_m), intent_(intent) {
@@ -104,6 +126,12 @@ bool Inspect::ready(const ManeuverInput& input) {
     faces_since_ = input.now;
   faced_ = faces && (input.now - *faces_since_).seconds() >= kFacesFor_s;
   return faced_;
+}
+
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::InspectIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<Inspect>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,11 +1,29 @@
-#include "autonomy/maneuvers/land.hpp"
+// Land: done when the vehicle stands on the ground. In the air it cannot fail.
+//
+//   stop --> look beyond --> choose a place --> fly there --> descend
+//                             |  none, or no position      ^ or where it is, if it does not get there
+//                             +----------------------------+
+//
+// The place is the nearest one where the hull stands on one level, clear of the edges of tables and steps
+// (planning/costs/landing_place.hpp). The beams that look down have seen only the trail: where it ends, the vehicle
+// first flies a hull's width on to see whether the floor goes on there too.
+#include <memory>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
+#include "autonomy/maneuvers/path_flight.hpp"
+#include "autonomy/maneuvers/table.hpp"
 #include "planning/costs/landing_place.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
+
+using common::FlightState;
+using common::Severity;
+using common::Time;
 
 constexpr double kStopping_s = 1.5;  ///< From the greatest speed to a hover, with what then settles.
 /// Nearer than this the place is reached: the margin of the place is larger.
@@ -21,11 +39,34 @@ planning::LandingNeeds needsOf(const planning::CostMap& map) {
   return needs;
 }
 
-}  // namespace
+class Land final : public Maneuver {
+ public:
+  Land(const common::LandIntent& intent, const ManeuverSetup& setup);
+  Progress step(const ManeuverInput& input) override;
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  Aim aim(const common::VehicleState&) const override {
+    Aim aim = flight_.aim();
+    aim.goal_map_m = place_map_m_;
+    return aim;
+  }
 
-using common::FlightState;
-using common::Severity;
-using common::Time;
+ private:
+  enum class Phase { kStops, kLooksBeyond, kFliesThere, kDescends };
+
+  void begin(const ManeuverInput& input);
+  void choose(const ManeuverInput& input);
+  void approach(const ManeuverInput& input);
+  void descend(common::Time now, const std::string& reason);
+
+  ManeuverSetup setup_;
+  PathFlight flight_;
+  tl::expected<void, std::string> commanded_;
+  Phase phase_ = Phase::kStops;
+  std::optional<common::Time> since_;                     ///< When the landing began.
+  Eigen::Vector2d here_map_m_ = Eigen::Vector2d::Zero();  ///< Where it stopped to land; not in Phase::kStops.
+  std::optional<Eigen::Vector2d> place_map_m_;            ///< Where it flies to; nullopt before it is chosen.
+  std::string no_path_;                                   ///< Why there is no path to the place; empty if it has one.
+};
 
 Land::Land(const common::LandIntent&, const ManeuverSetup& setup)
     : setup_(setup), flight_(setup, common::FlightMode::kCareful) {}
@@ -104,6 +145,12 @@ void Land::descend(Time now, const std::string& reason) {
   if (!reason.empty()) setup_.memory.say(now, Severity::kWarning, "landing where it is", reason);
   if (setup_.controller.state() != FlightState::kLanding && setup_.controller.state() != FlightState::kEmergencyLanding)
     commanded_ = setup_.controller.command(control::Land{});
+}
+
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::LandIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<Land>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

@@ -8,6 +8,12 @@
 #include <fmt/format.h>
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// A goal is reached only when the vehicle is slower than this, and has been within the tolerance for this long.
+constexpr double kArrivalSpeed_m_s = 0.15, kArrival_s = 0.25;
+
+}  // namespace
 
 Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double speed_m_s) {
   constexpr double kAhead_m = 0.05;  // A shorter step gives no reliable direction.
@@ -19,16 +25,15 @@ Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double sp
 }
 
 PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
-    : config_(setup.config),
-      controller_(setup.controller),
+    : controller_(setup.controller),
       desk_(setup.desk),
       memory_(setup.memory),
       client_(setup.client),
       mode_(mode) {}
 
-void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question) {
-  if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = lowered_.heights();
-  desk_.ask(planningRequest(input, client_, std::move(question)), input.now);
+void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question, const perception::PersonWatch* left_out) {
+  if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = heightsOf(memory_, controller_);
+  desk_.ask(planningRequest(input, client_, std::move(question), left_out), input.now);
 }
 
 bool PathFlight::keep(const ManeuverInput& input) {
@@ -68,7 +73,7 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
 /// that height (below a beam) leaves that place as low as the vehicle is.
 std::vector<Eigen::Vector3d> PathFlight::liftedPoints(const planning::Path& path) const {
   const auto& points = path.points_map_m;
-  const FlightHeights heights = lowered_.heights();
+  const FlightHeights heights = heightsOf(memory_, controller_);
   const bool leaves_lower = heights.isLower() && path.lowered.empty();
   const auto heightOf = [&](std::size_t line) {
     if (leaves_lower && line < path.escape_points) return *memory_.lowered_m;
@@ -100,13 +105,13 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
   const bool within =
       (position_map_m.head<2>() - goal_map_m).norm() < tolerance_m &&
       std::abs(position_map_m.z() - endHeight_m() - controller_.lift_m()) < std::max(0.10, tolerance_m) &&
-      input.state.velocity_odom_m_s.norm() < config_.arrival_speed_m_s;
+      input.state.velocity_odom_m_s.norm() < kArrivalSpeed_m_s;
   if (!within) {
     within_since_.reset();
     return false;
   }
   if (!within_since_) within_since_ = input.now;
-  return (input.now - *within_since_).seconds() >= config_.arrival_s;
+  return (input.now - *within_since_).seconds() >= kArrival_s;
 }
 
 /// A plan whose goal is free only at the lower height ends there. The height of paths may be above the greatest: the
@@ -121,8 +126,11 @@ std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {
   return plan() ? keeper_.remaining() : std::vector<Eigen::Vector2d>{};
 }
 
-Eigen::Vector2d PathFlight::wantedVelocity_map_m_s() const {
-  return velocityAlong(remaining_map_m(), std::min(pace_m_s_, controller_.follower().speed_m_s(mode_)));
+Aim PathFlight::aim() const {
+  Aim aim;
+  aim.flight = this;
+  aim.velocity_map_m_s = velocityAlong(remaining_map_m(), std::min(pace_m_s_, controller_.follower().speed_m_s(mode_)));
+  return aim;
 }
 
 }  // namespace swiftlet::autonomy

@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "autonomy/maneuvers/lowered_flight.hpp"
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "common/flight_mode.hpp"
 #include "planning/search/plan_keeper.hpp"
@@ -25,7 +24,8 @@ class PathFlight {
   PathFlight(const ManeuverSetup& setup, common::FlightMode mode);
 
   bool mayAsk() const { return desk_.free(); }
-  void ask(const ManeuverInput& input, PlanningQuestion question);
+  /// The person is left out of the world in which it plans; null: nobody is.
+  void ask(const ManeuverInput& input, PlanningQuestion question, const perception::PersonWatch* left_out = nullptr);
 
   /// Call it once a tick. Stops if the plan has become invalid on the present cost map; true if a new plan is needed.
   bool keep(const ManeuverInput& input);
@@ -48,19 +48,17 @@ class PathFlight {
   const planning::Path* plan() const { return controller_.follower().followsPath() ? keeper_.plan() : nullptr; }
   /// The rest of the plan, from the place where the vehicle was last seen; empty without a plan.
   std::vector<Eigen::Vector2d> remaining_map_m() const;
-  /// The velocity along the plan at the mode's speed and the pace; zero without a plan.
-  Eigen::Vector2d wantedVelocity_map_m_s() const;
+  /// The flight, and the velocity along the plan at the mode's speed and the pace.
+  Aim aim() const;
 
  private:
   planning::PlanMaps mapsOf(const planning::CostMap& costs) const { return {costs, desk_.heights().get()}; }
   std::vector<Eigen::Vector3d> liftedPoints(const planning::Path& path) const;
   double endHeight_m() const;
 
-  const ExecutorConfig& config_;
   control::FlightController& controller_;
   PlanningDesk& desk_;
   FlightMemory& memory_;
-  LoweredFlight lowered_{memory_, controller_};
   PlanningClient client_;
   common::FlightMode mode_;
   planning::PlanKeeper keeper_;

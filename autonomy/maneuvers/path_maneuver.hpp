@@ -12,10 +12,7 @@ namespace swiftlet::autonomy {
 class PathManeuver : public Maneuver {
  public:
   Progress step(const ManeuverInput& input) final;
-  const PathFlight* path() const final { return &flight_; }
-  Eigen::Vector2d wantedVelocity_map_m_s(const common::VehicleState&) const final {
-    return flight_.wantedVelocity_map_m_s();
-  }
+  Aim aim(const common::VehicleState&) const override { return flight_.aim(); }
 
  protected:
   /// `purpose` completes "cannot ...": "fly to a goal".

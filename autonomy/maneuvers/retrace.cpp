@@ -1,11 +1,18 @@
-#include "autonomy/maneuvers/retrace.hpp"
-
+// Retrace: flies back along a path that was flown before. It needs no map and no plan, so it works where the map or the
+// position is unreliable; the reactive layer brakes as everywhere. It fails before a keep-out zone that was made
+// after the trail, and where an obstacle stays for long.
 #include <algorithm>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/path_flight.hpp"
+#include "autonomy/maneuvers/table.hpp"
 #include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
@@ -34,10 +41,33 @@ std::vector<Eigen::Vector2d> straightened(const std::vector<Eigen::Vector2d>& pa
   return corners;
 }
 
-}  // namespace
+class Retrace final : public Maneuver {
+ public:
+  /// The intent's lost_on_the_way_to_map_m is remembered, so that exploring leaves it.
+  Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup);
+  Progress step(const ManeuverInput& input) override;
+  Aim aim(const common::VehicleState& state) const override;
+
+ private:
+  std::span<const Eigen::Vector2d> remaining(const Eigen::Vector2d& from_map_m) const;
+  void follow(const ManeuverInput& input);
+  Eigen::Vector3d atItsHeight(const Eigen::Vector2d& point_map_m) const;
+  bool isStuck(const ManeuverInput& input);
+  void keepOut(const std::vector<common::Polygon>& zones);
+
+  ManeuverSetup setup_;
+  common::RetraceIntent intent_;
+  bool following_ = false;
+  bool cut_ = false;  ///< The path was cut before a keep-out zone.
+  struct Moved {
+    common::Time at;
+    Eigen::Vector2d to_map_m;
+  };
+  std::optional<Moved> moved_;  ///< When it last got on.
+};
 
 Retrace::Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup) : setup_(setup), intent_(intent) {
-  if (intent.lost_on_the_way_to_map_m) setup_.memory.exploration.lost_map_m.push_back(*intent.lost_on_the_way_to_map_m);
+  if (intent.lost_on_the_way_to_map_m) setup_.memory.lost_map_m.push_back(*intent.lost_on_the_way_to_map_m);
 }
 
 Progress Retrace::step(const ManeuverInput& input) {
@@ -109,14 +139,19 @@ std::span<const Eigen::Vector2d> Retrace::remaining(const Eigen::Vector2d& from_
           path.end()};
 }
 
-Eigen::Vector2d Retrace::wantedVelocity_map_m_s(const common::VehicleState& state) const {
-  if (!following_ || !setup_.controller.follower().followsPath()) return Eigen::Vector2d::Zero();
-  return velocityAlong(remaining(state.T_map_body_planar().position_m()),
-                       setup_.controller.follower().speed_m_s(kMode));
+Aim Retrace::aim(const common::VehicleState& state) const {
+  Aim aim;
+  if (!intent_.path_map_m.empty()) aim.goal_map_m = intent_.path_map_m.back();
+  if (following_ && setup_.controller.follower().followsPath())
+    aim.velocity_map_m_s =
+        velocityAlong(remaining(state.T_map_body_planar().position_m()), setup_.controller.follower().speed_m_s(kMode));
+  return aim;
 }
 
-std::optional<Eigen::Vector2d> Retrace::goal_map_m() const {
-  return intent_.path_map_m.empty() ? std::nullopt : std::optional(intent_.path_map_m.back());
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::RetraceIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<Retrace>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,9 +1,12 @@
-#include "autonomy/maneuvers/survey.hpp"
-
+// Survey: flies over an area in lanes along its longest edge, so that the sensor sees all of it. Places that are not
+// free are moved aside by up to half a lane, or left out.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
+#include "autonomy/maneuvers/table.hpp"
+#include "autonomy/maneuvers/tour.hpp"
 #include "common/geometry.hpp"
 #include "planning/search/planner.hpp"
 
@@ -51,7 +54,19 @@ std::vector<Eigen::Vector2d> laneIn(const common::Polygon& area, const Eigen::Ve
   return places;
 }
 
-}  // namespace
+class Survey final : public Tour {
+ public:
+  Survey(const common::SurveyIntent& intent, const ManeuverSetup& setup);
+
+ private:
+  std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
+  std::optional<Eigen::Vector2d> standFor(const planning::CostMap& map,
+                                          const Eigen::Vector2d& place_map_m) const override;
+  std::string doing(const ManeuverInput&) const override { return "surveying"; }
+
+  common::SurveyIntent intent_;
+  double spacing_m_;
+};
 
 Survey::Survey(const common::SurveyIntent& intent, const ManeuverSetup& setup)
     : Tour(setup, "survey an area", intent.mode, 0.25), intent_(intent) {
@@ -95,6 +110,12 @@ std::optional<Eigen::Vector2d> Survey::standFor(const planning::CostMap& map,
     return map.costAt(cell) != planning::CostMap::kLethal && hasRoomToStop(map, cell);
   });
   return roomy ? roomy : planning::nearestFree(map, place_map_m, reach_m);
+}
+
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::SurveyIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<Survey>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,4 +1,4 @@
-// Which maneuver carries out which intent.
+// Which maneuver carries out which intent: a line for each. An intent that is missing does not compile.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,19 @@
 #include "autonomy/maneuvers/maneuver.hpp"
 
 namespace swiftlet::autonomy {
+
+// Each stands in the source of its maneuver.
+std::unique_ptr<Maneuver> maneuverFor(const common::HoldIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::AvoidIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::EmergencyLandIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::TakeOffIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::LandIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::ExploreIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::GoToIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::RetraceIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::SurveyIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::InspectIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::FollowIntent& intent, const ManeuverSetup& setup);
 
 /// Makes the maneuver of an intent.
 std::unique_ptr<Maneuver> makeManeuver(const common::IntentKind& kind, const ManeuverSetup& setup);

@@ -1,8 +1,36 @@
-#include "autonomy/maneuvers/take_off.hpp"
+// TakeOff: climbs to the intent's height; done when it hovers there. A vehicle that flies already is done at once; one
+// whose thrust or charge does not suffice fails with the figure. One that would not know its height or position waits a
+// little with its motors off, and fails.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "autonomy/maneuvers/maneuver.hpp"
+#include "autonomy/maneuvers/table.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
 
 using common::FlightState;
+
+class TakeOff final : public Maneuver {
+ public:
+  TakeOff(const common::TakeOffIntent& intent, const ManeuverSetup& setup);
+  Progress step(const ManeuverInput& input) override;
+
+ private:
+  std::optional<Progress> waiting(const ManeuverInput& input);
+  void begin(const ManeuverInput& input);
+
+  common::TakeOffIntent intent_;
+  control::FlightController& controller_;
+  FlightMemory& memory_;
+  bool begun_ = false;
+  std::optional<common::Time> waits_since_;  ///< For sensors that can carry a flight.
+  tl::expected<void, std::string> commanded_;
+};
 
 TakeOff::TakeOff(const common::TakeOffIntent& intent, const ManeuverSetup& setup)
     : intent_(intent), controller_(setup.controller), memory_(setup.memory) {}
@@ -52,6 +80,12 @@ void TakeOff::begin(const ManeuverInput& input) {
   if (controller_.state() == FlightState::kFlying || controller_.state() == FlightState::kTakingOff) return;
   memory_.stood_map_m = input.state.horizontal_valid ? std::optional(input.position_map_m()) : std::nullopt;
   commanded_ = controller_.command(control::TakeOff{intent_.height_m});
+}
+
+}  // namespace
+
+std::unique_ptr<Maneuver> maneuverFor(const common::TakeOffIntent& intent, const ManeuverSetup& setup) {
+  return std::make_unique<TakeOff>(intent, setup);
 }
 
 }  // namespace swiftlet::autonomy

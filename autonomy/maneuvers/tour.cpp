@@ -43,9 +43,10 @@ std::optional<Eigen::Vector2d> Tour::standFor(const planning::CostMap& map, cons
   return isLethalAt(map, place_map_m) ? std::nullopt : std::optional(place_map_m);
 }
 
-std::optional<Eigen::Vector2d> Tour::goal_map_m() const {
-  const auto station = next();
-  return station ? std::optional(stations_[*station].place_map_m) : std::nullopt;
+Aim Tour::aim(const common::VehicleState& state) const {
+  Aim aim = PathManeuver::aim(state);
+  if (const auto station = next()) aim.goal_map_m = stations_[*station].place_map_m;
+  return aim;
 }
 
 std::size_t Tour::passed() const {

@@ -37,8 +37,7 @@ struct TourState {
 class Tour : public PathManeuver {
  public:
   Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
-  /// The next station.
-  std::optional<Eigen::Vector2d> goal_map_m() const override;
+  Aim aim(const common::VehicleState& state) const override;
 
  protected:
   /// A station is passed when nearer than `corner_m`.

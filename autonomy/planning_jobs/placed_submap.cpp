@@ -15,7 +15,7 @@ constexpr int kSurelyFree = static_cast<int>(-1.0 / common::VoxelMap::kLogOddsSt
 
 /// From the origin of a submap to the farthest that is seen while it is drawn into: it is left 2.5 m from its origin,
 /// and voxels end after 5 m.
-constexpr double kReach_m = 7.5;
+constexpr double kSubmapReach_m = 7.5;
 
 bool isSurelyFree(std::int8_t evidence) { return evidence != VoxelBlock::kUnknown && evidence <= kSurelyFree; }
 
@@ -50,7 +50,7 @@ std::vector<PlacedSubmap> laterThan(const PlacedSubmap& submap, const std::vecto
   const Eigen::Vector2d origin_map_m = submap.T_submap_map.inverse().position_m();
   std::vector<PlacedSubmap> later;
   for (const PlacedSubmap& other : submaps)
-    if (other.isLaterThan(submap) && (other.T_submap_map * origin_map_m).norm() < 2.0 * kReach_m)
+    if (other.isLaterThan(submap) && (other.T_submap_map * origin_map_m).norm() < 2.0 * kSubmapReach_m)
       later.push_back(other);
   return later;
 }

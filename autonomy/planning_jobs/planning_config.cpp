@@ -4,6 +4,10 @@
 
 namespace swiftlet::autonomy {
 
+void LowerFlightConfig::describe(common::config::Fields& fields) {
+  fields("enabled", enabled, "Whether paths may lead below things that the camera sees at the height of flight.");
+}
+
 void PlanningConfig::describe(common::config::Fields& fields) {
   fields.section("cost_map", cost_map, "Where the vehicle may be.");
   fields.section("explorer", explorer, "Where to look from next.");

@@ -8,13 +8,18 @@
 #include "planning/search/goal_map.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// Time between updates of the cost map, which is never older than this plus the latency.
+constexpr double kUpdatePeriod_s = 0.25;
+
+}  // namespace
 
 using common::Time;
 
 PlanningDesk::PlanningDesk(const PlanningConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                            common::JobRunner& jobs, Deliver deliver)
     : latency_s_(config.latency_s),
-      period_s_(config.period_s),
       hull_radius_m_(vehicle.hullRadius_m()),
       jobs_(jobs),
       deliver_(std::move(deliver)),
@@ -31,7 +36,7 @@ void PlanningDesk::ask(PlanningRequest request, Time now) {
 }
 
 bool PlanningDesk::due(Time now) const {
-  return free() && (!last_request_ || (now - *last_request_).seconds() >= period_s_);
+  return free() && (!last_request_ || (now - *last_request_).seconds() >= kUpdatePeriod_s);
 }
 
 std::shared_ptr<const planning::CostMap> PlanningDesk::costMapAt(const FlightHeights& heights) const {

@@ -31,7 +31,7 @@ class PlanningDesk {
   bool free() const { return jobs_.idle("planning"); }
   /// The desk sets the radius of the hull: the radius of the request is ignored.
   void ask(PlanningRequest request, common::Time now);
-  /// True if no job is outstanding and the last request is planning_period_s old: a request is due, if only to update
+  /// True if no job is outstanding and the last request is 0.25 s old: a request is due, if only to update
   /// the cost map.
   bool due(common::Time now) const;
 
@@ -56,7 +56,7 @@ class PlanningDesk {
  private:
   void receive(const PlanningAnswer& answer, common::Time now);
 
-  double latency_s_, period_s_, hull_radius_m_;
+  double latency_s_, hull_radius_m_;
   common::JobRunner& jobs_;
   Deliver deliver_;
   std::shared_ptr<PlanningWorker> worker_;

@@ -12,6 +12,8 @@ namespace {
 
 /// Two cells of the shipped map. The trail passes through every cell between two points (CostMap::applyFlown).
 constexpr double kFlownSpacing_m = 0.1;
+/// Greatest detour that is flown instead of flying lower, in metres of path (docs/decisions/planning.md, 082).
+constexpr double kLowerDetour_m = 10.0;
 
 }  // namespace
 
@@ -43,7 +45,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
 }
 
 /// The path to the origin of the map, where the vehicle took off, or to the free place nearest to it, as going home
-/// plans it. It is planned at every kEach-th answer: with the default planning_period_s that is at least every 2 s, in
+/// plans it. It is planned at every kEach-th answer: with the period of PlanningDesk that is at least every 2 s, in
 /// which the vehicle flies less than 1.5 m. A person in a door blocks it for a while: for kBelieved plans
 /// the length stays the last one, plus what has been flown since.
 std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
@@ -123,15 +125,14 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
   const Eigen::Vector2d here = request.T_map_body.position_m();
   const auto& direct = answer.path;
   const double straight_m = (goal.goal_map_m - here).norm();
-  if (direct && *direct && (*direct)->cost_m < straight_m + lower_detour_m_) return;
+  if (direct && *direct && (*direct)->cost_m < straight_m + kLowerDetour_m) return;
   if (direct && !*direct && direct->error().reason == planning::PlanFailure::Reason::kGoalKeptOut) return;
   if (!request.map3d) return;
-  auto lower = lower_.plan({*request.map3d, *request.grid, request.footprint, layers, request.names, goal.height, here,
-                            goal.goal_map_m, goal.tolerance_m, goal.shift_m});
+  auto lower = lower_.plan(request, goal, layers);
   // Space that the laser has not seen is flown through only below something, and on the way up behind it.
   if (lower && !lower->anyLowered() && !goal.height.lowered_m) return;
   answer.heights = lower_.maps();
-  if (lower && direct && *direct && lower->cost_m + lower_detour_m_ > (*direct)->cost_m) return;
+  if (lower && direct && *direct && lower->cost_m + kLowerDetour_m > (*direct)->cost_m) return;
   if (!lower && direct) return;
   if (lower) ++paths_;
   answer.path = std::move(lower);
@@ -139,7 +140,8 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
 
 std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                                  const Eigen::Vector2d& position_map_m) {
-  // Nearer, the laser has seen the blockage as well as it can: flying there shows no more (decision 005).
+  // Nearer, the laser has seen the blockage as well as it can: flying there shows no more (docs/decisions/planning.md,
+  // 005).
   constexpr double kWorth_m = 1.5;
   const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
   // A keep-out zone stays, however near the vehicle looks at it.
@@ -163,8 +165,9 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 }
 
 /// The reachable place with the highest score among those where the laser knows the position: its path cost from here,
-/// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (decision 005). Beyond the length
-/// of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of path.
+/// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (docs/decisions/planning.md,
+/// 005). Beyond the length of a room a place is no better for being farther, and half a metre of width is worth 1.5 m
+/// of path.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
   constexpr int kEvery = 10;  // Where the best place is not held, cells this far apart are compared.

@@ -5,60 +5,19 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <tl/expected.hpp>
 
 #include "autonomy/planning_jobs/lower_planner.hpp"
 #include "autonomy/planning_jobs/planning_config.hpp"
-#include "common/level_map.hpp"
-#include "common/occupancy_grid.hpp"
-#include "common/place_names.hpp"
-#include "common/polygon.hpp"
+#include "autonomy/planning_jobs/planning_request.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
 #include "planning/search/planner.hpp"
 #include "planning/search/wavefront.hpp"
 
 namespace swiftlet::autonomy {
-
-struct GoalRequest {
-  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  double tolerance_m = 0.0;  ///< If the goal is not free, a free place within 0.8 of it may replace the goal.
-  /// If the goal is not free, a free place this near may replace it, even beyond the tolerance.
-  double shift_m = 0.0;
-  FlightHeights height = {};
-};
-struct ExploreRequest {
-  std::optional<planning::Viewpoint> current;
-  std::vector<planning::ExplorationAttempt> attempts;
-  std::optional<common::MapBounds> bounds;
-  std::vector<Eigen::Vector2d> lost_map_m = {};
-  bool leave_building = false;
-};
-/// Asks for a place to fly to while there is no path to a goal. If a person blocks the path, it is a wide place far
-/// away over free space, so that the person can pass. Otherwise it is the last free place before the blockage, to see
-/// whether the mapped obstacle is still there; if that is too near, it is a wide place, too.
-struct DetourRequest {
-  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-};
-
-/// std::monostate requests only an update of the cost map.
-using PlanningQuestion = std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest>;
-
-struct PlanningRequest {
-  std::uint64_t intent_id = 0;
-  std::shared_ptr<const common::OccupancyGrid> grid;
-  std::shared_ptr<const common::LevelMap> levels;
-  std::vector<common::Disc> discs;
-  std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null without zones.
-  planning::Footprint footprint;
-  std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without one: paths then keep their height.
-  common::PlaceNames names;                         ///< For the texts of the answer.
-  common::Pose2 T_map_body;
-  PlanningQuestion question;
-};
 
 struct DetourPlan {
   planning::Path path;
@@ -91,8 +50,7 @@ class PlanningWorker {
  public:
   PlanningWorker(const PlanningConfig& config, double resolution_m, double hull_height_m = 0.25)
       : map_(config.cost_map, resolution_m),
-        lower_(config.lower, config.cost_map, resolution_m, hull_height_m),
-        lower_detour_m_(config.lower.detour_m),
+        lower_(config.lower.enabled, config.cost_map, resolution_m, hull_height_m),
         explorer_(config.explorer),
         planner_(planning::makePlanner(config.planner)) {}
 
@@ -114,7 +72,6 @@ class PlanningWorker {
 
   planning::CostMap map_;
   LowerPlanner lower_;
-  double lower_detour_m_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
   planning::ExplorerConfig explorer_;
   std::unique_ptr<planning::Planner> planner_;

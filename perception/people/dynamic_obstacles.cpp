@@ -13,6 +13,30 @@ using common::Disc;
 using common::DynamicObstacle;
 using Point = Eigen::Vector2d;
 
+/// Unexplained end points nearer to each other than this belong together.
+constexpr double kClusterGap_m = 0.25;
+/// A cluster of fewer points is taken for noise.
+constexpr int kMinPoints = 3;
+/// A larger cluster is a part of the building that was not in view before.
+constexpr double kMaxRadius_m = 0.6;
+/// The laser sees the near side of a body, whose centre is assumed this much behind it.
+constexpr double kAssumedDepth_m = 0.10;
+/// An obstacle that is no longer seen is kept for this long.
+constexpr double kTimeToLive_s = 2.0;
+/// An obstacle that is not seen for this long where beams pass is gone.
+constexpr double kRefutedAfter_s = 0.2;
+/// Nothing is assumed to move faster than this.
+constexpr double kMaxSpeed_m_s = 2.5;
+/// Time constant of the filter on position and velocity.
+constexpr double kSmoothing_s = 0.15;
+/// An obstacle is moving that has come this far in this time; if it has not, it is standing. It must have been followed
+/// for kFollowed_s and seen in this share of the scans: furniture under a tilting laser comes and goes (measured:
+/// docs/decisions/grid_map.md, 007).
+constexpr double kMoved_m = 0.25, kMovedWithin_s = 1.0, kFollowed_s = 0.15, kFollowedShare = 0.5;
+/// An obstacle that was never seen this high above the body while it is kept does not count as moving: a dipping laser
+/// meets the top of a table now nearer, now farther (measured: docs/decisions/grid_map.md, 072).
+constexpr double kReaches_m = -0.02;
+
 /// Whether a point lies in space that the background knows as free, with nothing occupied or unknown within `cells`.
 bool unexplained(const common::OccupancyGrid& background, const Point& point_m, int cells) {
   const CellIndex center = background.cellAt(point_m);
@@ -88,14 +112,12 @@ bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<
 
 }  // namespace
 
-DynamicObstacles::DynamicObstacles(const Config& config) : config_(config) {}
-
 std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoints& scan,
                                                                  const common::OccupancyGrid& background,
-                                                                 const GivenBackground* given) const {
+                                                                 const GivenBackground* given) {
   const std::vector<Eigen::Vector2f>& points_map_m = scan.points_map_m;
   const Point& sensor_map_m = scan.from_map_m;
-  const int cells = static_cast<int>(std::lround(config_.explained_within_m / background.resolution_m()));
+  const int cells = static_cast<int>(std::lround(kExplainedWithin_m / background.resolution_m()));
   std::vector<Cluster> clusters;
   std::vector<Point> members;
   std::size_t first = 0, last = 0;
@@ -111,15 +133,15 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoint
     return ends > 0 || (before == Beside::kNothing && after == Beside::kNothing);
   };
   const auto close = [&] {
-    if (static_cast<int>(members.size()) >= config_.min_points &&
-        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m && standsAlone()) {
+    if (static_cast<int>(members.size()) >= kMinPoints &&
+        (members.back() - members.front()).norm() <= 2.0 * kMaxRadius_m && standsAlone()) {
       Point mean = Point::Zero();
       for (const Point& p : members) mean += p / static_cast<double>(members.size());
       double extent_m = 0.0;
       for (const Point& p : members) extent_m = std::max(extent_m, (p - mean).norm());
       const Point away = mean - sensor_map_m;
-      const Point center = away.norm() > 1e-6 ? Point(mean + away.normalized() * config_.assumed_depth_m) : mean;
-      clusters.push_back({center, std::clamp(extent_m, config_.assumed_depth_m, config_.max_radius_m), top_m});
+      const Point center = away.norm() > 1e-6 ? Point(mean + away.normalized() * kAssumedDepth_m) : mean;
+      clusters.push_back({center, std::clamp(extent_m, kAssumedDepth_m, kMaxRadius_m), top_m});
     }
     members.clear();
     is_revealed = false;
@@ -127,11 +149,11 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(const SeenPoint
   for (std::size_t i = 0; i < points_map_m.size(); ++i) {
     if (!points_map_m[i].allFinite()) continue;
     const Point p = points_map_m[i].cast<double>();
-    if ((p - sensor_map_m).norm() > config_.max_range_m) continue;
+    if ((p - sensor_map_m).norm() > kMaxRange_m) continue;
     const bool is_free = unexplained(background, p, cells);
     if (!is_free && !revealed(background, p, sensor_map_m, cells)) continue;
-    if (isGiven(given, p, config_.explained_within_m)) continue;
-    if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
+    if (isGiven(given, p, kExplainedWithin_m)) continue;
+    if (!members.empty() && (p - members.back()).norm() > kClusterGap_m) close();
     top_m = members.empty() ? scan.above_body_m[i] : std::max(top_m, scan.above_body_m[i]);
     if (members.empty()) first = i;
     last = i;
@@ -151,7 +173,7 @@ DynamicObstacles::Track* DynamicObstacles::nearestFree(const Cluster& seen, comm
     const double dt_s = (stamp - o.last_seen).seconds();
     const Point expected = o.center_map_m + o.velocity_map_m_s * dt_s;
     const double off_m = (expected - seen.center_map_m).norm();
-    const double gate_m = 0.3 + config_.max_speed_m_s * std::min(dt_s, 0.3);
+    const double gate_m = 0.3 + kMaxSpeed_m_s * std::min(dt_s, 0.3);
     if (taken[i] || off_m > gate_m || (nearest != nullptr && off_m >= nearest_m)) continue;
     nearest = &tracks[i];
     nearest_m = off_m;
@@ -162,7 +184,7 @@ DynamicObstacles::Track* DynamicObstacles::nearestFree(const Cluster& seen, comm
 void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background,
                               const GivenBackground* given) {
   const auto reached = [&](const Cluster& seen) {
-    return seen.top_above_body_m >= config_.reaches_m ? std::optional(stamp) : std::nullopt;
+    return seen.top_above_body_m >= kReaches_m ? std::optional(stamp) : std::nullopt;
   };
   for (Track& track : tracks_) ++track.scans;
   const std::size_t known = tracks_.size();
@@ -186,25 +208,24 @@ void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const 
   tracks_.insert(tracks_.end(), fresh.begin(), fresh.end());
   std::erase_if(tracks_, [&](const Track& track) {
     const double age_s = (stamp - track.obstacle.last_seen).seconds();
-    return age_s > config_.time_to_live_s ||
-           (age_s > config_.refuted_after_s &&
-            violatesFreeSpace(track.obstacle, age_s, scan.points_map_m, scan.from_map_m));
+    return age_s > kTimeToLive_s ||
+           (age_s > kRefutedAfter_s && violatesFreeSpace(track.obstacle, age_s, scan.points_map_m, scan.from_map_m));
   });
   obstacles_.clear();
   for (const Track& track : tracks_) obstacles_.push_back(track.obstacle);
 }
 
-/// The critically damped alpha-beta filter with the time constant `smoothing_s`.
-void DynamicObstacles::correct(Track& track, const Cluster& seen, common::Time stamp) const {
+/// The critically damped alpha-beta filter with the time constant `kSmoothing_s`.
+void DynamicObstacles::correct(Track& track, const Cluster& seen, common::Time stamp) {
   DynamicObstacle& o = track.obstacle;
   const double dt_s = (stamp - o.last_seen).seconds();
   if (dt_s <= 0.0) return;
   const Point expected = o.center_map_m + o.velocity_map_m_s * dt_s, error = seen.center_map_m - expected;
-  const double forget = std::exp(-dt_s / config_.smoothing_s);
+  const double forget = std::exp(-dt_s / kSmoothing_s);
   o.center_map_m = expected + (1.0 - forget * forget) * error;
   o.velocity_map_m_s += error * ((1.0 - forget) * (1.0 - forget) / dt_s);
   const double speed_m_s = o.velocity_map_m_s.norm();
-  if (speed_m_s > config_.max_speed_m_s) o.velocity_map_m_s *= config_.max_speed_m_s / speed_m_s;
+  if (speed_m_s > kMaxSpeed_m_s) o.velocity_map_m_s *= kMaxSpeed_m_s / speed_m_s;
   o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
   o.last_seen = stamp;
   ++track.sightings;
@@ -213,13 +234,13 @@ void DynamicObstacles::correct(Track& track, const Cluster& seen, common::Time s
 
 /// Decides whether an obstacle is moving. An object that comes into view bit by bit seems to move for a moment, so
 /// motion counts only when it lasts.
-void DynamicObstacles::judgeMotion(Track& track) const {
+void DynamicObstacles::judgeMotion(Track& track) {
   DynamicObstacle& o = track.obstacle;
   const double since_s = (o.last_seen - track.anchor_stamp).seconds();
-  const bool moved = (o.center_map_m - track.anchor_map_m).norm() >= config_.moved_m;
-  const bool followed = since_s >= config_.followed_s && track.sightings >= config_.followed_share * track.scans;
-  if (!(moved && followed) && since_s < config_.moved_within_s) return;
-  const bool reaches = track.reached && (o.last_seen - *track.reached).seconds() <= config_.time_to_live_s;
+  const bool moved = (o.center_map_m - track.anchor_map_m).norm() >= kMoved_m;
+  const bool followed = since_s >= kFollowed_s && track.sightings >= kFollowedShare * track.scans;
+  if (!(moved && followed) && since_s < kMovedWithin_s) return;
+  const bool reaches = track.reached && (o.last_seen - *track.reached).seconds() <= kTimeToLive_s;
   // A moving obstacle may have been hidden meanwhile; it remains moving.
   o.moving = reaches && moved && (followed || o.moving);
   track.anchor_map_m = o.center_map_m;
@@ -235,12 +256,11 @@ std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) co
   std::vector<Disc> result;
   for (const DynamicObstacle& o : obstacles_) {
     const double age_s = (now - o.last_seen).seconds();
-    if (age_s > config_.time_to_live_s) continue;
+    if (age_s > kTimeToLive_s) continue;
     const Point velocity_map_m_s = o.believedVelocity_map_m_s();
     const double step_s = std::max(0.1, o.radius_m / std::max(0.1, velocity_map_m_s.norm()));
     for (double t = 0.0; t <= horizon_s; t += step_s)
-      result.push_back(
-          {o.center_map_m + velocity_map_m_s * (std::min(age_s, 1.0) + t), o.radius_m + config_.keep_out_m});
+      result.push_back({o.center_map_m + velocity_map_m_s * (std::min(age_s, 1.0) + t), o.radius_m + kKeepOut_m});
   }
   return result;
 }

@@ -31,9 +31,6 @@ bool isOnAny(std::span<const Disc> people, const Pose2& T_map_body, const Eigen:
 
 }  // namespace
 
-PeopleTracker::PeopleTracker(const Config& config, const HeightBand& band)
-    : band_(band), background_(common::Duration::fromSeconds(config.background_age_s)), obstacles_(config) {}
-
 void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, const Pose2& T_map_odom,
                            std::shared_ptr<const common::OccupancyGrid> grid,
                            const std::optional<GivenBackground>& given, double below_map_m) {

@@ -32,8 +32,7 @@ struct HeightBand {
 /// Not thread-safe. Deterministic.
 class PeopleTracker {
  public:
-  using Config = DynamicObstacles::Config;
-  PeopleTracker(const Config& config, const HeightBand& band);
+  explicit PeopleTracker(const HeightBand& band) : band_(band) {}
 
   /// Takes in a scan at its pose in the map. `grid` is the map that includes this scan. When `T_map_odom` jumps, the
   /// whole map was corrected, and the history of the background restarts. `given` is part of the background, too.
@@ -58,7 +57,7 @@ class PeopleTracker {
 
  private:
   HeightBand band_;
-  BackgroundMap background_;
+  BackgroundMap background_{common::Duration::fromSeconds(DynamicObstacles::kBackgroundAge_s)};
   common::Pose2 T_map_odom_;
   SeenPoints seen_;
   DynamicObstacles obstacles_;

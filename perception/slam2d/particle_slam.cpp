@@ -8,10 +8,10 @@
 #include <Eigen/Cholesky>
 
 #include "common/random.hpp"
+#include "common/resampling.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/grid_update.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
-#include "perception/slam2d/particle/resampling.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -132,12 +132,13 @@ void ParticleSlam::Impl::moveOn(Particle& particle, const MapMatch& match, Rando
 void ParticleSlam::Impl::resample() {
   std::vector<double> log_weights;
   for (const Particle& particle : particles) log_weights.push_back(particle.log_weight);
-  const std::vector<double> weights = normalizedWeights(log_weights);
-  if (effectiveSampleSize(weights) >= config.min_effective_share * static_cast<double>(particles.size())) return;
+  const std::vector<double> weights = common::normalizedWeights(log_weights);
+  if (common::effectiveSampleSize(weights) >= config.min_effective_share * static_cast<double>(particles.size()))
+    return;
   RandomStream random(static_cast<std::uint64_t>(config.seed), "resampling", counts.key_scans);
   std::vector<Particle> next;
   next.reserve(particles.size());
-  for (const std::size_t index : resampled(weights, random)) {
+  for (const std::size_t index : common::resampled(weights, random)) {
     Particle& parent = particles[index];
     ancestry.hold(parent.node);
     next.push_back({parent.map.snapshot(), parent.T_map_body, parent.node, 0.0, parent.log_likelihood});

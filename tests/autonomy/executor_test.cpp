@@ -34,7 +34,7 @@ TEST_F(ExecutorInFlight, AnEndedIntentStaysEndedAndItsPlanIsDropped) {
   want(to(2.0, 2.0));
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
-  EXPECT_FALSE(executor_.goal_map_m());
+  EXPECT_FALSE(executor_.aim().goal_map_m);
   run(2.0);
   EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
   EXPECT_EQ(timesSaid("go to (2.00, 2.00): done"), 1);
@@ -109,7 +109,7 @@ TEST_F(ExecutorRetreating, ARetreatEndsInAHoldWhenNothingIsSeenAnyMore) {
 
 TEST_F(ExecutorRetreating, ARetreatDropsThePlanAtOnce) {
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "not only at the next tick";
-  EXPECT_EQ(executor_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
+  EXPECT_EQ(executor_.aim().velocity_map_m_s, Eigen::Vector2d::Zero());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<Eigen::Vector2f> front(const Point& center, double radius_m, const P
 
 struct MovingObjects : testing::Test {
   common::OccupancyGrid grid = planning::test::room(200, 160);
-  DynamicObstacles tracker{DynamicObstacles::Config()};
+  DynamicObstacles tracker;
   Point sensor{5, 4};
   /// Level with the body, unless told.
   SeenPoints seen(std::vector<Eigen::Vector2f> points_map_m, float above_body_m = 0.0F) const {
@@ -91,7 +91,7 @@ TEST_F(MovingObjects, DetectsOneWhoWalksStraightAwayFromTheLaser) {
   EXPECT_TRUE(tracker.anyMoves());
   std::vector<Eigen::Vector2f> wall;
   for (int i = 0; i < 12; ++i) wall.push_back({7.6f, 3.75f + 0.05f * static_cast<float>(i)});
-  DynamicObstacles other{DynamicObstacles::Config()};
+  DynamicObstacles other;
   for (int i = 0; i < 60; ++i) other.update(at(0.025 * i), seen(wall), grid);
   EXPECT_TRUE(other.obstacles().empty());
 }
@@ -133,7 +133,7 @@ TEST_F(MovingObjects, AnIntermittentObjectIsNotAWalker) {
 /// A dipping laser meets the top of a table farther and farther away. A person is higher than the vehicle flies.
 TEST_F(MovingObjects, TheTopOfATableIsNotAWalker) {
   for (const float above_body_m : {-0.1F, 0.05F}) {
-    DynamicObstacles fresh{DynamicObstacles::Config()};
+    DynamicObstacles fresh;
     for (double t = 0.0; t < 1.0; t += 0.025)
       fresh.update(at(t), seen(front({7.5, 2.5 + t}, 0.25, sensor), above_body_m), grid);
     EXPECT_EQ(fresh.anyMoves(), above_body_m > 0.0F);

@@ -29,7 +29,7 @@ void addPerson(ProjectedScan& scan, const Point& center_level_m, float height_m 
 struct People : testing::Test {
   std::shared_ptr<const common::OccupancyGrid> room =
       std::make_shared<common::OccupancyGrid>(planning::test::room(200, 160));
-  PeopleTracker tracker{PeopleTracker::Config(), HeightBand{}};
+  PeopleTracker tracker{HeightBand{}};
   Pose2 T_map_body{5, 4, 0.5 * std::numbers::pi};  // It looks along y.
 
   ProjectedScan scanAt(double s) const {
@@ -59,7 +59,7 @@ TEST_F(People, AWalkerIsTrackedInTheMapAndPredictedToTheNextScan) {
 
 TEST_F(People, WhatIsBelowTheHeightOfTheMapCannotBeCompared) {
   const auto seenBelow = [&](double below_map_m, float height_m) {
-    PeopleTracker low{PeopleTracker::Config(), HeightBand{}};
+    PeopleTracker low{HeightBand{}};
     for (double t = 0.0; t < 1.0; t += 0.025) {
       ProjectedScan scan = scanAt(t);
       addPerson(scan, T_map_body.inverse() * Point(4.0 + t, 6.0), height_m);
@@ -80,7 +80,7 @@ TEST_F(People, WhatTheGivenMapHasIsNoPerson) {
     for (double y = -0.25; y <= 0.25; y += 0.02)
       pillar->set(pillar->cellAt(T_grid_map * Point(5.0 + x, 6.0 + y)), common::occupancy::kMaxSteps);
   const auto seen = [&](const std::optional<GivenBackground>& given) {
-    PeopleTracker with{PeopleTracker::Config(), HeightBand{}};
+    PeopleTracker with{HeightBand{}};
     for (double t = 0.0; t < 1.0; t += 0.025) {
       ProjectedScan scan = scanAt(t);
       addPerson(scan, T_map_body.inverse() * Point(5.0, 6.0));
@@ -120,7 +120,7 @@ TEST_F(People, ALoopClosureRestartsTheBackground) {
   tracker.update(scan, T_map_body, Pose2{0.2, 0, 0}, corrected);
   EXPECT_TRUE(tracker.obstacles().empty());
   scan.stamp = Time::fromSeconds(5.2);
-  PeopleTracker without_jump{PeopleTracker::Config(), HeightBand{}};
+  PeopleTracker without_jump{HeightBand{}};
   without_jump.update(scanAt(5.0), T_map_body, {}, room);
   without_jump.update(scan, T_map_body, {}, corrected);
   EXPECT_EQ(without_jump.obstacles().size(), 1u) << "without the jump the background is still the old one";

@@ -40,7 +40,7 @@ class Story {
         truth_({}, 0.05),
         avoidance_(config, kHull_m),
         config_(config),
-        background_(Duration::fromSeconds(perception::DynamicObstacles::Config().background_age_s)) {
+        background_(Duration::fromSeconds(perception::DynamicObstacles::kBackgroundAge_s)) {
     learn();
     truth_ = map_;
   }
@@ -170,7 +170,7 @@ class Story {
   Avoidance avoidance_;
   Avoidance::Config config_;
   perception::BackgroundMap background_;
-  perception::DynamicObstacles dynamic_{perception::DynamicObstacles::Config()};
+  perception::DynamicObstacles dynamic_;
   struct Seen {
     Time stamp;
     Pose2 pose;

@@ -1,8 +1,9 @@
 // EmergencyLand: the controller's descent without the estimate, from where the vehicle is to the ground.
-#include "autonomy/maneuvers/emergency_land.hpp"
+#include <memory>
 
 #include <gtest/gtest.h>
 
+#include "autonomy/maneuvers/table.hpp"
 #include "tests/autonomy/maneuvers/workbench.hpp"
 
 namespace swiftlet::autonomy {
@@ -10,20 +11,20 @@ namespace {
 
 class EmergencyLandManeuver : public ManeuverWorkbench {
  protected:
-  EmergencyLand land_{common::EmergencyLandIntent{}, setup_};
+  std::unique_ptr<Maneuver> land_ = makeManeuver(common::EmergencyLandIntent{}, setup_);
 };
 
 TEST_F(EmergencyLandManeuver, CommandsTheDescentFromFlight) {
   ASSERT_EQ(controller_.state(), FlightState::kFlying);
-  const Progress progress = land_.step(input());
+  const Progress progress = land_->step(input());
   EXPECT_EQ(progress.state, IntentState::kRunning);
   EXPECT_EQ(progress.reason, "descending");
   EXPECT_EQ(controller_.state(), FlightState::kEmergencyLanding);
 }
 
 TEST_F(EmergencyLandManeuver, GoesOnWhileTheControllerDescends) {
-  (void)land_.step(input());
-  const Progress progress = land_.step(input());
+  (void)land_->step(input());
+  const Progress progress = land_->step(input());
   EXPECT_EQ(progress.state, IntentState::kRunning);
   EXPECT_EQ(progress.reason, "descending");
   EXPECT_EQ(controller_.state(), FlightState::kEmergencyLanding);
@@ -31,7 +32,7 @@ TEST_F(EmergencyLandManeuver, GoesOnWhileTheControllerDescends) {
 
 TEST_F(EmergencyLandManeuver, JoinsADescentThatTheControllerBeganByItself) {
   ASSERT_TRUE(controller_.command(control::EmergencyLand{}));
-  EXPECT_EQ(land_.step(input()).state, IntentState::kRunning);
+  EXPECT_EQ(land_->step(input()).state, IntentState::kRunning);
   EXPECT_EQ(controller_.state(), FlightState::kEmergencyLanding);
 }
 

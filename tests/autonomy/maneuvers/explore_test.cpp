@@ -53,15 +53,15 @@ class ExploreManeuver : public ManeuverInFlight {
 TEST_F(ExploreManeuver, AViewpointCountsAfterHalfASecondThere) {
   build(true);
   want(common::ExploreIntent{});
-  runUntil([this] { return looks() == 1 && executor_.goal_map_m(); },
+  runUntil([this] { return looks() == 1 && executor_.aim().goal_map_m; },
            5.0);     // The door is visible from the take-off place.
   follows_ = false;  // The reference flies on alone; the vehicle stays where the test puts it.
-  ASSERT_GT(distanceTo_m(*executor_.goal_map_m()), 1.0);
+  ASSERT_GT(distanceTo_m(*executor_.aim().goal_map_m), 1.0);
   run(0.1);
   EXPECT_TRUE(controller_.follower().followsPath());
   runUntil([this] { return controller_.follower().finished(); }, 15.0);
   const common::Pose2 there = reference();
-  EXPECT_LT((there.position_m() - *executor_.goal_map_m()).norm(), 0.01);
+  EXPECT_LT((there.position_m() - *executor_.aim().goal_map_m).norm(), 0.01);
   run(1.0);
   EXPECT_EQ(looks(), 1) << "the vehicle is not there";
   place(there.x_m, there.y_m, there.yaw_rad);
@@ -183,8 +183,8 @@ TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
 TEST_F(ExploreManeuver, ContinuesAfterARetreat) {
   build(true);
   want(common::ExploreIntent{});
-  runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);
-  const Eigen::Vector2d viewpoint_m = *executor_.goal_map_m();
+  runUntil([this] { return looks() == 1 && executor_.aim().goal_map_m; }, 5.0);
+  const Eigen::Vector2d viewpoint_m = *executor_.aim().goal_map_m;
   retreat({-0.3, 0.0});
   run(2.0);
   EXPECT_GT(distanceTo_m({1.5, 2.0}), 0.4);

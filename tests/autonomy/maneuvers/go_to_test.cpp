@@ -48,8 +48,8 @@ TEST_F(GoToManeuver, FliesThroughTheDoorToTheGoal) {
   run(0.5);
   EXPECT_TRUE(controller_.follower().followsPath());
   EXPECT_FALSE(executor_.status().released);
-  EXPECT_GT(executor_.wantedVelocity_map_m_s().x(), 0.5);
-  EXPECT_EQ(executor_.goal_map_m(), Eigen::Vector2d(6.0, 3.2));
+  EXPECT_GT(executor_.aim().velocity_map_m_s.x(), 0.5);
+  EXPECT_EQ(executor_.aim().goal_map_m, Eigen::Vector2d(6.0, 3.2));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
   EXPECT_EQ(executor_.status().reason, "reached (6.00, 3.20)");
   EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.05);
@@ -259,8 +259,7 @@ TEST_F(GoToManeuver, FliesInTheModeOfTheIntent) {
   want(careful);
   runUntil([this] { return position_m().x() > 3.0; }, 15.0);
   EXPECT_NEAR(state_.velocity_odom_m_s.norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful), 0.02);
-  EXPECT_NEAR(executor_.wantedVelocity_map_m_s().norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful),
-              1e-9);
+  EXPECT_NEAR(executor_.aim().velocity_map_m_s.norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful), 1e-9);
 }
 
 class GoToWithWavefront : public ManeuverInFlight {

@@ -16,7 +16,7 @@ TEST_F(HoldManeuver, StopsThePresentPathAndReleasesTheVehicleAtRest) {
   run(0.05);
   EXPECT_FALSE(controller_.follower().followsPath());
   EXPECT_FALSE(executor_.status().released) << "it still moves";
-  EXPECT_EQ(executor_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
+  EXPECT_EQ(executor_.aim().velocity_map_m_s, Eigen::Vector2d::Zero());
   run(2.0);
   EXPECT_TRUE(executor_.status().released);
   const Eigen::Vector2d here_m = position_m();

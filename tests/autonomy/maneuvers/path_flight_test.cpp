@@ -31,8 +31,7 @@ TEST_F(PathFlightTest, FliesAnOfferedPlanInItsModeAtTheFlightHeight) {
   EXPECT_TRUE(flight_.keep(input())) << "without a plan one is wanted";
   flight_.offer(straight({1.5, 2.0}, {5.0, 2.0}), now_, state_);
   EXPECT_FALSE(flight_.keep(input()));
-  EXPECT_NEAR(flight_.wantedVelocity_map_m_s().x(), controller_.follower().speed_m_s(common::FlightMode::kAccurate),
-              1e-9);
+  EXPECT_NEAR(flight_.aim().velocity_map_m_s.x(), controller_.follower().speed_m_s(common::FlightMode::kAccurate), 1e-9);
   runUntil([this] { return position_m().x() > 2.5; }, 20.0);
   EXPECT_NEAR(state_.velocity_odom_m_s.head<2>().norm(),
               controller_.follower().speed_m_s(common::FlightMode::kAccurate), 0.02);
@@ -74,7 +73,7 @@ TEST_F(PathFlightTest, DropsThePlanWhenTheControllerDropsThePath) {
   controller_.hold();  // As a retreat or a lost estimate does.
   EXPECT_FALSE(flight_.plan());
   EXPECT_TRUE(flight_.remaining_map_m().empty());
-  EXPECT_EQ(flight_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
+  EXPECT_EQ(flight_.aim().velocity_map_m_s, Eigen::Vector2d::Zero());
   EXPECT_EQ(lastEvent().text, "nothing") << "the code that ended it reports it";
   flight_.offer(straight({1.5, 2.0}, {6.0, 2.0}), now_, state_);
   EXPECT_TRUE(flight_.plan()) << "the same path is flown again";

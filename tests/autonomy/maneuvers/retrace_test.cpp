@@ -1,9 +1,7 @@
 // Retrace: back along a flown path, without a plan.
-#include "autonomy/maneuvers/retrace.hpp"
-
 #include <gtest/gtest.h>
 
-#include "tests/autonomy/maneuvers/workbench.hpp"
+#include "tests/autonomy/maneuver_story.hpp"
 
 namespace swiftlet::autonomy {
 namespace {

@@ -1,4 +1,4 @@
-#include "autonomy/maneuvers/person_watch.hpp"
+#include "perception/people/person_watch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "common/geometry.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 namespace {
 
 /// Directions in which a standing person may set off; others differ from the nearest one by less than half a metre in a
@@ -25,9 +26,38 @@ constexpr std::array kTurns{Turn{50.0, 0.3}, Turn{-50.0, 0.3}, Turn{100.0, 0.2},
 constexpr double kTrailSpacing_m = 0.2;
 constexpr std::size_t kTrailPoints = 40;
 
+/// Probability that a person in sight goes on as before in the next seconds: straight on, or standing.
+constexpr double kGoesOnShare = 0.5;
+/// Speed at which a person who stands is expected to set off.
+constexpr double kSetsOff_m_s = 0.5;
+
+/// A track that was not seen for longer has ended.
+constexpr double kFresh_s = 0.3;
+/// A track this near to a place where the person may be can be the person's.
+constexpr double kGate_m = 0.6;
+/// Least probability that a hidden person is near a track that is taken for the person's; the greater one while the
+/// vehicle sees something new where the person probably stands. Without them a track in plain sight was given up, and
+/// the next person who passed was followed (measured: docs/decisions/following.md, "Giving way, and who is the
+/// person").
+constexpr double kLeastPersonShare = 0.03, kLeastPersonShareInSight = 0.3;
+/// Distance that a person who was followed earlier may have walked meanwhile.
+constexpr double kRememberedGate_m = 3.0;
+/// Metres of distance that a difference of 1 m/s between the velocities of a track and of the person counts as.
+constexpr double kPerSpeed_s = 0.5;
+
 const common::DynamicObstacle* withId(std::span<const common::DynamicObstacle> obstacles, int id) {
   const auto found = std::find_if(obstacles.begin(), obstacles.end(), [&](const auto& o) { return o.id == id; });
   return found == obstacles.end() ? nullptr : &*found;
+}
+
+std::vector<common::PossibleWalk> walksFromRest(const Eigen::Vector2d& place_map_m) {
+  std::vector<common::PossibleWalk> walks{{place_map_m, {0.0, 0.0}, kGoesOnShare}};
+  for (int i = 0; i < kDirectionsFromRest; ++i) {
+    const Eigen::Rotation2Dd turn(2.0 * std::numbers::pi / kDirectionsFromRest * i);
+    walks.push_back(
+        {place_map_m, turn * Eigen::Vector2d(kSetsOff_m_s, 0.0), (1.0 - kGoesOnShare) / kDirectionsFromRest});
+  }
+  return walks;
 }
 
 }  // namespace
@@ -37,7 +67,7 @@ void PersonWatch::choose(std::span<const common::DynamicObstacle> obstacles, con
   const common::DynamicObstacle* nearest = nullptr;
   for (const common::DynamicObstacle& obstacle : obstacles) {
     const double distance_m = (obstacle.center_map_m - here_map_m).norm();
-    if (!obstacle.moving || distance_m > config_.tracked_m) continue;
+    if (!obstacle.moving || distance_m > DynamicObstacles::kMaxRange_m) continue;
     if (nearest == nullptr || distance_m < (nearest->center_map_m - here_map_m).norm()) nearest = &obstacle;
   }
   if (nearest != nullptr) see(*nearest);
@@ -46,17 +76,16 @@ void PersonWatch::choose(std::span<const common::DynamicObstacle> obstacles, con
 void PersonWatch::update(std::span<const common::DynamicObstacle> obstacles, const Sight& sight, common::Time now) {
   if (!last_) return;
   const common::DynamicObstacle* same = withId(obstacles, last_->id);
-  const bool seen = same != nullptr && (now - same->last_seen).seconds() <= config_.fresh_s;
-  if (!grid_while_walking_ || (seen && same->believedVelocity_map_m_s().norm() > config_.walking.stands_m_s))
+  const bool seen = same != nullptr && (now - same->last_seen).seconds() <= kFresh_s;
+  if (!grid_while_walking_ || (seen && same->believedVelocity_map_m_s().norm() > HiddenPerson::kStands_m_s))
     grid_while_walking_ = sight.grid;
   if (seen) return see(*same);
   if (!hidden_ && !remembered_)
-    hidden_.emplace(config_, last_->center_map_m, last_->believedVelocity_map_m_s(), last_->last_seen,
-                    grid_while_walking_);
+    hidden_.emplace(last_->center_map_m, last_->believedVelocity_map_m_s(), last_->last_seen, grid_while_walking_);
   if (hidden_) {
     Sight without_others = sight;
     for (const common::DynamicObstacle& obstacle : obstacles)
-      if (obstacle.moving && (now - obstacle.last_seen).seconds() <= config_.fresh_s)
+      if (obstacle.moving && (now - obstacle.last_seen).seconds() <= kFresh_s)
         without_others.others_map_m.push_back(obstacle.center_map_m);
     hidden_->advance(without_others, now);
   }
@@ -70,22 +99,22 @@ void PersonWatch::update(std::span<const common::DynamicObstacle> obstacles, con
 /// The obstacle that is the person, if any is.
 const common::DynamicObstacle* PersonWatch::likeliest(std::span<const common::DynamicObstacle> obstacles,
                                                       common::Time now) const {
-  double best = remembered_ ? config_.remembered_gate_m : config_.gate_m;
+  double best = remembered_ ? kRememberedGate_m : kGate_m;
   const common::DynamicObstacle* found = nullptr;
   for (const common::DynamicObstacle& obstacle : obstacles) {
-    if ((now - obstacle.last_seen).seconds() > config_.fresh_s) continue;
+    if ((now - obstacle.last_seen).seconds() > kFresh_s) continue;
     double apart_m = (obstacle.center_map_m - place_map_m(now)).norm();
     if (hidden_) {
       // Another person is unlikely to be where the person probably is.
-      const double share = hidden_->share(obstacle.center_map_m, config_.gate_m);
-      if (share < (hidden_->inSight() ? config_.least_share_in_sight : config_.least_share)) continue;
-      apart_m = std::min(apart_m, config_.gate_m * (1.0 - share));
+      const double share = hidden_->share(obstacle.center_map_m, kGate_m);
+      if (share < (hidden_->inSight() ? kLeastPersonShareInSight : kLeastPersonShare)) continue;
+      apart_m = std::min(apart_m, kGate_m * (1.0 - share));
     }
-    const double unlike_m = (obstacle.believedVelocity_map_m_s() - velocity_map_m_s()).norm() * config_.per_speed_s;
+    const double unlike_m = (obstacle.believedVelocity_map_m_s() - velocity_map_m_s()).norm() * kPerSpeed_s;
     // Something that does not move yet may be a chair, unless it is just where the person is.
     const double cost_m = hidden_ && obstacle.moving
                               ? apart_m
-                              : apart_m + (obstacle.moving ? std::min(unlike_m, config_.gate_m) : 0.5 * config_.gate_m);
+                              : apart_m + (obstacle.moving ? std::min(unlike_m, kGate_m) : 0.5 * kGate_m);
     if (cost_m >= best) continue;
     best = cost_m;
     found = &obstacle;
@@ -103,33 +132,21 @@ void PersonWatch::remember(const Eigen::Vector2d& place_map_m, common::Time when
 
 Eigen::Vector2d PersonWatch::place_map_m(common::Time now) const {
   if (hidden_) return hidden_->place_map_m();
-  return last_->center_map_m + std::clamp(unseen_s(now), 0.0, config_.fresh_s) * last_->believedVelocity_map_m_s();
+  return last_->center_map_m + std::clamp(unseen_s(now), 0.0, kFresh_s) * last_->believedVelocity_map_m_s();
 }
 
 Eigen::Vector2d PersonWatch::velocity_map_m_s() const {
   return hidden_ ? hidden_->velocity_map_m_s() : last_->believedVelocity_map_m_s();
 }
 
-std::vector<PossibleWalk> PersonWatch::walks(common::Time now) const {
+std::vector<common::PossibleWalk> PersonWatch::walks(common::Time now) const {
   if (hidden()) return hidden_->walks();
   const Eigen::Vector2d place_map_m = this->place_map_m(now), velocity_map_m_s = this->velocity_map_m_s();
-  const WalkingConfig& walking = config_.walking;
-  if (velocity_map_m_s.norm() < walking.stands_m_s) return walksFromRest(place_map_m);
-  std::vector<PossibleWalk> walks{{place_map_m, velocity_map_m_s, walking.goes_on_share}};
+  if (velocity_map_m_s.norm() < HiddenPerson::kStands_m_s) return walksFromRest(place_map_m);
+  std::vector<common::PossibleWalk> walks{{place_map_m, velocity_map_m_s, kGoesOnShare}};
   for (const Turn& turn : kTurns)
     walks.push_back({place_map_m, Eigen::Rotation2Dd(turn.angle_deg * common::kRadPerDeg) * velocity_map_m_s,
-                     turn.share * (1.0 - walking.goes_on_share)});
-  return walks;
-}
-
-std::vector<PossibleWalk> PersonWatch::walksFromRest(const Eigen::Vector2d& place_map_m) const {
-  const WalkingConfig& walking = config_.walking;
-  std::vector<PossibleWalk> walks{{place_map_m, {0.0, 0.0}, walking.goes_on_share}};
-  for (int i = 0; i < kDirectionsFromRest; ++i) {
-    const Eigen::Rotation2Dd turn(2.0 * std::numbers::pi / kDirectionsFromRest * i);
-    walks.push_back({place_map_m, turn * Eigen::Vector2d(walking.sets_off_m_s, 0.0),
-                     (1.0 - walking.goes_on_share) / kDirectionsFromRest});
-  }
+                     turn.share * (1.0 - kGoesOnShare)});
   return walks;
 }
 
@@ -146,4 +163,4 @@ void PersonWatch::addToTrail(const Eigen::Vector2d& place_map_m) {
   if (trail_map_m_.size() > kTrailPoints) trail_map_m_.erase(trail_map_m_.begin());
 }
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

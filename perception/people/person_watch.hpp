@@ -9,11 +9,11 @@
 
 #include <Eigen/Core>
 
-#include "autonomy/maneuvers/hidden_person.hpp"
 #include "common/dynamic_obstacle.hpp"
 #include "common/time.hpp"
+#include "perception/people/hidden_person.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 
 /// One thread. In the `map` frame.
 ///
@@ -23,9 +23,8 @@ namespace swiftlet::autonomy {
 ///                                                  +-------------------------------------+
 class PersonWatch {
  public:
-  explicit PersonWatch(const PersonWatchConfig& config) : config_(config) {}
-
-  /// The nearest moving obstacle within `tracked_m` of `here_map_m` becomes the person, if none is chosen yet.
+  /// The nearest moving obstacle within DynamicObstacles::kMaxRange_m of `here_map_m` becomes the person, if none is
+  /// chosen yet.
   void choose(std::span<const common::DynamicObstacle> obstacles, const Eigen::Vector2d& here_map_m);
   /// Follows the person through the obstacles of the present time.
   void update(std::span<const common::DynamicObstacle> obstacles, const Sight& sight, common::Time now);
@@ -37,7 +36,7 @@ class PersonWatch {
   Eigen::Vector2d place_map_m(common::Time now) const;
   Eigen::Vector2d velocity_map_m_s() const;
   /// Known: what the person may do from `now` on.
-  std::vector<PossibleWalk> walks(common::Time now) const;
+  std::vector<common::PossibleWalk> walks(common::Time now) const;
   /// The track has ended, and beams show that no person is where the person stood.
   bool hidden() const { return hidden_ && !hidden_->inSight(); }
   /// Known: the time since the person was seen, tracked or standing.
@@ -50,9 +49,6 @@ class PersonWatch {
   void see(const common::DynamicObstacle& obstacle);
   void addToTrail(const Eigen::Vector2d& place_map_m);
 
-  std::vector<PossibleWalk> walksFromRest(const Eigen::Vector2d& place_map_m) const;
-
-  PersonWatchConfig config_;
   std::optional<common::DynamicObstacle> last_;
   std::optional<HiddenPerson> hidden_;
   bool remembered_ = false;
@@ -60,4 +56,4 @@ class PersonWatch {
   std::vector<Eigen::Vector2d> trail_map_m_;
 };
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

@@ -1,4 +1,4 @@
-#include "autonomy/maneuvers/trail_path.hpp"
+#include "planning/pursuit/trail_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,30 +8,32 @@
 
 #include "planning/search/wavefront.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::planning {
 namespace {
 
 using Point = Eigen::Vector2d;
 using Points = std::vector<Point>;
 
+/// A place where the person walked too near to a wall is passed at most this far beside it.
+constexpr double kAside_m = 0.5;
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// The places of the path: the start, those of the trail where the hull may be, and the person's.
-Points placesOf(const TrailQuestion& ask, const Point& start) {
+Points placesOf(const CostMap& costs, const Point& start, const Point& person, std::span<const Point> trail) {
   Points places{start};
   const auto add = [&](const Point& place) {
-    if (!isLethalAt(ask.costs, place))
+    if (!isLethalAt(costs, place))
       places.push_back(place);
-    else if (const auto beside = planning::nearestFree(ask.costs, place, ask.aside_m))
+    else if (const auto beside = nearestFree(costs, place, kAside_m))
       places.push_back(*beside);
   };
-  for (const Point& place : ask.trail_map_m) add(place);
-  add(ask.person_map_m);
+  for (const Point& place : trail) add(place);
+  add(person);
   return places;
 }
 
 /// From the first place to the last one that can be reached, each after all earlier ones.
-Points cheapestChain(const planning::CostMap& costs, const Points& places) {
+Points cheapestChain(const CostMap& costs, const Points& places) {
   std::vector<double> cost_m(places.size(), kUnreached);
   std::vector<std::size_t> came_from(places.size(), 0);
   cost_m[0] = 0.0;
@@ -39,7 +41,7 @@ Points cheapestChain(const planning::CostMap& costs, const Points& places) {
   for (std::size_t to = 1; to < places.size(); ++to) {
     for (std::size_t from = 0; from < to; ++from) {
       if (cost_m[from] + (places[to] - places[from]).norm() >= cost_m[to]) continue;
-      const planning::SegmentCost leg = planning::segmentCost(costs, places[from], places[to]);
+      const SegmentCost leg = segmentCost(costs, places[from], places[to]);
       if (leg.lethal || cost_m[from] + leg.cost_m >= cost_m[to]) continue;
       cost_m[to] = cost_m[from] + leg.cost_m;
       came_from[to] = from;
@@ -53,9 +55,9 @@ Points cheapestChain(const planning::CostMap& costs, const Points& places) {
 }
 
 /// As the planner leads to the last place, where no chain of straight lines does.
-Points planned(const planning::CostMap& costs, const Points& places, const Points& otherwise) {
+Points planned(const CostMap& costs, const Points& places, const Points& otherwise) {
   if (otherwise.back() == places.back() || places.size() < 2) return otherwise;
-  const auto path = planning::Wavefront().plan(costs, places.front(), places.back());
+  const auto path = Wavefront().plan(costs, places.front(), places.back());
   return path ? path->points_map_m : otherwise;
 }
 
@@ -78,14 +80,14 @@ Points cut(const Points& chain, const Point& person, double radius_m) {
 
 }  // namespace
 
-planning::Path trailPath(const TrailQuestion& question) {
-  Points points = planning::escapePoints_map_m(question.costs, question.from_map_m);
+Path trailPath(const CostMap& costs, const Point& from_map_m, const Point& person_map_m,
+               std::span<const Point> trail_map_m) {
+  Points points = escapePoints_map_m(costs, from_map_m);
   const std::size_t escape_points = points.size() - 1;
-  const Points places = placesOf(question, points.back());
-  const Points chain = cut(planned(question.costs, places, cheapestChain(question.costs, places)),
-                           question.person_map_m, question.ends_at_m);
+  const Points places = placesOf(costs, points.back(), person_map_m, trail_map_m);
+  const Points chain = cut(planned(costs, places, cheapestChain(costs, places)), person_map_m, kTrailEndsAt_m);
   points.insert(points.end(), chain.begin() + 1, chain.end());
-  return planning::pathThrough(question.costs, std::move(points), escape_points);
+  return pathThrough(costs, std::move(points), escape_points);
 }
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::planning

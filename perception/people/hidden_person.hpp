@@ -8,30 +8,29 @@
 
 #include <Eigen/Core>
 
-#include "autonomy/maneuvers/follow_config.hpp"
-#include "autonomy/maneuvers/pursuit_path.hpp"
-#include "autonomy/maneuvers/seen_ranges.hpp"
+#include "common/dynamic_obstacle.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
-#include "perception/people/people_tracker.hpp"
+#include "perception/people/seen_points.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 
 /// The vehicle's map and what it sees.
 struct Sight {
   std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null.
-  const perception::SeenPoints* seen = nullptr;       ///< Null: no beams.
+  const SeenPoints* seen = nullptr;                   ///< Null: no beams.
   std::vector<Eigen::Vector2d> others_map_m = {};     ///< Where other people are tracked.
 };
 
 /// One thread. In the `map` frame.
 class HiddenPerson {
  public:
+  static constexpr double kStands_m_s = 0.25;  ///< A person who is slower than this stands.
+
   /// The person was last seen at that place and time with that velocity. `before` is the map before the person stood
   /// there.
-  HiddenPerson(const PersonWatchConfig& config, const Eigen::Vector2d& place_map_m,
-               const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
+  HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
                std::shared_ptr<const common::OccupancyGrid> before);
 
   /// Until `now`; the person was not seen meanwhile.
@@ -41,7 +40,7 @@ class HiddenPerson {
   const Eigen::Vector2d& place_map_m() const { return place_map_m_; }
   const Eigen::Vector2d& velocity_map_m_s() const { return velocity_map_m_s_; }
   /// Some of the places where the person may be, with their velocities.
-  std::vector<PossibleWalk> walks() const;
+  std::vector<common::PossibleWalk> walks() const;
   /// The vehicle sees something at the likeliest place that was not there before the person. The track has ended,
   /// because the person stood until the map explained that place.
   bool inSight() const { return in_sight_; }
@@ -60,7 +59,6 @@ class HiddenPerson {
   void resample();
   void findLikeliest();
 
-  PersonWatchConfig config_;
   SeenRanges view_;
   std::shared_ptr<const common::OccupancyGrid> before_;
   std::vector<Particle> particles_;
@@ -70,4 +68,4 @@ class HiddenPerson {
   bool in_sight_ = false;
 };
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

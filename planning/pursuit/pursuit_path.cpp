@@ -1,4 +1,4 @@
-#include "autonomy/maneuvers/pursuit_path.hpp"
+#include "planning/pursuit/pursuit_path.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "common/row_major.hpp"
 #include "planning/search/planner.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::planning {
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -28,6 +28,14 @@ constexpr int kReach = kSteps, kSide = 2 * kReach + 1;
 constexpr std::size_t kGridPlaces = static_cast<std::size_t>(kSide) * kSide;
 /// Losses of a step in which the person is not seen, and of one at a wrong distance: both count alike.
 constexpr double kUnseen = 1.0, kWrongDistance = 1.0;
+/// Further loss of a wrong distance by the metre; twice as much where it is too small.
+constexpr double kPerMetre = 1.0;
+/// Loss of a right distance by its squared error.
+constexpr double kPerSquareMetre = 0.3;
+/// Loss of flying for one step, so that the vehicle waits where waiting is equally good.
+constexpr double kPerMove = 0.03;
+/// Loss by the cost of a step in the cost map above that of open space.
+constexpr double kPerCost = 0.02;
 /// Beyond twice the wanted distance a person is too far away; rays that long need not be followed.
 constexpr double kBeyondUse = 2.0;
 /// Steps of a walk between two looks at the map: two of its cells.
@@ -41,10 +49,10 @@ class Pursuit {
  public:
   explicit Pursuit(const PursuitQuestion& question)
       : ask_(question),
-        escape_map_m_(planning::escapePoints_map_m(question.costs, question.here_map_m)),
+        escape_map_m_(escapePoints_map_m(question.costs, question.here_map_m)),
         from_map_m_(escape_map_m_.back()),
         side_m_(std::max(0.1, question.speed_m_s * kMove_s / std::numbers::sqrt2)) {
-    for (const PossibleWalk& walk : ask_.walks) {
+    for (const common::PossibleWalk& walk : ask_.walks) {
       walks_.push_back(predicted(walk));
       whole_weight_ += walk.weight;
     }
@@ -65,9 +73,9 @@ class Pursuit {
     if (!common::occupancy::isOccupied(ask_.grid.at(ask_.grid.cellAt(point_map_m)))) return false;
     const auto& walked = ask_.walked_map_m;
     return std::none_of(walked.begin(), walked.end(),
-                        [&](const Point& place) { return (place - point_map_m).norm() < ask_.config.mapped_within_m; });
+                        [&](const Point& place) { return (place - point_map_m).norm() < common::kPersonInMap_m; });
   }
-  Walk predicted(const PossibleWalk& walk) const;
+  Walk predicted(const common::PossibleWalk& walk) const;
   bool sees(const Point& from_map_m, const Point& to_map_m) const;
   Sight from(const Point& place_map_m, int step) const;
   double moving(int x, int y, int dx, int dy) const;
@@ -88,7 +96,7 @@ class Pursuit {
 };
 
 /// The person walks straight on and stops at what the map shows.
-Walk Pursuit::predicted(const PossibleWalk& walk) const {
+Walk Pursuit::predicted(const common::PossibleWalk& walk) const {
   Walk places;
   places.fill(walk.place_map_m);
   const double speed_m_s = walk.velocity_map_m_s.norm();
@@ -99,7 +107,7 @@ Walk Pursuit::predicted(const PossibleWalk& walk) const {
     const double until_m = speed_m_s * kMove_s * step;
     while (walked_m < until_m) {
       const double next_m = std::min(until_m, walked_m + kStride_m);
-      if (occupied(walk.place_map_m + (next_m + ask_.half_width_m) * heading)) break;
+      if (occupied(walk.place_map_m + (next_m + common::kPersonHalfWidth_m) * heading)) break;
       walked_m = next_m;
     }
     places[static_cast<std::size_t>(step)] = walk.place_map_m + walked_m * heading;
@@ -110,23 +118,22 @@ Walk Pursuit::predicted(const PossibleWalk& walk) const {
 bool Pursuit::sees(const Point& from_map_m, const Point& to_map_m) const {
   const Point ray_m = to_map_m - from_map_m;
   const double length_m = ray_m.norm(), step_m = ask_.grid.resolution_m();
-  for (double along_m = step_m; along_m < length_m - ask_.config.mapped_within_m; along_m += step_m) {
+  for (double along_m = step_m; along_m < length_m - common::kPersonInMap_m; along_m += step_m) {
     if (occupied(from_map_m + along_m / length_m * ray_m)) return false;
   }
   return true;
 }
 
 Pursuit::Sight Pursuit::from(const Point& place_map_m, int step) const {
-  const PursuitConfig& config = ask_.config;
-  const double least_m = ask_.distance_m - config.nearer_m, most_m = ask_.distance_m + config.farther_m;
+  const double least_m = ask_.distance_m - kPursuitNearer_m, most_m = ask_.distance_m + kPursuitFarther_m;
   Sight sight;
   for (std::size_t i = 0; i < walks_.size(); ++i) {
     const double weight = ask_.walks[i].weight / whole_weight_;
     const Point& person = walks_[i][static_cast<std::size_t>(step)];
     const double distance_m = (person - place_map_m).norm();
-    double loss = config.per_square_metre * std::pow(distance_m - ask_.distance_m, 2);
-    if (distance_m < least_m) loss = kWrongDistance + 2.0 * config.per_metre * (least_m - distance_m);
-    if (distance_m > most_m) loss = kWrongDistance + config.per_metre * (distance_m - most_m);
+    double loss = kPerSquareMetre * std::pow(distance_m - ask_.distance_m, 2);
+    if (distance_m < least_m) loss = kWrongDistance + 2.0 * kPerMetre * (least_m - distance_m);
+    if (distance_m > most_m) loss = kWrongDistance + kPerMetre * (distance_m - most_m);
     const bool seen = distance_m < kBeyondUse * most_m && sees(place_map_m, person);
     sight.loss += weight * (loss + (seen ? 0.0 : kUnseen));
     sight.in_sight += seen ? weight : 0.0;
@@ -137,10 +144,10 @@ Pursuit::Sight Pursuit::from(const Point& place_map_m, int step) const {
 /// The loss of a move from (x, y) by (dx, dy); never if the hull may not fly there.
 double Pursuit::moving(int x, int y, int dx, int dy) const {
   if (dx == 0 && dy == 0) return 0.0;
-  const planning::SegmentCost leg = planning::segmentCost(ask_.costs, placeOf(x, y), placeOf(x + dx, y + dy));
+  const SegmentCost leg = segmentCost(ask_.costs, placeOf(x, y), placeOf(x + dx, y + dy));
   if (leg.lethal) return kNever;
   const double cells = std::hypot(dx, dy);
-  return ask_.config.per_move * cells + ask_.config.per_cost * (leg.cost_m / side_m_ - cells);
+  return kPerMove * cells + kPerCost * (leg.cost_m / side_m_ - cells);
 }
 
 void Pursuit::advance(int step) {
@@ -191,15 +198,15 @@ PursuitPath Pursuit::pathTo(int x, int y) const {
   std::vector<Point> points_map_m = escape_map_m_;
   for (std::size_t i = 0; i + 1 < places.size();) {
     std::size_t next = i + 1;
-    while (next + 1 < places.size() && !planning::segmentCost(ask_.costs, places[i], places[next + 1]).lethal) ++next;
+    while (next + 1 < places.size() && !segmentCost(ask_.costs, places[i], places[next + 1]).lethal) ++next;
     points_map_m.push_back(places[next]);
     i = next;
   }
-  return {planning::pathThrough(ask_.costs, std::move(points_map_m), escape_map_m_.size() - 1), in_sight};
+  return {pathThrough(ask_.costs, std::move(points_map_m), escape_map_m_.size() - 1), in_sight};
 }
 
 }  // namespace
 
 PursuitPath pursuitPath(const PursuitQuestion& question) { return Pursuit(question).best(); }
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::planning

@@ -1,4 +1,4 @@
-#include "autonomy/maneuvers/seen_ranges.hpp"
+#include "perception/people/seen_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "common/geometry.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 namespace {
 
 /// The degree of the bearing.
@@ -18,7 +18,7 @@ std::size_t degreeOf(const Eigen::Vector2d& offset_m) {
 
 }  // namespace
 
-SeenRanges::SeenRanges(const perception::SeenPoints& seen) : SeenRanges() {
+SeenRanges::SeenRanges(const SeenPoints& seen) : SeenRanges() {
   from_map_m_ = seen.from_map_m;
   for (const Eigen::Vector2f& point : seen.points_map_m) {
     if (!point.allFinite()) continue;
@@ -30,4 +30,4 @@ SeenRanges::SeenRanges(const perception::SeenPoints& seen) : SeenRanges() {
 
 double SeenRanges::range_m(const Eigen::Vector2d& offset_m) const { return ranges_m_[degreeOf(offset_m)]; }
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

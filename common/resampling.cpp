@@ -1,12 +1,11 @@
-#include "perception/slam2d/particle/resampling.hpp"
+#include "common/resampling.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/check.hpp"
-#include "common/systematic_resampling.hpp"
 
-namespace swiftlet::perception {
+namespace swiftlet::common {
 
 std::vector<double> normalizedWeights(const std::vector<double>& log_weights) {
   SWIFTLET_CHECK(!log_weights.empty());
@@ -25,10 +24,10 @@ double effectiveSampleSize(const std::vector<double>& weights) {
   return 1.0 / squares;
 }
 
-std::vector<std::size_t> resampled(const std::vector<double>& weights, common::RandomStream& random) {
+std::vector<std::size_t> resampled(const std::vector<double>& weights, RandomStream& random) {
   std::vector<std::size_t> chosen;
-  common::drawSystematically(weights, 1.0, weights.size(), random.uniform(), chosen);
+  drawSystematically(weights, 1.0, weights.size(), random.uniform(), chosen);
   return chosen;
 }
 
-}  // namespace swiftlet::perception
+}  // namespace swiftlet::common

@@ -1,5 +1,5 @@
 // The world without the person who is followed: what that person left in the map, and walls, which stay.
-#include "autonomy/maneuvers/world_without_person.hpp"
+#include "perception/people/without_person.hpp"
 
 #include <cmath>
 #include <memory>
@@ -10,7 +10,7 @@
 
 #include "tests/planning/grid_builder.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -42,22 +42,17 @@ class WithoutPerson : public testing::Test {
       seen_.points_map_m.emplace_back(2.0 + range_m * std::cos(angle_rad), 5.0 + range_m * std::sin(angle_rad));
     }
   }
-  ManeuverInput without() {
-    ManeuverInput input{
-        now_, {}, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), {}, {}, discs_, false, decision_};
-    input.seen = seen_.points_map_m.empty() ? nullptr : &seen_;
-    return worldWithoutPerson(input, watch_, PersonInMap{});
+  common::OccupancyGrid without() {
+    return mapWithout(watch_, now_, grid_.snapshot(), seen_.points_map_m.empty() ? nullptr : &seen_);
   }
-  static bool occupied(const ManeuverInput& world, double x_m, double y_m) {
-    return common::occupancy::isOccupied(world.grid->at(world.grid->cellAt(x_m, y_m)));
+  static bool occupied(const common::OccupancyGrid& grid, double x_m, double y_m) {
+    return common::occupancy::isOccupied(grid.at(grid.cellAt(x_m, y_m)));
   }
 
   common::OccupancyGrid grid_ = common::makeOccupancyGrid(0.05);
-  PersonWatch watch_{PersonWatchConfig{}};
+  PersonWatch watch_;
   common::Time now_ = at(1.0);
-  perception::SeenPoints seen_;
-  std::vector<common::Disc> discs_;
-  planning::AvoidanceDecision decision_;
+  SeenPoints seen_;
 };
 
 TEST_F(WithoutPerson, ForgetsWhereThePersonWasIfTheScanSeesPast) {
@@ -79,9 +74,9 @@ TEST_F(WithoutPerson, KeepsWhatTheScanEndsOnAndWhatIsNotOnTheTrail) {
   see(2.5);
   mark(4.5, 5.4);
   mark(4.0, 6.0);
-  const ManeuverInput world = without();
-  EXPECT_TRUE(occupied(world, 4.5, 5.4));
-  EXPECT_TRUE(occupied(world, 4.0, 6.0));
+  const common::OccupancyGrid grid = without();
+  EXPECT_TRUE(occupied(grid, 4.5, 5.4));
+  EXPECT_TRUE(occupied(grid, 4.0, 6.0));
 }
 
 TEST_F(WithoutPerson, ForgetsThePersonWhoIsThere) {
@@ -92,11 +87,10 @@ TEST_F(WithoutPerson, ForgetsThePersonWhoIsThere) {
 }
 
 TEST_F(WithoutPerson, LeavesOutTheDiscsOfThePersonOnly) {
-  discs_ = {{{6.0, 5.0}, 0.5}, {{6.4, 5.0}, 0.5}, {{5.0, 6.5}, 0.5}};
-  const ManeuverInput world = without();
-  ASSERT_EQ(world.discs.size(), 1u);
-  EXPECT_EQ(world.discs.front().center_map_m, Point(5.0, 6.5));
+  const std::vector discs = discsWithout(watch_, now_, {{{6.0, 5.0}, 0.5}, {{6.4, 5.0}, 0.5}, {{5.0, 6.5}, 0.5}});
+  ASSERT_EQ(discs.size(), 1u);
+  EXPECT_EQ(discs.front().center_map_m, Point(5.0, 6.5));
 }
 
 }  // namespace
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

@@ -1,15 +1,13 @@
-#include "autonomy/maneuvers/world_without_person.hpp"
+#include "perception/people/without_person.hpp"
 
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <utility>
-#include <vector>
 
-#include "autonomy/maneuvers/seen_ranges.hpp"
+#include "common/dynamic_obstacle.hpp"
 #include "common/segment.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -28,15 +26,14 @@ constexpr double kTrailStep_m = 0.1;
 
 class Cleared {
  public:
-  Cleared(const ManeuverInput& input, const PersonInMap& extent)
-      : grid_(*input.grid), extent_(extent), sees_(input.seen != nullptr) {
-    if (sees_) ranges_ = SeenRanges(*input.seen);
+  Cleared(const common::OccupancyGrid& grid, const SeenPoints* seen) : grid_(grid), sees_(seen != nullptr) {
+    if (sees_) ranges_ = SeenRanges(*seen);
   }
 
   /// The person is there.
-  void clearPerson(const Point& place_map_m) { clear(place_map_m, extent_.within_m); }
+  void clearPerson(const Point& place_map_m) { clear(place_map_m, common::kPersonInMap_m); }
   /// The person was there.
-  void clearPlace(const Point& place_map_m) { clear(place_map_m, extent_.body_m); }
+  void clearPlace(const Point& place_map_m) { clear(place_map_m, common::kPersonHalfWidth_m + grid_.resolution_m()); }
   void clearTrail(const std::vector<Point>& trail_map_m) {
     clearPlace(trail_map_m.front());
     for (std::size_t i = 1; i < trail_map_m.size(); ++i) {
@@ -51,14 +48,14 @@ class Cleared {
   static constexpr common::occupancy::Cell kFree = 0;
 
   void clear(const Point& place_map_m, double surely_m) {
-    const Point reach = Point::Constant(extent_.within_m);
+    const Point reach = Point::Constant(common::kPersonInMap_m);
     const common::CellIndex low = grid_.cellAt(place_map_m - reach), high = grid_.cellAt(place_map_m + reach);
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
         if (!common::occupancy::isOccupied(grid_.at({x, y}))) continue;
         const Point center = grid_.centerOf({x, y});
         const double off_m = (center - place_map_m).norm();
-        if (off_m <= surely_m || (off_m <= extent_.within_m && seenPast(center))) grid_.set({x, y}, kFree);
+        if (off_m <= surely_m || (off_m <= common::kPersonInMap_m && seenPast(center))) grid_.set({x, y}, kFree);
       }
   }
   bool seenPast(const Point& center) const {
@@ -68,28 +65,28 @@ class Cleared {
   }
 
   common::OccupancyGrid grid_;
-  PersonInMap extent_;
   bool sees_;
   SeenRanges ranges_;
 };
 
 }  // namespace
 
-ManeuverInput worldWithoutPerson(const ManeuverInput& input, const PersonWatch& person, const PersonInMap& extent) {
-  ManeuverInput without = input;
-  const Point place_map_m = person.place_map_m(input.now);
-  Cleared cleared(input, extent);
+common::OccupancyGrid mapWithout(const PersonWatch& person, common::Time now, const common::OccupancyGrid& grid,
+                                 const SeenPoints* seen) {
+  Cleared cleared(grid, seen);
   cleared.clearTrail(person.trail_map_m());
-  if (!person.hidden()) cleared.clearPerson(place_map_m);
-  without.grid = std::make_shared<const common::OccupancyGrid>(std::move(cleared).take().snapshot());
+  if (!person.hidden()) cleared.clearPerson(person.place_map_m(now));
+  return std::move(cleared).take().snapshot();
+}
 
+std::vector<common::Disc> discsWithout(const PersonWatch& person, common::Time now, std::vector<common::Disc> discs) {
   const Point from = person.trail_map_m().back();
-  const Point to = place_map_m + kPredicted_s * person.velocity_map_m_s();
-  std::erase_if(without.discs, [&](const common::Disc& disc) {
+  const Point to = person.place_map_m(now) + kPredicted_s * person.velocity_map_m_s();
+  std::erase_if(discs, [&](const common::Disc& disc) {
     const Point nearest = from + common::shareNearest(disc.center_map_m, from, to) * (to - from);
     return (disc.center_map_m - nearest).norm() < kSame_m;
   });
-  return without;
+  return discs;
 }
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

@@ -1,5 +1,5 @@
 // The path that keeps a person in sight and at a distance: in a hall, at a box, too near, and too near to a wall.
-#include "autonomy/maneuvers/pursuit_path.hpp"
+#include "planning/pursuit/pursuit_path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "tests/planning/flatland.hpp"
 #include "tests/planning/grid_builder.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::planning {
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -15,12 +15,12 @@ using Point = Eigen::Vector2d;
 /// A free hall of 10 x 10 m.
 class Pursuing : public testing::Test {
  protected:
-  Pursuing() { planning::test::fill(grid_, {{0, 0}, {199, 199}}, planning::test::kFreeCell); }
-  void wall(const common::CellRect& cells) { planning::test::fill(grid_, cells, planning::test::kWallCell); }
-  PursuitPath from(const Point& here_map_m, const std::vector<PossibleWalk>& walks,
+  Pursuing() { test::fill(grid_, {{0, 0}, {199, 199}}, test::kFreeCell); }
+  void wall(const common::CellRect& cells) { test::fill(grid_, cells, test::kWallCell); }
+  PursuitPath from(const Point& here_map_m, const std::vector<common::PossibleWalk>& walks,
                    const std::vector<Point>& walked_map_m = {}) {
-    planning::CostMap costs(planning::CostMap::Config{}, grid_.resolution_m());
-    costs.update(grid_.snapshot(), planning::Footprint{});
+    CostMap costs(CostMap::Config{}, grid_.resolution_m());
+    costs.update(grid_.snapshot(), Footprint{});
     return pursuitPath({costs, grid_, here_map_m, walks, walked_map_m, 2.0, 0.73});
   }
 
@@ -46,7 +46,7 @@ TEST_F(Pursuing, FollowsOneWhoWalksAwayAndGivesWayToOneWhoComes) {
 TEST_F(Pursuing, FliesWhereABoxWillNotHideThePerson) {
   wall({{100, 90}, {120, 140}});
   const Point here(4.5, 4.2);
-  const std::vector<PossibleWalk> walks{{{6.4, 4.2}, {0.0, 0.5}}};
+  const std::vector<common::PossibleWalk> walks{{{6.4, 4.2}, {0.0, 0.5}}};
   const PursuitPath pursuit = from(here, walks);
   ASSERT_GT(pursuit.path.points_map_m.size(), 1u);
   EXPECT_GT(pursuit.in_sight, 0.9);
@@ -55,7 +55,7 @@ TEST_F(Pursuing, FliesWhereABoxWillNotHideThePerson) {
 
 TEST_F(Pursuing, WhatTheMapShowsWhereHeWalkedHidesNothing) {
   wall({{84, 90}, {86, 110}});  // He stood there for long.
-  const std::vector<PossibleWalk> walks{{{5.0, 5.0}, {0.0, 0.0}}};
+  const std::vector<common::PossibleWalk> walks{{{5.0, 5.0}, {0.0, 0.0}}};
   EXPECT_LT(from({3.0, 5.0}, walks).in_sight + 0.0, 1.1);
   wall({{60, 0}, {62, 199}});
   const Point here(2.0, 5.0);
@@ -78,9 +78,9 @@ TEST_F(Pursuing, EscapesCellByCell) {
   wall({{50, 0}, {55, 199}});
   wall({{64, 98}, {66, 102}});
   const Point here(3.05, 5.0);
-  planning::CostMap costs(planning::CostMap::Config{}, grid_.resolution_m());
-  costs.update(grid_.snapshot(), planning::Footprint{});
-  const auto escape = planning::escapeFrom(costs, costs.cellAt(here));
+  CostMap costs(CostMap::Config{}, grid_.resolution_m());
+  costs.update(grid_.snapshot(), Footprint{});
+  const auto escape = escapeFrom(costs, costs.cellAt(here));
   ASSERT_TRUE(escape && escape->size() > 3);
   const PursuitPath pursuit = from(here, {{{6.5, 5.0}, {0.4, 0.0}}});
   ASSERT_GE(pursuit.path.points_map_m.size(), escape->size());
@@ -98,4 +98,4 @@ TEST_F(Pursuing, LeavesAPlaceTooNearToAWallFirst) {
 }
 
 }  // namespace
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::planning

@@ -1,4 +1,4 @@
-#include "autonomy/maneuvers/hidden_person.hpp"
+#include "perception/people/hidden_person.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,27 +6,51 @@
 #include <utility>
 
 #include "common/occupied_near.hpp"
-#include "perception/slam2d/particle/resampling.hpp"
+#include "common/resampling.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
 
-namespace swiftlet::autonomy {
+namespace swiftlet::perception {
 namespace {
 
-/// The longest step of the particles: at 1.1 m/s, the fastest by default, two cells of the map, so that none passes a
+/// The longest step of the particles: at 1.1 m/s, the fastest, two cells of the map, so that none passes a
 /// wall.
 constexpr double kStep_s = 0.1;
 /// The likeliest place is searched at every eighth particle, and every tenth is a walk of pursuitPath: 20 of
-/// 200 by default, which is what it has time for.
+/// 200, which is what it has time for.
 constexpr std::size_t kEveryPlace = 8, kEveryWalk = 10;
 /// Below that sum of weights by the particle the person is nowhere where the particles are.
 constexpr double kNowhere = 1e-6;
+/// Places where a hidden person may be.
+constexpr int kParticles = 200;
+/// Standard deviations, per axis, of place and velocity at the end of a track.
+constexpr double kPlaceSigma_m = 0.1, kVelocitySigma_m_s = 0.15;
+/// Roughening [Gordon 1993, section 4]: the spread of places and velocities of particles that are drawn from one.
+constexpr double kSpread_m = 0.03, kSpread_m_s = 0.05;
+/// Particles within this distance count as one place.
+constexpr double kOnePlace_m = 0.6;
+
+/// A walking person turns or stops this often without an obstacle, per second.
+constexpr double kTurns_1_s = 0.4;
+/// Share of stops among the turns and stops.
+constexpr double kStopShare = 0.3;
+/// Least and greatest speed of a person who has turned while hidden.
+constexpr double kSlow_m_s = 0.3, kFast_m_s = 1.1;
+
+/// A beam that ends this near to the middle of a person may end on that person.
+constexpr double kOutline_m = 0.35;
+/// The probability of a place falls by 1/e in this time while beams pass it, and rises as fast while they end on
+/// something new there.
+constexpr double kSeen_s = 0.4;
+/// An end point this near to something that the map showed before the person stood there is explained by it.
+constexpr double kExplainedByMap_m = 0.12;
+/// Beam ends this near to another tracked person are that person.
+constexpr double kOtherWithin_m = 0.5;
 
 }  // namespace
 
-HiddenPerson::HiddenPerson(const PersonWatchConfig& config, const Eigen::Vector2d& place_map_m,
-                           const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
-                           std::shared_ptr<const common::OccupancyGrid> before)
-    : config_(config),
-      before_(std::move(before)),
+HiddenPerson::HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s,
+                           common::Time last_seen, std::shared_ptr<const common::OccupancyGrid> before)
+    : before_(std::move(before)),
       random_(static_cast<std::uint64_t>(last_seen.nanoseconds()), "hidden person"),
       now_(last_seen),
       place_map_m_(place_map_m),
@@ -35,10 +59,10 @@ HiddenPerson::HiddenPerson(const PersonWatchConfig& config, const Eigen::Vector2
     const double x = random_.gaussian(sigma);
     return Eigen::Vector2d(mean + Eigen::Vector2d(x, random_.gaussian(sigma)));
   };
-  const bool stands = velocity_map_m_s.norm() < config.walking.stands_m_s;
-  for (int i = 0; i < config.hidden.particles; ++i) {
-    const Eigen::Vector2d place = scattered(place_map_m, config.hidden.place_sigma_m);
-    const Eigen::Vector2d velocity = scattered(velocity_map_m_s, config.hidden.velocity_sigma_m_s);
+  const bool stands = velocity_map_m_s.norm() < kStands_m_s;
+  for (int i = 0; i < kParticles; ++i) {
+    const Eigen::Vector2d place = scattered(place_map_m, kPlaceSigma_m);
+    const Eigen::Vector2d velocity = scattered(velocity_map_m_s, kVelocitySigma_m_s);
     particles_.push_back({place, stands ? Eigen::Vector2d(0.0, 0.0) : velocity});
   }
 }
@@ -62,12 +86,12 @@ void HiddenPerson::advance(const Sight& sight, common::Time now) {
 void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, double dt_s) {
   const auto turn = [&] {
     const double angle_rad = random_.uniform(-std::numbers::pi, std::numbers::pi);
-    const double speed_m_s = random_.uniform(config_.walking.slow_m_s, config_.walking.fast_m_s);
+    const double speed_m_s = random_.uniform(kSlow_m_s, kFast_m_s);
     particle.velocity_map_m_s = speed_m_s * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
   };
-  if (random_.chance(std::min(1.0, config_.walking.turns_1_s * dt_s))) {
+  if (random_.chance(std::min(1.0, kTurns_1_s * dt_s))) {
     turn();
-    if (random_.chance(config_.walking.stop_share)) particle.velocity_map_m_s.setZero();
+    if (random_.chance(kStopShare)) particle.velocity_map_m_s.setZero();
   }
   const Eigen::Vector2d step_map_m = particle.place_map_m + dt_s * particle.velocity_map_m_s;
   // An obstacle of the map at the particle's own place may be the person, who may walk out of it.
@@ -83,19 +107,18 @@ void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, d
 /// came, and that is no other person, is the person. One who stands for long is mapped, and after that person sets
 /// off again the track begins some steps later.
 void HiddenPerson::lookFor(Particle& particle, const Sight& sight, double dt_s) const {
-  const HiddenPersonConfig& hidden = config_.hidden;
   const Eigen::Vector2d offset_m = particle.place_map_m - view_.from_map_m();
   const double distance_m = offset_m.norm(), range_m = view_.range_m(offset_m);
   particle.shown = false;
-  if (distance_m > config_.tracked_m || range_m < distance_m - hidden.outline_m) return;  // Out of sight.
+  if (distance_m > DynamicObstacles::kMaxRange_m || range_m < distance_m - kOutline_m) return;  // Out of sight.
   const Eigen::Vector2d end_map_m = view_.from_map_m() + range_m / std::max(1e-3, distance_m) * offset_m;
-  const int reach = static_cast<int>(std::lround(hidden.explained_within_m / before_->resolution_m()));
-  const bool passed = range_m > distance_m + hidden.outline_m;
+  const int reach = static_cast<int>(std::lround(kExplainedByMap_m / before_->resolution_m()));
+  const bool passed = range_m > distance_m + kOutline_m;
   const bool somebody_else = std::any_of(sight.others_map_m.begin(), sight.others_map_m.end(), [&](const auto& other) {
-    return (other - particle.place_map_m).norm() < hidden.other_within_m;
+    return (other - particle.place_map_m).norm() < kOtherWithin_m;
   });
   particle.shown = !passed && !somebody_else && !common::occupiedNear(*before_, before_->cellAt(end_map_m), reach);
-  particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / hidden.seen_s);
+  particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / kSeen_s);
 }
 
 /// Systematic resampling, once half of the particles carry the weight.
@@ -110,17 +133,15 @@ void HiddenPerson::resample() {
   std::vector<double> weights;
   weights.reserve(particles_.size());
   for (const Particle& particle : particles_) weights.push_back(particle.weight / sum);
-  if (perception::effectiveSampleSize(weights) > 0.5 * count) return;
+  if (common::effectiveSampleSize(weights) > 0.5 * count) return;
   std::vector<Particle> drawn;
   drawn.reserve(particles_.size());
-  for (const std::size_t chosen : perception::resampled(weights, random_)) {
+  for (const std::size_t chosen : common::resampled(weights, random_)) {
     drawn.push_back(particles_[chosen]);
     drawn.back().weight = 1.0;
-    // Roughening [Gordon 1993, section 4].
-    const HiddenPersonConfig& hidden = config_.hidden;
-    const double x_m = random_.gaussian(hidden.spread_m), x_m_s = random_.gaussian(hidden.spread_m_s);
-    drawn.back().place_map_m += Eigen::Vector2d(x_m, random_.gaussian(hidden.spread_m));
-    drawn.back().velocity_map_m_s += Eigen::Vector2d(x_m_s, random_.gaussian(hidden.spread_m_s));
+    const double x_m = random_.gaussian(kSpread_m), x_m_s = random_.gaussian(kSpread_m_s);
+    drawn.back().place_map_m += Eigen::Vector2d(x_m, random_.gaussian(kSpread_m));
+    drawn.back().velocity_map_m_s += Eigen::Vector2d(x_m_s, random_.gaussian(kSpread_m_s));
   }
   particles_ = std::move(drawn);
 }
@@ -132,7 +153,7 @@ void HiddenPerson::findLikeliest() {
     double weight = 0.0, shown = 0.0;
     Eigen::Vector2d place = Eigen::Vector2d::Zero(), velocity = Eigen::Vector2d::Zero();
     for (const Particle& other : particles_) {
-      if ((other.place_map_m - particles_[i].place_map_m).norm() > config_.hidden.one_place_m) continue;
+      if ((other.place_map_m - particles_[i].place_map_m).norm() > kOnePlace_m) continue;
       weight += other.weight;
       if (other.shown) shown += other.weight;
       place += other.weight * other.place_map_m;
@@ -146,8 +167,8 @@ void HiddenPerson::findLikeliest() {
   }
 }
 
-std::vector<PossibleWalk> HiddenPerson::walks() const {
-  std::vector<PossibleWalk> walks;
+std::vector<common::PossibleWalk> HiddenPerson::walks() const {
+  std::vector<common::PossibleWalk> walks;
   for (std::size_t i = 0; i < particles_.size(); i += kEveryWalk) {
     const Particle& one = particles_[i];
     walks.push_back({one.place_map_m, one.velocity_map_m_s, std::max(1e-3, one.weight)});
@@ -164,4 +185,4 @@ double HiddenPerson::share(const Eigen::Vector2d& place_map_m, double reach_m) c
   return all > 0.0 ? near / all : 0.0;
 }
 
-}  // namespace swiftlet::autonomy
+}  // namespace swiftlet::perception

@@ -1,0 +1,70 @@
+// What is asked of the planning job, with the world in which it plans.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "common/disc.hpp"
+#include "common/geometry.hpp"
+#include "common/intent.hpp"
+#include "common/level_map.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/place_names.hpp"
+#include "common/polygon.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration.hpp"
+
+namespace swiftlet::autonomy {
+
+/// The heights at the time of a path request.
+struct FlightHeights {
+  double cruise_m = 1.0;            ///< The height of flight, over the take-off floor.
+  double reference_m = 1.0;         ///< Reference height of the controller.
+  std::optional<double> lowered_m;  ///< The lower height of the plan that is flown; nullopt without such a plan.
+
+  /// The vehicle is nearer to the lower height.
+  bool isLower() const { return lowered_m && reference_m < 0.5 * (cruise_m + *lowered_m); }
+};
+
+struct GoalRequest {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+  double tolerance_m = 0.0;  ///< If the goal is not free, a free place within 0.8 of it may replace the goal.
+  /// If the goal is not free, a free place this near may replace it, even beyond the tolerance.
+  double shift_m = 0.0;
+  FlightHeights height = {};
+};
+struct ExploreRequest {
+  std::optional<planning::Viewpoint> current;
+  std::vector<planning::ExplorationAttempt> attempts;
+  std::optional<common::MapBounds> bounds;
+  std::vector<Eigen::Vector2d> lost_map_m = {};
+  bool leave_building = false;
+};
+/// Asks for a place to fly to while there is no path to a goal. If a person blocks the path, it is a wide place far
+/// away over free space, so that the person can pass. Otherwise it is the last free place before the blockage, to see
+/// whether the mapped obstacle is still there; if that is too near, it is a wide place, too.
+struct DetourRequest {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+};
+
+/// std::monostate requests only an update of the cost map.
+using PlanningQuestion = std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest>;
+
+struct PlanningRequest {
+  std::uint64_t intent_id = 0;
+  std::shared_ptr<const common::OccupancyGrid> grid;
+  std::shared_ptr<const common::LevelMap> levels;
+  std::vector<common::Disc> discs;
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null without zones.
+  planning::Footprint footprint;
+  std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without one: paths then keep their height.
+  common::PlaceNames names;                         ///< For the texts of the answer.
+  common::Pose2 T_map_body;
+  PlanningQuestion question;
+};
+
+}  // namespace swiftlet::autonomy
