@@ -21,6 +21,8 @@ using common::kRadPerDeg;
 using common::Pose2;
 
 constexpr float kPi = std::numbers::pi_v<float>;
+/// Least number of particles, however narrow the belief is; at most max_particles.
+constexpr int kMinParticles = 500;
 
 /// Approximately standard normal, always within 3.5: the sum of four uniform numbers. Probabilistic Robotics, Table
 /// 5.4, sums twelve.
@@ -45,7 +47,7 @@ void ParticleFilterConfig::describe(common::config::Fields& fields) {
 }
 
 std::vector<std::string> ParticleFilterConfig::validate() const {
-  return common::Validation().atMost("min_particles", min_particles, "max_particles", max_particles).problems();
+  return common::Validation().atMost("min_particles", kMinParticles, "max_particles", max_particles).problems();
 }
 
 void cosinesAndSines(std::span<const float> angles_rad, std::span<float> cosines, std::span<float> sines) {
@@ -137,31 +139,29 @@ void ParticleFilter::move(const Pose2& step, const Eigen::Matrix3d& covariance) 
 
 void ParticleFilter::weigh(std::span<const Eigen::Vector2f> points_body_m) {
   if (points_body_m.empty() || size() == 0) return;
+  constexpr std::size_t kMostBeams = 60;  // Beams of a scan, evenly spread, that weigh the particles.
   const FieldView field = map_->view();
   const auto scale = static_cast<float>(1.0 / field.resolution_m);
-  const std::size_t beams = std::min(points_body_m.size(), static_cast<std::size_t>(config_.beams));
-  beams_x_.resize(beams);
-  beams_y_.resize(beams);
-  for (std::size_t k = 0; k < beams; ++k) {
-    const Eigen::Vector2f& point = points_body_m[evenlySpread(k, beams, points_body_m.size())];
-    beams_x_[k] = point.x() * scale;
-    beams_y_[k] = point.y() * scale;
+  std::vector<float> beams_x(std::min(points_body_m.size(), kMostBeams)), beams_y(beams_x.size());
+  for (std::size_t k = 0; k < beams_x.size(); ++k) {
+    const Eigen::Vector2f& point = points_body_m[evenlySpread(k, beams_x.size(), points_body_m.size())];
+    beams_x[k] = point.x() * scale;
+    beams_y[k] = point.y() * scale;
   }
-  cells_x_.resize(size());
-  cells_y_.resize(size());
-  sums_.resize(size());
+  std::vector<float> cells_x(size()), cells_y(size());
+  std::vector<std::int32_t> sums(size());
   const auto origin_x = static_cast<float>(field.origin_m.x()), origin_y = static_cast<float>(field.origin_m.y());
   for (std::size_t i = 0; i < size(); ++i) {
-    cells_x_[i] = (x_m_[i] - origin_x) * scale;
-    cells_y_[i] = (y_m_[i] - origin_y) * scale;
+    cells_x[i] = (x_m_[i] - origin_x) * scale;
+    cells_y[i] = (y_m_[i] - origin_y) * scale;
   }
-  sumBeams(instructions_, field, {cells_x_, cells_y_, cosine_, sine_}, {beams_x_, beams_y_}, sums_);
+  sumBeams(instructions_, field, {cells_x, cells_y, cosine_, sine_}, {beams_x, beams_y}, sums);
 
-  const std::int32_t best = *std::max_element(sums_.begin(), sums_.end());
+  const std::int32_t best = *std::max_element(sums.begin(), sums.end());
   const auto nats = static_cast<float>(config_.beam_weight * map_->topNats() / 255.0);
   double all = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
-    weights_[i] *= std::exp(nats * static_cast<float>(sums_[i] - best));
+    weights_[i] *= std::exp(nats * static_cast<float>(sums[i] - best));
     all += static_cast<double>(weights_[i]);
   }
   // If every likely particle already had zero weight, nothing is known: all weights become equal.
@@ -179,45 +179,50 @@ void ParticleFilter::resample() {
 void ParticleFilter::resampleAll(common::RandomStream& random) {
   const auto count = static_cast<std::size_t>(config_.max_particles);
   const double all = std::accumulate(weights_.begin(), weights_.end(), 0.0);
-  common::drawSystematically(weights_, all, count, random.uniform(), chosen_);
-  keep(chosen_);
+  std::vector<std::uint32_t> chosen;
+  common::drawSystematically(weights_, all, count, random.uniform(), chosen);
+  keep(chosen);
 }
 
 /// Draws one by one until there are enough. The draws follow a golden-ratio sequence, so that any number of them is
 /// spread as evenly over the weights as with the low-variance sampler.
 void ParticleFilter::resampleAdaptively(common::RandomStream& random) {
-  cumulated_.resize(size());
+  // Greatest distance between the belief and its samples, kept with a probability of 99 % (Fox 2003, section 4).
+  constexpr double kError = 0.05, kQuantile = 2.33;
+  // Width of the bins in which belief and samples are compared.
+  constexpr double kBin_m = 0.25, kBin_deg = 10.0;
+  std::vector<double> cumulated(size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < size(); ++i) cumulated_[i] = sum += static_cast<double>(weights_[i]);
-  PoseBins bins(config_.kld_bin_m, config_.kld_bin_deg * kRadPerDeg);
+  for (std::size_t i = 0; i < size(); ++i) cumulated[i] = sum += static_cast<double>(weights_[i]);
+  PoseBins bins(kBin_m, kBin_deg * kRadPerDeg);
   const auto most = static_cast<std::size_t>(config_.max_particles);
-  double at = random.uniform(), enough = config_.min_particles;
+  double at = random.uniform(), enough = kMinParticles;
   std::size_t occupied = 0;
-  chosen_.clear();
-  while (chosen_.size() < most && static_cast<double>(chosen_.size()) < enough) {
-    const auto found = std::upper_bound(cumulated_.begin(), cumulated_.end(), at * sum);
-    const auto i = static_cast<std::size_t>(std::min(found, cumulated_.end() - 1) - cumulated_.begin());
-    chosen_.push_back(static_cast<std::uint32_t>(i));
+  std::vector<std::uint32_t> chosen;
+  while (chosen.size() < most && static_cast<double>(chosen.size()) < enough) {
+    const auto found = std::upper_bound(cumulated.begin(), cumulated.end(), at * sum);
+    const auto i = static_cast<std::size_t>(std::min(found, cumulated.end() - 1) - cumulated.begin());
+    chosen.push_back(static_cast<std::uint32_t>(i));
     at += std::numbers::phi - 1.0;
     if (at >= 1.0) at -= 1.0;
     bins.add(x_m_[i], y_m_[i], yaw_rad_[i]);
     if (bins.occupied() == occupied) continue;
     occupied = bins.occupied();
-    enough = std::max<double>(config_.min_particles, kldSampleSize(occupied, config_.kld_error, config_.kld_quantile));
+    enough = std::max<double>(kMinParticles, kldSampleSize(occupied, kError, kQuantile));
   }
-  keep(chosen_);
+  keep(chosen);
 }
 
 void ParticleFilter::keep(std::span<const std::uint32_t> chosen) {
+  std::vector<float> kept(chosen.size());
   for (std::vector<float>* values : {&x_m_, &y_m_, &yaw_rad_, &cosine_, &sine_}) {
-    other_.resize(chosen.size());
-    for (std::size_t i = 0; i < chosen.size(); ++i) other_[i] = (*values)[chosen[i]];
-    std::swap(*values, other_);
+    for (std::size_t i = 0; i < chosen.size(); ++i) kept[i] = (*values)[chosen[i]];
+    values->assign(kept.begin(), kept.end());
   }
   weights_.assign(chosen.size(), 1.0F / static_cast<float>(chosen.size()));
 }
 
-ParticleFilter::Estimate ParticleFilter::estimate() const {
+PoseHypothesis ParticleFilter::estimate() const {
   double all = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
     const auto weight = static_cast<double>(weights_[i]);
@@ -227,7 +232,7 @@ ParticleFilter::Estimate ParticleFilter::estimate() const {
     cosine += weight * static_cast<double>(cosine_[i]);
     sine += weight * static_cast<double>(sine_[i]);
   }
-  Estimate estimate;
+  PoseHypothesis estimate;
   if (!(all > 0.0)) return estimate;
   estimate.T_grid_body = {x / all, y / all, std::atan2(sine, cosine)};
   for (std::size_t i = 0; i < size(); ++i) {

@@ -23,18 +23,8 @@ namespace swiftlet::perception {
 
 struct ParticleFilterConfig {
   int max_particles = 5000;
-  static constexpr int min_particles =
-      500;               ///< Least number of particles, however narrow the belief is; at most max_particles.
-  bool adaptive = true;  ///< Whether there are as many particles as the belief needs (KLD sampling); otherwise always
-                         ///< max_particles.
-  static constexpr double kld_error =
-      0.05;  ///< Greatest distance between the belief and its samples (Fox 2003, section 4).
-  static constexpr double kld_quantile =
-      2.33;  ///< Standard normal quantile of the probability that kld_error is kept; 2.33 for 99 %.
-  static constexpr double kld_bin_m = 0.25;  ///< Width of the bins in which belief and samples are compared.
-  static constexpr double kld_bin_deg =
-      10.0;                         ///< Width in the heading of the bins in which belief and samples are compared.
-  static constexpr int beams = 60;  ///< Beams of a scan, evenly spread, that weigh the particles.
+  bool adaptive = true;      ///< Whether there are as many particles as the belief needs (KLD sampling); otherwise
+                             ///< always max_particles.
   double beam_weight = 0.2;  ///< Weight of one beam in the likelihood; 1 if all were independent, but neighbours are
                              ///< wrong about the map together.
 
@@ -69,12 +59,8 @@ class ParticleFilter {
   /// Resamples in proportion to the weights, with low variance; all weights are equal afterwards.
   void resample();
 
-  struct Estimate {
-    common::Pose2 T_grid_body;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  };
   /// The weighted mean and covariance of the particles.
-  Estimate estimate() const;
+  PoseHypothesis estimate() const;
 
   std::size_t size() const { return x_m_.size(); }
   common::Pose2 particle(std::size_t i) const { return {x_m_[i], y_m_[i], yaw_rad_[i]}; }
@@ -93,11 +79,6 @@ class ParticleFilter {
   std::uint64_t draws_ = 0;  ///< Index of the random stream for the next draw.
 
   std::vector<float> x_m_, y_m_, yaw_rad_, cosine_, sine_, weights_;
-  // Buffers, kept between calls.
-  std::vector<float> cells_x_, cells_y_, beams_x_, beams_y_, other_;
-  std::vector<std::int32_t> sums_;
-  std::vector<std::uint32_t> chosen_;
-  std::vector<double> cumulated_;
 };
 
 /// Cosine and sine of angles in [-2 pi, 2 pi], accurate to 1e-6 and the same on every machine.

@@ -81,7 +81,7 @@ void PoseTracker::generate(const ProjectedScan& scan) {
   filter_.move(between(T_odom_generation_, T_odom_body_), step_covariance_ + Eigen::Matrix3d(least.asDiagonal()));
   filter_.weigh(scan.points_level_m);
   filter_.resample();
-  const ParticleFilter::Estimate estimate = filter_.estimate();
+  const PoseHypothesis estimate = filter_.estimate();
   placeAt(estimate.T_grid_body * T_odom_body_.inverse(), estimate.covariance);
   countGenerationsFromHere();
   only_given_ = false;

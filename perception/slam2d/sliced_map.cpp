@@ -114,16 +114,12 @@ void SlicedMap::draw(const DrawnScan& scan, const common::Pose2& T_map_body) {
   ++drawn_;
   split(scan, T_map_body);
   for (const auto& [slice, rays] : rays_)
-    if (!rays.empty()) drawSlice(slice, rays);
+    if (!rays.empty()) drawSlice(slice, rays, scan.stamp);
 }
 
 /// Slices are centred on multiples of their height, because missions usually fly at such heights.
 int SlicedMap::sliceAt(double height_m) const {
   return static_cast<int>(std::floor(height_m / config_.slice_height_m + 0.5));
-}
-
-common::OccupancyGrid& SlicedMap::sliceGrid(int slice) {
-  return slices_.try_emplace(slice, common::makeOccupancyGrid(config_.resolution_m)).first->second;
 }
 
 bool SlicedMap::setFlightHeight(double height_m) {
@@ -145,7 +141,6 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
   const Eigen::Vector2d body = body_ = T_map_body.position_m() / config_.resolution_m;
   const double laser_m = scan.body_height_m + static_cast<double>(scan.laser_height_m);
-  stamp_ = scan.stamp;
   laser_slice_ = sliceAt(laser_m);
   const auto inCells = [&](const Eigen::Vector3f& end) {
     return Eigen::Vector2d((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
@@ -189,16 +184,23 @@ bool SlicedMap::isWall(CellIndex cell) const {
   return occupancy::isOccupied(combined_.at(cell)) || std::binary_search(ended_.begin(), ended_.end(), cell, rowByRow);
 }
 
-void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
+/// A cell in which some beams of a scan end and others cross gains confidence if at least as many end there, so that
+/// noise in range does not thicken walls. If any beam ends there, the cell does not lose confidence, so that a wall
+/// seen at a grazing angle gets no holes.
+void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays, common::Time stamp) {
   const CellIndex first = cellOf(rays.front().from);
-  rect_ = {first, {first.x + 1, first.y + 1}};
+  common::CellRect rect{first, {first.x + 1, first.y + 1}};
   for (const Ray& ray : rays) {
     for (const CellIndex& c : {cellOf(ray.from), cellOf(ray.to)}) {
-      rect_.begin = {std::min(rect_.begin.x, c.x), std::min(rect_.begin.y, c.y)};
-      rect_.end = {std::max(rect_.end.x, c.x + 1), std::max(rect_.end.y, c.y + 1)};
+      rect.begin = {std::min(rect.begin.x, c.x), std::min(rect.begin.y, c.y)};
+      rect.end = {std::max(rect.end.x, c.x + 1), std::max(rect.end.y, c.y + 1)};
     }
   }
-  marks_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), 0);
+  marks_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), 0);
+  const auto markAt = [&](CellIndex c) -> std::uint32_t& {
+    return marks_[static_cast<std::size_t>(c.y - rect.begin.y) * static_cast<std::size_t>(rect.width()) +
+                  static_cast<std::size_t>(c.x - rect.begin.x)];
+  };
   for (const Ray& ray : rays) {
     visitCrossed(ray.from, ray.to, [&](const CellIndex& cell, double, double) {
       markAt(cell) += kCrossed;
@@ -207,35 +209,30 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
     markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
     if (ray.ended) glass_.hit(cellOf(ray.to), ray.to - body_, ray.incidence);
   }
-  apply(slice);
-}
-
-/// A cell in which some beams of a scan end and others cross gains confidence if at least as many end there, so that
-/// noise in range does not thicken walls. If any beam ends there, the cell does not lose confidence, so that a wall
-/// seen at a grazing angle gets no holes.
-void SlicedMap::apply(int slice) {
-  common::OccupancyGrid& grid = sliceGrid(slice);
+  slices_.try_emplace(slice, common::makeOccupancyGrid(config_.resolution_m));
   const std::uint32_t* mark = marks_.data();
-  for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
-    for (int x = rect_.begin.x; x < rect_.end.x; ++x, ++mark) {
-      if (*mark == 0) continue;
+  for (int y = rect.begin.y; y < rect.end.y; ++y) {
+    for (int x = rect.begin.x; x < rect.end.x; ++x, ++mark) {
       const std::uint32_t ended = *mark >> 16, crossed = *mark & 0xFFFF;
-      if (ended > 0 && ended < crossed) continue;
-      const CellIndex cell{x, y};
-      if (ended == 0 && isGlass(cell)) continue;
-      const Cell old = grid.at(cell);
-      const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
-      const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
-      const bool low_changed = ended == 0 ? low_.passed(cell, slice, stamp_) : meetLow(slice, cell);
-      if (ended == 0) fadeAround(slice, cell);
-      // An unchanged cell is not written, so that its tile stays shared with the snapshots.
-      if (value != old) grid.set(cell, value);
-      if (low_changed)
-        combine(cell);
-      else if (value != old && isCombined(slice))
-        combine(cell, old, value);
+      if (*mark != 0 && (ended == 0 || ended >= crossed)) apply(slice, {x, y}, ended > 0, stamp);
     }
   }
+}
+
+void SlicedMap::apply(int slice, CellIndex cell, bool ended, common::Time stamp) {
+  if (!ended && isGlass(cell)) return;
+  common::OccupancyGrid& grid = slices_.at(slice);
+  const Cell old = grid.at(cell);
+  const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended ? config_.hit_steps : -config_.free_steps);
+  const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
+  const bool low_changed = ended ? meetLow(slice, cell, stamp) : low_.passed(cell, slice, stamp);
+  if (!ended) fadeAround(slice, cell);
+  // An unchanged cell is not written, so that its tile stays shared with the snapshots.
+  if (value != old) grid.set(cell, value);
+  if (low_changed)
+    combine(cell);
+  else if (value != old && isCombined(slice))
+    combine(cell, old, value);
 }
 
 /// Whether the beams of this scan that cross the cell do not clear it. What is no glass, such as a person
@@ -247,7 +244,7 @@ bool SlicedMap::isGlass(CellIndex cell) const {
 
 /// Beams ended in the cell in that slice. Returns true if what is known of low obstacles there has changed. The outline
 /// of what reaches up, a wall or a person, is met in the cells beside, too.
-bool SlicedMap::meetLow(int slice, CellIndex cell) {
+bool SlicedMap::meetLow(int slice, CellIndex cell, common::Time stamp) {
   if (slice >= laser_slice_) {
     low_.reachesUp(cell);
     return false;
@@ -256,7 +253,7 @@ bool SlicedMap::meetLow(int slice, CellIndex cell) {
   for (int dy = -1; level != slices_.end() && dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
       if (occupancy::isOccupied(level->second.at({cell.x + dx, cell.y + dy}))) return false;
-  return low_.hit(cell, slice, stamp_);
+  return low_.hit(cell, slice, stamp);
 }
 
 /// Most things are upright: a free cell is weak evidence that the cells above and below it are free. This removes the

@@ -68,19 +68,14 @@ class SlicedMap {
   bool isCombined(int slice) const { return slice >= lowest_ && slice <= highest_; }
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
   bool isWall(common::CellIndex cell) const;
-  void drawSlice(int slice, const std::vector<Ray>& rays);
-  void apply(int slice);
+  void drawSlice(int slice, const std::vector<Ray>& rays, common::Time stamp);
+  void apply(int slice, common::CellIndex cell, bool ended, common::Time stamp);
   bool isGlass(common::CellIndex cell) const;
-  bool meetLow(int slice, common::CellIndex cell);
+  bool meetLow(int slice, common::CellIndex cell, common::Time stamp);
   void fadeAround(int slice, common::CellIndex cell);
   void combine(common::CellIndex cell);
   void combineAll();
   void combine(common::CellIndex cell, common::occupancy::Cell before, common::occupancy::Cell now);
-  common::OccupancyGrid& sliceGrid(int slice);
-  std::uint32_t& markAt(common::CellIndex c) {
-    return marks_[static_cast<std::size_t>(c.y - rect_.begin.y) * static_cast<std::size_t>(rect_.width()) +
-                  static_cast<std::size_t>(c.x - rect_.begin.x)];
-  }
 
   GridDrawingConfig config_;
   std::map<int, common::OccupancyGrid> slices_;
@@ -92,12 +87,10 @@ class SlicedMap {
   int highest_ = -1;
   int drawn_ = 0;  ///< Number of drawn scans.
   // Working memory for the scan being drawn.
-  common::Time stamp_;
   int laser_slice_ = 0;  ///< The slice of the laser.
   std::map<int, std::vector<Ray>> rays_;
   std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
   Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
-  common::CellRect rect_;
   std::vector<std::uint32_t> marks_;
 };
 
