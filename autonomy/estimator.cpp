@@ -158,7 +158,8 @@ common::VehicleState Estimator::state() const {
 }
 
 BodyMotion Estimator::motion() const {
-  return {filter_->initialized() ? std::optional<Eigen::Vector3d>(filter_->accelerationOdom_m_s2()) : std::nullopt,
+  return {filter_->initialized() ? std::optional<Eigen::Vector3d>(filter_->estimate().acceleration_odom_m_s2)
+                                 : std::nullopt,
           horizon_.offset_rad()};
 }
 
@@ -205,13 +206,13 @@ OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
 
 /// True when the step matched and the filter accepts it.
 bool Estimator::fuse(const OdometryStep& step) {
-  if (step.clone_before) filter_.tell(perception::TapedClone{*step.clone_before});
+  if (step.clone_before) filter_.tell(perception::poseClone(*step.clone_before));
   bool taken = step.matched;
   if (step.measurement) {
     taken = filter_.tell(*step.measurement) == perception::Insertion::kTaken;
     laser_.refused(filter_->refusesRelativePoses());
   }
-  if (step.clone_after) filter_.tell(perception::TapedClone{*step.clone_after});
+  if (step.clone_after) filter_.tell(perception::poseClone(*step.clone_after));
   return taken;
 }
 
@@ -244,8 +245,8 @@ void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Ti
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   if (step.drift) correctClimb(*step.drift, stamp);
   if (const auto& m = step.measurement) {
-    filter_.tell(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
-    if (m->speed) filter_.tell(perception::TapedClimb{m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2});
+    filter_.tell(perception::measuredHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2));
+    if (m->speed) filter_.tell(perception::measuredVerticalSpeed(m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2));
   }
   if (step.doubt_m_s)
     log_.warn(stamp, "altitude", "height doubtful: the ground may slope",
@@ -280,7 +281,8 @@ void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stam
                     "used for {:.0f} s",
                     drift.speed_m_s, SpaceSensors::kCameraDoubted_s));
   space_.doubtCamera(stamp);
-  filter_.tell(perception::TapedClimb{stamp, vertical->velocity_m_s + drift.speed_m_s, drift.variance_m2_s2});
+  filter_.tell(
+      perception::measuredVerticalSpeed(stamp, vertical->velocity_m_s + drift.speed_m_s, drift.variance_m2_s2));
 }
 
 void Estimator::fuse(const CameraStep& step, Time now) {
@@ -296,7 +298,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     }
     if (taken == Insertion::kUnknownReference) return space_.forgetClone();
   }
-  if (step.clone_after) filter_.tell(perception::TapedClone{*step.clone_after});
+  if (step.clone_after) filter_.tell(perception::poseClone(*step.clone_after));
 }
 
 /// The poses at the time of the frame are known when it arrives.

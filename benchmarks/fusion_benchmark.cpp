@@ -25,7 +25,7 @@ struct Hover {
     if (!filter.initialize(0.15)) std::abort();
     for (int i = 0; i < 300; ++i) step();
     reference = filter.newest();
-    (void)filter.addClone(reference);
+    (void)filter.add(perception::poseClone(reference));
     for (int i = 0; i < 10; ++i) step();
   }
   void step() {
@@ -35,9 +35,9 @@ struct Hover {
   }
   void scan(Duration late) {
     const Time at = filter.newest() - late;
-    (void)filter.addHeight(at, 0.15 + random.gaussian(0.01), 1e-4);
-    (void)filter.addRelativePose(reference, at, {random.gaussian(0.01), random.gaussian(0.01), 0.0},
-                                 1e-4 * Eigen::Matrix3d::Identity());
+    (void)filter.add(perception::measuredHeight(at, 0.15 + random.gaussian(0.01), 1e-4));
+    (void)filter.add(perception::measuredRelativePose(
+        reference, at, {random.gaussian(0.01), random.gaussian(0.01), 0.0}, 1e-4 * Eigen::Matrix3d::Identity()));
   }
 };
 

@@ -14,7 +14,8 @@ void CameraSteps::add(common::Time time, const mapping3d::MovingBody& body, cons
     motion.T_from_to_body = calibration.bodyMotion(motion.T_from_to_camera);
     motion.from = reference_->motion;
     motion.to = body;
-    step.measurement = {reference_->time, time, motion.T_from_to_body, calibration.bodyCovariance(motion)};
+    step.measurement = perception::measuredRelativePose3(reference_->time, time, motion.T_from_to_body,
+                                                         calibration.bodyCovariance(motion));
   }
   if (pose.became_key_frame || !reference_) {
     step.clone_after = time;

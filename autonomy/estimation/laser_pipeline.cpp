@@ -59,8 +59,8 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   }
   const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
   const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan, kMatchFloor_m, kMatchFloor_deg);
-  step.measurement = {track_.clone, relative->to, T_clone_body,
-                      common::turned(covariance, track_.T_clone_reference.yaw_rad), std::nullopt};
+  step.measurement = perception::measuredRelativePose(track_.clone, relative->to, T_clone_body,
+                                                      common::turned(covariance, track_.T_clone_reference.yaw_rad));
   if (relative->unobservable_direction)
     step.measurement->unobservable_direction =
         unobservableDirection(Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unobservable_direction);

@@ -6,13 +6,13 @@
 #include <Eigen/Core>
 
 #include "common/time.hpp"
-#include "perception/fusion/filter_tape.hpp"
+#include "perception/fusion/measurement.hpp"
 
 namespace swiftlet::autonomy {
 
 /// What a camera tells the filter with one frame: a measurement, then the clone from which the next ones start.
 struct CameraStep {
-  std::optional<perception::TapedRelativePose3> measurement;
+  std::optional<perception::Measurement> measurement;
   std::optional<common::Time> clone_after;
 };
 
@@ -26,7 +26,7 @@ struct OdometryStep {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   std::optional<common::Time> clone_before;  ///< Time of the pose that the measurement starts from.
-  std::optional<perception::TapedRelativePose> measurement;
+  std::optional<perception::Measurement> measurement;
   std::optional<common::Time> clone_after;  ///< Time of the pose that the next measurements start from.
 };
 

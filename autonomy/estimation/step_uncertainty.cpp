@@ -8,7 +8,7 @@ namespace swiftlet::autonomy {
 
 std::optional<Eigen::Vector2d> unobservableDirection(const OdometryStep& step, const common::Pose2& T_odom_body) {
   if (!step.measurement || !step.measurement->unobservable_direction) return std::nullopt;
-  const double yaw_rad = T_odom_body.yaw_rad - step.measurement->T_from_to.yaw_rad;
+  const double yaw_rad = T_odom_body.yaw_rad - step.measurement->pose.yaw_rad;
   return Eigen::Rotation2Dd(yaw_rad) * *step.measurement->unobservable_direction;
 }
 

@@ -59,7 +59,7 @@ std::array<Error, kFigures> errorsOf(const ErrorStateFilter& filter, const TrueM
       error1(state.velocity_odom_m_s.z() - truth.velocity_map_m_s.z(), state.velocity_covariance_m2_s2(2, 2));
   errors[kOfPlace] = {off_m.head<2>(), state.position_covariance_m2.topLeftCorner<2, 2>()};
   // The error of the heading is that of the attitude about z, up to the tilt.
-  errors[kOfHeading] = error1(common::wrapAngle(yaw_rad - truth.yaw_map_rad), filter.covariance()(8, 8));
+  errors[kOfHeading] = error1(common::wrapAngle(yaw_rad - truth.yaw_map_rad), filter.estimate().covariance(8, 8));
   errors[kOfHeight] = error1(off_m.z(), state.position_covariance_m2(2, 2));
   return errors;
 }

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include <fmt/core.h>
-#include <Eigen/Cholesky>
 
-#include "common/small_matrices.hpp"
 #include "common/square.hpp"
 #include "perception/fusion/rest_estimator.hpp"
 #include "perception/fusion/state_history.hpp"
@@ -20,16 +18,6 @@ using common::square;
 using common::Time;
 
 namespace {
-
-constexpr double kUnitTolerance = 1e-3;  // NaN fails the comparison.
-
-bool isCovariance(const Eigen::Matrix3d& m) {
-  if (!m.allFinite() || !m.isApprox(m.transpose(), 1e-6)) return false;
-  return common::symmetricEigenvalues(m).minCoeff() > 0.0;
-}
-bool isCovariance(const Eigen::Matrix<double, 6, 6>& m) {
-  return m.allFinite() && m.isApprox(m.transpose(), 1e-6) && m.llt().info() == Eigen::Success;
-}
 
 /// Position and yaw are zero by definition. Gravity shows only the sum of tilt and accelerometer bias: both start with
 /// a wide covariance, and one gravity measurement correlates them.
@@ -73,9 +61,6 @@ struct ErrorStateFilter::Impl {
         history(c),
         rest({c.rest_s, c.rest_gyroscope_sigma_rad_s, c.rest_accelerometer_sigma_m_s2, c.gravity_m_s2}) {}
 
-  Insertion counted(Insertion outcome);
-  Insertion insert(const Measurement& measurement) { return counted(history.insert(measurement)); }
-  Insertion insertVertical(MeasurementKind kind, Time time, double value, double variance, double common_variance_m2);
   /// Covariance of `Rows` errors from the `first` on, by what is not known of the laser.
   template <int Rows>
   Eigen::Matrix<double, Rows, Rows> byLaser(const FilterState& state, int first) const;
@@ -91,25 +76,6 @@ struct ErrorStateFilter::Impl {
   bool any_seen = false;
   FusionCounts counters;
 };
-
-Insertion ErrorStateFilter::Impl::counted(Insertion outcome) {
-  ++(outcome == Insertion::kTaken ? counters.measurements : counters.refused);
-  return outcome;
-}
-
-Insertion ErrorStateFilter::Impl::insertVertical(MeasurementKind kind, Time time, double value, double variance,
-                                                 double common_variance_m2) {
-  const bool valid = std::isfinite(value) && std::isfinite(variance) && variance > 0.0 &&
-                     std::isfinite(common_variance_m2) && common_variance_m2 >= 0.0;
-  if (!valid) return counted(Insertion::kInvalid);
-  Measurement m;
-  m.stamp = time;
-  m.kind = kind;
-  m.value = value;
-  m.covariance(0, 0) = variance;
-  m.common_variance_m2 = common_variance_m2;
-  return insert(m);
-}
 
 template <int Rows>
 Eigen::Matrix<double, Rows, Rows> ErrorStateFilter::Impl::byLaser(const FilterState& state, int first) const {
@@ -177,61 +143,14 @@ void ErrorStateFilter::setPredicted(bool predicted) { impl_->predicted = predict
 
 bool ErrorStateFilter::predicted() const { return impl_->predicted; }
 
-Insertion ErrorStateFilter::addClone(Time time) {
-  Measurement m;
-  m.stamp = time;
-  m.kind = MeasurementKind::kClone;
-  return impl_->insert(m);
-}
-
-Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Pose2& T_from_to,
-                                            const Eigen::Matrix3d& covariance,
-                                            const std::optional<Eigen::Vector2d>& unobservable_direction) {
-  const bool direction_valid =
-      !unobservable_direction || std::abs(unobservable_direction->norm() - 1.0) < kUnitTolerance;
-  if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance) || !direction_valid)
-    return impl_->counted(Insertion::kInvalid);
-  if (!hasClone(from)) return impl_->counted(Insertion::kUnknownReference);
-  Measurement m;
-  m.stamp = to;
-  m.kind = MeasurementKind::kRelativePose;
-  m.from = from;
-  m.pose = T_from_to;
-  m.covariance = covariance;
-  m.unobservable_direction = unobservable_direction;
-  return impl_->insert(m);
-}
-
-Insertion ErrorStateFilter::addRelativePose3(Time from, Time to, const common::Pose3& T_from_to,
-                                             const Eigen::Matrix<double, 6, 6>& covariance) {
-  if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance)) return impl_->counted(Insertion::kInvalid);
-  if (!hasClone(from)) return impl_->counted(Insertion::kUnknownReference);
-  Measurement m;
-  m.stamp = to;
-  m.kind = MeasurementKind::kRelativePose3;
-  m.from = from;
-  m.pose3 = T_from_to;
-  m.covariance6 = covariance;
-  return impl_->insert(m);
-}
-
-Insertion ErrorStateFilter::addHeight(Time time, double height_m, double variance_m2, double common_variance_m2) {
-  return impl_->insertVertical(MeasurementKind::kHeight, time, height_m, variance_m2, common_variance_m2);
-}
-
-Insertion ErrorStateFilter::addVerticalSpeed(Time time, double speed_m_s, double variance_m2_s2) {
-  return impl_->insertVertical(MeasurementKind::kVerticalSpeed, time, speed_m_s, variance_m2_s2, 0.0);
-}
-
-Insertion ErrorStateFilter::addAbsolutePose2(Time time, const common::Pose2& T_odom_body,
-                                             const Eigen::Matrix3d& covariance) {
-  if (!isFinite(T_odom_body) || !isCovariance(covariance)) return impl_->counted(Insertion::kInvalid);
-  Measurement m;
-  m.stamp = time;
-  m.kind = MeasurementKind::kAbsolutePose;
-  m.pose = T_odom_body;
-  m.covariance = covariance;
-  return impl_->insert(m);
+Insertion ErrorStateFilter::add(const Measurement& m) {
+  Impl& f = *impl_;
+  const bool relative = m.kind == MeasurementKind::kRelativePose || m.kind == MeasurementKind::kRelativePose3;
+  const Insertion outcome = !isValid(m)                     ? Insertion::kInvalid
+                            : relative && !hasClone(m.from) ? Insertion::kUnknownReference
+                                                            : f.history.insert(m);
+  ++(outcome == Insertion::kTaken ? f.counters.measurements : f.counters.refused);
+  return outcome;
 }
 
 bool ErrorStateFilter::hasClone(Time time) const { return impl_->history.holdsClone(time); }
@@ -267,39 +186,21 @@ common::VehicleState ErrorStateFilter::state() const {
 
 Time ErrorStateFilter::newest() const { return impl_->newest_seen; }
 
-Eigen::Vector3d ErrorStateFilter::accelerationOdom_m_s2() const {
+FusionEstimate ErrorStateFilter::estimate() const {
   Impl& f = *impl_;
-  if (f.history.empty()) return Eigen::Vector3d::Zero();
+  FusionEstimate out;
+  out.drag_1_s = f.config.drag_1_s;
+  if (f.history.empty()) return out;
   const Slot& newest = f.history.newest();
-  return newest.state.rotation_odom_body *
-             (newest.imu.specific_force_body_m_s2 - newest.state.accelerometer_bias_m_s2) -
-         Eigen::Vector3d(0.0, 0.0, f.config.gravity_m_s2);
-}
-
-Eigen::Vector3d ErrorStateFilter::accelerometerBias_m_s2() const {
-  if (impl_->history.empty()) return Eigen::Vector3d::Zero();
-  return impl_->history.newest().state.accelerometer_bias_m_s2;
-}
-
-Eigen::Vector3d ErrorStateFilter::gyroscopeBias_rad_s() const {
-  if (impl_->history.empty()) return Eigen::Vector3d::Zero();
-  return impl_->history.newest().state.gyroscope_bias_rad_s;
-}
-
-double ErrorStateFilter::drag_1_s() const {
-  if (impl_->history.empty()) return impl_->config.drag_1_s;
-  return impl_->history.newest().state.drag_1_s;
-}
-
-Eigen::Vector2d ErrorStateFilter::wind_odom_m_s() const {
-  if (impl_->history.empty()) return Eigen::Vector2d::Zero();
-  return impl_->history.newest().state.wind_odom_m_s;
-}
-
-Eigen::Matrix<double, 15, 15> ErrorStateFilter::covariance() const {
-  if (impl_->history.empty()) return Eigen::Matrix<double, 15, 15>::Zero();
-  const FilterState& s = impl_->history.newest().state;
-  return s.covariance.topLeftCorner<15, 15>() + impl_->byLaser<15>(s, 0);
+  const FilterState& s = newest.state;
+  out.acceleration_odom_m_s2 =
+      s.rotation_odom_body * (newest.imu.specific_force_body_m_s2 - s.accelerometer_bias_m_s2) -
+      Eigen::Vector3d(0.0, 0.0, f.config.gravity_m_s2);
+  out.accelerometer_bias_m_s2 = s.accelerometer_bias_m_s2;
+  out.gyroscope_bias_rad_s = s.gyroscope_bias_rad_s;
+  out.drag_1_s = s.drag_1_s;
+  out.covariance = s.covariance.topLeftCorner<15, 15>() + f.byLaser<15>(s, 0);
+  return out;
 }
 
 std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const { return impl_->history.poseAt(time); }

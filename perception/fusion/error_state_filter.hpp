@@ -34,6 +34,7 @@
 #include "common/vehicle_state.hpp"
 #include "perception/fusion/fusion_config.hpp"
 #include "perception/fusion/fusion_types.hpp"
+#include "perception/fusion/measurement.hpp"
 #include "perception/fusion/pose_history.hpp"
 
 namespace swiftlet::perception {
@@ -68,30 +69,8 @@ class ErrorStateFilter {
   void setPredicted(bool predicted);
   bool predicted() const;
 
-  /// Clones the pose at `time`, usually that of a scan that becomes the reference. Up to four clones are kept; beyond
-  /// that, the least recently used one is dropped.
-  Insertion addClone(common::Time time);
-  /// Adds a relative pose: T_from_to in the level frame of the body at `from`, which must be cloned, with the
-  /// covariance of (x, y, yaw). Along `unobservable_direction`, a unit vector in the frame at `from`, nothing was
-  /// measured and nothing is used, whatever the pose and covariance say. Otherwise a guess repeated with each scan,
-  /// however uncertain, would soon count as certain.
-  Insertion addRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
-                            const Eigen::Matrix3d& covariance,
-                            const std::optional<Eigen::Vector2d>& unobservable_direction = std::nullopt);
-  /// Adds a relative pose in space: T_from_to of the body, whose pose at `from` must be cloned, with the covariance of
-  /// its error (position, rotation vector) in the axes of the body at `to`. A direction in which nothing was measured
-  /// has a large variance.
-  Insertion addRelativePose3(common::Time from, common::Time to, const common::Pose3& T_from_to,
-                             const Eigen::Matrix<double, 6, 6>& covariance);
-  /// Adds a height of the body origin above the take-off floor. `common_variance_m2` is the variance of the part of the
-  /// error that does not change from one measurement to the next (that of the level below); it is not averaged out.
-  Insertion addHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
-  /// Adds a speed of the body origin along z of odom.
-  Insertion addVerticalSpeed(common::Time time, double speed_m_s, double variance_m2_s2);
-  /// Adds a pose in odom, such as one from a landmark at a known place. It moves the estimate in odom. SLAM's
-  /// corrections do not belong here; they are in T_map_odom.
-  Insertion addAbsolutePose2(common::Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance);
-
+  /// Measurements may come late and in any order, within the history.
+  Insertion add(const Measurement& measurement);
   bool hasClone(common::Time time) const;
   /// Whether the last relative pose was refused as an outlier.
   bool refusesRelativePoses() const;
@@ -100,14 +79,8 @@ class ErrorStateFilter {
   /// take-off floor; a caller that knows them better must replace them.
   common::VehicleState state() const;
   common::Time newest() const;
-  /// Acceleration in odom at the newest sample, gravity and bias removed, as input for MultilevelFilter.
-  Eigen::Vector3d accelerationOdom_m_s2() const;
-  Eigen::Vector3d accelerometerBias_m_s2() const;
-  Eigen::Vector3d gyroscopeBias_rad_s() const;
-  double drag_1_s() const;
-  Eigen::Vector2d wind_odom_m_s() const;
-  /// Covariance of the errors (position, velocity, attitude, accelerometer bias, gyroscope bias).
-  Eigen::Matrix<double, 15, 15> covariance() const;
+  /// What state() does not say of the estimate at the newest sample; zero before initialize(), but for the drag.
+  FusionEstimate estimate() const;
 
   /// The pose at `time`: interpolated within the history, and extrapolated up to 20 ms past the newest sample. nullopt
   /// outside.

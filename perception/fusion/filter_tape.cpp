@@ -28,20 +28,26 @@ struct Tell {
     filter.setPredicted(p.predicted);
     return Insertion::kTaken;
   }
-  Result operator()(const TapedClone& clone) const { return filter.addClone(clone.time); }
-  Result operator()(const TapedRelativePose& m) const {
-    return filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unobservable_direction);
-  }
-  Result operator()(const TapedRelativePose3& m) const {
-    return filter.addRelativePose3(m.from, m.to, m.T_from_to, m.covariance);
-  }
-  Result operator()(const TapedHeight& m) const {
-    return filter.addHeight(m.time, m.height_m, m.variance_m2, m.common_variance_m2);
-  }
-  Result operator()(const TapedClimb& m) const {
-    return filter.addVerticalSpeed(m.time, m.speed_m_s, m.variance_m2_s2);
-  }
+  Result operator()(const Measurement& m) const { return filter.add(m); }
 };
+
+std::string lineOfPose(const Measurement& m) {
+  const Eigen::Vector2d unobservable = m.unobservable_direction.value_or(Eigen::Vector2d::Zero());
+  const Eigen::Matrix3d& c = m.covariance;
+  return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {}\n", m.from.nanoseconds(), m.stamp.nanoseconds(),
+                     m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2),
+                     m.unobservable_direction.has_value(), unobservable.x(), unobservable.y());
+}
+
+std::string lineOfPose3(const Measurement& m) {
+  const Eigen::Quaterniond& q = m.pose3.rotation;
+  const Eigen::Vector3d& p = m.pose3.position_m;
+  std::string line = fmt::format("pose3 {} {} {} {} {} {} {} {} {}", m.from.nanoseconds(), m.stamp.nanoseconds(), q.w(),
+                                 q.x(), q.y(), q.z(), p.x(), p.y(), p.z());
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) line += fmt::format(" {}", m.covariance6(row, column));
+  return line + "\n";
+}
 
 struct Print {
   std::string operator()(const common::ImuSample& s) const {
@@ -54,28 +60,23 @@ struct Print {
   std::string operator()(const TapedStart& s) const { return fmt::format("start {}\n", s.height_m); }
   std::string operator()(const TapedRest& r) const { return fmt::format("rest {:d}\n", r.at_rest); }
   std::string operator()(const TapedPredicted& p) const { return fmt::format("predicted {:d}\n", p.predicted); }
-  std::string operator()(const TapedClone& c) const { return fmt::format("clone {}\n", c.time.nanoseconds()); }
-  std::string operator()(const TapedRelativePose& m) const {
-    const Eigen::Vector2d unobservable = m.unobservable_direction.value_or(Eigen::Vector2d::Zero());
-    const Eigen::Matrix3d& c = m.covariance;
-    return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {}\n", m.from.nanoseconds(), m.to.nanoseconds(),
-                       m.T_from_to.x_m, m.T_from_to.y_m, m.T_from_to.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
-                       c(1, 2), c(2, 2), m.unobservable_direction.has_value(), unobservable.x(), unobservable.y());
-  }
-  std::string operator()(const TapedRelativePose3& m) const {
-    const Eigen::Quaterniond& q = m.T_from_to.rotation;
-    const Eigen::Vector3d& p = m.T_from_to.position_m;
-    std::string line = fmt::format("pose3 {} {} {} {} {} {} {} {} {}", m.from.nanoseconds(), m.to.nanoseconds(), q.w(),
-                                   q.x(), q.y(), q.z(), p.x(), p.y(), p.z());
-    for (int row = 0; row < 6; ++row)
-      for (int column = row; column < 6; ++column) line += fmt::format(" {}", m.covariance(row, column));
-    return line + "\n";
-  }
-  std::string operator()(const TapedHeight& m) const {
-    return fmt::format("height {} {} {} {}\n", m.time.nanoseconds(), m.height_m, m.variance_m2, m.common_variance_m2);
-  }
-  std::string operator()(const TapedClimb& m) const {
-    return fmt::format("climb {} {} {}\n", m.time.nanoseconds(), m.speed_m_s, m.variance_m2_s2);
+  std::string operator()(const Measurement& m) const {
+    const std::int64_t time = m.stamp.nanoseconds();
+    switch (m.kind) {
+      case MeasurementKind::kHeight:
+        return fmt::format("height {} {} {} {}\n", time, m.value, m.covariance(0, 0), m.common_variance_m2);
+      case MeasurementKind::kVerticalSpeed:
+        return fmt::format("climb {} {} {}\n", time, m.value, m.covariance(0, 0));
+      case MeasurementKind::kRelativePose:
+        return lineOfPose(m);
+      case MeasurementKind::kRelativePose3:
+        return lineOfPose3(m);
+      case MeasurementKind::kClone:
+        return fmt::format("clone {}\n", time);
+      case MeasurementKind::kAbsolutePose:
+        break;  // No flight measures one.
+    }
+    return "";
   }
 };
 
@@ -113,31 +114,30 @@ common::ImuSample imuOf(Numbers& n) {
   return sample;
 }
 
-TapedRelativePose poseOf(Numbers& n) {
-  TapedRelativePose m;
-  m.from = n.time();
-  m.to = n.time();
-  m.T_from_to.x_m = n.number();
-  m.T_from_to.y_m = n.number();
-  m.T_from_to.yaw_rad = n.number();
+Measurement poseOf(Numbers& n) {
+  const Time from = n.time(), to = n.time();
+  common::Pose2 T_from_to;
+  T_from_to.x_m = n.number();
+  T_from_to.y_m = n.number();
+  T_from_to.yaw_rad = n.number();
+  Eigen::Matrix3d covariance;
   for (int row = 0; row < 3; ++row)
-    for (int column = row; column < 3; ++column) m.covariance(row, column) = m.covariance(column, row) = n.number();
+    for (int column = row; column < 3; ++column) covariance(row, column) = covariance(column, row) = n.number();
   const bool unobservable = n.number() != 0.0;
   const double x = n.number(), y = n.number();
-  if (unobservable) m.unobservable_direction = Eigen::Vector2d(x, y);
-  return m;
+  return measuredRelativePose(from, to, T_from_to, covariance,
+                              unobservable ? std::optional(Eigen::Vector2d(x, y)) : std::nullopt);
 }
 
-TapedRelativePose3 pose3Of(Numbers& n) {
-  TapedRelativePose3 m;
-  m.from = n.time();
-  m.to = n.time();
+Measurement pose3Of(Numbers& n) {
+  const Time from = n.time(), to = n.time();
   const double w = n.number(), x = n.number(), y = n.number(), z = n.number();
-  m.T_from_to.rotation = Eigen::Quaterniond(w, x, y, z);
-  for (int i = 0; i < 3; ++i) m.T_from_to.position_m[i] = n.number();
+  common::Pose3 T_from_to{Eigen::Quaterniond(w, x, y, z), Eigen::Vector3d::Zero()};
+  for (int i = 0; i < 3; ++i) T_from_to.position_m[i] = n.number();
+  Eigen::Matrix<double, 6, 6> covariance;
   for (int row = 0; row < 6; ++row)
-    for (int column = row; column < 6; ++column) m.covariance(row, column) = m.covariance(column, row) = n.number();
-  return m;
+    for (int column = row; column < 6; ++column) covariance(row, column) = covariance(column, row) = n.number();
+  return measuredRelativePose3(from, to, T_from_to, covariance);
 }
 
 /// One of the shorter inputs.
@@ -145,11 +145,11 @@ FilterInput shortOf(std::string_view name, Numbers& n) {
   if (name == "start") return TapedStart{n.number()};
   if (name == "rest") return TapedRest{n.number() != 0.0};
   if (name == "predicted") return TapedPredicted{n.number() != 0.0};
-  if (name == "clone") return TapedClone{n.time()};
+  if (name == "clone") return poseClone(n.time());
   const Time time = n.time();
   const double value = n.number(), variance = n.number();
-  if (name == "climb") return TapedClimb{time, value, variance};
-  return TapedHeight{time, value, variance, n.number()};
+  if (name == "climb") return measuredVerticalSpeed(time, value, variance);
+  return measuredHeight(time, value, variance, n.number());
 }
 
 }  // namespace

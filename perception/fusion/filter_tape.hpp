@@ -7,13 +7,11 @@
 #include <variant>
 #include <vector>
 
-#include <Eigen/Core>
 #include <tl/expected.hpp>
 
-#include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
-#include "common/time.hpp"
 #include "perception/fusion/error_state_filter.hpp"
+#include "perception/fusion/measurement.hpp"
 
 namespace swiftlet::perception {
 
@@ -26,33 +24,7 @@ struct TapedRest {
 struct TapedPredicted {
   bool predicted = false;
 };
-struct TapedClone {
-  common::Time time;
-};
-/// Of the laser, relative to the clone at `from`; see ErrorStateFilter::addRelativePose.
-struct TapedRelativePose {
-  common::Time from, to;
-  common::Pose2 T_from_to;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
-  std::optional<Eigen::Vector2d> unobservable_direction;  ///< Direction without information, in the frame at `from`.
-};
-/// Of a camera, in space, relative to the clone at `from`; see ErrorStateFilter::addRelativePose3.
-struct TapedRelativePose3 {
-  common::Time from, to;
-  common::Pose3 T_from_to;
-  /// Of the error (position, rotation vector) in the axes of the body at `to`.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-};
-struct TapedHeight {
-  common::Time time;
-  double height_m = 0.0, variance_m2 = 0.0, common_variance_m2 = 0.0;
-};
-struct TapedClimb {
-  common::Time time;
-  double speed_m_s = 0.0, variance_m2_s2 = 0.0;
-};
-using FilterInput = std::variant<common::ImuSample, TapedStart, TapedRest, TapedPredicted, TapedClone,
-                                 TapedRelativePose, TapedRelativePose3, TapedHeight, TapedClimb>;
+using FilterInput = std::variant<common::ImuSample, TapedStart, TapedRest, TapedPredicted, Measurement>;
 
 class FilterListener {
  public:

@@ -48,6 +48,16 @@ struct FusionCounts {
   InnovationSum relative_poses, heights;
 };
 
+struct FusionEstimate {
+  /// In odom, gravity and bias removed.
+  Eigen::Vector3d acceleration_odom_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accelerometer_bias_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyroscope_bias_rad_s = Eigen::Vector3d::Zero();
+  double drag_1_s = 0.0;
+  /// Of the errors (position, velocity, attitude, accelerometer bias, gyroscope bias).
+  Eigen::Matrix<double, 15, 15> covariance = Eigen::Matrix<double, 15, 15>::Zero();
+};
+
 struct VerticalState {
   double height_m = 0.0;
   double velocity_m_s = 0.0;

@@ -18,7 +18,7 @@ TEST(Allocation, TheFilterMakesNoneInFlight) {
   long before = 0, after = 0;
   feed(filter, samples, deliveries, flight.restUntil(), [&](double t) {
     (void)filter.state();
-    (void)filter.accelerationOdom_m_s2();
+    (void)filter.estimate();
     (void)filter.status();
     (void)filter.poseAt(filter.newest() - common::Duration::fromSeconds(0.1));
     (t < 1.0 ? before : after) = test_support::allocations;

@@ -37,8 +37,9 @@ void expectConsistent(double camera_hz) {
     Eigen::Matrix<double, 15, 1> error;
     error << truth.T_odom_body.position_m - state.T_odom_body.position_m, truth.velocity_m_s - state.velocity_odom_m_s,
         common::logSO3(truth.T_odom_body.rotation * state.T_odom_body.rotation.conjugate()),
-        accelerometer_bias - filter.accelerometerBias_m_s2(), gyroscope_bias - filter.gyroscopeBias_rad_s();
-    const auto covariance = filter.covariance();
+        accelerometer_bias - filter.estimate().accelerometer_bias_m_s2,
+        gyroscope_bias - filter.estimate().gyroscope_bias_rad_s;
+    const auto covariance = filter.estimate().covariance;
     const auto n = static_cast<Eigen::Index>(rows.size());
     Eigen::VectorXd e(n);
     Eigen::MatrixXd p(n, n);
@@ -98,10 +99,11 @@ TEST(ErrorStateFilter, AWrongCameraDoesNotMoveItWhileTheLaserSees) {
   auto deliveries = flight.deliveries();
   // From 6 s on a camera claims that the vehicle moves a metre to the side.
   const Time from = Time::fromSeconds(6.0), to = Time::fromSeconds(7.0);
-  deliveries.push_back({from, 3, [=](ErrorStateFilter& f) { (void)f.addClone(from); }});
+  deliveries.push_back({from, 3, [=](ErrorStateFilter& f) { (void)f.add(poseClone(from)); }});
   const common::Pose3 wrong{Eigen::Quaterniond::Identity(), {0.0, 1.5, 0.0}};
   deliveries.push_back({to, 3, [=](ErrorStateFilter& f) {
-                          (void)f.addRelativePose3(from, to, wrong, 1e-4 * Eigen::Matrix<double, 6, 6>::Identity());
+                          (void)f.add(
+                              measuredRelativePose3(from, to, wrong, 1e-4 * Eigen::Matrix<double, 6, 6>::Identity()));
                         }});
   ErrorStateFilter with(withoutDrag()), without(withoutDrag());
   feed(with, imu, deliveries, flight.restUntil());

@@ -101,7 +101,7 @@ class MadeUpScans {
   static constexpr double kSigma_m = 0.01, kSigma_rad = 0.2 * std::numbers::pi / 180.0;
 
   void add(Time scan, const common::Pose3& pose, ErrorStateFilter& filter) {
-    (void)filter.addHeight(scan, pose.position_m.z() + random_.gaussian(kSigma_m), kSigma_m * kSigma_m);
+    (void)filter.add(measuredHeight(scan, pose.position_m.z() + random_.gaussian(kSigma_m), kSigma_m * kSigma_m));
     if (reference_) {
       common::Pose2 relative = planar(*truth_.at(*reference_)).inverse() * planar(pose);
       relative.x_m += random_.gaussian(kSigma_m);
@@ -109,10 +109,10 @@ class MadeUpScans {
       relative.yaw_rad += random_.gaussian(kSigma_rad);
       const Eigen::Matrix3d covariance =
           Eigen::Vector3d(kSigma_m * kSigma_m, kSigma_m * kSigma_m, kSigma_rad * kSigma_rad).asDiagonal();
-      EXPECT_EQ(filter.addRelativePose(*reference_, scan, relative, covariance), Insertion::kTaken);
+      EXPECT_EQ(filter.add(measuredRelativePose(*reference_, scan, relative, covariance)), Insertion::kTaken);
     }
     if (!reference_ || (scan - *reference_).seconds() >= 0.5) {
-      (void)filter.addClone(scan);
+      (void)filter.add(poseClone(scan));
       reference_ = scan;
     }
   }

@@ -19,8 +19,8 @@ void expectSameState(const ErrorStateFilter& a, const ErrorStateFilter& b, doubl
   EXPECT_LE((x.T_odom_body.position_m - y.T_odom_body.position_m).norm(), tolerance);
   EXPECT_LE((x.T_odom_body.rotation.coeffs() - y.T_odom_body.rotation.coeffs()).norm(), tolerance);
   EXPECT_LE((x.velocity_odom_m_s - y.velocity_odom_m_s).norm(), tolerance);
-  EXPECT_LE((a.accelerometerBias_m_s2() - b.accelerometerBias_m_s2()).norm(), tolerance);
-  EXPECT_LE((a.covariance() - b.covariance()).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LE((a.estimate().accelerometer_bias_m_s2 - b.estimate().accelerometer_bias_m_s2).norm(), tolerance);
+  EXPECT_LE((a.estimate().covariance - b.estimate().covariance).cwiseAbs().maxCoeff(), tolerance);
 }
 
 TEST(ErrorStateFilter, LateMeasurementsGiveTheSameResultAsPunctualOnes) {
@@ -84,7 +84,7 @@ TEST(ErrorStateFilter, StartsLevelWithItsGyroscopeBiasEstimated) {
   EXPECT_NEAR(angles.roll_rad, 0.0, 0.012);
   EXPECT_NEAR(angles.pitch_rad, 0.0, 0.012);
   EXPECT_NEAR(angles.yaw_rad, 0.0, 1e-12);
-  EXPECT_NEAR((filter.gyroscopeBias_rad_s() - noise.gyroscope_bias).norm(), 0.0, 0.003);
+  EXPECT_NEAR((filter.estimate().gyroscope_bias_rad_s - noise.gyroscope_bias).norm(), 0.0, 0.003);
   EXPECT_EQ(filter.state().T_odom_body.position_m, Eigen::Vector3d(0, 0, 0.15));
 }
 
@@ -127,9 +127,10 @@ TEST(ErrorStateFilter, OutliersAreGated) {
   const Eigen::Matrix3d covariance = 1e-4 * Eigen::Matrix3d::Identity();
   for (std::size_t i = 300; i < count; i += 20) {
     const Time to = deliveries[i].arrives - Duration::fromSeconds(flight.delay_s);
-    deliveries.push_back({deliveries[i].arrives, 5, [=](ErrorStateFilter& f) { (void)f.addHeight(to, 3.0, 1e-4); }});
+    deliveries.push_back(
+        {deliveries[i].arrives, 5, [=](ErrorStateFilter& f) { (void)f.add(measuredHeight(to, 3.0, 1e-4)); }});
     deliveries.push_back({deliveries[i].arrives, 6, [=](ErrorStateFilter& f) {
-                            (void)f.addAbsolutePose2(to, {}, 1e6 * covariance);  // It has no information.
+                            (void)f.add(measuredAbsolutePose(to, {}, 1e6 * covariance));  // It has no information.
                           }});
   }
   ErrorStateFilter filter(withoutDrag());
@@ -152,7 +153,7 @@ TEST(ErrorStateFilter, AcceptsAMeasurementThatIsRejectedForLongAndReportsIt) {
     const double t = delivery.arrives.seconds() - flight.delay_s;
     const Time at = delivery.arrives - Duration::fromSeconds(flight.delay_s);
     const double shifted_m = flight.motion.pose(t).position_m.z() + 0.5;  // The height jumps for good.
-    delivery.deliver = [=](ErrorStateFilter& f) { (void)f.addHeight(at, shifted_m, 1e-4); };
+    delivery.deliver = [=](ErrorStateFilter& f) { (void)f.add(measuredHeight(at, shifted_m, 1e-4)); };
   }
   ErrorStateFilter filter(withoutDrag());
   bool degraded = false;
@@ -175,7 +176,7 @@ TEST(ErrorStateFilter, LastingContradictionIsAPermanentDivergence) {
     if (delivery.order != 0 || delivery.arrives < Time::fromSeconds(6.0)) continue;
     const Time at = delivery.arrives - Duration::fromSeconds(flight.delay_s);
     const double nonsense_m = std::fmod(delivery.arrives.seconds(), 1.2) > 0.6 ? 5.0 : 0.5;
-    delivery.deliver = [=](ErrorStateFilter& f) { (void)f.addHeight(at, nonsense_m, 1e-4); };
+    delivery.deliver = [=](ErrorStateFilter& f) { (void)f.add(measuredHeight(at, nonsense_m, 1e-4)); };
   }
   ErrorStateFilter filter(withoutDrag());
   feed(filter, imu, deliveries, flight.restUntil());
@@ -246,8 +247,8 @@ TEST(ErrorStateFilter, AVerticalSpeedAlsoCorrectsTheHeight) {
   ASSERT_TRUE(before);
   EXPECT_GT(before->covariance(0, 1), 0.0);
   const double higher_m_s = before->velocity_m_s + 0.05;
-  deliveries.push_back(
-      {Time::fromSeconds(5.95), 5, [=](ErrorStateFilter& f) { (void)f.addVerticalSpeed(at, higher_m_s, 1e-6); }});
+  deliveries.push_back({Time::fromSeconds(5.95), 5,
+                        [=](ErrorStateFilter& f) { (void)f.add(measuredVerticalSpeed(at, higher_m_s, 1e-6)); }});
   feed(told, imu, deliveries, flight.restUntil());
   const auto after = told.verticalAt(at);
   ASSERT_TRUE(after);
@@ -277,18 +278,18 @@ TEST(ErrorStateFilter, InvalidInputIsCountedAndIgnored) {
     sample.rotation_ahrs_body.coeffs().setZero();
     dirty.predict(sample);
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-    EXPECT_EQ(dirty.addHeight(now, nan, 1.0), Insertion::kInvalid);
-    EXPECT_EQ(dirty.addHeight(now, 1.0, -1.0), Insertion::kInvalid);
-    EXPECT_EQ(dirty.addVerticalSpeed(now, nan, 1.0), Insertion::kInvalid);
-    EXPECT_EQ(dirty.addVerticalSpeed(now, 0.0, 0.0), Insertion::kInvalid);
-    EXPECT_EQ(dirty.addRelativePose(now, now, {}, identity), Insertion::kInvalid);
-    EXPECT_EQ(dirty.addRelativePose(now - Duration::fromMilliseconds(7), now, {}, identity),
+    EXPECT_EQ(dirty.add(measuredHeight(now, nan, 1.0)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(measuredHeight(now, 1.0, -1.0)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(measuredVerticalSpeed(now, nan, 1.0)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(measuredVerticalSpeed(now, 0.0, 0.0)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(measuredRelativePose(now, now, {}, identity)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(measuredRelativePose(now - Duration::fromMilliseconds(7), now, {}, identity)),
               Insertion::kUnknownReference);
-    EXPECT_EQ(dirty.addRelativePose(now - Duration::fromMilliseconds(7), now, {nan, 0, 0}, identity),
+    EXPECT_EQ(dirty.add(measuredRelativePose(now - Duration::fromMilliseconds(7), now, {nan, 0, 0}, identity)),
               Insertion::kInvalid);
-    EXPECT_EQ(dirty.addAbsolutePose2(now, {}, -identity), Insertion::kInvalid);
-    EXPECT_EQ(dirty.addHeight(now - Duration::fromSeconds(2.0), 1.0, 1.0), Insertion::kTooOld);
-    EXPECT_EQ(dirty.addHeight(now + Duration::fromSeconds(2.0), 1.0, 1.0), Insertion::kTooNew);
+    EXPECT_EQ(dirty.add(measuredAbsolutePose(now, {}, -identity)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(measuredHeight(now - Duration::fromSeconds(2.0), 1.0, 1.0)), Insertion::kTooOld);
+    EXPECT_EQ(dirty.add(measuredHeight(now + Duration::fromSeconds(2.0), 1.0, 1.0)), Insertion::kTooNew);
     refused += 10;
   });
   EXPECT_EQ(dirty.counts().refused, refused);

@@ -43,7 +43,7 @@ TEST(FilterMotion, ACorrectionWithinASweepIsNoMotion) {
              middle = to - Duration::fromMilliseconds(22);
   common::Pose2 aside = common::planar(*filter.poseAt(middle));
   aside.x_m += 0.05;
-  ASSERT_EQ(filter.addAbsolutePose2(middle, aside, 1e-8 * Eigen::Matrix3d::Identity()), Insertion::kTaken);
+  ASSERT_EQ(filter.add(measuredAbsolutePose(middle, aside, 1e-8 * Eigen::Matrix3d::Identity())), Insertion::kTaken);
   const auto truth = [&](Time t) { return flight.motion.pose(t.seconds()).position_m; };
   const Eigen::Vector3d moved_m = truth(to) - truth(from);
   const Eigen::Vector3d jumped_m = filter.poseAt(to)->position_m - filter.poseAt(from)->position_m;

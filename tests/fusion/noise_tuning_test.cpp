@@ -52,7 +52,7 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
     for (; started && scan_s + 0.02 <= now_s; scan_s += 0.025) {
       const Time to = Time::fromSeconds(scan_s);
       taped.inputs.push_back(
-          TapedHeight{to, flight.motion.pose(scan_s).position_m.z() + random.gaussian(0.01), 1e-4, 0});
+          measuredHeight(to, flight.motion.pose(scan_s).position_m.z() + random.gaussian(0.01), 1e-4, 0));
       if (reference_s >= 0.0) {
         const common::Pose2 moved = planar(flight.motion.pose(reference_s + laser.clock_s)).inverse() *
                                     planar(flight.motion.pose(scan_s + laser.clock_s));
@@ -60,10 +60,10 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
         relative.x_m += random.gaussian(0.01);
         relative.y_m += random.gaussian(0.01);
         relative.yaw_rad += random.gaussian(std::sqrt(1.2e-5));
-        taped.inputs.push_back(TapedRelativePose{Time::fromSeconds(reference_s), to, relative, covariance, {}});
+        taped.inputs.push_back(measuredRelativePose(Time::fromSeconds(reference_s), to, relative, covariance, {}));
       }
       if (reference_s < 0.0 || scan_s - reference_s > laser.reference_every_s) {
-        taped.inputs.push_back(TapedClone{to});
+        taped.inputs.push_back(poseClone(to));
         reference_s = scan_s;
       }
     }
@@ -79,16 +79,14 @@ TEST(FilterTape, EveryInputReadsBackAsItWas) {
   TapedFlight flight = tapedFlight(1, {}, 3.0);
   flight.inputs.push_back(TapedRest{true});
   flight.inputs.push_back(TapedPredicted{true});
-  flight.inputs.push_back(TapedClimb{Time::fromSeconds(1.5), -0.25, 0.01});
-  flight.inputs.push_back(TapedRelativePose{
-      Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3}, Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)});
+  flight.inputs.push_back(measuredVerticalSpeed(Time::fromSeconds(1.5), -0.25, 0.01));
+  flight.inputs.push_back(measuredRelativePose(Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3},
+                                               Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)));
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   covariance(1, 4) = covariance(4, 1) = 0.1;
   flight.inputs.push_back(
-      TapedRelativePose3{Time::fromSeconds(1),
-                         Time::fromSeconds(2),
-                         {common::quaternionFrom({0.1, -0.2, 0.3}), Eigen::Vector3d(0.1, 0.2, -0.3)},
-                         covariance});
+      measuredRelativePose3(Time::fromSeconds(1), Time::fromSeconds(2),
+                            {common::quaternionFrom({0.1, -0.2, 0.3}), Eigen::Vector3d(0.1, 0.2, -0.3)}, covariance));
   for (const FilterInput& input : flight.inputs) {
     const std::string line = toLine(input);
     const auto read = filterInputOf(wordsOf(line));
@@ -227,8 +225,7 @@ TEST(FlightConsistency, IsMuchMoreThanOneForAFilterThatIsNot) {
   std::vector<TapedFlight> flights = tapedFlights();
   for (TapedFlight& flight : flights)
     for (FilterInput& input : flight.inputs) {
-      if (auto* pose = std::get_if<TapedRelativePose>(&input)) pose->covariance *= 0.04;
-      if (auto* height = std::get_if<TapedHeight>(&input)) height->variance_m2 *= 0.04;
+      if (auto* measurement = std::get_if<Measurement>(&input)) measurement->covariance *= 0.04;
     }
   const Consistency consistency = consistencyOf(flights, withoutDrag());
   ASSERT_GT(consistency.flights, 0u);

@@ -122,18 +122,20 @@ class SyntheticFlight {
       const common::Time to = common::Time::fromSeconds(t), arrives = common::Time::fromSeconds(t + delay_s);
       const double measured_height_m = motion.pose(t).position_m.z() + random_.gaussian(noise_.height_m);
       const double variance = noise_.height_m * noise_.height_m;
-      out.push_back({arrives, 0, [=](ErrorStateFilter& f) { (void)f.addHeight(to, measured_height_m, variance); }});
+      out.push_back(
+          {arrives, 0, [=](ErrorStateFilter& f) { (void)f.add(measuredHeight(to, measured_height_m, variance)); }});
       if (reference_s >= 0.0) {
         const common::Time from = common::Time::fromSeconds(reference_s);
         common::Pose2 relative = planar(motion.pose(reference_s)).inverse() * planar(motion.pose(t));
         relative.x_m += random_.gaussian(noise_.scan_m);
         relative.y_m += random_.gaussian(noise_.scan_m);
         relative.yaw_rad += random_.gaussian(noise_.scan_rad);
-        out.push_back(
-            {arrives, 1, [=](ErrorStateFilter& f) { (void)f.addRelativePose(from, to, relative, covariance); }});
+        out.push_back({arrives, 1, [=](ErrorStateFilter& f) {
+                         (void)f.add(measuredRelativePose(from, to, relative, covariance));
+                       }});
       }
       if (reference_s < 0.0 || t - reference_s >= reference_every_s) {
-        out.push_back({arrives, 2, [=](ErrorStateFilter& f) { (void)f.addClone(to); }});
+        out.push_back({arrives, 2, [=](ErrorStateFilter& f) { (void)f.add(poseClone(to)); }});
         reference_s = t;
       }
     }
@@ -159,10 +161,11 @@ class SyntheticFlight {
         const Eigen::Vector3d moved = vector(noise_.camera_m), turned = vector(noise_.camera_rad);
         const common::Pose3 pose =
             motion.pose(key_s).inverse() * motion.pose(t) * common::Pose3{common::expSO3(turned), moved};
-        out.push_back({arrives, 3, [=](ErrorStateFilter& f) { (void)f.addRelativePose3(from, to, pose, covariance); }});
+        out.push_back(
+            {arrives, 3, [=](ErrorStateFilter& f) { (void)f.add(measuredRelativePose3(from, to, pose, covariance)); }});
       }
       if (key_s < 0.0 || t - key_s >= kKeyFrame_s) {
-        out.push_back({arrives, 4, [=](ErrorStateFilter& f) { (void)f.addClone(to); }});
+        out.push_back({arrives, 4, [=](ErrorStateFilter& f) { (void)f.add(poseClone(to)); }});
         key_s = t;
       }
     }

@@ -26,13 +26,14 @@ TEST(ErrorStateFilter, IgnoresAMeasurementInItsUnobservableDirection) {
         EXPECT_TRUE(filter.initialize(0.15));
       }
       if (i == 150) {
-        EXPECT_EQ(filter.addClone(from), Insertion::kTaken);
+        EXPECT_EQ(filter.add(poseClone(from)), Insertion::kTaken);
       }
       if (i <= 150 || i % 20 != 0) continue;
       const Eigen::Matrix3d covariance = Eigen::Vector3d(1.0, 1e-4, 1e-6).asDiagonal();
       const auto direction = unseen ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
-      EXPECT_EQ(filter.addRelativePose(from, sample.stamps.measured, {along_m, 0.0, 0.0}, covariance, direction),
-                Insertion::kTaken);
+      EXPECT_EQ(
+          filter.add(measuredRelativePose(from, sample.stamps.measured, {along_m, 0.0, 0.0}, covariance, direction)),
+          Insertion::kTaken);
     }
     return filter.state();
   };
@@ -76,21 +77,21 @@ TEST(ErrorStateFilter, DragBoundsTheErrorOfAnUnobservedSpeed) {
       }
       if (i >= 150 && i % 20 == 0) {
         if (i > 150 && t <= kSeen_s)
-          (void)filter.addRelativePose(reference, sample.stamps.measured,
-                                       {x_m - reference_x_m + random.gaussian(0.004), 0.0, 0.0},
-                                       Eigen::Vector3d(2e-5, 2e-5, 1e-5).asDiagonal());
+          (void)filter.add(measuredRelativePose(reference, sample.stamps.measured,
+                                                {x_m - reference_x_m + random.gaussian(0.004), 0.0, 0.0},
+                                                Eigen::Vector3d(2e-5, 2e-5, 1e-5).asDiagonal()));
         else if (i > 150)
-          (void)filter.addRelativePose(reference, sample.stamps.measured, {},
-                                       Eigen::Vector3d(1, 2e-5, 1e-5).asDiagonal(),
-                                       Eigen::Vector2d(Eigen::Vector2d::UnitX()));
-        (void)filter.addHeight(sample.stamps.measured, 0.15, 1e-4);
+          (void)filter.add(measuredRelativePose(reference, sample.stamps.measured, {},
+                                                Eigen::Vector3d(1, 2e-5, 1e-5).asDiagonal(),
+                                                Eigen::Vector2d(Eigen::Vector2d::UnitX())));
+        (void)filter.add(measuredHeight(sample.stamps.measured, 0.15, 1e-4));
         if (i % 100 == 0 || reference == Time{}) {
-          (void)filter.addClone(sample.stamps.measured);
+          (void)filter.add(poseClone(sample.stamps.measured));
           reference = sample.stamps.measured;
           reference_x_m = x_m;
         }
       }
-      if (t < kSeen_s) learned_1_s = filter.drag_1_s();
+      if (t < kSeen_s) learned_1_s = filter.estimate().drag_1_s;
       x_m += 0.005 * 0.5 * (speed + speedAt(t + 0.005));
     }
     if (use_drag) {
@@ -113,7 +114,7 @@ TEST(ErrorStateFilter, AbsolutePosesRemoveDrift) {
     const auto pose = planar(flight.motion.pose(t));
     const Time at = Time::fromSeconds(t);
     deliveries.push_back({at + Duration::fromSeconds(0.3), 9, [=](ErrorStateFilter& f) {
-                            EXPECT_EQ(f.addAbsolutePose2(at, pose, 1e-4 * Eigen::Matrix3d::Identity()),
+                            EXPECT_EQ(f.add(measuredAbsolutePose(at, pose, 1e-4 * Eigen::Matrix3d::Identity())),
                                       Insertion::kTaken);
                           }});
   }

@@ -1,0 +1,100 @@
+#include "perception/fusion/measurement.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "common/small_matrices.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Time;
+
+Measurement measurementOf(MeasurementKind kind, Time time) {
+  Measurement m;
+  m.stamp = time;
+  m.kind = kind;
+  return m;
+}
+
+Measurement verticalOf(MeasurementKind kind, Time time, double value, double variance) {
+  Measurement m = measurementOf(kind, time);
+  m.value = value;
+  m.covariance(0, 0) = variance;
+  return m;
+}
+
+bool isCovariance(const Eigen::Matrix3d& m) {
+  if (!m.allFinite() || !m.isApprox(m.transpose(), 1e-6)) return false;
+  return common::symmetricEigenvalues(m).minCoeff() > 0.0;
+}
+bool isCovariance(const Eigen::Matrix<double, 6, 6>& m) {
+  return m.allFinite() && m.isApprox(m.transpose(), 1e-6) && m.llt().info() == Eigen::Success;
+}
+
+bool isDirection(const Eigen::Vector2d& vector) {
+  constexpr double kUnitTolerance = 1e-3;  // NaN fails the comparison.
+  return std::abs(vector.norm() - 1.0) < kUnitTolerance;
+}
+
+}  // namespace
+
+Measurement poseClone(Time time) { return measurementOf(MeasurementKind::kClone, time); }
+
+Measurement measuredRelativePose(Time from, Time to, const common::Pose2& T_from_to, const Eigen::Matrix3d& covariance,
+                                 const std::optional<Eigen::Vector2d>& unobservable_direction) {
+  Measurement m = measurementOf(MeasurementKind::kRelativePose, to);
+  m.from = from;
+  m.pose = T_from_to;
+  m.covariance = covariance;
+  m.unobservable_direction = unobservable_direction;
+  return m;
+}
+
+Measurement measuredRelativePose3(Time from, Time to, const common::Pose3& T_from_to,
+                                  const Eigen::Matrix<double, 6, 6>& covariance) {
+  Measurement m = measurementOf(MeasurementKind::kRelativePose3, to);
+  m.from = from;
+  m.pose3 = T_from_to;
+  m.covariance6 = covariance;
+  return m;
+}
+
+Measurement measuredHeight(Time time, double height_m, double variance_m2, double common_variance_m2) {
+  Measurement m = verticalOf(MeasurementKind::kHeight, time, height_m, variance_m2);
+  m.common_variance_m2 = common_variance_m2;
+  return m;
+}
+
+Measurement measuredVerticalSpeed(Time time, double speed_m_s, double variance_m2_s2) {
+  return verticalOf(MeasurementKind::kVerticalSpeed, time, speed_m_s, variance_m2_s2);
+}
+
+Measurement measuredAbsolutePose(Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance) {
+  Measurement m = measurementOf(MeasurementKind::kAbsolutePose, time);
+  m.pose = T_odom_body;
+  m.covariance = covariance;
+  return m;
+}
+
+bool isValid(const Measurement& m) {
+  switch (m.kind) {
+    case MeasurementKind::kHeight:
+    case MeasurementKind::kVerticalSpeed:
+      return std::isfinite(m.value) && std::isfinite(m.covariance(0, 0)) && m.covariance(0, 0) > 0.0 &&
+             std::isfinite(m.common_variance_m2) && m.common_variance_m2 >= 0.0;
+    case MeasurementKind::kRelativePose:
+      return isFinite(m.pose) && m.stamp > m.from && isCovariance(m.covariance) &&
+             (!m.unobservable_direction || isDirection(*m.unobservable_direction));
+    case MeasurementKind::kRelativePose3:
+      return isFinite(m.pose3) && m.stamp > m.from && isCovariance(m.covariance6);
+    case MeasurementKind::kAbsolutePose:
+      return isFinite(m.pose) && isCovariance(m.covariance);
+    case MeasurementKind::kClone:
+      return true;
+  }
+  return false;
+}
+
+}  // namespace swiftlet::perception

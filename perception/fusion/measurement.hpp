@@ -1,0 +1,64 @@
+// A measurement for the fusion filter, as a value.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception {
+
+/// At equal times, measurements are applied in the order of their kinds: a pose is cloned after all measurements of it.
+enum class MeasurementKind : std::uint8_t {
+  kHeight,
+  kVerticalSpeed,
+  kRelativePose,
+  kRelativePose3,
+  kAbsolutePose,
+  kClone
+};
+
+struct Measurement {
+  common::Time stamp;
+  MeasurementKind kind = MeasurementKind::kClone;
+  common::Time from;                                      ///< Of a relative pose: time of the cloned reference.
+  common::Pose2 pose;                                     ///< kRelativePose, kAbsolutePose.
+  std::optional<Eigen::Vector2d> unobservable_direction;  ///< kRelativePose: in the level frame at `from`.
+  double value = 0;                                       ///< kHeight: m; kVerticalSpeed: m/s.
+  double common_variance_m2 = 0.0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight, kVerticalSpeed: only (0, 0).
+  common::Pose3 pose3;                                   ///< kRelativePose3.
+  Eigen::Matrix<double, 6, 6> covariance6 = Eigen::Matrix<double, 6, 6>::Zero();  ///< kRelativePose3.
+};
+
+/// Clones the pose at `time`, usually that of a scan that becomes the reference. Up to four clones are kept; beyond
+/// that, the least recently used one is dropped.
+Measurement poseClone(common::Time time);
+/// T_from_to in the level frame of the body at `from`, which must be cloned, with the covariance of (x, y, yaw). Along
+/// `unobservable_direction`, a unit vector in the frame at `from`, nothing was measured and nothing is used, whatever
+/// the pose and covariance say. Otherwise a guess repeated with each scan, however uncertain, would soon count as
+/// certain.
+Measurement measuredRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
+                                 const Eigen::Matrix3d& covariance,
+                                 const std::optional<Eigen::Vector2d>& unobservable_direction = std::nullopt);
+/// T_from_to of the body in space, whose pose at `from` must be cloned, with the covariance of its error (position,
+/// rotation vector) in the axes of the body at `to`. A direction in which nothing was measured has a large variance.
+Measurement measuredRelativePose3(common::Time from, common::Time to, const common::Pose3& T_from_to,
+                                  const Eigen::Matrix<double, 6, 6>& covariance);
+/// Height of the body origin above the take-off floor. `common_variance_m2` is the variance of the part of the error
+/// that does not change from one measurement to the next (that of the level below); it is not averaged out.
+Measurement measuredHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
+/// Speed of the body origin along z of odom.
+Measurement measuredVerticalSpeed(common::Time time, double speed_m_s, double variance_m2_s2);
+/// A pose in odom, such as one from a landmark at a known place. It moves the estimate in odom. SLAM's corrections do
+/// not belong here; they are in T_map_odom.
+Measurement measuredAbsolutePose(common::Time time, const common::Pose2& T_odom_body,
+                                 const Eigen::Matrix3d& covariance);
+
+/// Whether it is finite, its covariance is positive definite, and its time is after that of its reference.
+bool isValid(const Measurement& measurement);
+
+}  // namespace swiftlet::perception
