@@ -12,20 +12,29 @@ using common::square;
 
 namespace {
 
+/// A level that was not seen for this long counts as entered again when it is seen.
+constexpr double kEnterAfter_s = 0.3;
+/// Unknown surfaces to be expected, for each metre of height and each known one.
+constexpr double kUnknownPer_m = 1.0;
+/// Factor by which the take-off floor is likelier to be met than another level.
+constexpr double kFloorWeight = 10.0;
+/// Nothing is less than this below the take-off floor: a step down in a building is higher
+/// (docs/decisions/altitude.md#008).
+constexpr double kLeastStepDown_m = 0.25;
+
 // Beyond the gate, an error of the height is likelier than a step down from the floor.
 constexpr double kFarBelow_sigma = 8.0;
 
 bool isBelow(const Neighbourhood& known, const LevelEstimate& level) {
-  return level.seen && (known.now - level.last.stamp).seconds() <= known.config.enter_after_s &&
-         known.now >= level.distrusted_until;
+  return level.seen && (known.now - level.last.stamp).seconds() <= kEnterAfter_s && known.now >= level.distrusted_until;
 }
 
 }  // namespace
 
-bool likelierThanUnknown(const MultilevelConfig& config, int id, double residual_m, double variance_m2) {
+bool likelierThanUnknown(int id, double residual_m, double variance_m2) {
   const double density_per_m =
       std::exp(-0.5 * square(residual_m) / variance_m2) / std::sqrt(2.0 * std::numbers::pi * variance_m2);
-  return (id == kFloor ? config.floor_weight : 1.0) * density_per_m > config.unknown_per_m;
+  return (id == kFloor ? kFloorWeight : 1.0) * density_per_m > kUnknownPer_m;
 }
 
 int likeliestLevel(const Neighbourhood& known, double distance_below_m, int averaged, bool known_below) {
@@ -43,9 +52,9 @@ int likeliestLevel(const Neighbourhood& known, double distance_below_m, int aver
     const double variance_m2 = height.ownVariance_m2() + level_m2 + beamVariance_m2(config, averaged);
     // Nothing lies just below the take-off floor: a surface that seems to is the floor, and the height is wrong.
     const bool sunk_floor = !known_below && config.one_floor && id == kFloor && residual_m < 0.0 &&
-                            residual_m > -std::max(config.least_step_down_m, kFarBelow_sigma * std::sqrt(variance_m2));
+                            residual_m > -std::max(kLeastStepDown_m, kFarBelow_sigma * std::sqrt(variance_m2));
     if (square(residual_m) > best * variance_m2 && !(sunk_floor && likeliest == kNoLevel)) continue;
-    if (!known_below && !sunk_floor && !likelierThanUnknown(config, id, residual_m, variance_m2)) continue;
+    if (!known_below && !sunk_floor && !likelierThanUnknown(id, residual_m, variance_m2)) continue;
     best = std::min(best, square(residual_m) / variance_m2);
     likeliest = id;
   }

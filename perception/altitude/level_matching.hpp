@@ -24,7 +24,7 @@ struct Neighbourhood {
 
 /// Whether a level explains a residual better than an unknown surface would. The more uncertain the height, the
 /// likelier an unknown surface within its gate.
-bool likelierThanUnknown(const MultilevelConfig& config, int id, double residual_m, double variance_m2);
+bool likelierThanUnknown(int id, double residual_m, double variance_m2);
 
 /// The likeliest of the nearby levels that could have been hit by `averaged` beams at this mean distance; kNoLevel if
 /// there is none. With `known_below`, only levels that were below the vehicle in the last scans.

@@ -20,9 +20,23 @@ using namespace altitude;
 using common::CellIndex;
 using common::square;
 using common::Time;
+namespace {
+
+/// Side of a cell of the level map.
+constexpr double kResolution_m = 0.10;
+/// A level known within this distance may explain a beam.
+constexpr double kNeighbourhood_m = 0.80;
+/// Two levels whose cells come this close meet; at most kNeighbourhood_m.
+constexpr double kJoinDistance_m = 0.20;
+/// Error of the vertical acceleration while a surface is seen.
+constexpr double kAccelerationNoise_m_s2 = 0.04;
+/// Time for which a level is not used after it behaved like a slope (docs/decisions/altitude.md#008).
+constexpr double kHoldOff_s = 0.3;
+
+}  // namespace
 
 struct MultilevelFilter::Impl {
-  explicit Impl(const Config& c) : config(c), store(c.resolution_m) {}
+  explicit Impl(const Config& c) : config(c), store(kResolution_m) {}
 
   // The steps of Algorithm 1, in its order.
   void matchBeams();
@@ -65,7 +79,7 @@ struct MultilevelFilter::Impl {
 
 /// Line 5: assigns the beams to the levels below.
 void MultilevelFilter::Impl::matchBeams() {
-  store.near(scan.center, config.neighbourhood_m, near);
+  store.near(scan.center, kNeighbourhood_m, near);
   if (config.one_floor && (near.empty() || near.front() != kFloor)) near.insert(near.begin(), kFloor);
   altitude::matchBeams(known(), scan);
   scan.group(store);
@@ -113,7 +127,7 @@ void MultilevelFilter::Impl::distrustSlopes() {
     if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
     level.forgetInnovations();
     withdrawMeasurements();
-    level.distrusted_until = now + common::Duration::fromSeconds(config.hold_off_s);
+    level.distrusted_until = now + common::Duration::fromSeconds(kHoldOff_s);
     for (Beam& beam : scan.beams)
       if (beam.level == g.level) beam.level = kNoLevel;
     return true;
@@ -167,7 +181,7 @@ void MultilevelFilter::Impl::learnSpeed(const NewSurface& seen) {
   // acceleration.
   const double variance_m2_s2 = rateVariance_m2_s2(config, seen) +
                                 square(config.surface_noise_m / seen.seenFor_s(now)) +
-                                square(0.5 * config.acceleration_noise_m_s2 * seen.seenFor_s(now));
+                                square(0.5 * kAccelerationNoise_m_s2 * seen.seenFor_s(now));
   height.updateVelocity(height.velocity_m_s() - seen.rate_m_s(), variance_m2_s2);
 }
 
@@ -200,7 +214,7 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     if (first) {
       correction.begin(EnteredLevel{id, now, height.height_m() - height_before_m,
                                     height.velocity_m_s() - velocity_before_m_s, height.covariance(),
-                                    surface.seenFor_s(now) >= config.confirm_moving_s});
+                                    surface.seenFor_s(now) >= kConfirmMoving_s});
     }
     for (const CellIndex& cell : surface.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
@@ -212,8 +226,7 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     surface.seen = false;
   }
   // A surface that rises or falls is not a level. It is dropped, but may flatten out later.
-  std::erase_if(new_surfaces,
-                [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= longestSight_s(config); });
+  std::erase_if(new_surfaces, [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= kLongestSight_s; });
 }
 
 /// Line 15, for levels that are left: a level that was below in the last scan and no longer is gets one more
@@ -280,8 +293,8 @@ void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
       const LevelEstimate& b = store.at(near[j]);
       const double sigma2 = a.variance_m2 + b.variance_m2 + 2.0 * square(config.surface_noise_m);
       const bool agree = square(a.height_m - b.height_m) <= square(config.gate_sigma) * sigma2 &&
-                         likelierThanUnknown(config, near[i], a.height_m - b.height_m, sigma2);
-      if (!agree || !store.meet(near[i], near[j], scan.center, config.neighbourhood_m, config.join_distance_m)) {
+                         likelierThanUnknown(near[i], a.height_m - b.height_m, sigma2);
+      if (!agree || !store.meet(near[i], near[j], scan.center, kNeighbourhood_m, kJoinDistance_m)) {
         ++j;
         continue;
       }
@@ -320,7 +333,7 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
-  const int around = static_cast<int>(std::lround(f.config.join_distance_m / f.config.resolution_m));
+  const int around = static_cast<int>(std::lround(kJoinDistance_m / kResolution_m));
   for (int y = -around; y <= around; ++y)
     for (int x = -around; x <= around; ++x) f.store.extend(floor, {here.x + x, here.y + y});
   f.store.at(floor).seen = true;

@@ -11,13 +11,17 @@ using common::Time;
 
 namespace {
 
+/// Scans in a row that must see a new surface before it becomes a level.
+constexpr int kConfirmScans = 3;
+/// Time for which a new surface must be seen at one height before it becomes a level (measured:
+/// docs/decisions/altitude.md#095).
+constexpr double kConfirm_s = 0.3;
+
 /// Of `slope_sigma`: backs of sofas fall by 20 deg below a vehicle, and stay below it for a second.
 constexpr double kLikelyShare = 0.5;
 constexpr double kLineAfter_s = 0.15;  // A surface seen for a shorter time is assumed to stay at its height.
 
 }  // namespace
-
-double longestSight_s(const MultilevelConfig& config) { return 2.0 * config.confirm_moving_s; }
 
 double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& c) {
   return beamVariance_m2(config, std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
@@ -26,12 +30,12 @@ double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& c) {
 bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now, double speed_variance_m2_s2,
             int explained_by) {
   const double seen_s = c.seenFor_s(now);
-  if (c.scans < config.confirm_scans || seen_s < config.confirm_s) return false;
+  if (c.scans < kConfirmScans || seen_s < kConfirm_s) return false;
   const double rate2_m2_s2 = square(c.rate_m_s()), measured_m2_s2 = rateVariance_m2_s2(config, c);
   if (rate2_m2_s2 <= square(config.slope_sigma) * measured_m2_s2) return true;
   const bool known = explained_by != kNoLevel;
-  if (!known && seen_s < config.confirm_moving_s) return false;
-  const double enough_s = known ? config.confirm_moving_s : longestSight_s(config);
+  if (!known && seen_s < kConfirmMoving_s) return false;
+  const double enough_s = known ? kConfirmMoving_s : kLongestSight_s;
   const double sigma = config.slope_sigma * std::clamp(square(seen_s / enough_s), kLikelyShare, 1.0);
   return rate2_m2_s2 <= square(sigma) * (measured_m2_s2 + speed_variance_m2_s2);
 }

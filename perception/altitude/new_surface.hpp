@@ -46,9 +46,13 @@ class NewSurface {
   double t_s_ = 0.0, tt_s2_ = 0.0, h_m_ = 0.0, th_m_s_ = 0.0;  ///< Sums over the scans.
 };
 
-double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surface);
+/// Time for which a surface that rises or falls no faster than the error of the vertical speed must be seen (measured:
+/// docs/decisions/altitude.md#095).
+inline constexpr double kConfirmMoving_s = 1.0;
 /// After this time a surface is no slope, as slopes in rooms are short, and no longer new.
-double longestSight_s(const MultilevelConfig& config);
+inline constexpr double kLongestSight_s = 2.0 * kConfirmMoving_s;
+
+double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surface);
 /// Whether the surface is flat: measured at a constant height, unlike a slope, or rising or falling evenly because the
 /// vertical speed is wrong. Two things support the latter: that it is seen for long, and that a level is known at its
 /// height (`explained_by`, kNoLevel for none). The more of them, the greater the error of the speed may be.

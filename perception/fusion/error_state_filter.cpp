@@ -19,6 +19,17 @@ using common::Time;
 
 namespace {
 
+/// Standard deviation of FusionConfig::drag_1_s at the start.
+constexpr double kDragSigma_1_s = 0.2;
+/// Standard deviation of each component of the wind at the start.
+constexpr double kWindSigma_m_s = 0.3;
+/// Standard deviation up to which the velocity may be used for control. A corridor's axis is measured by the airframe's
+/// drag alone, which leaves half a metre per second in gusts (docs/decisions/fusion.md#018); with less the vehicle
+/// would come down in every corridor without features.
+constexpr double kValidVelocitySigma_m_s = 0.7;
+/// Standard deviation up to which the height may be used for control.
+constexpr double kValidHeightSigma_m = 0.25;
+
 /// Position and yaw are zero by definition. Gravity shows only the sum of tilt and accelerometer bias: both start with
 /// a wide covariance, and one gravity measurement correlates them.
 FilterState stateAtRest(const ErrorStateFilter::Config& config, const RestEstimate& rest, Time now, double height_m) {
@@ -36,8 +47,8 @@ FilterState stateAtRest(const ErrorStateFilter::Config& config, const RestEstima
   diagonal.segment<3>(kAttitude) << square(0.2), square(0.2), 1e-8;
   diagonal.segment<3>(kAccelerometerBias).setConstant(square(config.accelerometer_bias_sigma_m_s2));
   diagonal.segment<3>(kGyroscopeBias).setConstant(square(rest.gyroscope_mean_sigma_rad_s) + 1e-8);
-  diagonal(kDrag) = square(config.drag_sigma_1_s);
-  diagonal.segment<2>(kWind).setConstant(square(config.wind_sigma_m_s));
+  diagonal(kDrag) = square(kDragSigma_1_s);
+  diagonal.segment<2>(kWind).setConstant(square(kWindSigma_m_s));
   update(state, gravity(state, rest.specific_force_body_m_s2, config.gravity_m_s2,
                         square(rest.accelerometer_mean_sigma_m_s2) + 1e-6));
   return state;
@@ -56,10 +67,7 @@ double verticalAge_s(const FilterState& s) {
 }  // namespace
 
 struct ErrorStateFilter::Impl {
-  explicit Impl(const Config& c)
-      : config(c),
-        history(c),
-        rest({c.rest_s, c.rest_gyroscope_sigma_rad_s, c.rest_accelerometer_sigma_m_s2, c.gravity_m_s2}) {}
+  explicit Impl(const Config& c) : config(c), history(c), rest(c.gravity_m_s2) {}
 
   /// Covariance of `Rows` errors from the `first` on, by what is not known of the laser.
   template <int Rows>
@@ -175,10 +183,10 @@ common::VehicleState ErrorStateFilter::state() const {
 
   const auto velocity_sigma = out.velocity_covariance_m2_s2.diagonal().cwiseMax(0.0).cwiseSqrt().eval();
   out.horizontal_valid = !f.history.diverged() && f.horizontalFresh(newest) &&
-                         velocity_sigma.head<2>().maxCoeff() <= f.config.valid_velocity_sigma_m_s;
+                         velocity_sigma.head<2>().maxCoeff() <= kValidVelocitySigma_m_s;
   out.vertical_valid = !f.history.diverged() && f.verticalFresh(newest) &&
-                       velocity_sigma.z() <= f.config.valid_velocity_sigma_m_s &&
-                       out.position_covariance_m2(2, 2) <= square(f.config.valid_height_sigma_m);
+                       velocity_sigma.z() <= kValidVelocitySigma_m_s &&
+                       out.position_covariance_m2(2, 2) <= square(kValidHeightSigma_m);
   out.position_covariance_m2 += f.byLaser<3>(s, kPosition);
   out.velocity_covariance_m2_s2 += f.byLaser<3>(s, kVelocity);
   return out;

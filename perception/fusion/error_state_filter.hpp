@@ -14,7 +14,7 @@
 // to the airspeed. The velocity is therefore observable even where no scan constrains it, although only as well as
 // bias, drag and wind are known.
 //
-// Outliers are gated by their Mahalanobis distance. A gate that stays closed for `recovery_s` is forced open: the
+// Outliers are gated by their Mahalanobis distance. A gate that stays closed for too long is forced open: the
 // covariance is widened by the size of the residual. Too many of these recoveries are a divergence, which lasts until
 // initialize().
 //
@@ -53,11 +53,11 @@ class ErrorStateFilter {
   void predict(const common::ImuSample& sample);
 
   /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height. Roll, pitch and the gyroscope bias come
-  /// from the last `rest_s` of samples. Fails, with the reason, if there are too few samples or if the vehicle moved.
-  /// Discards all earlier states and measurements.
+  /// from the samples of the last half second. Fails, with the reason, if there are too few samples or if the vehicle
+  /// moved. Discards all earlier states and measurements.
   tl::expected<void, std::string> initialize(double height_m);
   bool initialized() const;
-  /// Roll and pitch by gravity over the last `rest_s` of samples, with the yaw zero; none while the vehicle moves.
+  /// Roll and pitch by gravity over the last half second of samples, with the yaw zero; none while the vehicle moves.
   std::optional<Eigen::Quaterniond> attitudeAtRest() const;
 
   /// While true, the vehicle is known to stand still: zero velocity and zero rotation are measured, from the next

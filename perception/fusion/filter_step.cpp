@@ -13,6 +13,37 @@ using common::Time;
 
 namespace {
 
+/// Noise density of a specific force that the thrust predicts: 5 % of gravity for a second.
+constexpr double kPredictedForceNoise_m_s2_rthz = 0.5;
+/// Noise density of a rate of rotation that the setpoints predict: 2 deg after a tenth of a second.
+constexpr double kPredictedRateNoise_rad_s_rthz = 0.1;
+/// Standard deviation of a roll or pitch that the setpoints predict, each time that attitudes are used.
+constexpr double kPredictedTiltSigma_deg = 5.0;
+/// Random walk of the drag, which changes with speed, battery and height.
+constexpr double kDragWalk_1_s_rts = 0.002;
+/// Random walk of each component of the wind.
+constexpr double kWindWalk_m_s_rts = 0.001;
+/// Standard deviation of the specific force from gravity, by the vehicle's own acceleration.
+constexpr double kGravitySigma_m_s2 = 1.0;
+/// A specific force whose size differs from gravity by more is not taken for it (docs/decisions/fusion.md#075).
+constexpr double kGravityGate_m_s2 = 0.5;
+/// Standard deviation of the zero rotation measured at rest.
+constexpr double kZeroRotationSigma_rad_s = 0.01;
+/// Measurements farther off than this many standard deviations, for each degree of freedom, are outliers.
+constexpr double kGateSigma = 4.0;
+/// The gate of heights, or of a camera's poses, that was closed for this long is opened by force
+/// (docs/decisions/fusion.md#091).
+constexpr double kRecovery_s = 0.4;
+/// A gate of the laser's relative poses that was closed for this long is opened by force; until then inertia is used
+/// alone, which a slope ahead does not mislead (measured: docs/decisions/fusion.md#091).
+constexpr double kPoseRecovery_s = 1.5;
+/// More forced openings than this within FusionConfig::recovery_window_s are a divergence.
+constexpr int kMaxRecoveries = 3;
+/// A faster estimate is a divergence.
+constexpr double kMaxSpeed_m_s = 8.0;
+/// Standard deviation of the velocity beyond which the filter has diverged.
+constexpr double kDivergedVelocitySigma_m_s = 3.0;
+
 /// Beyond this Mahalanobis distance the AHRS is trusted more than the filter.
 constexpr double kAhrsGate = 3.0;
 /// The vehicle's own acceleration, the difference between force and gravity, lasts for about this long: the time scale
@@ -59,6 +90,23 @@ void widenSpatialPose(FilterState& state, const Eigen::Matrix<double, 6, 1>& res
   diagonal.segment<3>(kAttitude).array() += turn2;
 }
 
+void recover(FilterState& state) {
+  const bool recent =
+      state.recent_recoveries > 0 && (state.stamp - state.last_recovery).seconds() < FusionConfig::recovery_window_s;
+  state.recent_recoveries = recent ? state.recent_recoveries + 1 : 1;
+  state.last_recovery = state.stamp;
+  ++state.recoveries;
+  if (state.recent_recoveries > kMaxRecoveries) state.diverged = true;
+}
+
+void watch(FilterState& state) {
+  const double velocity_variance = state.covariance.diagonal().segment<3>(kVelocity).maxCoeff();
+  const bool sane = state.finite() && state.velocity_odom_m_s.norm() < kMaxSpeed_m_s &&
+                    velocity_variance < square(kDivergedVelocitySigma_m_s) &&
+                    state.covariance.diagonal().minCoeff() >= 0.0;
+  if (!sane) state.diverged = true;
+}
+
 }  // namespace
 
 FilterStep::FilterStep(const FusionConfig& config)
@@ -67,8 +115,8 @@ FilterStep::FilterStep(const FusionConfig& config)
              config.gyroscope_noise_rad_s_rthz,
              config.accelerometer_bias_walk_m_s3_rthz,
              config.gyroscope_bias_walk_rad_s2_rthz,
-             config.drag_walk_1_s_rts,
-             config.wind_walk_m_s_rts,
+             kDragWalk_1_s_rts,
+             kWindWalk_m_s_rts,
              config.gravity_m_s2} {}
 
 void FilterStep::advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const {
@@ -81,8 +129,8 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
   ImuNoise noise = noise_;
   noise.accelerometer_m_s2_rthz = std::max(noise.accelerometer_m_s2_rthz, now.accelerometer_noise_m_s2_rthz);
   if (now.predicted) {
-    noise.accelerometer_m_s2_rthz = config_.predicted_force_noise_m_s2_rthz;
-    noise.gyroscope_rad_s_rthz = config_.predicted_rate_noise_rad_s_rthz;
+    noise.accelerometer_m_s2_rthz = kPredictedForceNoise_m_s2_rthz;
+    noise.gyroscope_rad_s_rthz = kPredictedRateNoise_rad_s_rthz;
   }
   const auto advanceTo = [&](Time time) {
     if (time <= at.stamp) return;
@@ -110,8 +158,7 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       return;
     case MeasurementKind::kHeight:
       state.height_common_variance_m2 = m.common_variance_m2;
-      gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)), config_.recovery_s,
-                  widenHeight);
+      gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)), kRecovery_s, widenHeight);
       return;
     case MeasurementKind::kVerticalSpeed:
       update(state, verticalSpeed(state, m.value, m.covariance(0, 0)));
@@ -132,8 +179,8 @@ void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) 
   state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
   if (m.kind == MeasurementKind::kRelativePose3) {
     // A pose in space never overrules the laser: its gate is forced only where nothing else measures the position.
-    const bool alone = (state.stamp - state.relative_gate.last_accepted).seconds() >= config_.recovery_s;
-    gatedUpdate(state, state.spatial_gate, relativePose3(state, clone, m.pose3, m.covariance6), config_.recovery_s,
+    const bool alone = (state.stamp - state.relative_gate.last_accepted).seconds() >= kRecovery_s;
+    gatedUpdate(state, state.spatial_gate, relativePose3(state, clone, m.pose3, m.covariance6), kRecovery_s,
                 widenSpatialPose, alone);
     return;
   }
@@ -142,17 +189,16 @@ void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) 
   };
   if (m.unobservable_direction)
     gatedUpdate(state, state.relative_gate,
-                relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_direction),
-                config_.pose_recovery_s, widen);
-  else
-    gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), config_.pose_recovery_s,
+                relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_direction), kPoseRecovery_s,
                 widen);
+  else
+    gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), kPoseRecovery_s, widen);
 }
 
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {
   if (!s.attitude_due) return;
   if (s.predicted)
-    update(state, upDirection(state, s.up_body, square(config_.predicted_tilt_sigma_deg * kRadPerDeg)));
+    update(state, upDirection(state, s.up_body, square(kPredictedTiltSigma_deg * kRadPerDeg)));
   else if (config_.use_ahrs)
     updateByAhrs(state, s.up_body);
   if (config_.use_gravity && !s.predicted)
@@ -161,7 +207,7 @@ void FilterStep::applySlot(FilterState& state, const Slot& s) const {
     updateByDrag(state, s.accelerometer_noise_m_s2_rthz);
   if (s.at_rest) {
     update(state, zeroVelocity(state, square(config_.zero_velocity_sigma_m_s)));
-    update(state, zeroRotation(state, s.imu.angular_velocity_body_rad_s, square(config_.zero_rotation_sigma_rad_s)));
+    update(state, zeroRotation(state, s.imu.angular_velocity_body_rad_s, square(kZeroRotationSigma_rad_s)));
     state.relative_gate.last_accepted = s.imu.stamp;
   }
 }
@@ -189,10 +235,10 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
 void FilterStep::updateByGravity(FilterState& state, const Slot& s) const {
   const Eigen::Vector3d force_m_s2 = s.imu.specific_force_body_m_s2;
   const double excess_m_s2 = (force_m_s2 - state.accelerometer_bias_m_s2).norm() - config_.gravity_m_s2;
-  if (std::abs(excess_m_s2) > config_.gravity_gate_m_s2) return;
+  if (std::abs(excess_m_s2) > kGravityGate_m_s2) return;
   const double slow = s.at_rest ? 1.0 : 1.0 + 2.0 * kOwnAcceleration_s * config_.attitude_rate_hz;
-  const Linearized<3> m = gravity(state, force_m_s2, config_.gravity_m_s2, slow * square(config_.gravity_sigma_m_s2));
-  if (mahalanobis2(state, m) <= gateLimit2<3>(config_.gate_sigma)) update(state, m);
+  const Linearized<3> m = gravity(state, force_m_s2, config_.gravity_m_s2, slow * square(kGravitySigma_m_s2));
+  if (mahalanobis2(state, m) <= gateLimit2<3>(kGateSigma)) update(state, m);
 }
 
 /// The ground also pushes a standing vehicle, so nothing is learned about drag at rest.
@@ -215,7 +261,7 @@ void FilterStep::updateByDrag(FilterState& state, double accelerometer_noise_m_s
   if (state.drag_stretch.seconds <= 0.0) return;
   const double noise_m_s2_rthz = std::max(config_.drag_noise_m_s2_rthz, accelerometer_noise_m_s2_rthz);
   const Linearized<2> m = drag(state, square(noise_m_s2_rthz) / state.drag_stretch.seconds);
-  if (mahalanobis2(state, m) <= square(config_.gate_sigma)) update(state, m);
+  if (mahalanobis2(state, m) <= square(kGateSigma)) update(state, m);
   state.drag_stretch = {};
 }
 
@@ -225,7 +271,7 @@ void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Lineari
   const double innovation2 = mahalanobis2(state, m);
   gate.innovations.sum += innovation2;
   gate.innovations.degrees += static_cast<std::uint64_t>(K);
-  if (innovation2 > gateLimit2<K>(config_.gate_sigma)) {
+  if (innovation2 > gateLimit2<K>(kGateSigma)) {
     if (!gate.closed) {
       gate.closed = true;
       gate.closed_since = state.stamp;
@@ -238,23 +284,6 @@ void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Lineari
   if (!update(state, m)) return;
   gate.closed = false;
   gate.last_accepted = state.stamp;
-}
-
-void FilterStep::recover(FilterState& state) const {
-  const bool recent =
-      state.recent_recoveries > 0 && (state.stamp - state.last_recovery).seconds() < config_.recovery_window_s;
-  state.recent_recoveries = recent ? state.recent_recoveries + 1 : 1;
-  state.last_recovery = state.stamp;
-  ++state.recoveries;
-  if (state.recent_recoveries > config_.max_recoveries) state.diverged = true;
-}
-
-void FilterStep::watch(FilterState& state) const {
-  const double velocity_variance = state.covariance.diagonal().segment<3>(kVelocity).maxCoeff();
-  const bool sane = state.finite() && state.velocity_odom_m_s.norm() < config_.max_speed_m_s &&
-                    velocity_variance < square(config_.diverged_velocity_sigma_m_s) &&
-                    state.covariance.diagonal().minCoeff() >= 0.0;
-  if (!sane) state.diverged = true;
 }
 
 }  // namespace swiftlet::perception::fusion

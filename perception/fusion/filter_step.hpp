@@ -51,8 +51,6 @@ class FilterStep {
   template <int K, typename Widen>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement, double recovery_s,
                    Widen widen, bool may_force = true) const;
-  void recover(FilterState& state) const;
-  void watch(FilterState& state) const;
 
   FusionConfig config_;
   ImuNoise noise_;

@@ -21,16 +21,11 @@ struct RestEstimate {
   double accelerometer_mean_sigma_m_s2 = 0.0;
 };
 
-/// Uses the last `rest_s` of samples, at most 1024.
+/// Uses the samples of the last half second, at most 1024.
 class RestEstimator {
  public:
-  struct Limits {
-    double rest_s;
-    double gyroscope_sigma_rad_s;
-    double accelerometer_sigma_m_s2;
-    double gravity_m_s2;
-  };
-  explicit RestEstimator(const Limits& limits);
+  /// `gravity_m_s2`: the magnitude of gravity.
+  explicit RestEstimator(double gravity_m_s2);
 
   void add(const common::ImuSample& sample);
   /// The estimate, or the reason why there is none: too few samples, motion, or a specific force that is not gravity.
@@ -42,7 +37,7 @@ class RestEstimator {
     Eigen::Vector3d angular_velocity_body_rad_s;
     Eigen::Vector3d specific_force_body_m_s2;
   };
-  Limits limits_;
+  double gravity_m_s2_;
   std::vector<Sample> samples_;  ///< A ring.
   std::size_t next_ = 0;
   std::size_t count_ = 0;

@@ -14,6 +14,9 @@ using common::Time;
 
 namespace {
 
+/// Greatest delay with which a measurement may come.
+constexpr double kHistory_s = 1.0;
+
 /// Beyond the newest sample a pose is extrapolated for up to four periods of the autopilot's IMU (200 Hz).
 constexpr double kMaxExtrapolation_s = 0.02;
 /// A measurement farther ahead of the IMU has a wrong stamp: no sensor of the field arrives half a second before it.
@@ -36,9 +39,9 @@ common::Pose3 extrapolated(const Slot& slot, Time time) {
 
 StateHistory::StateHistory(const FusionConfig& config)
     : step_(config),
-      length_(Duration::fromSeconds(config.history_s)),
+      length_(Duration::fromSeconds(kHistory_s)),
       attitude_period_s_(1.0 / config.attitude_rate_hz),
-      ring_(static_cast<std::size_t>(std::ceil(config.history_s * kRingRate_hz)) + 2),
+      ring_(static_cast<std::size_t>(std::ceil(kHistory_s * kRingRate_hz)) + 2),
       measurements_(kMeasurementCapacity) {}
 
 void StateHistory::start(const Slot& first) {
