@@ -120,7 +120,7 @@ Facts factsOf(const RecordedLog& log, const MapRun& run) {
   facts.insert(facts.end(), {{"path length", fmt::format("{:.1f} m", run.path_length_m)},
                              {"not matched", fmt::format("{}", run.mapping.unmatched)},
                              {"key scans", fmt::format("{}", run.mapping.slam.keyScans())},
-                             {"loops closed", run.mapping.slam.slam().hasGraph()
+                             {"loops closed", run.mapping.slam.slam().method() == perception::SlamMethod::kGraph
                                                   ? fmt::format("{}", run.mapping.slam.slam().counts().loops_closed)
                                                   : "-"},
                              {"computing time", fmt::format("{:.1f} s", run.wall_s)},

@@ -117,7 +117,7 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
                      const TrackSpool& track, const MapFigures& figures) {
   const std::vector<Pose2> keys = slam.keyPoses();
   writeTrajectory(out / "trajectory.tum", track, keys);
-  if (slam.slam().hasGraph())
+  if (slam.slam().method() == perception::SlamMethod::kGraph)
     required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
 
   interfaces::MapReport report;

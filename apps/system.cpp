@@ -288,7 +288,7 @@ std::vector<common::Problem> problemsOfLqr(const System& system) {
 std::vector<common::Problem> problemsOfSensors(const System& system) {
   const autonomy::AutonomyConfig& config = system.config.autonomy;
   const autonomy::ScanNeeds needs = {
-      .least_beams = config.estimator.laser.odometry.matcher.minPoints(),
+      .least_beams = perception::ScanMatcher::kMinPoints,
       .longest_silence_s = autonomy::kUnseenHold_s,
       .longest_age_s =
           std::min(config.estimator.fusion.horizontal_timeout_s, config.estimator.fusion.vertical_timeout_s),

@@ -15,7 +15,7 @@ using common::Pose2;
 struct Scene {
   test::Building building = test::offices(1);
   std::shared_ptr<const perception::MapField> field =
-      std::make_shared<const perception::MapField>(test::mapOf(building), perception::MapFieldConfig{});
+      std::make_shared<const perception::MapField>(test::mapOf(building));
   std::vector<std::vector<Eigen::Vector2f>> scans;
 
   Scene() {
@@ -100,7 +100,7 @@ BENCHMARK(searchGlobally)->Unit(benchmark::kMillisecond);
 
 void readMap(benchmark::State& state) {
   const common::OccupancyGrid map = test::mapOf(scene().building);
-  for (auto _ : state) benchmark::DoNotOptimize(perception::MapField(map, perception::MapFieldConfig{}));
+  for (auto _ : state) benchmark::DoNotOptimize(perception::MapField(map));
 }
 BENCHMARK(readMap)->Unit(benchmark::kMillisecond);
 

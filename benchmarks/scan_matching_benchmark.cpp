@@ -122,7 +122,7 @@ BENCHMARK(contour)->Unit(benchmark::kMicrosecond);
 
 template <typename Matcher>
 void matchBySlope(benchmark::State& state, const test::PlanarWorld& world, const perception::SearchWindow& window) {
-  Matcher matcher{{}};
+  Matcher matcher;
   matchAll(state, matcher, Scans(world), window);
 }
 constexpr auto gaussNewton = matchBySlope<perception::GaussNewtonMatcher>;
@@ -141,7 +141,7 @@ void addReference(benchmark::State& state) {
   const test::PlanarWorld world = test::flat();
   const Pose2 reference{0.3, 0.1, 0.4};
   const auto scan = scanAt(world, reference, 0);
-  Matcher matcher{{}};
+  Matcher matcher;
   for (auto _ : state) {
     matcher.clearReference();
     matcher.addReference(scan, reference);

@@ -1,11 +1,6 @@
 // How pose graphs are optimized, those of the plane and those of space.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "common/config_fwd.hpp"
-
 namespace swiftlet::optimization {
 
 struct PoseGraphConfig {

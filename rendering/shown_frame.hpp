@@ -14,8 +14,8 @@ struct ShownFrame {
   common::Pose2 T_map_shown;  ///< The identity for `map`.
 };
 
-/// The frame of the given map while the vehicle knows its place in it, else `map` (decision 060). The page has the same
-/// rule, in MapStore.shown().
+/// The frame of the given map while the vehicle knows its place in it, else `map` (docs/decisions/localization.md#060).
+/// The page has the same rule, in MapStore.shown().
 ShownFrame shownFrame(const common::World& world);
 
 }  // namespace swiftlet::rendering

@@ -7,6 +7,9 @@
 namespace swiftlet::vision {
 namespace {
 
+/// Gradient along a corner's weakest direction, in grey levels per pixel, at least.
+constexpr double kLeastContrast = 4.0;
+
 /// Half the side of the window over which gradients are summed.
 constexpr int kWindow_px = 2;
 constexpr int kWindowPixels = (2 * kWindow_px + 1) * (2 * kWindow_px + 1);
@@ -106,7 +109,7 @@ std::vector<Candidate> localMaxima(const std::vector<float>& contrast, const Gra
     const float* row = contrast.data() + static_cast<std::ptrdiff_t>(v) * width_px;
     for (int u = kBorder_px; u + kBorder_px < width_px; ++u) {
       const float* at = row + u;
-      if (static_cast<double>(*at) < config.least_contrast || !isLocalMaximum(at, width_px)) continue;
+      if (static_cast<double>(*at) < kLeastContrast || !isLocalMaximum(at, width_px)) continue;
       const Eigen::Vector2d offset(parabolaPeak(at[-1], at[0], at[1]),
                                    parabolaPeak(at[-width_px], at[0], at[width_px]));
       found.push_back({{Eigen::Vector2d(u, v) + offset, static_cast<double>(*at)},

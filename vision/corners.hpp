@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "vision/gray_image.hpp"
 
 namespace swiftlet::vision {
@@ -17,8 +16,6 @@ namespace swiftlet::vision {
 struct CornerConfig {
   int greatest_number = 400;  ///< Corners of a picture, at most.
   int cell_px = 16;           ///< Side of the cells over which corners are spread.
-  static constexpr double least_contrast =
-      4.0;  ///< Gradient along a corner's weakest direction, in grey levels per pixel, at least.
 };
 
 struct Corner {

@@ -7,6 +7,11 @@
 namespace swiftlet::vision {
 namespace {
 
+/// Standard deviation of a corner's pixel, in each direction.
+constexpr double kPixelSigma_px = 0.7;
+/// A feature whose depth is less certain, as at the edge of a surface, is left out.
+constexpr double kGreatestSigma_m = 0.08;
+
 /// Of the weights, which sum to 16, this many must belong to measured pixels.
 constexpr int kLeastWeight = 10;
 
@@ -63,8 +68,8 @@ std::vector<Feature> findFeatures(const GrayImage& gray, const common::DepthImag
   for (const Corner& corner : findCorners(gray, config.corners)) {
     const auto at = depthMixture(depth, static_cast<int>(std::lround(corner.pixel.x())),
                                  static_cast<int>(std::lround(corner.pixel.y())), config.depth_noise);
-    if (!at || at->variance_m2 > config.greatest_sigma_m * config.greatest_sigma_m) continue;
-    const GaussianPoint point = gaussianPoint(camera, corner.pixel, config.pixel_sigma_px, *at);
+    if (!at || at->variance_m2 > kGreatestSigma_m * kGreatestSigma_m) continue;
+    const GaussianPoint point = gaussianPoint(camera, corner.pixel, kPixelSigma_px, *at);
     features.push_back({corner.pixel, point.mean_camera_m, point.covariance_camera_m2});
   }
   return features;

@@ -53,9 +53,6 @@ GaussianPoint gaussianPoint(const common::PinholeCamera& camera, const Eigen::Ve
 struct FeatureConfig {
   CornerConfig corners;
   DepthNoiseConfig depth_noise;
-  static constexpr double pixel_sigma_px = 0.7;  ///< Standard deviation of a corner's pixel, in each direction.
-  static constexpr double greatest_sigma_m =
-      0.08;  ///< A feature whose depth is less certain, as at the edge of a surface, is left out.
 
   void describe(common::config::Fields& fields);
 };
@@ -67,7 +64,7 @@ struct Feature {
 };
 
 /// The corners of the picture that have a depth. Corners at the edge of a surface, whose depth could be that of the
-/// background, are left out by `greatest_sigma_m`.
+/// background, are left out.
 std::vector<Feature> findFeatures(const GrayImage& gray, const common::DepthImage& depth,
                                   const common::PinholeCamera& camera, const FeatureConfig& config);
 

@@ -54,13 +54,12 @@ std::string StartView::heightProblem(const perception::ProjectedScan& view) cons
 /// Returns that leave one direction free, as the walls of a long corridor, carry a flight: the drift along it is
 /// watched.
 std::string StartView::positionProblem(const perception::ProjectedScan& view) const {
-  const perception::MatcherChoiceConfig& matcher = config_.odometry.matcher;
-  const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, matcher.maxRange_m()});
+  const double reach_m = std::min({scan_->range_max_m, laser_.range_max_m, perception::ScanMatcher::kMaxRange_m});
   const auto returns = std::count_if(view.points_level_m.begin(), view.points_level_m.end(),
                                      [&](const Eigen::Vector2f& point_m) { return point_m.norm() <= reach_m; });
-  if (returns < matcher.minPoints())
+  if (returns < perception::ScanMatcher::kMinPoints)
     return fmt::format("{} beams of the laser return from within {:.1f} m; {} are needed to fix the position",
-                       returns == 0 ? "no" : fmt::format("{}", returns), reach_m, matcher.minPoints());
+                       returns == 0 ? "no" : fmt::format("{}", returns), reach_m, perception::ScanMatcher::kMinPoints);
   return "";
 }
 

@@ -47,7 +47,7 @@ TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRu
                                common::EventLog& log)
     : config_(config),
       jobs_(jobs),
-      detector_(std::make_shared<const perception::TargetDetector>(config.classes, config.detector)),
+      detector_(std::make_shared<const perception::TargetDetector>(config.classes)),
       tracker_(config.tracker, config.classes, range_m),
       log_(log) {}
 

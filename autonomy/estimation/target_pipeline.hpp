@@ -27,7 +27,6 @@ namespace swiftlet::autonomy {
 
 struct TargetPipelineConfig {
   std::vector<perception::TargetClassConfig> classes;
-  perception::TargetDetectorConfig detector;
   perception::TargetTrackerConfig tracker;
 
   void describe(common::config::Fields& fields);

@@ -19,7 +19,8 @@ struct MultilevelConfig {
       4.0;  ///< A surface that rises or falls by more standard deviations than this is a slope and no level.
   bool one_floor = true;  ///< Whether the take-off floor may be met again anywhere, not only in the neighbourhood of
                           ///< where it was seen.
-  double publish_delay_s = 0.15;  ///< A measurement is published when nothing has contradicted it for this long.
+  double publish_delay_s = 0.15;  ///< A measurement is published when nothing has contradicted it for this long
+                                  ///< (docs/decisions/altitude.md#008).
 
   void describe(common::config::Fields& fields);
 };

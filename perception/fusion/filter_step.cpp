@@ -52,7 +52,7 @@ constexpr double kOwnAcceleration_s = 0.5;
 /// Across a longer gap between samples the specific force is unknown.
 constexpr double kLongestDragStep_s = 0.05;
 
-/// The greatest squared Mahalanobis distance of K degrees of freedom with about the tail probability of `gate_sigma` in
+/// The greatest squared Mahalanobis distance of K degrees of freedom with about the tail probability of `kGateSigma` in
 /// one. With 3 sigma it is 14.0 for three and 21.5 for six; the quantiles of chi-squared are 14.2 and 20.1.
 template <int K>
 double gateLimit2(double gate_sigma) {

@@ -27,8 +27,9 @@ struct FusionConfig {
                          ///< velocity through the air where the laser does not.
   double drag_1_s = 0.3;
   /// Noise of the drag by draughts of 0.3 m/s that last for 2 s (Gauss-Markov), as they act on slower motion: drag *
-  /// sigma * sqrt(2 tau).
+  /// sigma * sqrt(2 tau). With that of the accelerometer alone, flights hit walls (docs/decisions/fusion.md#018).
   double drag_noise_m_s2_rthz = 0.1;
+  // What errors of the laser's mount and clock do to the estimate (docs/decisions/fusion.md#083).
   double laser_yaw_sigma_deg =
       0.6;  ///< Standard deviation of the yaw by which the laser is mounted otherwise than its data sheet says.
   double laser_position_sigma_m =

@@ -16,6 +16,31 @@ using common::Pose2;
 
 namespace {
 
+/// Angular acceleration that widens the search with the time since the last match.
+constexpr double kMaxAngularAcceleration_rad_s2 = 20.0;
+/// Speed that widens the search with the time since all directions were seen, as the guess drifts (measured:
+/// docs/decisions/scan_matching.md#080).
+constexpr double kUnseenDrift_m_s = 0.5;
+/// Half the least search window of the rotation; at most LaserOdometryConfig::max_window_deg.
+constexpr double kGuessError_deg = 1.5;
+/// A scan with a smaller share of supported points joins the local map.
+constexpr double kMinOverlap = 0.75;
+/// Value of kMinOverlap where the position is weakly fixed in one direction.
+constexpr double kMinWeakOverlap = 0.93;
+/// A position less certain than this in one direction is weakly fixed.
+constexpr double kWeakSigma_m = 0.05;
+/// A scan this far from the reference joins the local map.
+constexpr double kMaxReferenceDistance_m = 2.0;
+/// A scan turned this much against the reference joins the local map.
+constexpr double kMaxReferenceRotation_deg = 60.0;
+/// A scan tilted more than this is drawn with the error of its attitude, so that it joins the local map only when it
+/// must.
+constexpr double kLevelTilt_deg = 2.0;
+/// A tilted scan joins the local map when its overlap is this much smaller than a level one's would have to be.
+constexpr double kTiltedOverlapMargin = 0.15;
+/// Key scans kept in the local map (16 and 32 were no better: docs/decisions/slam.md#017).
+constexpr int kLocalMapScans = 8;
+
 void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
   switch (kind) {
     case MatcherKind::kCorrelative:
@@ -30,10 +55,12 @@ void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
   }
 }
 
-/// At this many half windows from the guess, the guess no longer supports a match.
+/// At this many half windows from the guess, the guess no longer supports a match (measured:
+/// docs/decisions/scan_matching.md#023).
 constexpr double kFarWindows = 6.0;
 
-/// Matches that the estimate has refused for this long are compared with its own pose; single outliers are not.
+/// Matches that the estimate has refused for this long are compared with its own pose; single outliers are not
+/// (docs/decisions/scan_matching.md#102).
 constexpr double kRefused_s = 0.2;
 
 /// How far an offset lies beyond its window: 0 inside, 1 far away.
@@ -69,7 +96,7 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> LaserOdometryConfig::validate() const {
   return common::Validation()
       .atMost("guess_error_m", guess_error_m, "max_window_m", max_window_m)
-      .atMost("guess_error_deg", guess_error_deg, "max_window_deg", max_window_deg)
+      .atMost("guess_error_deg", kGuessError_deg, "max_window_deg", max_window_deg)
       .problems();
 }
 
@@ -138,18 +165,18 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
                                      const Eigen::Matrix3d& covariance_local) {
   ++counts.references;
   key_scans.push_back({scan.stamp, scan, T_local_body, covariance_local});
-  if (static_cast<int>(key_scans.size()) <= config.local_map_scans) {
+  if (static_cast<int>(key_scans.size()) <= kLocalMapScans) {
     matcher->addReference(scan, T_local_body);
     return;
   }
   // Half of the key scans are dropped at once, so that the map is rarely redrawn.
-  const auto kept = static_cast<std::size_t>(config.local_map_scans) / 2 + 1;
+  const auto kept = static_cast<std::size_t>(kLocalMapScans) / 2 + 1;
   while (key_scans.size() > kept) key_scans.pop_front();
   drawLocalMap();
 }
 
 std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan) {
-  if (static_cast<int>(scan.points_level_m.size()) < config.matcher.minPoints()) return std::nullopt;
+  if (static_cast<int>(scan.points_level_m.size()) < ScanMatcher::kMinPoints) return std::nullopt;
   key_scans.clear();
   matcher->clearReference();
   addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
@@ -170,9 +197,9 @@ SearchWindow LaserOdometry::Impl::usualWindow(common::Time now) const {
   const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
   // Along an unobservable direction the guess has drifted. Once it is observable again, the true pose may be that far
   // off.
-  const double unseen_m = config.unseen_drift_m_s * (now - last_seen_whole).seconds();
+  const double unseen_m = kUnseenDrift_m_s * (now - last_seen_whole).seconds();
   return {config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m,
-          config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2};
+          kGuessError_deg * kRadPerDeg + kMaxAngularAcceleration_rad_s2 * half_dt2};
 }
 
 LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now, const SearchWindow& window) const {
@@ -193,7 +220,7 @@ double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& gues
   const double beyond =
       std::max(shareBeyond(off.position_m().norm(), guess.window.half_translation_m, config.max_window_m),
                shareBeyond(std::abs(off.yaw_rad), guess.window.half_rotation_rad, config.max_window_deg * kRadPerDeg));
-  return match.quality - std::lerp(config.matcher.minQuality(), config.min_widened_quality, beyond);
+  return match.quality - std::lerp(ScanMatcher::kMinQuality, config.min_widened_quality, beyond);
 }
 
 LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& window, const ProjectedScan& scan,
@@ -210,8 +237,7 @@ bool LaserOdometry::Impl::canWiden(const SearchWindow& window) const {
 
 SearchWindow LaserOdometry::Impl::widened(const SearchWindow& window) const {
   return {std::clamp(3.0 * window.half_translation_m, config.guess_error_m, config.max_window_m),
-          std::clamp(3.0 * window.half_rotation_rad, config.guess_error_deg * kRadPerDeg,
-                     config.max_window_deg * kRadPerDeg)};
+          std::clamp(3.0 * window.half_rotation_rad, kGuessError_deg * kRadPerDeg, config.max_window_deg * kRadPerDeg)};
 }
 
 /// The match with the greatest margin. If the best pose lies at the edge of the window or does not fit, the search goes
@@ -271,15 +297,14 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
 /// the overlap has become too small to wait for a level one.
 bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const ProjectedScan& scan,
                                      const MatchResult& match) const {
-  const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
-                   std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
+  const bool far = relative.T_from_to.position_m().norm() > kMaxReferenceDistance_m ||
+                   std::abs(relative.T_from_to.yaw_rad) > kMaxReferenceRotation_deg * kRadPerDeg;
   const Eigen::Vector2d position =
       common::symmetricEigenvalues(Eigen::Matrix2d(match.covariance.topLeftCorner<2, 2>()));
-  const bool weak = position(1) > config.weak_sigma_m * config.weak_sigma_m;
-  if (!far && match.quality >= config.min_fit && match.overlap >= (weak ? config.min_weak_overlap : config.min_overlap))
-    return false;
-  const bool tilted = common::cosTilt(scan.T_odom_body.rotation) < std::cos(config.level_tilt_deg * kRadPerDeg);
-  return !tilted || match.overlap < config.min_overlap - config.tilted_overlap_margin;
+  const bool weak = position(1) > kWeakSigma_m * kWeakSigma_m;
+  if (!far && match.quality >= config.min_fit && match.overlap >= (weak ? kMinWeakOverlap : kMinOverlap)) return false;
+  const bool tilted = common::cosTilt(scan.T_odom_body.rotation) < std::cos(kLevelTilt_deg * kRadPerDeg);
+  return !tilted || match.overlap < kMinOverlap - kTiltedOverlapMargin;
 }
 
 LaserOdometry::LaserOdometry(const LaserOdometryConfig& config) : impl_(std::make_unique<Impl>(config)) {}

@@ -43,31 +43,14 @@ struct OtherGuess {
 struct LaserOdometryConfig {
   MatcherChoiceConfig matcher;
   double max_acceleration_m_s2 = 5.0;
-  static constexpr double max_angular_acceleration_rad_s2 =
-      20.0;  ///< Angular acceleration that widens the search with the time since the last match.
-  static constexpr double unseen_drift_m_s =
-      0.5;  ///< Speed that widens the search with the time since all directions were seen, as the guess drifts.
-  double guess_error_m = 0.04;  ///< Half the least search window; at most max_window_m.
-  static constexpr double guess_error_deg =
-      1.5;  ///< Half the least search window of the rotation; at most max_window_deg.
+  double guess_error_m =
+      0.04;  ///< Half the least search window; at most max_window_m (docs/decisions/scan_matching.md#080).
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
   double min_widened_quality = 0.35;
   bool widens = true;
   bool widened_must_hold = false;
-  static constexpr double min_overlap = 0.75;  ///< A scan with a smaller share of supported points joins the local map.
   double min_fit = 0.35;
-  static constexpr double min_weak_overlap =
-      0.93;  ///< Value of min_overlap where the position is weakly fixed in one direction.
-  static constexpr double weak_sigma_m = 0.05;  ///< A position less certain than this in one direction is weakly fixed.
-  static constexpr double max_reference_distance_m = 2.0;  ///< A scan this far from the reference joins the local map.
-  static constexpr double max_reference_rotation_deg =
-      60.0;                                      ///< A scan turned this much against the reference joins the local map.
-  static constexpr double level_tilt_deg = 2.0;  ///< A scan tilted more than this is drawn with the error of its
-                                                 ///< attitude, so that it joins the local map only when it must.
-  static constexpr double tilted_overlap_margin = 0.15;  ///< A tilted scan joins the local map when its overlap is this
-                                                         ///< much smaller than a level one's would have to be.
-  static constexpr int local_map_scans = 8;              ///< Key scans kept in the local map.
   int max_failures = 20;
 
   void describe(common::config::Fields& fields);

@@ -17,6 +17,19 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::square;
 
+/// Number of steps over which the error of a prediction is averaged.
+constexpr double kMemorySteps = 30;
+/// Error of position that is expected of the first predictions.
+constexpr double kFirstError_m = 0.10;
+/// Error of heading that is expected of the first predictions.
+constexpr double kFirstError_deg = 5.0;
+/// Least error of position that is expected of a prediction, however good the last ones were.
+constexpr double kLeastError_m = 0.01;
+/// Least error of heading that is expected of a prediction, however good the last ones were.
+constexpr double kLeastError_deg = 0.5;
+/// Acceleration of a robot that starts or stops: no speed is more certain than this lets it be.
+constexpr double kAcceleration_m_s2 = 1.0;
+
 /// The lever arm by which errors of heading are compared with errors of position.
 constexpr double kLever_m = 3.0;
 /// A single error counts as at most this many sigmas, so that one slip does not widen the search for long.
@@ -33,8 +46,8 @@ void MotionPredictionConfig::describe(common::config::Fields& fields) {
 
 MotionPrediction::MotionPrediction(const MotionPredictionConfig& config) : config_(config) {
   for (Source* source : {&wheels_, &inertia_}) {
-    source->variance_m2 = square(config.first_error_m);
-    source->variance_rad2 = square(config.first_error_deg * kRadPerDeg);
+    source->variance_m2 = square(kFirstError_m);
+    source->variance_rad2 = square(kFirstError_deg * kRadPerDeg);
   }
 }
 
@@ -49,10 +62,10 @@ const MotionPrediction::Source* MotionPrediction::other() const {
 }
 
 double MotionPrediction::sigma_m(const Source& source) const {
-  return std::max(std::sqrt(source.variance_m2), config_.least_error_m);
+  return std::max(std::sqrt(source.variance_m2), kLeastError_m);
 }
 double MotionPrediction::sigma_rad(const Source& source) const {
-  return std::max(std::sqrt(source.variance_rad2), config_.least_error_deg * kRadPerDeg);
+  return std::max(std::sqrt(source.variance_rad2), kLeastError_deg * kRadPerDeg);
 }
 double MotionPrediction::stepSigma_m() const { return sigma_m(best()); }
 double MotionPrediction::stepSigma_rad() const { return sigma_rad(best()); }
@@ -108,7 +121,7 @@ void MotionPrediction::follow(const Source& source) {
     move.topRightCorner<3, 3>() = turn * dt;
   }
   const double position_m =
-      &source == &wheels_ ? sigma_m(source) : std::max(sigma_m(source), config_.acceleration_m_s2 * dt * dt);
+      &source == &wheels_ ? sigma_m(source) : std::max(sigma_m(source), kAcceleration_m_s2 * dt * dt);
   const Eigen::Vector3d variances(square(position_m), square(position_m), square(sigma_rad(source)));
   covariance_ = move * covariance_ * move.transpose() + by_step * variances.asDiagonal() * by_step.transpose();
 }
@@ -141,14 +154,14 @@ void MotionPrediction::learn(Source& source, const Pose2& step,
     error_m -= *unobservable * unobservable->dot(error_m);
     seen_axes = 1.0;
   }
-  const double share = 1.0 / config_.memory_steps;
+  const double share = 1.0 / kMemorySteps;
   const auto average = [&](double& variance, double error2, double least) {
     const double bounded = std::min(error2, square(kMaxSurprise) * std::max(variance, square(least)));
     variance += share * (bounded - variance);
   };
-  average(source.variance_m2, error_m.squaredNorm() / seen_axes, config_.least_error_m);
+  average(source.variance_m2, error_m.squaredNorm() / seen_axes, kLeastError_m);
   average(source.variance_rad2, square(common::wrapAngle(step.yaw_rad - source.step->yaw_rad)),
-          config_.least_error_deg * kRadPerDeg);
+          kLeastError_deg * kRadPerDeg);
 }
 
 void MotionPrediction::lose(double sought_m, double sought_rad) {

@@ -12,15 +12,6 @@
 namespace swiftlet::perception {
 
 struct MotionPredictionConfig {
-  static constexpr double memory_steps = 30;      ///< Number of steps over which the error of a prediction is averaged.
-  static constexpr double first_error_m = 0.10;   ///< Error of position that is expected of the first predictions.
-  static constexpr double first_error_deg = 5.0;  ///< Error of heading that is expected of the first predictions.
-  static constexpr double least_error_m =
-      0.01;  ///< Least error of position that is expected of a prediction, however good the last ones were.
-  static constexpr double least_error_deg =
-      0.5;  ///< Least error of heading that is expected of a prediction, however good the last ones were.
-  static constexpr double acceleration_m_s2 =
-      1.0;  ///< Acceleration of a robot that starts or stops: no speed is more certain than this lets it be.
   double max_speed_m_s = 10.0;
 
   void describe(common::config::Fields& fields);

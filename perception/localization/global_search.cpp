@@ -13,6 +13,9 @@ namespace {
 
 using common::kRadPerDeg;
 
+/// More places than this are not kept, as the pose is ambiguous anyway (measured: docs/decisions/localization.md#019).
+constexpr int kMaxPlaces = 400;
+
 /// Windows are read 16 bytes at a time and two rows at once; the last read may extend past the array.
 constexpr std::size_t kSearchOverread = 64;
 /// Points farther than this from the vehicle are not used: they move too much from one searched direction to the next.
@@ -49,7 +52,6 @@ void GlobalSearch::layOut() {
 }
 
 void GlobalSearch::buildFinestLevel() {
-  const MapFieldConfig& field = map_->config();
   std::vector<std::uint8_t>& finest = fields_[0];
   finest.assign(indexOf(0, height_, width_) + kSearchOverread, 0);
   free_[0].assign(indexOf(0, rows_, columns_), 0);
@@ -57,9 +59,9 @@ void GlobalSearch::buildFinestLevel() {
     for (int x = 0; x < width_; ++x) {
       const Eigen::Vector2d center = map_->low_m() + Eigen::Vector2d(x - border_ + 0.5, y - border_ + 0.5) * cell_m_;
       const MapField::Place place = map_->at(center);
-      const double value = beamValue(place.wall_distance_m, config_.sigma_m, field.random_share);
-      finest[indexOf(x, y, width_)] =
-          static_cast<std::uint8_t>(std::lround(255.0 * (place.known ? value : std::max(value, field.unknown_value))));
+      const double value = beamValue(place.wall_distance_m, config_.sigma_m, MapField::kRandomShare);
+      finest[indexOf(x, y, width_)] = static_cast<std::uint8_t>(
+          std::lround(255.0 * (place.known ? value : std::max(value, MapField::kUnknownValue))));
       const int column = x - border_, row = y - border_;
       if (column >= 0 && row >= 0 && column < columns_ && row < rows_)
         free_[0][indexOf(column, row, columns_)] = place.free ? 1 : 0;
@@ -192,7 +194,7 @@ void GlobalSearch::Descent::run() {
     }
     best_ = std::max<std::int32_t>(best_, block.bound);
     places_.push_back({block.bound, block.x, block.y, block.direction});
-    complete_ = static_cast<int>(places_.size()) < search_.config_.max_places;
+    complete_ = static_cast<int>(places_.size()) < kMaxPlaces;
     if (!complete_) return;
   }
   complete_ = forgotten_ <= floor();

@@ -15,7 +15,6 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "perception/localization/map_field.hpp"
 #include "perception/scan_matching/window_sums.hpp"
@@ -34,8 +33,7 @@ struct GlobalSearchConfig {
   static constexpr double distinct_m =
       0.5;  ///< Places nearer than this are one, if they are also turned less than distinct_deg.
   static constexpr double distinct_deg =
-      15.0;  ///< Places turned less than this are one, if they are also nearer than distinct_m.
-  static constexpr int max_places = 400;  ///< More places than this are not kept, as the pose is ambiguous anyway.
+      15.0;                    ///< Places turned less than this are one, if they are also nearer than distinct_m.
   int max_blocks = 1'000'000;  ///< Blocks of poses after which the search is given up; it keeps twice as many.
 };
 

@@ -4,7 +4,19 @@
 #include <cmath>
 #include <utility>
 
+#include "perception/localization/scan_support.hpp"
+
 namespace swiftlet::perception {
+namespace {
+
+/// Distance between points of the local map.
+constexpr double kLocalMapSpacing_m = 0.15;
+/// Points of the local map that are compared with the map.
+constexpr int kLocalMapPoints = 160;
+/// With fewer points in the local map nothing is concluded; at most kLocalMapPoints.
+constexpr int kLocalMapLeastPoints = 40;
+
+}  // namespace
 
 PlaceDistinction distinctionOf(const LocalizerConfig& config) {
   return {config.search.distinct_m, config.search.distinct_deg * common::kRadPerDeg};
@@ -15,9 +27,9 @@ LocalizationResult run(const LocalizationTask& task) {
   const LocalizerConfig& config = data.config;
   auto result = std::make_shared<LocalizationResult::Data>();
   result->task = task.data;
-  result->whole = data.local_map.whole(config.local_map_spacing_m, static_cast<std::size_t>(config.local_map_points));
+  result->whole = data.local_map.whole(kLocalMapSpacing_m, static_cast<std::size_t>(kLocalMapPoints));
   const std::vector<Eigen::Vector2f>& points = result->whole.points_middle_m;
-  result->enough_points = static_cast<int>(points.size()) >= config.local_map_least_points;
+  result->enough_points = static_cast<int>(points.size()) >= kLocalMapLeastPoints;
   if (!result->enough_points) return {std::move(result)};
   // The margin keeps every place that the best cannot be distinguished from: kOthers places just outside it, as in a
   // large building, are together less probable than `ambiguity`.
@@ -28,8 +40,8 @@ LocalizationResult run(const LocalizationTask& task) {
       kCoarseness + nats / (config.point_weight * data.map->topNats() * static_cast<double>(points.size()));
   const GlobalSearchResult found = data.search->search(points, margin);
   result->complete = found.complete;
-  result->places = likelyPlaces(bestInstructions(), *data.map, found.places, points, config.point_weight,
-                                config.support.tolerance_m, distinctionOf(config));
+  result->places = likelyPlaces(bestInstructions(), *data.map, found.places, points, config.point_weight, kTolerance_m,
+                                distinctionOf(config));
   return {std::move(result)};
 }
 

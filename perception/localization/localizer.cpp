@@ -13,6 +13,7 @@
 #include "perception/localization/map_doubt.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
+#include "perception/localization/scan_support.hpp"
 #include "perception/localization/search_patience.hpp"
 #include "perception/localization/skipped_inputs.hpp"
 
@@ -22,6 +23,13 @@ using common::kRadPerDeg;
 using common::Pose2;
 
 namespace {
+
+/// A pose is not accepted while the map explains a smaller share of the local map (docs/localization.md).
+constexpr double kLeastExplained = 0.70;
+/// Time between searches of the whole map while the pose explains too little.
+constexpr double kDistrustSearch_s = 0.5;
+/// A place that is likelier by this log-ratio means that the pose is lost (docs/localization.md).
+constexpr double kElsewhereNats = 10.0;
 
 /// Spread of the particles about a place that was found: the remaining error of the search.
 const Eigen::Matrix3d kPlaceCovariance = common::planarCovariance(0.05, 1.0 * kRadPerDeg);
@@ -33,11 +41,10 @@ struct Localizer::Impl {
        std::uint64_t seed)
       : config(config_in),
         T_map_grid(T_map_grid_in),
-        map(std::make_shared<const MapField>(grid, config_in.field)),
+        map(std::make_shared<const MapField>(grid)),
         tracker(map, config_in, seed),
         search(std::make_shared<const GlobalSearch>(map, config_in.search)),
         local_map(config_in.local_map_length_m),
-        lost_test(config_in.lost),
         distinction(distinctionOf(config_in)) {}
 
   void step(const LocalizationInput& input);
@@ -134,7 +141,7 @@ void Localizer::Impl::track(const LocalizationInput& input) {
 /// Checks the pose against the scan. While the check fails, scans are collected in the local map and searched for in
 /// the whole map.
 void Localizer::Impl::doubt(const LocalizationInput& input) {
-  support = supportOf(*map, input.scan.points_level_m, tracker.T_grid_body(), config.support);
+  support = supportOf(*map, input.scan.points_level_m, tracker.T_grid_body());
   const bool doubted = lost_test.doubtful();
   lost_test.add(support, elapsed_s);
   if (!lost_test.doubtful()) {
@@ -143,7 +150,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
     local_map.clear();
     return;
   }
-  if (!doubted) since_search_s = config.distrust_search_s;
+  if (!doubted) since_search_s = kDistrustSearch_s;
   const bool moved =
       local_map.empty() ||
       (between(local_map.T_odom_last(), tracker.T_odom_body()).position_m().norm() >= config.generation_distance_m);
@@ -153,18 +160,18 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
     return;
   }
   since_search_s += elapsed_s;
-  if (since_search_s < config.distrust_search_s) return;
+  if (since_search_s < kDistrustSearch_s) return;
   since_search_s = 0.0;
   requestSearch(input.scan);
 }
 
 void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
-  if (found.places.empty() || found.places.front().explained < config.least_explained) return;
+  if (found.places.empty() || found.places.front().explained < kLeastExplained) return;
   const LikelyPlace& best = found.places.front();
   const Pose2 here = tracker.T_grid_odom() * found.whole.T_odom_middle;
   if (distinction.same(best.T_grid_points, here)) return;
   const double gain = best.log_likelihood - logLikelihood(*map, found.whole.points_middle_m, here, config.point_weight);
-  if (gain < config.elsewhere_nats) return;
+  if (gain < kElsewhereNats) return;
   const Pose2 off = between(here, best.T_grid_points);
   std::string where = fmt::format("{:.1f} m away", off.position_m().norm());
   if (off.position_m().norm() <= distinction.distance_m)
@@ -190,7 +197,7 @@ void Localizer::Impl::find(const LocalizationInput& input) {
   local_map.add(tracker.T_odom_body(), input.scan.points_level_m);
   tracker.countGenerationsFromHere();
   const double here_m = tracker.path_length_m();
-  if (searched_path_length_m && here_m - *searched_path_length_m < patience.spacing_m(here_m, config)) return;
+  if (searched_path_length_m && here_m - *searched_path_length_m < patience.spacing_m(here_m)) return;
   searched_path_length_m = here_m;
   requestSearch(input.scan);
 }
@@ -217,7 +224,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
-  map_doubt.add(config, found.places, found.complete, found.task->path_length_m, now);
+  map_doubt.add(found.places, found.complete, found.task->path_length_m, now);
   if (found.places.empty() && !found.complete) {
     places = 0;
     fits_nowhere = false;
@@ -227,7 +234,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
     enter(LocalizationState::kAmbiguous, "more places explain what was seen than can be told apart");
     return;
   }
-  if (found.places.empty() || found.places.front().explained < config.least_explained) {
+  if (found.places.empty() || found.places.front().explained < kLeastExplained) {
     fitsNowhere();
     return;
   }
@@ -252,7 +259,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
   places = 1;
   keepCandidate(best.T_grid_points * T_odom_middle.inverse(), found.task->path_length_m);
   // The last scan alone must agree as well.
-  support = supportOf(*map, found.task->scan_body_m, candidate->T_grid_odom * found.task->T_odom_scan, config.support);
+  support = supportOf(*map, found.task->scan_body_m, candidate->T_grid_odom * found.task->T_odom_scan);
   if (found.task->path_length_m - candidate->path_length_m >= config.confirm_distance_m &&
       lost_test.logOdds(support) <= 0.0 && !map_doubt.refuted()) {
     localize(best, T_odom_middle);

@@ -8,7 +8,7 @@
 //                            kLost <---------------+
 //
 //   1  At least one place fits, but the pose is not confirmed.
-//   2  One place is left, has been the only one over `confirm_distance_m`, and agrees with the last scan, and the map
+//   2  One place is left, has been the only one over a metre of path, and agrees with the last scan, and the map
 //      is not refuted.
 //   3  No place fits, and the vehicle was never localized.
 //   4  No place fits, and the vehicle was localized before.
@@ -18,7 +18,7 @@
 //
 // Until the vehicle is localized, its scans are collected in a local map. The whole local map is compared with the
 // given map, and the particles are drawn from all places where it fits (GlobalSearch), in proportion to the likelihood.
-// Once only one place is left and stays the only one over `confirm_distance_m`, particles track the pose: a new
+// Once only one place is left and stays the only one over a metre of path, particles track the pose: a new
 // generation is drawn per distance travelled, from scans that the odometry did not use (Grzonka 2009, section V-C).
 // Every scan is also checked for the share that the map explains; this check moves no particle.
 #pragma once

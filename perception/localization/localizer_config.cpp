@@ -4,8 +4,6 @@
 
 namespace swiftlet::perception {
 
-LocalizerConfig::LocalizerConfig() = default;
-
 void LocalizerConfig::describe(common::config::Fields& fields) {
   fields.section("particles", particles, "The particle filter that follows the pose.");
 }

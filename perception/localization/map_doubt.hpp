@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/time.hpp"
-#include "perception/localization/localizer_config.hpp"
 #include "perception/localization/place_posterior.hpp"
 
 namespace swiftlet::perception {
@@ -21,19 +20,18 @@ class MapDoubt {
  public:
   /// The places that a search found, the likeliest first, at that path length and time. `complete`: it was not given up
   /// before all places were found.
-  void add(const LocalizerConfig& config, const std::vector<LikelyPlace>& places, bool complete, double path_length_m,
-           common::Time now) {
+  void add(const std::vector<LikelyPlace>& places, bool complete, double path_length_m, common::Time now) {
     const double step_m = stepTo(path_length_m, now);
     // A search that was given up before it found any place is no evidence.
     if (places.empty() && !complete) return;
     // If nothing comes near, that says more than a place that almost fits.
-    if (places.empty()) return count(config, 2.0 * step_m);
+    if (places.empty()) return count(2.0 * step_m);
     // A single place among few that were found is probable, too, when it hardly fits.
-    const bool probable = places.front().probability >= config.convincing_probability;
-    if (places.front().fit < (probable ? config.misfitting : config.fitting))
-      count(config, step_m);
+    const bool probable = places.front().probability >= kConvincingProbability;
+    if (places.front().fit < (probable ? kMisfitting : kFitting))
+      count(step_m);
     else if (probable && complete)
-      count(config, -step_m);
+      count(-step_m);
   }
   /// The vehicle was localized on its path so far, and the map explained what was seen.
   void believe(double path_length_m, common::Time now) {
@@ -45,16 +43,28 @@ class MapDoubt {
   bool refuted() const { return refuted_; }
 
  private:
+  // Measured: docs/decisions/localization.md#071.
+  /// Path length without a fitting place, less that with a convincing one, from which on the map counts as that of
+  /// another place.
+  static constexpr double kRefutedAfter_m = 2.5;
+  /// Mean value of the likelihood field at the local map at which a place fits it, however many others do.
+  static constexpr double kFitting = 0.75;
+  /// Mean value of the likelihood field at the local map below which no place fits, however probable it is among those
+  /// that were found.
+  static constexpr double kMisfitting = 0.65;
+  /// A place that is this probable, and fits by more than kMisfitting, is convincing.
+  static constexpr double kConvincingProbability = 0.95;
+
   struct Search {
     double path_length_m = 0.0;
     common::Time at;
   };
 
-  void count(const LocalizerConfig& config, double against_m) {
+  void count(double against_m) {
     // Searches alone never make the sum negative, but they keep the credit of the path on which the map was accepted.
     const double least_m = std::min(against_m_, 0.0);
-    against_m_ = std::clamp(against_m_ + against_m, least_m, config.refuted_after_m);
-    refuted_ = against_m_ >= config.refuted_after_m || (refuted_ && against_m_ > 0.0);
+    against_m_ = std::clamp(against_m_ + against_m, least_m, kRefutedAfter_m);
+    refuted_ = against_m_ >= kRefutedAfter_m || (refuted_ && against_m_ > 0.0);
   }
 
   /// The path since the last search. It counts more if the vehicle was slow, in narrow rooms for example, because

@@ -69,8 +69,7 @@ double beamValue(double distance_m, double sigma_m, double random_share) {
   return std::log1p(on_wall * std::exp(-0.5 * ratio * ratio)) / std::log1p(on_wall);
 }
 
-MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config)
-    : config_(config), resolution_m_(map.resolution_m()) {
+MapField::MapField(const common::OccupancyGrid& map) : resolution_m_(map.resolution_m()) {
   readMap(map);
   measureDistances();
   fillValues();
@@ -133,14 +132,14 @@ void MapField::measureDistances() {
 }
 
 void MapField::fillValues() {
-  top_nats_ = std::log1p((1.0 - config_.random_share) / config_.random_share);
+  top_nats_ = std::log1p((1.0 - kRandomShare) / kRandomShare);
   // The walls of the map are only known to within one cell.
-  const double sigma_m = std::max(config_.sigma_m, resolution_m_);
+  const double sigma_m = std::max(kSigma_m, resolution_m_);
   std::vector<std::uint8_t> by_distance(256);
   for (std::size_t cm = 0; cm < by_distance.size(); ++cm)
     by_distance[cm] = static_cast<std::uint8_t>(
-        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config_.random_share)));
-  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config_.unknown_value));
+        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, kRandomShare)));
+  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * kUnknownValue));
   values_.assign(kinds_.size() + kFieldOverread, unknown);
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const std::uint8_t value = by_distance[distances_cm_[i]];

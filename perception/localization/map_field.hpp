@@ -15,17 +15,9 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/occupancy_grid.hpp"
 
 namespace swiftlet::perception {
-
-struct MapFieldConfig {
-  static constexpr double sigma_m =
-      0.10;  ///< Standard deviation of a beam's end about the wall: noise, the map's cells, the pose between particles.
-  static constexpr double random_share = 0.10;   ///< Density of beams that end anywhere, relative to that on a wall.
-  static constexpr double unknown_value = 0.20;  ///< Value of an unknown cell, relative to that on a wall.
-};
 
 /// Bytes row by row, with a border on all sides, so that a clamped look-up falls on the border.
 struct FieldView {
@@ -43,9 +35,15 @@ class MapField {
   /// Limit on the cells of the known part. Cell counts have 32 bits; searching a map of this size takes 5 GB.
   static constexpr std::int64_t kMaxCells = 1'000'000'000;
 
-  MapField(const common::OccupancyGrid& map, const MapFieldConfig& config);
+  /// Standard deviation of a beam's end about the wall: noise, the map's cells, the pose between particles.
+  static constexpr double kSigma_m = 0.10;
+  /// Density of beams that end anywhere, relative to that on a wall.
+  static constexpr double kRandomShare = 0.10;
+  /// Value of an unknown cell, relative to that on a wall.
+  static constexpr double kUnknownValue = 0.20;
 
-  const MapFieldConfig& config() const { return config_; }
+  explicit MapField(const common::OccupancyGrid& map);
+
   FieldView view() const { return {values_.data(), width_, height_, resolution_m_, origin_m_}; }
   /// Difference in log-likelihood between a value of 255 and a value of 0.
   double topNats() const { return top_nats_; }
@@ -84,7 +82,6 @@ class MapField {
   void measureDistances();
   void fillValues();
 
-  MapFieldConfig config_;
   double resolution_m_;
   common::CellIndex begin_;  ///< The cell of the map that is the first cell of the field.
   Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();

@@ -13,6 +13,11 @@ using common::square;
 
 namespace {
 
+/// Turn after which the particles are weighted and resampled.
+constexpr double kGenerationTurn_deg = 15.0;
+/// Least error of the odometry's heading for each metre.
+constexpr double kOdometryDegPer_m = 0.5;
+
 /// Least noise of a particle step. Without noise, resampled copies of a particle would never separate.
 constexpr double kLeastNoise_m = 0.01;
 constexpr double kLeastNoise_rad = 0.2 * kRadPerDeg;
@@ -36,9 +41,8 @@ void PoseTracker::advance(const LocalizationInput& input) {
   }
   const Pose2 moved = between(T_odom_body_, input.T_odom_body);
   const double distance_m = moved.position_m().norm(), turn_rad = std::abs(common::wrapAngle(moved.yaw_rad));
-  const Eigen::Vector3d least(
-      square(config_.odometry_share * distance_m), square(config_.odometry_share * distance_m),
-      square(config_.odometry_deg_per_m * kRadPerDeg * distance_m) + square(kTurnShare * turn_rad));
+  const Eigen::Vector3d least(square(config_.odometry_share * distance_m), square(config_.odometry_share * distance_m),
+                              square(kOdometryDegPer_m * kRadPerDeg * distance_m) + square(kTurnShare * turn_rad));
   Eigen::Matrix3d measured = input.step_covariance;
   if (input.interrupted) measured += unknownStepCovariance();
   const Eigen::Matrix3d own =
@@ -68,7 +72,7 @@ void PoseTracker::placeAt(const Pose2& T_grid_odom, const Eigen::Matrix3d& covar
 bool PoseTracker::generationDue(const Pose2& next_T_odom_body) const {
   return only_given_ ||
          odometer_.path_length_m(next_T_odom_body) - generation_path_length_m_ >= config_.generation_distance_m ||
-         odometer_.turned_rad(next_T_odom_body) - generation_turned_rad_ >= config_.generation_turn_deg * kRadPerDeg;
+         odometer_.turned_rad(next_T_odom_body) - generation_turned_rad_ >= kGenerationTurn_deg * kRadPerDeg;
 }
 
 void PoseTracker::countGenerationsFromHere() {

@@ -10,6 +10,23 @@ namespace swiftlet::perception {
 
 namespace {
 
+/// Log-odds of being lost when nothing of a scan is explained (logistic regression on simulated walks:
+/// docs/localization.md).
+constexpr double kAtNone = 9.4;
+/// Change of the log-odds with the share explained (from the same regression as kAtNone).
+constexpr double kByExplained = -17.6;
+/// Greatest log-odds that one scan adds, for or against.
+constexpr double kMost = 3.0;
+/// Rate of scans that count as independent: scans closer in time see the same person in front.
+constexpr double kScansPer_s = 2.0;
+/// A scan that covers fewer pieces of wall or free space is left out.
+constexpr int kLeastEvidence = 15;
+
+/// Beams of a scan, evenly spread, that are judged, at most.
+constexpr std::size_t kMostBeams = 90;
+/// Growth of kTolerance_m with the range, for the error of the heading.
+constexpr double kTolerance_rad = 0.015;
+
 /// What one beam says about the piece of the map that it hits.
 struct Witness {
   Eigen::Vector2i piece;
@@ -22,12 +39,11 @@ struct Witness {
 };
 
 /// nullopt if the beam ends where the map is unknown.
-std::optional<Witness> witnessOf(const MapField& map, const Eigen::Vector2d& from_m, const Eigen::Vector2d& end_m,
-                                 const ScanSupportConfig& config) {
+std::optional<Witness> witnessOf(const MapField& map, const Eigen::Vector2d& from_m, const Eigen::Vector2d& end_m) {
   const double range_m = (end_m - from_m).norm();
-  const double tolerance_m = config.tolerance_m + config.tolerance_rad * range_m;
+  const double tolerance_m = kTolerance_m + kTolerance_rad * range_m;
   const auto pieceAt = [&](const Eigen::Vector2d& at_m) -> Eigen::Vector2i {
-    return (at_m / config.tolerance_m).array().floor().matrix().cast<int>();
+    return (at_m / kTolerance_m).array().floor().matrix().cast<int>();
   };
   const double free_m = map.rayLength_m(from_m, end_m);
   if (free_m < range_m - 2.0 * tolerance_m)
@@ -41,15 +57,15 @@ std::optional<Witness> witnessOf(const MapField& map, const Eigen::Vector2d& fro
 }  // namespace
 
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,
-                      const common::Pose2& T_grid_body, const ScanSupportConfig& config) {
+                      const common::Pose2& T_grid_body) {
   ScanSupport support;
-  const std::size_t beams = std::min(points_body_m.size(), static_cast<std::size_t>(config.beams));
+  const std::size_t beams = std::min(points_body_m.size(), kMostBeams);
   support.beams = static_cast<int>(beams);
   std::vector<Witness> witnesses;
   witnesses.reserve(beams);
   for (std::size_t i = 0; i < beams; ++i) {
     const Eigen::Vector2f& point = points_body_m[evenlySpread(i, beams, points_body_m.size())];
-    if (const auto witness = witnessOf(map, T_grid_body.position_m(), T_grid_body * point.cast<double>(), config))
+    if (const auto witness = witnessOf(map, T_grid_body.position_m(), T_grid_body * point.cast<double>()))
       witnesses.push_back(*witness);
   }
   std::sort(witnesses.begin(), witnesses.end());
@@ -67,16 +83,26 @@ void LostTest::reset() {
 }
 
 double LostTest::logOdds(const ScanSupport& support) const {
-  if (support.evidence < config_.least_evidence) return 0.0;
-  const double odds = config_.at_none + config_.by_explained * support.explained;
-  return std::clamp(odds, -config_.most, config_.most);
+  if (support.evidence < kLeastEvidence) return 0.0;
+  const double odds = kAtNone + kByExplained * support.explained;
+  return std::clamp(odds, -kMost, kMost);
 }
 
 void LostTest::add(const ScanSupport& support, double elapsed_s) {
-  if (support.evidence < config_.least_evidence) return;
-  const double share = std::clamp(elapsed_s * config_.scans_per_s, 0.0, 1.0);
+  if (support.evidence < kLeastEvidence) return;
+  const double share = std::clamp(elapsed_s * kScansPer_s, 0.0, 1.0);
   explained_ += share * (support.explained - explained_);
   sum_ = std::max(0.0, sum_ + share * logOdds(support));
+}
+
+bool LostTest::lost() const {
+  constexpr double kThreshold = 5.0;  // Log-odds (docs/localization.md).
+  return sum_ >= kThreshold;
+}
+
+bool LostTest::doubtful() const {
+  constexpr double kDistrustExplained = 0.75;  // Share explained (docs/localization.md).
+  return sum_ > 0.0 || explained_ < kDistrustExplained;
 }
 
 }  // namespace swiftlet::perception

@@ -25,13 +25,13 @@ class SearchPatience {
 
   /// The search distance at first, later a share of the path that was searched without success. At most the length of
   /// the local map, so that every part of the path is still compared with the map.
-  double spacing_m(double path_length_m, const LocalizerConfig& config) const {
+  double spacing_m(double path_length_m) const {
     // In its map a vehicle is found within a few metres. With a spacing of a quarter of the path, the number of
     // searches grows only with the logarithm of the path.
     constexpr double kPatience_m = 8.0, kSpacingShare = 0.25;
+    constexpr double kLeast_m = 0.4;  // The local map has changed after that path.
     const double in_vain_m = path_length_m - hopeful_path_length_m_ - kPatience_m;
-    return std::clamp(kSpacingShare * in_vain_m, config.search_distance_m,
-                      std::max(config.search_distance_m, config.local_map_length_m));
+    return std::clamp(kSpacingShare * in_vain_m, kLeast_m, std::max(kLeast_m, LocalizerConfig::local_map_length_m));
   }
 
  private:

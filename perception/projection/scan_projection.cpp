@@ -12,6 +12,13 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose3;
 
+/// End points this near to floor or ceiling are left out.
+constexpr double kSurfaceMargin_m = 0.05;
+/// Error of roll and pitch, which widens kSurfaceMargin_m with the range (up to 1 deg: Grzonka 2009).
+constexpr double kAttitudeError_deg = 1.0;
+/// Fewer neighbouring beams without return are dropouts, not free space.
+constexpr int kMinNoReturnRun = 3;
+
 /// Number of intervals between the knots of a sweep.
 constexpr int kIntervals = 8;
 
@@ -63,7 +70,7 @@ class Surfaces {
         below_ceiling_m_(config.ceiling_height_odom_m > 0.0
                              ? std::max(config.ceiling_height_odom_m - sensor_height_odom_m, 0.05)
                              : config.max_rise_m),
-        sin_attitude_error_(std::sin(config.attitude_error_deg * kRadPerDeg)) {}
+        sin_attitude_error_(std::sin(kAttitudeError_deg * kRadPerDeg)) {}
 
   // The margin is at most half the height above the floor, so that a level beam near the floor never counts as a hit on
   // it.
@@ -81,7 +88,7 @@ class Surfaces {
   }
 
  private:
-  double margin(double range_m) const { return config_.surface_margin_m + sin_attitude_error_ * range_m; }
+  double margin(double range_m) const { return kSurfaceMargin_m + sin_attitude_error_ * range_m; }
 
   const ScanProjectionConfig& config_;
   double above_floor_m_;
@@ -158,7 +165,7 @@ class BeamSorter {
 
   /// Ends a run of beams without return. A short run is dropouts and is left out.
   void endRun() {
-    if (static_cast<int>(run_.size()) >= config_.min_no_return_run)
+    if (static_cast<int>(run_.size()) >= kMinNoReturnRun)
       result_.no_returns_level_m.insert(result_.no_returns_level_m.end(), run_.begin(), run_.end());
     run_.clear();
   }

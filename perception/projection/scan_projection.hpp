@@ -68,14 +68,9 @@ struct ScanProjectionConfig {
   double ceiling_height_odom_m = 0.0;
   double max_rise_m =
       1.0;  ///< Under an unknown ceiling, an end point this far above the laser counts as one on the ceiling.
-  static constexpr double surface_margin_m = 0.05;  ///< End points this near to floor or ceiling are left out.
-  static constexpr double attitude_error_deg =
-      1.0;  ///< Error of roll and pitch, which widens surface_margin_m with the range (up to 1 deg: Grzonka 2009).
   static constexpr double free_band_m =
       0.30;  ///< A beam that hit no wall clears cells while within this of the body's height.
   double body_radius_m = 0.0;
-  static constexpr int min_no_return_run =
-      3;  ///< Fewer neighbouring beams without return are dropouts, not free space.
 
   void describe(common::config::Fields& fields);
 };

@@ -22,6 +22,20 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
+/// Distance from the guess at which half of guess_weight is lost.
+constexpr double kGuessDistance_m = 0.08;
+/// Rotation from the guess at which half of guess_weight is lost.
+constexpr double kGuessRotation_deg = 3.0;
+/// Factor on the covariance of independent points, calibrated by the tests of the covariance
+/// (tests/scan_matching/correlative_matcher_test.cpp).
+constexpr double kCovarianceScale = 1.5;
+/// Error of roll and pitch, which moves each end point by its height over the body times this.
+constexpr double kAttitudeError_deg = 1.0;
+/// A direction less certain than this is not observed: the pose keeps the guess there.
+constexpr double kUnobservableSigma_m = 0.1;
+/// Difference in quality that makes a pose e times less likely (docs/decisions/scan_matching.md).
+constexpr double kProfileTemperature = 0.010;
+
 /// The profile of the scores widens the covariance only if the contour facing the least constrained direction is a
 /// smaller share than this.
 constexpr double kProfiledSpread = 0.25;
@@ -32,9 +46,10 @@ constexpr double kMostScores = 2e7;
 /// Points this close to the edge of the reference's view may lie outside it, because poses err and scores are blurred.
 constexpr double kViewMargin_m = 0.15;
 /// With a smaller share of the points in the view of the reference, the guess is probably wrong, so all points are
-/// used.
+/// used (docs/decisions/scan_matching.md#021).
 constexpr double kLeastInView = 0.25;
-/// A match of a smaller share must fit better, because chance matches are likelier.
+/// A match of a smaller share must fit better, because chance matches are likelier
+/// (docs/decisions/scan_matching.md#023).
 constexpr double kUsuallyInView = 0.5;
 
 /// Limit on the half width of a window, in steps.
@@ -52,7 +67,7 @@ struct CorrelativeMatcher::Impl {
       : config(config_in),
         instructions(instructions_in),
         field(config_in.resolution_m, config_in.sigma_m),
-        view(config_in.max_range_m),
+        view(kMaxRange_m),
         search(instructions_in),
         all_scores(instructions_in) {}
 
@@ -70,7 +85,7 @@ struct CorrelativeMatcher::Impl {
 
   GuessPenalty penaltyFor(std::size_t points) const {
     return {static_cast<int>(config.guess_weight * kTopValue * static_cast<double>(points)),
-            config.guess_distance_m / config.resolution_m, config.guess_rotation_deg / config.angular_resolution_deg};
+            kGuessDistance_m / config.resolution_m, kGuessRotation_deg / config.angular_resolution_deg};
   }
 
   Pose2 poseAt(const PoseGrid& grid, const BestPose& best) const {
@@ -120,8 +135,8 @@ CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(co
                                                                               const Pose2& guess,
                                                                               const SearchWindow& window,
                                                                               const PoseGrid& grid) const {
-  std::vector<Eigen::Vector2f> points = spreadPoints(
-      scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points, config.max_range_m);
+  std::vector<Eigen::Vector2f> points =
+      spreadPoints(scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points, kMaxRange_m);
   const SplitPoints split(points);
   const double margin_m = std::clamp(window.half_translation_m, kViewMargin_m, 2.0 * kViewMargin_m);
   const std::vector<ReferenceView::Sight> sights = view.look(split.x_m, split.y_m, guess, margin_m);
@@ -131,7 +146,7 @@ CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(co
     if (sights[i] != ReferenceView::Sight::kBackOfSeen) possible.push_back(points[i]);
   }
   const double share = static_cast<double>(seen.size()) / std::max(1.0, static_cast<double>(possible.size()));
-  if (share < kLeastInView || static_cast<int>(seen.size()) < config.min_points) return {std::move(possible), 1.0};
+  if (share < kLeastInView || static_cast<int>(seen.size()) < kMinPoints) return {std::move(possible), 1.0};
   return {std::move(seen), share};
 }
 
@@ -181,7 +196,7 @@ Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& 
                                                              double step_rad, const Peak& peak) {
   // A smaller shift is below the least standard deviation of a match (quadratic_peak.cpp, kFloorSigma_m).
   constexpr float kLeastShift_m = 0.0005F;
-  const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
+  const auto error_rad = static_cast<float>(kAttitudeError_deg * kRadPerDeg);
   float greatest_m = 0.0F;
   for (const float height : points.heights_m) greatest_m = std::max(greatest_m, std::abs(height));
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -216,14 +231,14 @@ BestPose CorrelativeMatcher::Impl::searchGrid(const std::vector<Eigen::Vector2f>
 }
 
 /// Widens the covariance by the likely poses elsewhere in the window. If a direction becomes less certain than
-/// `unobservable_sigma_m`, the pose keeps the guess along it.
+/// `kUnobservableSigma_m`, the pose keeps the guess along it.
 void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double log_per_score,
                                                   const Eigen::Vector3d& step, const ExpectedPose& expected,
                                                   Peak& peak) const {
   peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
   const common::SymmetricEigen<2> spread =
       common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
-  const double unseen_m = config.unobservable_sigma_m;
+  const double unseen_m = kUnobservableSigma_m;
   if (!peak.unobservable_direction && spread.values(1) > unseen_m * unseen_m)
     holdAlong(spread.vectors.col(1), expected, peak);
 }
@@ -248,7 +263,7 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
   const double best = *std::max_element(qualities.begin(), qualities.end());
   double weights = 0.0, sum2 = 0.0;
   for (std::size_t i = 0; i < qualities.size(); ++i) {
-    const double weight = std::exp((qualities[i] - best) / config.profile_temperature);
+    const double weight = std::exp((qualities[i] - best) / kProfileTemperature);
     weights += weight;
     sum2 += weight * distances_m[i] * distances_m[i];
   }
@@ -268,8 +283,8 @@ MatchResult CorrelativeMatcher::Impl::resultOf(const SearchPoints& points, const
   const auto atEdge = [](int i, int size) { return size > 1 && (i == 0 || i == size - 1); };
   result.at_window_edge =
       atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) || atEdge(best.rotation, grid.rotations);
-  result.failed = result.quality * std::min(1.0, points.share / kUsuallyInView) < config.min_quality ||
-                  result.points_used < config.min_points;
+  result.failed =
+      result.quality * std::min(1.0, points.share / kUsuallyInView) < kMinQuality || result.points_used < kMinPoints;
   return result;
 }
 
@@ -300,7 +315,7 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
                                                const BestPose& best, bool scored) {
   MatchResult result = resultOf(points, grid, best);
   const Pose2 finest = result.finest_T_reference_body;
-  const SplitPoints spread_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
+  const SplitPoints spread_points = spreadWithHeights(scan, config.surface_points, kMaxRange_m);
   const std::vector<ReferenceView::Sight> sights = view.look(spread_points.x_m, spread_points.y_m, finest, 0.0);
   std::vector<bool> in_view, possible;
   for (const ReferenceView::Sight sight : sights) {
@@ -324,8 +339,8 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   surface.step_rad = step_rad;
   const ExpectedPose expected = expectedFrom(finest, guess, window);
   const double supported_there = std::min(supported, static_cast<double>(surface_points.x_m.size()));
-  const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), config.covariance_scale,
-                           config.unobservable_sigma_m};
+  const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), kCovarianceScale,
+                           kUnobservableSigma_m};
   Peak peak = findPeak(surface, scale, expected);
   peak.covariance += attitudeCovariance(surface_points, finest, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
@@ -354,8 +369,7 @@ void CorrelativeMatcher::clearReference() {
 
 void CorrelativeMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
-  impl_->field.draw(
-      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body));
+  impl_->field.draw(contourOf(scan.points_level_m, kMaxGap_m, kMaxRange_m, T_reference_body));
   impl_->view.add(scan.points_level_m, T_reference_body);
 }
 
@@ -363,7 +377,7 @@ MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& gu
   if (!isFinite(guess) || impl_->field.empty()) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
   const Impl::SearchPoints points = impl_->searchPoints(scan, guess, window, grid);
-  if (static_cast<int>(points.level_m.size()) < impl_->config.min_points) return {};
+  if (static_cast<int>(points.level_m.size()) < kMinPoints) return {};
   const BestPose best = impl_->searchGrid(points.level_m, grid);
   return impl_->evaluate(scan, points, guess, window, grid, best, impl_->scoresAll(grid));
 }
@@ -373,7 +387,7 @@ MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, con
   if (!isFinite(guess) || impl_->field.empty()) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
   const Impl::SearchPoints points = impl_->searchPoints(scan, guess, window, grid);
-  if (static_cast<int>(points.level_m.size()) < impl_->config.min_points) return {};
+  if (static_cast<int>(points.level_m.size()) < kMinPoints) return {};
   const SplitPoints split(points.level_m);
   BestPose best;
   std::vector<std::int32_t> x_cells, y_cells;

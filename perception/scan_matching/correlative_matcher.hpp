@@ -36,24 +36,8 @@ struct CorrelativeMatcherConfig {
       256;                   ///< Points of a scan that are searched with, spread evenly along its contour.
   int surface_points = 512;  ///< Points from which pose and covariance are taken around the best.
   bool only_seen = true;
-  static constexpr double max_range_m =
-      20.0;  ///< Points farther than this are not used, which bounds the memory of the field.
-  static constexpr double max_gap_m = 10.0;  ///< Neighbouring end points of the reference nearer than this are joined
-                                             ///< to a contour; more than 0.3 m apart only along a straight line.
   double guess_weight = 0.1;
-  static constexpr double guess_distance_m = 0.08;   ///< Distance from the guess at which half of guess_weight is lost.
-  static constexpr double guess_rotation_deg = 3.0;  ///< Rotation from the guess at which half of guess_weight is lost.
-  static constexpr double min_quality = 0.35;        ///< Below this mean score the match failed.
-  static constexpr int min_points = 30;              ///< With fewer points the match failed.
-  static constexpr double covariance_scale =
-      1.5;  ///< Factor on the covariance of independent points, calibrated by the tests of the covariance.
-  static constexpr double attitude_error_deg =
-      1.0;  ///< Error of roll and pitch, which moves each end point by its height over the body times this.
-  static constexpr double unobservable_sigma_m =
-      0.1;  ///< A direction less certain than this is not observed: the pose keeps the guess there.
   double profile_half_m = 0.0;
-  static constexpr double profile_temperature =
-      0.010;  ///< Difference in quality that makes a pose e times less likely.
   double min_normal_spread =
       0.01;  ///< A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
 
@@ -63,7 +47,12 @@ struct CorrelativeMatcherConfig {
 
 class CorrelativeMatcher final : public ScanMatcher {
  public:
-  explicit CorrelativeMatcher(const CorrelativeMatcherConfig& config, Instructions instructions = bestInstructions());
+  /// Neighbouring end points of the reference nearer than this are joined to a contour; more than 0.3 m apart only
+  /// along a straight line (measured: docs/decisions/scan_matching.md#106).
+  static constexpr double kMaxGap_m = 10.0;
+
+  explicit CorrelativeMatcher(const CorrelativeMatcherConfig& config = {},
+                              Instructions instructions = bestInstructions());
   ~CorrelativeMatcher() override;
   CorrelativeMatcher(CorrelativeMatcher&&) noexcept;
   CorrelativeMatcher& operator=(CorrelativeMatcher&&) noexcept;

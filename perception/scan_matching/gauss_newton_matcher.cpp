@@ -2,13 +2,21 @@
 
 #include <cmath>
 
-#include "common/config_fields.hpp"
 #include "perception/scan_matching/interpolated_field.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
 using common::Pose2;
+
+/// Side of a cell of the finest map; kSupport_m is two to seven times this.
+constexpr double kResolution_m = 0.01;
+/// Maps, each four times as coarse as the one before, as is the support of a point in it.
+constexpr int kLevels = 3;
+/// Greatest number of steps at each level but the finest.
+constexpr int kIterations = 4;
+/// Greatest number of steps at the finest level.
+constexpr int kFinestIterations = 8;
 
 /// Resolution of a level relative to the next finer one. Hector SLAM (Kohlbrecher 2011, section IV-C) halves it; a
 /// ratio of four needs half the levels.
@@ -25,17 +33,16 @@ constexpr int kHalvings = 3;
 }  // namespace
 
 struct GaussNewtonMatcher::Impl {
-  explicit Impl(const GaussNewtonMatcherConfig& config_in) : config(config_in) {
+  Impl() {
     double scale = 1.0;
-    for (int k = 0; k < config.levels; ++k, scale *= kLevelRatio)
-      fields.emplace_back(scale * config.resolution_m, scale * config.support_m / 3.0);
+    for (int k = 0; k < kLevels; ++k, scale *= kLevelRatio)
+      fields.emplace_back(scale * kResolution_m, scale * LeastSquaresMatch::kSupport_m / 3.0);
   }
 
   std::size_t coarsestNeeded(const LeastSquaresMatch& match) const;
   double climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const;
   MatchResult descend(const LeastSquaresMatch& match, Pose2 pose) const;
 
-  GaussNewtonMatcherConfig config;
   std::vector<LikelihoodField> fields;  ///< Finest level first.
 };
 
@@ -93,7 +100,7 @@ std::size_t GaussNewtonMatcher::Impl::coarsestNeeded(const LeastSquaresMatch& ma
 double GaussNewtonMatcher::Impl::climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const {
   const LikelihoodField& field = fields[level];
   const std::size_t stride = level == 0 ? 1 : kCoarseStride;
-  const int most = level == 0 ? config.finest_iterations : config.iterations;
+  const int most = level == 0 ? kFinestIterations : kIterations;
   Linearized here = linearize(Purpose::kStep, match, field, pose, stride);
   double moved_m = 0.0;
   for (int i = 0; i < most; ++i) {
@@ -117,11 +124,10 @@ MatchResult GaussNewtonMatcher::Impl::descend(const LeastSquaresMatch& match, Po
   double moved_m = 0.0;
   for (std::size_t level = coarsestNeeded(match) + 1; level-- > 0;) moved_m = climb(match, level, pose);
   const Linearized at_end = linearize(Purpose::kVerdict, match, fields.front(), pose);
-  return match.finish(at_end.equations, at_end.quality_sum, moved_m < kConverged_cells * config.resolution_m, pose);
+  return match.finish(at_end.equations, at_end.quality_sum, moved_m < kConverged_cells * kResolution_m, pose);
 }
 
-GaussNewtonMatcher::GaussNewtonMatcher(const GaussNewtonMatcherConfig& config)
-    : impl_(std::make_unique<Impl>(config)) {}
+GaussNewtonMatcher::GaussNewtonMatcher() : impl_(std::make_unique<Impl>()) {}
 GaussNewtonMatcher::~GaussNewtonMatcher() = default;
 GaussNewtonMatcher::GaussNewtonMatcher(GaussNewtonMatcher&&) noexcept = default;
 GaussNewtonMatcher& GaussNewtonMatcher::operator=(GaussNewtonMatcher&&) noexcept = default;
@@ -132,7 +138,7 @@ void GaussNewtonMatcher::clearReference() {
 
 void GaussNewtonMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
-  addReference(contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body));
+  addReference(contourOf(scan.points_level_m, LeastSquaresMatch::kMaxGap_m, kMaxRange_m, T_reference_body));
 }
 
 void GaussNewtonMatcher::addReference(std::span<const ContourSegment> contour_reference_m) {
@@ -141,9 +147,7 @@ void GaussNewtonMatcher::addReference(std::span<const ContourSegment> contour_re
 
 MatchResult GaussNewtonMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
   if (!isFinite(guess) || impl_->fields.front().empty()) return {};
-  const GaussNewtonMatcherConfig& config = impl_->config;
-  const LeastSquaresMatch match(config, orientedPoints(scan, config.points, config.max_gap_m, config.max_range_m),
-                                guess, window);
+  const LeastSquaresMatch match(scan, guess, window);
   if (!match.hasEnoughPoints()) return {};
   return impl_->descend(match, guess);
 }

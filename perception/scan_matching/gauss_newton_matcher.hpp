@@ -13,27 +13,17 @@
 #include <string>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
 
-struct GaussNewtonMatcherConfig : LeastSquaresMatcherConfig {
-  static constexpr double resolution_m =
-      0.01;  ///< Side of a cell of the finest map; support_m is two to seven times this.
-  static constexpr int levels =
-      3;  ///< Maps, each four times as coarse as the one before, as is the support of a point in it.
-  static constexpr int iterations = 4;         ///< Greatest number of steps at each level but the finest.
-  static constexpr int finest_iterations = 8;  ///< Greatest number of steps at the finest level.
-};
-
 /// The result is `failed` also if the steps did not become small, or led more than a centimetre or a tenth of a degree
 /// out of the window.
 class GaussNewtonMatcher final : public ScanMatcher {
  public:
-  explicit GaussNewtonMatcher(const GaussNewtonMatcherConfig& config);
+  GaussNewtonMatcher();
   ~GaussNewtonMatcher() override;
   GaussNewtonMatcher(GaussNewtonMatcher&&) noexcept;
   GaussNewtonMatcher& operator=(GaussNewtonMatcher&&) noexcept;

@@ -12,6 +12,19 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
+/// The match failed when a smaller share of the contour facing some direction has support: the other walls fit, and
+/// these were rejected as outliers.
+constexpr double kMinDirectionSupport = 0.25;
+/// Factor on the covariance of independent points, calibrated by the tests of the covariance
+/// (tests/scan_matching/least_squares_matchers_test.cpp).
+constexpr double kCovarianceScale = 2.0;
+/// Error of roll and pitch, which moves each end point by its height over the body times this.
+constexpr double kAttitudeError_deg = 1.0;
+/// A direction less certain than this is not observed: the pose keeps the guess there.
+constexpr double kUnobservableSigma_m = 0.1;
+/// A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
+constexpr double kMinNormalSpread = 0.01;
+
 /// Lower limit on the residual of the end points.
 constexpr double kMinResidual_m = 0.004;
 /// Residual assumed during the iterations to decide which directions are observable: the measured residual is then that
@@ -32,9 +45,8 @@ void NormalEquations::addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2
   tilt += Eigen::Vector3d(normal.x(), normal.y(), turn) * (height_m * normal.transpose());
 }
 
-LeastSquaresMatch::LeastSquaresMatch(const LeastSquaresMatcherConfig& config, std::vector<OrientedPoint> points,
-                                     const Pose2& guess, const SearchWindow& window)
-    : config_(config), points_(std::move(points)), guess_(guess), window_(window) {
+LeastSquaresMatch::LeastSquaresMatch(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window)
+    : points_(orientedPoints(scan, kPoints, kMaxGap_m, ScanMatcher::kMaxRange_m)), guess_(guess), window_(window) {
   if (points_.empty()) return;
   double lever2 = 0.0;
   std::vector<float> x_m, y_m;
@@ -45,7 +57,7 @@ LeastSquaresMatch::LeastSquaresMatch(const LeastSquaresMatcherConfig& config, st
   }
   lever_m_ = std::max(kLeastLever_m, std::sqrt(lever2 / static_cast<double>(points_.size())));
   const common::SymmetricEigen<2> normals = common::symmetricEigen(normalSpread(x_m, y_m));
-  if (normals.values(0) < config_.min_normal_spread) held_level_ = normals.vectors.col(0);
+  if (normals.values(0) < kMinNormalSpread) held_level_ = normals.vectors.col(0);
 }
 
 std::optional<Eigen::Vector2d> LeastSquaresMatch::heldDirection(double yaw_rad) const {
@@ -69,8 +81,8 @@ Quadratic LeastSquaresMatch::quadraticAt(const NormalEquations& equations,
 double LeastSquaresMatch::step(const NormalEquations& equations, double reach_m, Pose2& pose) const {
   PeakScale scale;
   scale.step = {1.0, 1.0, inverseLever()};
-  scale.information_per_curvature = 1.0 / (kUnderwayResidual_m * kUnderwayResidual_m * config_.covariance_scale);
-  scale.unobservable_sigma_m = config_.unobservable_sigma_m;
+  scale.information_per_curvature = 1.0 / (kUnderwayResidual_m * kUnderwayResidual_m * kCovarianceScale);
+  scale.unobservable_sigma_m = kUnobservableSigma_m;
   scale.reach_steps = reach_m;
   const Quadratic quadratic = quadraticAt(equations, heldDirection(pose.yaw_rad));
   const Eigen::Vector3d offset = findPeak(quadratic, scale, expectedFrom(pose, guess_, window_)).offset;
@@ -124,23 +136,22 @@ MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double q
   const double residual2 = equations.squares_m2 / std::max(equations.count, 1);
   PeakScale scale;
   scale.step = {1.0, 1.0, inverseLever()};
-  scale.information_per_curvature =
-      1.0 / (std::max(residual2, kMinResidual_m * kMinResidual_m) * config_.covariance_scale);
-  scale.unobservable_sigma_m = config_.unobservable_sigma_m;
-  scale.reach_steps = config_.support_m;
+  scale.information_per_curvature = 1.0 / (std::max(residual2, kMinResidual_m * kMinResidual_m) * kCovarianceScale);
+  scale.unobservable_sigma_m = kUnobservableSigma_m;
+  scale.reach_steps = kSupport_m;
   const std::optional<Eigen::Vector2d> held = heldDirection(pose.yaw_rad);
   const Peak peak = findPeak(quadraticAt(equations, held), scale, expectedFrom(pose, guess_, window_));
   // An attitude error moves all points together, so more points do not average it out.
-  const Eigen::Matrix<double, 3, 2> shift =
-      peak.peak_of_gradient * equations.tilt * (config_.attitude_error_deg * kRadPerDeg);
+  const Eigen::Matrix<double, 3, 2> shift = peak.peak_of_gradient * equations.tilt * (kAttitudeError_deg * kRadPerDeg);
   result.covariance = peak.covariance + shift * shift.transpose();
   result.unobservable_direction = peak.unobservable_direction;
   if (held) result.unobservable_direction = held;
   result.T_reference_body.x_m += peak.offset.x();
   result.T_reference_body.y_m += peak.offset.y();
   result.T_reference_body.yaw_rad = common::wrapAngle(pose.yaw_rad + peak.offset.z());
-  result.failed = !converged || result.quality < config_.min_quality || result.points_used < config_.min_points ||
-                  !(leastSupport(equations, pose.yaw_rad) > config_.min_direction_support);
+  result.failed = !converged || result.quality < ScanMatcher::kMinQuality ||
+                  result.points_used < ScanMatcher::kMinPoints ||
+                  !(leastSupport(equations, pose.yaw_rad) > kMinDirectionSupport);
   judgeWindow(result);
   return result;
 }

@@ -9,32 +9,11 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "perception/scan_matching/contour_normals.hpp"
 #include "perception/scan_matching/quadratic_peak.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
-
-struct LeastSquaresMatcherConfig {
-  static constexpr int points = 400;           ///< Points of a scan that are matched, spread evenly along its contour.
-  static constexpr double max_range_m = 20.0;  ///< Points farther than this are not used.
-  static constexpr double max_gap_m = 0.3;     ///< Neighbouring end points nearer than this are joined to a contour.
-  static constexpr double support_m = 0.06;    ///< A point farther than this from the reference has no support.
-  static constexpr double min_quality = 0.35;  ///< Below this mean score the match failed.
-  static constexpr double min_direction_support =
-      0.25;  ///< The match failed when a smaller share of the contour facing some direction has support: the other
-             ///< walls fit, and these were rejected as outliers.
-  static constexpr int min_points = 30;  ///< With fewer points the match failed.
-  static constexpr double covariance_scale =
-      2.0;  ///< Factor on the covariance of independent points, calibrated by the tests of the covariance.
-  static constexpr double attitude_error_deg =
-      1.0;  ///< Error of roll and pitch, which moves each end point by its height over the body times this.
-  static constexpr double unobservable_sigma_m =
-      0.1;  ///< A direction less certain than this is not observed: the pose keeps the guess there.
-  static constexpr double min_normal_spread =
-      0.01;  ///< A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
-};
 
 /// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:
 /// `turn` is the rotation times a lever arm.
@@ -74,11 +53,17 @@ struct NormalEquations {
 /// The scan to be matched, the guess, and what is the same in every step.
 class LeastSquaresMatch {
  public:
-  LeastSquaresMatch(const LeastSquaresMatcherConfig& config, std::vector<OrientedPoint> points,
-                    const common::Pose2& guess, const SearchWindow& window);
+  /// Points of a scan that are matched, spread evenly along its contour.
+  static constexpr int kPoints = 400;
+  /// Neighbouring end points nearer than this are joined to a contour.
+  static constexpr double kMaxGap_m = 0.3;
+  /// A point farther than this from the reference has no support.
+  static constexpr double kSupport_m = 0.06;
+
+  LeastSquaresMatch(const ProjectedScan& scan, const common::Pose2& guess, const SearchWindow& window);
 
   const std::vector<OrientedPoint>& points() const { return points_; }
-  bool hasEnoughPoints() const { return static_cast<int>(points_.size()) >= config_.min_points; }
+  bool hasEnoughPoints() const { return static_cast<int>(points_.size()) >= ScanMatcher::kMinPoints; }
   /// Approximately how far a point of the scan can move within the window.
   double windowReach_m() const { return window_.half_translation_m + window_.half_rotation_rad * lever_m_; }
   double inverseLever() const { return 1.0 / lever_m_; }
@@ -100,7 +85,6 @@ class LeastSquaresMatch {
   double leastSupport(const NormalEquations& equations, double yaw_rad) const;
   void judgeWindow(MatchResult& result) const;
 
-  const LeastSquaresMatcherConfig& config_;
   std::vector<OrientedPoint> points_;
   common::Pose2 guess_;
   SearchWindow window_;

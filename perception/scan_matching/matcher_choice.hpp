@@ -10,23 +10,11 @@
 
 namespace swiftlet::perception {
 
-/// The settings of the correlative matcher, the default, are on the same level as `kind`; those of the other kinds are
-/// in sections of their own. Only the settings of the chosen kind have an effect.
+/// Beside `kind` are the settings of the correlative matcher, the default; the other kinds have none.
 struct MatcherChoiceConfig : CorrelativeMatcherConfig {
   MatcherKind kind = MatcherKind::kCorrelative;
-  GaussNewtonMatcherConfig gauss_newton;
-  PointToLineMatcherConfig point_to_line;
 
   void describe(common::config::Fields& fields);
-
-  // A kind without a setting of its own uses that of the correlative matcher.
-
-  /// Quality of the chosen kind below which a match failed.
-  double minQuality() const;
-  /// Number of points of the chosen kind below which a match failed.
-  int minPoints() const;
-  /// Points beyond it are not matched.
-  double maxRange_m() const;
 };
 
 /// Creates a matcher of the chosen kind, without a reference; never null.

@@ -11,6 +11,13 @@ namespace {
 
 using common::Pose2;
 
+/// Points are paired no farther than this, and less far when the window is small.
+constexpr double kMaxDistance_m = 0.5;
+/// Pairs with more than this many times the usual distance are left out.
+constexpr double kTrimSigmas = 3.0;
+/// Greatest number of times that pairs are made.
+constexpr int kIterations = 20;
+
 /// A step smaller than this ends the search. If the last step is larger than `kConverged_m`, it did not converge.
 constexpr double kSmallStep_m = 0.0002;
 constexpr double kConverged_m = 0.005;
@@ -28,13 +35,10 @@ struct Pair {
 }  // namespace
 
 struct PointToLineMatcher::Impl {
-  explicit Impl(const PointToLineMatcherConfig& config_in) : config(config_in) {}
-
   void makePairs(const LeastSquaresMatch& match, const Pose2& pose, double radius_m);
   double trimAt();
   MatchResult verdict(const LeastSquaresMatch& match, const Pose2& pose, double moved_m);
 
-  PointToLineMatcherConfig config;
   OrientedPoints reference;
   std::vector<Pair> pairs;
   std::vector<double> distances;
@@ -56,23 +60,23 @@ void PointToLineMatcher::Impl::makePairs(const LeastSquaresMatch& match, const P
   }
 }
 
-/// The distance beyond which a pair is an outlier: `trim_sigmas` standard deviations, estimated from the median.
+/// The distance beyond which a pair is an outlier: `kTrimSigmas` standard deviations, estimated from the median.
 double PointToLineMatcher::Impl::trimAt() {
   if (pairs.empty()) return 0.0;
   distances.clear();
   for (const Pair& pair : pairs) distances.push_back(std::abs(pair.distance_m));
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
-  return config.trim_sigmas * common::kSigmaOfMedian * *middle;
+  return kTrimSigmas * common::kSigmaOfMedian * *middle;
 }
 
 MatchResult PointToLineMatcher::Impl::verdict(const LeastSquaresMatch& match, const Pose2& pose, double moved_m) {
-  makePairs(match, pose, config.support_m);
+  makePairs(match, pose, LeastSquaresMatch::kSupport_m);
   const double trim_m = trimAt();
   NormalEquations equations;
   double quality_sum = 0.0, supported = 0.0;
   for (const Pair& pair : pairs) {
-    const double share = pair.distance_m / config.support_m;
+    const double share = pair.distance_m / LeastSquaresMatch::kSupport_m;
     quality_sum += 1.0 - share * share;
     supported += 1.0;
     if (std::abs(pair.distance_m) > trim_m) continue;
@@ -84,8 +88,7 @@ MatchResult PointToLineMatcher::Impl::verdict(const LeastSquaresMatch& match, co
   return result;
 }
 
-PointToLineMatcher::PointToLineMatcher(const PointToLineMatcherConfig& config)
-    : impl_(std::make_unique<Impl>(config)) {}
+PointToLineMatcher::PointToLineMatcher() : impl_(std::make_unique<Impl>()) {}
 PointToLineMatcher::~PointToLineMatcher() = default;
 PointToLineMatcher::PointToLineMatcher(PointToLineMatcher&&) noexcept = default;
 PointToLineMatcher& PointToLineMatcher::operator=(PointToLineMatcher&&) noexcept = default;
@@ -94,25 +97,22 @@ void PointToLineMatcher::clearReference() { impl_->reference.clear(); }
 
 void PointToLineMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
-  const PointToLineMatcherConfig& config = impl_->config;
-  impl_->reference.add(orientedPoints(scan, 0, config.max_gap_m, config.max_range_m), T_reference_body,
-                       config.max_gap_m);
+  impl_->reference.add(orientedPoints(scan, 0, LeastSquaresMatch::kMaxGap_m, kMaxRange_m), T_reference_body,
+                       LeastSquaresMatch::kMaxGap_m);
 }
 
 MatchResult PointToLineMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
   Impl& self = *impl_;
-  const PointToLineMatcherConfig& config = self.config;
   if (!isFinite(guess) || self.reference.empty()) return {};
-  const LeastSquaresMatch match(config, orientedPoints(scan, config.points, config.max_gap_m, config.max_range_m),
-                                guess, window);
+  const LeastSquaresMatch match(scan, guess, window);
   if (!match.hasEnoughPoints()) return {};
   self.reference.sort();
 
   Pose2 pose = guess;
-  double reach_m = std::clamp(match.windowReach_m(), config.support_m, config.max_distance_m), moved_m = INFINITY;
-  for (int i = 0; i < config.iterations && (moved_m > kSmallStep_m || reach_m > config.support_m); ++i) {
+  double reach_m = std::clamp(match.windowReach_m(), LeastSquaresMatch::kSupport_m, kMaxDistance_m), moved_m = INFINITY;
+  for (int i = 0; i < kIterations && (moved_m > kSmallStep_m || reach_m > LeastSquaresMatch::kSupport_m); ++i) {
     self.makePairs(match, pose, reach_m);
-    reach_m = std::clamp(self.trimAt(), std::max(config.support_m, kSlowest * reach_m), reach_m);
+    reach_m = std::clamp(self.trimAt(), std::max(LeastSquaresMatch::kSupport_m, kSlowest * reach_m), reach_m);
     NormalEquations equations;
     for (const Pair& pair : self.pairs)
       if (std::abs(pair.distance_m) <= reach_m)

@@ -8,24 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
 
-struct PointToLineMatcherConfig : LeastSquaresMatcherConfig {
-  double max_distance_m =
-      0.5;  ///< Points are paired no farther than this, and less far when the window is small; at least support_m.
-  static constexpr double trim_sigmas = 3.0;  ///< Pairs with more than this many times the usual distance are left out.
-  static constexpr int iterations = 20;       ///< Greatest number of times that pairs are made.
-};
-
 /// The result is `failed` also if the steps did not become small, or led more than a centimetre or a tenth of a degree
 /// out of the window.
 class PointToLineMatcher final : public ScanMatcher {
  public:
-  explicit PointToLineMatcher(const PointToLineMatcherConfig& config);
+  PointToLineMatcher();
   ~PointToLineMatcher() override;
   PointToLineMatcher(PointToLineMatcher&&) noexcept;
   PointToLineMatcher& operator=(PointToLineMatcher&&) noexcept;

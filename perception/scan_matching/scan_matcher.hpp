@@ -41,6 +41,13 @@ enum class MatcherKind { kCorrelative, kGaussNewton, kPointToLine };
 /// Not thread-safe: one object per thread.
 class ScanMatcher {
  public:
+  /// Below this mean score a match failed.
+  static constexpr double kMinQuality = 0.35;
+  /// With fewer points a match failed.
+  static constexpr int kMinPoints = 30;
+  /// Points farther than this are not used, which bounds the memory of the fields.
+  static constexpr double kMaxRange_m = 20.0;
+
   virtual ~ScanMatcher() = default;
 
   virtual MatcherKind kind() const = 0;

@@ -17,18 +17,11 @@ struct GridDrawingConfig {
   static constexpr int max_steps = 70;  ///< Cap of a cell's confidence (Bachrach 2009, 5.3).
   static constexpr double max_hit_range_m =
       20.0;  ///< End points farther than this are not drawn; the view to there still clears.
-  static constexpr double max_free_range_m = 10.0;  ///< Range up to which beams without return clear.
-  static constexpr double max_height_above_m =
-      0.25;  ///< What is higher than this over the body does not touch the hull.
+  static constexpr double max_free_range_m = 10.0;    ///< Range up to which beams without return clear.
+  static constexpr double max_height_above_m = 0.25;  ///< What is higher than this over the body does not touch the
+                                                      ///< hull (docs/decisions/grid_map.md#006).
   static constexpr double max_height_below_m =
-      0.25;                                       ///< What is deeper than this below the body does not touch the hull.
-  static constexpr double slice_height_m = 0.05;  ///< Height of the horizontal slices in which the map is kept.
-  static constexpr int fade_steps = 1;            ///< Log-odds steps that a slice loses where one near it is seen free.
-  static constexpr double fade_height_m =
-      0.10;  ///< Height difference up to which a slice that is seen free makes another one fade.
-  static constexpr double slow_fade_height_m = 0.25;  ///< Height difference up to which a slice that is seen free makes
-                                                      ///< another one fade slowly; at least fade_height_m.
-  static constexpr int slow_fade_scans = 4;  ///< Scans of which one lets slices up to slow_fade_height_m away fade.
+      0.25;  ///< What is deeper than this below the body does not touch the hull.
   int glass_fade_scans = 1;
 
   void describe(common::config::Fields& fields);

@@ -6,11 +6,6 @@ namespace swiftlet::perception {
 
 using common::Pose2;
 
-namespace {
-/// As far as matches use points (CorrelativeMatcherConfig::max_range_m).
-constexpr double kJudgedRange_m = 20.0;
-}  // namespace
-
 struct LaserSlam::Impl {
   explicit Impl(const LaserSlamConfig& config) : front_end(config.front_end), slam(makeSlam(config.slam)) {}
 
@@ -61,7 +56,7 @@ MapJudgement LaserSlam::judgement() const {
   std::vector<PlacedScan> keys;
   for (std::size_t i = 0; i < std::min(poses.size(), impl_->key_scans.size()); ++i)
     keys.push_back({&impl_->key_scans[i], poses[i]});
-  return judgeMap(keys, kJudgedRange_m);
+  return judgeMap(keys, ScanMatcher::kMaxRange_m);
 }
 
 }  // namespace swiftlet::perception

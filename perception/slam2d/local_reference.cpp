@@ -9,6 +9,9 @@ namespace {
 
 using common::Pose2;
 
+/// Greatest number of key scans in the reference of the local match.
+constexpr int kLocalScans = 10;
+
 /// Two poses that are closer than this, in position and in heading, have the same view.
 constexpr double kSameView_m = 0.7;
 constexpr double kSameView_rad = 40.0 * std::numbers::pi / 180.0;
@@ -30,7 +33,7 @@ std::vector<int> connectedKeys(const SlamGraph& graph, int anchor, const Pose2& 
 }
 
 std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& connected, int anchor,
-                                    const Pose2& T_map_body, const Slam2dConfig& config) {
+                                    const Pose2& T_map_body) {
   const auto poseOf = [&](int key) -> const Pose2& { return graph.keys[static_cast<std::size_t>(key)].T_map_body; };
   std::vector<int> chosen;
   for (const int key : connected)
@@ -38,8 +41,7 @@ std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<in
       chosen.push_back(key);
   std::stable_sort(chosen.begin(), chosen.end(),
                    [&](int a, int b) { return distance(poseOf(a), T_map_body) < distance(poseOf(b), T_map_body); });
-  if (static_cast<int>(chosen.size()) > config.local_scans - 1)
-    chosen.resize(static_cast<std::size_t>(config.local_scans - 1));
+  if (static_cast<int>(chosen.size()) > kLocalScans - 1) chosen.resize(static_cast<std::size_t>(kLocalScans - 1));
   if (std::find(chosen.begin(), chosen.end(), anchor) == chosen.end()) chosen.push_back(anchor);
   std::sort(chosen.begin(), chosen.end());
   return chosen;

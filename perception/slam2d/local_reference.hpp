@@ -15,9 +15,9 @@ std::vector<int> connectedKeys(const SlamGraph& graph, int anchor, const common:
                                const Slam2dConfig& config);
 
 /// Of `connected`, one key scan per view, and the anchor. The oldest key scan of each view is chosen, because it
-/// carries the least drift. At most `local_scans`, those nearest to T_map_body. In ascending order.
+/// carries the least drift. At most ten, those nearest to T_map_body. In ascending order.
 std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& connected, int anchor,
-                                    const common::Pose2& T_map_body, const Slam2dConfig& config);
+                                    const common::Pose2& T_map_body);
 
 /// Matches scans to a set of key scans. The drawing is kept between matches: new key scans are added to it, and it is
 /// redrawn only when a key scan has left the set or has moved.

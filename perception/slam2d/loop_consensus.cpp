@@ -11,11 +11,14 @@ namespace {
 
 using common::Pose2;
 
+/// A closure whose error after optimization is larger is rejected.
+constexpr double kMaxEdgeSigmas = 4.0;
+
 /// At least this many rejected closures must agree to overrule the graph.
 constexpr int kLeastConsensus = 3;
 
 /// Greatest squared, normalized error of a closure that fits.
-double mostError(const Slam2dConfig& config) { return config.loops.max_edge_sigmas * config.loops.max_edge_sigmas; }
+constexpr double kMostError = kMaxEdgeSigmas * kMaxEdgeSigmas;
 
 /// The optimization problem of a graph with new closures. Keeps track of its edges while some are removed.
 struct Trial {
@@ -61,8 +64,7 @@ LoopConsensus optimizeWithRejection(const SlamGraph& graph, const std::vector<Fo
     const std::vector<double>& errors = solution.squared_errors;
     std::optional<std::size_t> worst;
     for (std::size_t i = 0; i < errors.size(); ++i)
-      if (trial.problem.edges[i].robust && errors[i] > mostError(config) && (!worst || errors[i] > errors[*worst]))
-        worst = i;
+      if (trial.problem.edges[i].robust && errors[i] > kMostError && (!worst || errors[i] > errors[*worst])) worst = i;
     if (!worst) return trial.consensus(std::move(solution.poses), loops, std::move(removed));
     trial.remove(*worst, removed);
   }
@@ -81,7 +83,7 @@ std::optional<LoopConsensus> consensusOfRejected(const SlamGraph& graph, const s
     optimization::PoseGraph2DSolution solution = optimization::optimize(trial.problem, config.graph);
     const std::size_t before = removed.size();
     for (std::size_t i = solution.squared_errors.size(); i-- > 0;)
-      if (solution.squared_errors[i] > mostError(config) &&
+      if (solution.squared_errors[i] > kMostError &&
           (trial.problem.edges[i].robust || trial.edge_of[i] >= trial.first_new))
         trial.remove(i, removed);
     if (removed.size() > before) continue;

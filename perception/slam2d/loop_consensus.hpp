@@ -20,8 +20,8 @@ struct LoopConsensus {
   std::vector<int> rejected_edges;  ///< Indices of edges of the graph, ascending.
 };
 
-/// Optimizes the graph with new loop closures. While a closure, new or old, has an error above `max_edge_sigmas`,
-/// rejects the one with the greatest error and optimizes again.
+/// Optimizes the graph with new loop closures. While a closure, new or old, has an error above four standard
+/// deviations, rejects the one with the greatest error and optimizes again.
 LoopConsensus optimizeWithRejection(const SlamGraph& graph, const std::vector<FoundLoop>& loops,
                                     const Slam2dConfig& config);
 

@@ -14,6 +14,23 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
+/// Newest key scans joined to the query.
+constexpr int kQueryScans = 5;
+/// Key scans around the candidate joined to the reference.
+constexpr int kReferenceScans = 9;
+/// Side of a cell of the wide search, which a fine match follows.
+constexpr double kWideResolution_m = 0.04;
+/// Step of the rotation of the wide search.
+constexpr double kWideAngularResolution_deg = 0.5;
+/// Least quality of the wide match, on its coarse cells.
+constexpr double kMinWideQuality = 0.60;
+/// A second, distinct place must score less than this share of the best.
+constexpr double kMaxAmbiguity = 0.90;
+/// Distance from which a second place is distinct.
+constexpr double kDistinct_m = 0.4;
+/// Rotation from which a second place is distinct.
+constexpr double kDistinct_deg = 12.0;
+
 /// Size of the searched ellipse of the projected uncertainty, in sigmas.
 constexpr double kSigmas = 3.0;
 /// Views within this distance of each other overlap, however certain their poses are.
@@ -63,8 +80,7 @@ std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<Project
     return distance(center, graph.keys[static_cast<std::size_t>(a)].T_map_body) <
            distance(center, graph.keys[static_cast<std::size_t>(b)].T_map_body);
   });
-  if (static_cast<int>(keys.size()) > config.loops.reference_scans)
-    keys.resize(static_cast<std::size_t>(config.loops.reference_scans));
+  if (static_cast<int>(keys.size()) > kReferenceScans) keys.resize(static_cast<std::size_t>(kReferenceScans));
   return keys;
 }
 
@@ -91,7 +107,7 @@ double ownFreeSpaceViolation(const SlamGraph& graph, std::vector<int> keys, doub
 /// than each set violates its own.
 bool loopViolatesFreeSpace(const SlamGraph& graph, const std::vector<int>& newest, const Pose2& T_map_believed,
                            const std::vector<int>& reference, const Slam2dConfig& config) {
-  const double max_range_m = config.matcher.max_range_m, most = config.loops.max_free_space_violation;
+  const double max_range_m = ScanMatcher::kMaxRange_m, most = config.loops.max_free_space_violation;
   const double share =
       freeSpaceViolation(placed(graph, newest, T_map_believed), placed(graph, reference, {}), max_range_m);
   if (share <= most) return false;
@@ -100,11 +116,11 @@ bool loopViolatesFreeSpace(const SlamGraph& graph, const std::vector<int>& newes
 }
 
 /// Draws the contours of the reference scans, in the map frame.
-void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const CorrelativeMatcherConfig& config,
-                   LikelihoodField& field) {
+void drawReference(const SlamGraph& graph, const std::vector<int>& keys, LikelihoodField& field) {
   for (const int key : keys) {
     const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
-    field.draw(contourOf(source.scan->points_level_m, config.max_gap_m, config.max_range_m, source.T_map_body));
+    field.draw(contourOf(source.scan->points_level_m, CorrelativeMatcher::kMaxGap_m, ScanMatcher::kMaxRange_m,
+                         source.T_map_body));
   }
 }
 
@@ -115,25 +131,24 @@ std::optional<Pose2> searchWidely(const SlamGraph& graph, const std::vector<int>
                                   const std::vector<Eigen::Vector2f>& points, const Pose2& believed,
                                   const LoopCandidate& candidate, const Slam2dConfig& config) {
   const LoopClosureConfig& loops = config.loops;
-  LikelihoodField field(loops.resolution_m, kWideSigmaCells * loops.resolution_m);
-  drawReference(graph, reference, config.matcher, field);
+  LikelihoodField field(kWideResolution_m, kWideSigmaCells * kWideResolution_m);
+  drawReference(graph, reference, field);
   if (field.empty()) return std::nullopt;
 
   const double half_m = std::clamp(kSigmas * candidate.sigma_m, loops.min_window_m, loops.max_sigma_m);
   const double half_rad = std::clamp(kSigmas * std::sqrt(candidate.covariance_map(2, 2)),
                                      loops.min_window_deg * kRadPerDeg, loops.max_window_deg * kRadPerDeg);
-  const int half = static_cast<int>(std::ceil(half_m / loops.resolution_m));
-  const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
+  const int half = static_cast<int>(std::ceil(half_m / kWideResolution_m));
+  const double step_rad = kWideAngularResolution_deg * kRadPerDeg;
   const int half_turn = static_cast<int>(std::ceil(half_rad / step_rad));
-  const PoseGrid grid{believed.x_m - half * loops.resolution_m,
-                      believed.y_m - half * loops.resolution_m,
+  const PoseGrid grid{believed.x_m - half * kWideResolution_m,
+                      believed.y_m - half * kWideResolution_m,
                       believed.yaw_rad - half_turn * step_rad,
                       step_rad,
                       2 * half_turn + 1,
                       2 * half + 1};
   BranchAndBound wide(bestInstructions());
-  const int poor =
-      static_cast<int>(loops.min_quality * LikelihoodField::kTopValue * static_cast<double>(points.size()));
+  const int poor = static_cast<int>(kMinWideQuality * LikelihoodField::kTopValue * static_cast<double>(points.size()));
   const BestPose best = wide.search(field, points, grid, {}, poor);
   if (best.score <= poor) return std::nullopt;
   const auto atEdge = [](int i, int size) { return i == 0 || i == size - 1; };
@@ -142,11 +157,11 @@ std::optional<Pose2> searchWidely(const SlamGraph& graph, const std::vector<int>
       (atEdge(best.rotation, grid.rotations) && !whole_turn))
     return std::nullopt;  // The true pose may lie beyond the window.
 
-  const ExcludedPoses same_place{best, static_cast<int>(loops.distinct_m / loops.resolution_m),
-                                 static_cast<int>(loops.distinct_deg * kRadPerDeg / step_rad)};
-  const int rival = static_cast<int>(loops.max_ambiguity * best.score);
+  const ExcludedPoses same_place{best, static_cast<int>(kDistinct_m / kWideResolution_m),
+                                 static_cast<int>(kDistinct_deg * kRadPerDeg / step_rad)};
+  const int rival = static_cast<int>(kMaxAmbiguity * best.score);
   if (wide.searchElsewhere(field, points, grid, same_place, rival).score > rival) return std::nullopt;
-  return Pose2{grid.first_x_m + best.x * loops.resolution_m, grid.first_y_m + best.y * loops.resolution_m,
+  return Pose2{grid.first_x_m + best.x * kWideResolution_m, grid.first_y_m + best.y * kWideResolution_m,
                grid.first_yaw_rad + best.rotation * step_rad};
 }
 
@@ -198,11 +213,11 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   const std::vector<ProjectedUncertainty> connected_to_query = projectUncertainty(graph, query, config.local_sigma_m);
   const std::vector<int> reference = referenceKeys(graph, connected_to_query, candidate.key, config);
   if (reference.empty()) return std::nullopt;
-  const std::vector<int> newest = queryKeys(query, connected_to_query, loops.query_scans);
+  const std::vector<int> newest = queryKeys(query, connected_to_query, kQueryScans);
   const ProjectedScan query_scan = joined(graph, newest);
   const std::vector<Eigen::Vector2f> points =
-      spreadPoints(query_scan.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
-  if (static_cast<int>(points.size()) < config.matcher.min_points) return std::nullopt;
+      spreadPoints(query_scan.points_level_m, config.matcher.search_points, ScanMatcher::kMaxRange_m);
+  if (static_cast<int>(points.size()) < ScanMatcher::kMinPoints) return std::nullopt;
 
   const Pose2& believed = graph.keys[static_cast<std::size_t>(query)].T_map_body;
   const std::optional<Pose2> coarse = searchWidely(graph, reference, points, believed, candidate, config);
@@ -212,8 +227,8 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   for (const int key : reference)
     fine.addReference(*graph.keys[static_cast<std::size_t>(key)].scan,
                       graph.keys[static_cast<std::size_t>(key)].T_map_body);
-  const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
-  const MatchResult match = fine.match(query_scan, *coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
+  const double step_rad = kWideAngularResolution_deg * kRadPerDeg;
+  const MatchResult match = fine.match(query_scan, *coarse, {1.5 * kWideResolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
   if (loopViolatesFreeSpace(graph, newest, match.T_reference_body * believed.inverse(), reference, config))
     return std::nullopt;

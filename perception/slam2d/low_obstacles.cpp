@@ -6,7 +6,7 @@ namespace swiftlet::perception {
 namespace {
 
 /// Furniture is met, passed above, and met again; people are met at the height of the laser as well. With three
-/// sightings a flight touched a table again (decision 084).
+/// sightings a flight touched a table again (docs/decisions/cameras_and_lasers.md#084).
 constexpr int kSightings = 2;
 /// An obstacle stays certain for this time, times its sightings, while beams pass it and none meets it.
 constexpr double kKept_s = 30.0;

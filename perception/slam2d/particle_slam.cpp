@@ -20,6 +20,26 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::RandomStream;
 
+/// A scan is taken in after this distance.
+constexpr double kUpdateDistance_m = 0.3;
+/// A scan is taken in after this rotation.
+constexpr double kUpdateRotation_deg = 15.0;
+/// A scan is taken in after this time.
+constexpr double kUpdateTime_s = 2.0;
+/// Least standard deviation of the motion between two scans that are taken in: what the matcher cannot know (tilt,
+/// clutter).
+constexpr double kMotionSigma_m = 0.004;
+/// Least standard deviation of the rotation between two scans that are taken in.
+constexpr double kMotionSigma_deg = 0.06;
+/// Share of a scan's log-likelihood that counts: earlier scans already said the rest (measured:
+/// docs/decisions/slam.md#016).
+constexpr double kNewsShare = 0.25;
+/// The particles are resampled when the effective ones are a smaller share of all (Grisetti, Stachniss and Burgard
+/// 2007).
+constexpr double kMinEffectiveShare = 0.5;
+/// The map does not begin with a scan of fewer points.
+constexpr int kMinPoints = 30;
+
 struct Particle {
   SurfaceMap map;
   Pose2 T_map_body;  ///< At the last scan that was taken in.
@@ -39,7 +59,7 @@ Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream&
 
 struct ParticleSlam::Impl {
   explicit Impl(const ParticleSlamConfig& config_in)
-      : config(config_in), published(common::makeOccupancyGrid(config_in.map.grid.resolution_m)) {}
+      : config(config_in), published(common::makeOccupancyGrid(config_in.grid.resolution_m)) {}
 
   void begin(const ProjectedScan& scan, const Pose2& T_odom_body);
   void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
@@ -50,7 +70,7 @@ struct ParticleSlam::Impl {
   const Particle& best() const;
 
   ParticleSlamConfig config;
-  DrawnHeights band() const { return heightsAround(flight_height_m.value_or(0.0), config.map.grid); }
+  DrawnHeights band() const { return heightsAround(flight_height_m.value_or(0.0), config.grid); }
 
   std::vector<Particle> particles;
   AncestryTree ancestry;
@@ -69,9 +89,9 @@ struct ParticleSlam::Impl {
 
 /// Starts all particles at the pose in odom, with one common map.
 void ParticleSlam::Impl::begin(const ProjectedScan& scan, const Pose2& pose) {
-  SurfaceMap map(config.map);
+  SurfaceMap map(config.grid);
   if (!flight_height_m) flight_height_m = scan.T_odom_body.position_m.z();
-  map.draw(toDraw(scan, config.map, band()), pose, board);
+  map.draw(toDraw(scan, config.grid, band()), pose, board);
   const int root = ancestry.add(AncestryTree::kNone, pose);
   for (int i = 0; i < config.count; ++i) {
     if (i > 0) ancestry.hold(root);
@@ -93,22 +113,22 @@ void ParticleSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matri
 }
 
 bool ParticleSlam::Impl::isDue(common::Time now) const {
-  return T_anchor_body.position_m().norm() > config.update_distance_m ||
-         std::abs(T_anchor_body.yaw_rad) > config.update_rotation_deg * kRadPerDeg ||
-         (now - stamps.back()).seconds() > config.update_time_s;
+  return T_anchor_body.position_m().norm() > kUpdateDistance_m ||
+         std::abs(T_anchor_body.yaw_rad) > kUpdateRotation_deg * kRadPerDeg ||
+         (now - stamps.back()).seconds() > kUpdateTime_s;
 }
 
 void ParticleSlam::Impl::update(const ProjectedScan& scan) {
-  const std::vector<OrientedPoint> points = pointsToMatch(scan, config.match, config.map.max_gap_m);
-  const SurfaceScan drawn = toDraw(scan, config.map, band());
-  const double sigma_rad = config.motion_sigma_deg * kRadPerDeg;
+  const std::vector<OrientedPoint> points = pointsToMatch(scan);
+  const SurfaceScan drawn = toDraw(scan, config.grid, band());
+  const double sigma_rad = kMotionSigma_deg * kRadPerDeg;
   Eigen::Matrix3d motion = covariance_anchor;
-  motion.diagonal() += Eigen::Vector3d(config.motion_sigma_m * config.motion_sigma_m,
-                                       config.motion_sigma_m * config.motion_sigma_m, sigma_rad * sigma_rad);
+  motion.diagonal() +=
+      Eigen::Vector3d(kMotionSigma_m * kMotionSigma_m, kMotionSigma_m * kMotionSigma_m, sigma_rad * sigma_rad);
   RandomStream random(static_cast<std::uint64_t>(config.seed), "particles", counts.key_scans);
   for (Particle& particle : particles) {
-    const MotionPrior prior{particle.T_map_body * T_anchor_body, common::turned(motion, particle.T_map_body.yaw_rad)};
-    moveOn(particle, matchToMap(particle.map, points, prior, config.match), random);
+    const UncertainPose prior{particle.T_map_body * T_anchor_body, common::turned(motion, particle.T_map_body.yaw_rad)};
+    moveOn(particle, matchToMap(particle.map, points, prior), random);
     ++counts.particle_matches;
     particle.map.draw(drawn, particle.T_map_body, board);
   }
@@ -121,7 +141,7 @@ void ParticleSlam::Impl::update(const ProjectedScan& scan) {
 
 void ParticleSlam::Impl::moveOn(Particle& particle, const MapMatch& match, RandomStream& random) {
   particle.T_map_body = sample(match.T_map_body, match.covariance, random);
-  const double news = config.news_share * match.log_likelihood;
+  const double news = kNewsShare * match.log_likelihood;
   particle.log_weight += news;
   particle.log_likelihood += news;
   const int before = particle.node;
@@ -133,8 +153,7 @@ void ParticleSlam::Impl::resample() {
   std::vector<double> log_weights;
   for (const Particle& particle : particles) log_weights.push_back(particle.log_weight);
   const std::vector<double> weights = common::normalizedWeights(log_weights);
-  if (common::effectiveSampleSize(weights) >= config.min_effective_share * static_cast<double>(particles.size()))
-    return;
+  if (common::effectiveSampleSize(weights) >= kMinEffectiveShare * static_cast<double>(particles.size())) return;
   RandomStream random(static_cast<std::uint64_t>(config.seed), "resampling", counts.key_scans);
   std::vector<Particle> next;
   next.reserve(particles.size());
@@ -164,7 +183,7 @@ SlamUpdate ParticleSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_
   ++self.counts.scans;
   const bool first = self.particles.empty();
   if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
-      (first && static_cast<int>(scan.points_level_m.size()) < self.config.min_points)) {
+      (first && static_cast<int>(scan.points_level_m.size()) < kMinPoints)) {
     ++self.counts.ignored_scans;
     return {false, false, first ? T_odom_body : T_map_body()};
   }

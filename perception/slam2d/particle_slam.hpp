@@ -15,7 +15,6 @@
 #include <memory>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "perception/slam2d/particle/map_match.hpp"
 #include "perception/slam2d/planar_slam.hpp"
 #include "perception/slam2d/surface_map.hpp"
@@ -23,22 +22,9 @@
 namespace swiftlet::perception {
 
 struct ParticleSlamConfig {
-  SurfaceMapConfig map;
-  MapMatchConfig match;
-  int count = 30;                                      ///< Particles.
-  int seed = 1;                                        ///< Seed of the random numbers.
-  static constexpr double update_distance_m = 0.3;     ///< A scan is taken in after this distance.
-  static constexpr double update_rotation_deg = 15.0;  ///< A scan is taken in after this rotation.
-  static constexpr double update_time_s = 2.0;         ///< A scan is taken in after this time.
-  static constexpr double motion_sigma_m = 0.004;  ///< Least standard deviation of the motion between two scans that
-                                                   ///< are taken in: what the matcher cannot know (tilt, clutter).
-  static constexpr double motion_sigma_deg =
-      0.06;  ///< Least standard deviation of the rotation between two scans that are taken in.
-  static constexpr double news_share =
-      0.25;  ///< Share of a scan's log-likelihood that counts: earlier scans already said the rest.
-  static constexpr double min_effective_share =
-      0.5;  ///< The particles are resampled when the effective ones are a smaller share of all.
-  static constexpr int min_points = 30;  ///< The map does not begin with a scan of fewer points.
+  GridDrawingConfig grid;  ///< makeSlam() sets it to that of the published map.
+  int count = 30;          ///< Particles.
+  int seed = 1;            ///< Seed of the random numbers.
 };
 
 /// Key scans are the scans that were taken in. Poses and map are those of the best particle.

@@ -95,9 +95,8 @@ class PlanarSlam {
 
   virtual const SlamCounts& counts() const = 0;
 
-  /// Whether the method has a pose graph: edges() gives its constraints, and loop closures correct its key scans.
-  virtual bool hasGraph() const { return false; }
-  /// The constraints of the pose graph, with indices into keyPoses(). Valid until the next call that is not const.
+  /// The constraints of the pose graph, with indices into keyPoses(); only SlamMethod::kGraph has one. Valid until the
+  /// next call that is not const.
   virtual std::span<const SlamEdge> edges() const { return {}; }
 
   /// Heavy work, if there is any and no task is outstanding.

@@ -16,24 +16,44 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
 
+/// A scan is matched to the map after this distance.
+constexpr double kMatchDistance_m = 0.10;
+/// A scan is matched to the map after this rotation.
+constexpr double kMatchRotation_deg = 5.0;
+/// A scan is matched to the map after this time.
+constexpr double kMatchTime_s = 0.25;
+/// A scan becomes a key scan, which is drawn into the surfaces, after this distance.
+constexpr double kKeyDistance_m = 0.4;
+/// A scan becomes a key scan after this rotation.
+constexpr double kKeyRotation_deg = 20.0;
+/// A scan becomes a key scan after this time.
+constexpr double kKeyTime_s = 2.0;
+/// Half the least search window.
+constexpr double kWindow_m = 0.15;
+/// Half the least search window of the rotation.
+constexpr double kWindow_deg = 3.0;
+/// Half the greatest search window; at least kWindow_m.
+constexpr double kMaxWindow_m = 0.5;
+/// Half the greatest search window of the rotation; at least kWindow_deg.
+constexpr double kMaxWindow_deg = 10.0;
+
 /// Half width of the search window, in standard deviations of the predicted pose.
 constexpr double kWindowSigmas = 3.0;
 
 }  // namespace
 
 struct ScanToMapSlam::Impl {
-  explicit Impl(const ScanToMapConfig& config_in)
-      : config(config_in), matcher(config_in.matcher), surfaces(config_in.surfaces), map(config_in.surfaces.grid) {}
+  explicit Impl(const GridDrawingConfig& config_in) : config(config_in), surfaces(config_in), map(config_in) {}
 
   void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
   bool correct(const ProjectedScan& scan);
   SearchWindow window() const;
   void drawReference();
   void addKeyScan(const ProjectedScan& scan);
-  void draw(const ProjectedScan& scan) { map.draw(thinForDrawing(scan, config.surfaces.grid), pose.T_map_body); }
-  DrawnHeights band() const { return heightsAround(flight_height_m.value_or(0.0), config.surfaces.grid); }
+  void draw(const ProjectedScan& scan) { map.draw(thinForDrawing(scan, config), pose.T_map_body); }
+  DrawnHeights band() const { return heightsAround(flight_height_m.value_or(0.0), config); }
 
-  ScanToMapConfig config;
+  GridDrawingConfig config;
   GaussNewtonMatcher matcher;
   SurfaceMap surfaces;
   DrawingBoard board;
@@ -62,8 +82,8 @@ void ScanToMapSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matr
 
 SearchWindow ScanToMapSlam::Impl::window() const {
   const Eigen::Vector3d sigmas = pose.covariance.diagonal().cwiseSqrt();
-  return {std::clamp(kWindowSigmas * sigmas.head<2>().maxCoeff(), config.window_m, config.max_window_m),
-          std::clamp(kWindowSigmas * sigmas.z(), config.window_deg * kRadPerDeg, config.max_window_deg * kRadPerDeg)};
+  return {std::clamp(kWindowSigmas * sigmas.head<2>().maxCoeff(), kWindow_m, kMaxWindow_m),
+          std::clamp(kWindowSigmas * sigmas.z(), kWindow_deg * kRadPerDeg, kMaxWindow_deg * kRadPerDeg)};
 }
 
 /// Draws the surfaces that a scan from here can meet as the reference of the matcher, if they have changed.
@@ -71,8 +91,7 @@ void ScanToMapSlam::Impl::drawReference() {
   if (!reference_is_old) return;
   reference_is_old = false;
   matcher.clearReference();
-  matcher.addReference(
-      surfaces.contourAround(pose.T_map_body.position_m(), config.matcher.max_range_m + config.max_window_m));
+  matcher.addReference(surfaces.contourAround(pose.T_map_body.position_m(), ScanMatcher::kMaxRange_m + kMaxWindow_m));
 }
 
 /// False when the scan does not match the map. The estimate is then unchanged.
@@ -84,7 +103,7 @@ bool ScanToMapSlam::Impl::correct(const ProjectedScan& scan) {
     ++counts.local_failures;
     return false;
   }
-  const Eigen::Matrix3d of_map = common::planarCovariance(config.map_sigma_m, config.map_sigma_deg * kRadPerDeg);
+  const Eigen::Matrix3d of_map = common::planarCovariance(kMapSigma_m, kMapSigma_deg * kRadPerDeg);
   pose = weightedMean(pose, {match.T_reference_body, match.covariance + of_map});
   // The error of the map is the same in every match, so the mean of many matches is not more certain.
   pose.covariance.diagonal() = pose.covariance.diagonal().cwiseMax(of_map.diagonal());
@@ -94,14 +113,14 @@ bool ScanToMapSlam::Impl::correct(const ProjectedScan& scan) {
 
 void ScanToMapSlam::Impl::addKeyScan(const ProjectedScan& scan) {
   if (!flight_height_m) flight_height_m = scan.T_odom_body.position_m.z();
-  surfaces.draw(toDraw(scan, config.surfaces, band()), pose.T_map_body, board);
+  surfaces.draw(toDraw(scan, config, band()), pose.T_map_body, board);
   reference_is_old = true;
   keys.push_back({scan.stamp, pose.T_map_body});
   ++counts.key_scans;
   last_key = {T_odom_body, scan.stamp};
 }
 
-ScanToMapSlam::ScanToMapSlam(const ScanToMapConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+ScanToMapSlam::ScanToMapSlam(const GridDrawingConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 ScanToMapSlam::~ScanToMapSlam() = default;
 ScanToMapSlam::ScanToMapSlam(ScanToMapSlam&&) noexcept = default;
 ScanToMapSlam& ScanToMapSlam::operator=(ScanToMapSlam&&) noexcept = default;
@@ -109,11 +128,10 @@ ScanToMapSlam& ScanToMapSlam::operator=(ScanToMapSlam&&) noexcept = default;
 SlamUpdate ScanToMapSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
                                   const Eigen::Matrix3d& covariance_since_last) {
   Impl& self = *impl_;
-  const ScanToMapConfig& config = self.config;
   ++self.counts.scans;
   const bool first = self.keys.empty();
   if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
-      (first && static_cast<int>(scan.points_level_m.size()) < config.matcher.min_points)) {
+      (first && static_cast<int>(scan.points_level_m.size()) < ScanMatcher::kMinPoints)) {
     ++self.counts.ignored_scans;
     return {false, false, first ? T_odom_body : self.pose.T_map_body};
   }
@@ -123,16 +141,15 @@ SlamUpdate ScanToMapSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom
     self.pose.T_map_body = self.T_odom_body = T_odom_body;
   } else {
     self.follow(T_odom_body, covariance_since_last);
-    if (!self.last_match.exceeds(T_odom_body, scan.stamp, config.match_distance_m, config.match_rotation_deg,
-                                 config.match_time_s))
+    if (!self.last_match.exceeds(T_odom_body, scan.stamp, kMatchDistance_m, kMatchRotation_deg, kMatchTime_s))
       return {false, false, self.pose.T_map_body};
   }
   self.last_match = {T_odom_body, scan.stamp};
   const bool matched = first || self.correct(scan);
   // A scan of new area hardly matches. A key scan at its predicted pose lets the map grow there, so that the next scans
   // match.
-  const bool is_key = first || self.last_key.exceeds(T_odom_body, scan.stamp, config.key_distance_m,
-                                                     config.key_rotation_deg, config.key_time_s);
+  const bool is_key =
+      first || self.last_key.exceeds(T_odom_body, scan.stamp, kKeyDistance_m, kKeyRotation_deg, kKeyTime_s);
   if (is_key) self.addKeyScan(scan);
   if (matched || is_key) self.draw(scan);
   return {is_key, matched || is_key, self.pose.T_map_body};

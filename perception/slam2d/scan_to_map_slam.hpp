@@ -23,38 +23,23 @@
 #include <memory>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
 #include "perception/slam2d/planar_slam.hpp"
 #include "perception/slam2d/surface_map.hpp"
 
 namespace swiftlet::perception {
 
-struct ScanToMapConfig {
-  GaussNewtonMatcherConfig matcher;
-  SurfaceMapConfig surfaces;
-  static constexpr double match_distance_m = 0.10;   ///< A scan is matched to the map after this distance.
-  static constexpr double match_rotation_deg = 5.0;  ///< A scan is matched to the map after this rotation.
-  static constexpr double match_time_s = 0.25;       ///< A scan is matched to the map after this time.
-  static constexpr double key_distance_m =
-      0.4;  ///< A scan becomes a key scan, which is drawn into the surfaces, after this distance.
-  static constexpr double key_rotation_deg = 20.0;  ///< A scan becomes a key scan after this rotation.
-  static constexpr double key_time_s = 2.0;         ///< A scan becomes a key scan after this time.
-  static constexpr double window_m = 0.15;          ///< Half the least search window.
-  static constexpr double window_deg = 3.0;         ///< Half the least search window of the rotation.
-  static constexpr double max_window_m = 0.5;       ///< Half the greatest search window; at least window_m.
-  static constexpr double max_window_deg =
-      10.0;  ///< Half the greatest search window of the rotation; at least window_deg.
-  static constexpr double map_sigma_m = 0.005;  ///< Standard deviation of the map about the pose: however often a scan
-                                                ///< matches the same map, no pose in it is more certain.
-  static constexpr double map_sigma_deg = 0.1;  ///< Standard deviation of the map's rotation about the pose.
-};
-
 /// Key scans are drawn into the surfaces that other scans are matched to. The published map is a SlicedMap, into which
 /// key scans and all scans that match are drawn.
 class ScanToMapSlam final : public PlanarSlam {
  public:
-  explicit ScanToMapSlam(const ScanToMapConfig& config);
+  /// Standard deviation of the map about the pose: however often a scan matches the same map, no pose in it is more
+  /// certain.
+  static constexpr double kMapSigma_m = 0.005;
+  /// Standard deviation of the map's rotation about the pose.
+  static constexpr double kMapSigma_deg = 0.1;
+
+  explicit ScanToMapSlam(const GridDrawingConfig& config);
   ~ScanToMapSlam() override;
   ScanToMapSlam(ScanToMapSlam&&) noexcept;
   ScanToMapSlam& operator=(ScanToMapSlam&&) noexcept;
@@ -74,7 +59,7 @@ class ScanToMapSlam final : public PlanarSlam {
 
   /// The covariance of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose, axes of the map. It is relative
   /// to the map around the pose: the drift of that map since take-off is not included. After a match, no standard
-  /// deviation is below `map_sigma_m` or `map_sigma_deg`.
+  /// deviation is below `kMapSigma_m` or `kMapSigma_deg`.
   const Eigen::Matrix3d& covariance() const;
 
  private:

@@ -20,6 +20,32 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
 
+/// A scan is matched to the map after this distance, and becomes a key scan where there is none near.
+constexpr double kKeyDistance_m = 0.4;
+/// A scan is matched to the map after this rotation.
+constexpr double kKeyRotation_deg = 25.0;
+/// A scan is matched to the map after this time.
+constexpr double kKeyTime_s = 2.0;
+/// A scan tilted more than this waits half as long again, for a level one.
+constexpr double kLevelTilt_deg = 2.0;
+/// A scan within this distance and kReuseRotation_deg of a key scan does not become one, so that the graph does not
+/// grow in known area (docs/decisions/scan_matching.md#021).
+constexpr double kReuseDistance_m = 0.25;
+/// A scan within this rotation and kReuseDistance_m of a key scan does not become one.
+constexpr double kReuseRotation_deg = 20.0;
+/// Between key scans, a scan is drawn after this distance.
+constexpr double kDrawDistance_m = 0.10;
+/// Between key scans, a scan is drawn after this rotation.
+constexpr double kDrawRotation_deg = 6.0;
+/// Between key scans, a scan is drawn after this time.
+constexpr double kDrawTime_s = 0.25;
+/// Newest drawn scans that are kept with a key scan, to redraw the grid.
+constexpr int kScansPerKey = 16;
+/// Half the search window of the local match.
+constexpr double kLocalWindow_m = 0.15;
+/// Half the search window of the local match's rotation.
+constexpr double kLocalWindow_deg = 3.0;
+
 /// The limits before the next match are multiplied by this for a tilted scan, so that a level one may come first: a
 /// tilted scan brings the error of its attitude into the map.
 constexpr double kPatience = 1.5;
@@ -121,11 +147,10 @@ void Slam2d::Impl::setAnchor(int key, const Pose2& T_key_body, const Eigen::Matr
 /// The nearest of `keys` within the distance and rotation at which a key scan is reused.
 std::optional<int> Slam2d::Impl::keyNear(std::span<const int> keys, const Pose2& pose) const {
   std::optional<int> nearest;
-  double nearest_m = config.reuse_distance_m;
+  double nearest_m = kReuseDistance_m;
   for (const int key : keys) {
     const Pose2 step = between(poseOf(key), pose);
-    if (step.position_m().norm() > nearest_m || std::abs(step.yaw_rad) > config.reuse_rotation_deg * kRadPerDeg)
-      continue;
+    if (step.position_m().norm() > nearest_m || std::abs(step.yaw_rad) > kReuseRotation_deg * kRadPerDeg) continue;
     nearest_m = step.position_m().norm();
     nearest = key;
   }
@@ -162,7 +187,7 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
 /// to the newest pass alone. A match to passes that do not agree yet would be a compromise between them. On return,
 /// `keys` are those that were matched.
 MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int>& keys) {
-  const SearchWindow window{config.local_window_m, config.local_window_deg * kRadPerDeg};
+  const SearchWindow window{kLocalWindow_m, kLocalWindow_deg * kRadPerDeg};
   const auto newest = newestPass(keys);
   if (newest == keys.begin()) return reference.match(graph, keys, scan, T_map_body(), window);
   std::vector<int> earlier(keys.cbegin(), newest);
@@ -195,12 +220,12 @@ void Slam2d::Impl::connectPasses(int other, const MatchResult& match) {
 /// The local match: corrects the estimate by the older key scans around it. False if the scan was not used.
 bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   const std::vector<int> connected = connectedKeys(graph, anchor, T_map_body(), config);
-  std::vector<int> keys = localReferenceKeys(graph, connected, anchor, T_map_body(), config);
+  std::vector<int> keys = localReferenceKeys(graph, connected, anchor, T_map_body());
   const MatchResult match = matchAround(scan, keys);
   ++counts.graph_matches;
   if (match.failed) {
     ++counts.local_failures;
-    if (match.points_used == 0 || T_anchor_body.position_m().norm() < config.reuse_distance_m) return false;
+    if (match.points_used == 0 || T_anchor_body.position_m().norm() < kReuseDistance_m) return false;
     addKeyScan(scan, T_map_body(), {}, nullptr);
     update.key_scan = true;
     return true;
@@ -233,7 +258,7 @@ void Slam2d::Impl::draw(const ProjectedScan& scan) {
   if (config.live_map) map.draw(*attached.scan, T_map_body());
   std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
   drawn.push_back(attached);
-  if (static_cast<int>(drawn.size()) > config.scans_per_key) drawn.pop_front();
+  if (static_cast<int>(drawn.size()) > kScansPerKey) drawn.pop_front();
   if (task_outstanding) drawn_since_task.emplace_back(anchor, attached);
 }
 
@@ -249,7 +274,7 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
   ++self.counts.scans;
   const bool first = self.graph.keys.empty();
   if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
-      (first && static_cast<int>(scan.points_level_m.size()) < self.config.matcher.min_points)) {
+      (first && static_cast<int>(scan.points_level_m.size()) < ScanMatcher::kMinPoints)) {
     ++self.counts.ignored_scans;
     update.T_map_body = first ? T_odom_body : self.T_map_body();
     return update;
@@ -262,16 +287,15 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
     update.key_scan = learned = true;
   } else {
     self.follow(T_odom_body, covariance_since_last);
-    const double patience = isLevel(scan, self.config.level_tilt_deg) ? 1.0 : kPatience;
-    if (self.last_match.exceeds(T_odom_body, scan.stamp, patience * self.config.key_distance_m,
-                                patience * self.config.key_rotation_deg, patience * self.config.key_time_s)) {
+    const double patience = isLevel(scan, kLevelTilt_deg) ? 1.0 : kPatience;
+    if (self.last_match.exceeds(T_odom_body, scan.stamp, patience * kKeyDistance_m, patience * kKeyRotation_deg,
+                                patience * kKeyTime_s)) {
       self.last_match = {T_odom_body, scan.stamp};
       learned = self.correct(scan, update);
     }
   }
   if (first) self.last_match = {T_odom_body, scan.stamp};
-  if (learned || self.last_drawn.exceeds(T_odom_body, scan.stamp, self.config.draw_distance_m,
-                                         self.config.draw_rotation_deg, self.config.draw_time_s)) {
+  if (learned || self.last_drawn.exceeds(T_odom_body, scan.stamp, kDrawDistance_m, kDrawRotation_deg, kDrawTime_s)) {
     self.draw(scan);
     self.last_drawn = {T_odom_body, scan.stamp};
     update.drawn = true;

@@ -39,7 +39,6 @@ class Slam2d final : public PlanarSlam {
   bool isLowObstacle(common::CellIndex cell) const override;
   const SlamCounts& counts() const override;
 
-  bool hasGraph() const override { return true; }
   std::span<const SlamEdge> edges() const override;
 
   [[nodiscard]] std::optional<SlamTask> takeTask() override;

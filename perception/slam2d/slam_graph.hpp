@@ -33,7 +33,7 @@ struct KeyScan {
 
 /// Whether two key scans, given by index, count as of different passes: whether many others were taken between them.
 inline bool areOfTwoPasses(int a, int b) {
-  // With the default key_distance_m these are 6 m: within them a match corrects the pass itself, and closes no loop.
+  // With key scans 0.4 m apart these are 6 m: within them a match corrects the pass itself, and closes no loop.
   constexpr int kOtherPass = 15;
   return std::abs(a - b) > kOtherPass;
 }

@@ -55,14 +55,11 @@ std::unique_ptr<PlanarSlam> makeSlam(const SlamMethodConfig& config) {
   switch (config.method) {
     case SlamMethod::kParticles: {
       ParticleSlamConfig particles = config.particles;
-      particles.map.grid = config.grid;
+      particles.grid = config.grid;
       return std::make_unique<ParticleSlam>(particles);
     }
-    case SlamMethod::kScanToMap: {
-      ScanToMapConfig scan_to_map = config.scan_to_map;
-      scan_to_map.surfaces.grid = config.grid;
-      return std::make_unique<ScanToMapSlam>(scan_to_map);
-    }
+    case SlamMethod::kScanToMap:
+      return std::make_unique<ScanToMapSlam>(config.grid);
     case SlamMethod::kGraph:
       break;
   }

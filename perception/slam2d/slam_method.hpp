@@ -18,7 +18,6 @@ namespace swiftlet::perception {
 struct SlamMethodConfig : Slam2dConfig {
   SlamMethod method = SlamMethod::kGraph;
   ParticleSlamConfig particles;
-  ScanToMapConfig scan_to_map;
 
   void describe(common::config::Fields& fields);
 };

@@ -13,6 +13,18 @@ using common::CellIndex;
 using common::occupancy::Cell;
 namespace occupancy = common::occupancy;
 
+/// Height of the horizontal slices in which the map is kept (measured: docs/decisions/grid_map.md#006).
+constexpr double kSliceHeight_m = 0.05;
+/// Log-odds steps that a slice loses where one near it is seen free.
+constexpr int kFadeSteps = 1;
+/// Height difference up to which a slice that is seen free makes another one fade (measured:
+/// docs/decisions/grid_map.md#006).
+constexpr double kFadeHeight_m = 0.10;
+/// Height difference up to which a slice that is seen free makes another one fade slowly; at least kFadeHeight_m.
+constexpr double kSlowFadeHeight_m = 0.25;
+/// Scans of which one lets slices up to kSlowFadeHeight_m away fade.
+constexpr int kSlowFadeScans = 4;
+
 /// A mark counts the beams that crossed a cell in its low half and the beams that ended there in its high half.
 constexpr std::uint32_t kCrossed = 1;
 constexpr std::uint32_t kEnded = 1 << 16;
@@ -118,9 +130,7 @@ void SlicedMap::draw(const DrawnScan& scan, const common::Pose2& T_map_body) {
 }
 
 /// Slices are centred on multiples of their height, because missions usually fly at such heights.
-int SlicedMap::sliceAt(double height_m) const {
-  return static_cast<int>(std::floor(height_m / config_.slice_height_m + 0.5));
-}
+int SlicedMap::sliceAt(double height_m) const { return static_cast<int>(std::floor(height_m / kSliceHeight_m + 0.5)); }
 
 bool SlicedMap::setFlightHeight(double height_m) {
   if (!std::isfinite(height_m)) return false;
@@ -153,7 +163,7 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
     const int step = last > laser_slice_ ? 1 : -1;
     Eigen::Vector2d from = body;
     for (int slice = laser_slice_; slice != last; slice += step) {
-      const double boundary_m = (slice + 0.5 * step) * config_.slice_height_m - laser_m;
+      const double boundary_m = (slice + 0.5 * step) * kSliceHeight_m - laser_m;
       const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / rise_m, 0.0, 1.0);
       rays_[slice].push_back({from, cut});
       from = cut;
@@ -261,14 +271,14 @@ bool SlicedMap::meetLow(int slice, CellIndex cell, common::Time stamp) {
 void SlicedMap::fadeAround(int slice, CellIndex cell) {
   // Only a cell that is occupied at flight height matters to the hull, so only such a cell fades.
   if (!occupancy::isOccupied(combined_.at(cell))) return;
-  const bool slow = drawn_ % config_.slow_fade_scans == 0;
-  const double height_m = slow ? config_.slow_fade_height_m : config_.fade_height_m;
-  const int reach = static_cast<int>(std::lround(height_m / config_.slice_height_m));
+  const bool slow = drawn_ % kSlowFadeScans == 0;
+  const double height_m = slow ? kSlowFadeHeight_m : kFadeHeight_m;
+  const int reach = static_cast<int>(std::lround(height_m / kSliceHeight_m));
   bool faded = false;
   for (auto near = slices_.lower_bound(slice - reach); near != slices_.end() && near->first <= slice + reach; ++near) {
     const Cell old = near->second.at(cell);
     if (near->first == slice || !occupancy::isOccupied(old)) continue;
-    near->second.set(cell, static_cast<Cell>(std::max(old - config_.fade_steps, 0)));
+    near->second.set(cell, static_cast<Cell>(std::max(old - kFadeSteps, 0)));
     faded = true;
   }
   if (faded) combine(cell);

@@ -41,15 +41,15 @@ DrawnHeights heightsAround(double flight_height_m, const GridDrawingConfig& conf
   return {flight_height_m - config.max_height_below_m, flight_height_m + config.max_height_above_m};
 }
 
-SurfaceScan toDraw(const ProjectedScan& scan, const SurfaceMapConfig& config, const DrawnHeights& band) {
+SurfaceScan toDraw(const ProjectedScan& scan, const GridDrawingConfig& config, const DrawnHeights& band) {
   SurfaceScan drawn;
-  const double body_m = scan.T_odom_body.position_m.z(), max_hit_range_m = config.grid.max_hit_range_m;
+  const double body_m = scan.T_odom_body.position_m.z(), max_hit_range_m = config.max_hit_range_m;
   if (!band.contains(body_m)) return drawn;
   const auto free = [&](const Eigen::Vector2f& end, double height_m, double range_m) -> Eigen::Vector2f {
     const float within_range = static_cast<float>(range_m) / std::max(end.norm(), 1e-6F);
     return end * std::min(static_cast<float>(withinBand(band, body_m, height_m)), within_range);
   };
-  const std::vector<OrientedPoint> oriented = orientedPoints(scan, 0, config.max_gap_m, max_hit_range_m);
+  const std::vector<OrientedPoint> oriented = orientedPoints(scan, 0, SurfaceMap::kMaxGap_m, max_hit_range_m);
   auto next = oriented.begin();
   for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
     const Eigen::Vector2f& end = scan.points_level_m[i];
@@ -66,10 +66,10 @@ SurfaceScan toDraw(const ProjectedScan& scan, const SurfaceMapConfig& config, co
   }
   for (const Eigen::Vector3f& end : scan.misses_level_m)
     if (end.allFinite())
-      drawn.free_m.push_back(free(end.head<2>(), static_cast<double>(end.z()), config.grid.max_free_range_m));
+      drawn.free_m.push_back(free(end.head<2>(), static_cast<double>(end.z()), config.max_free_range_m));
   for (const Eigen::Vector3f& end : scan.no_returns_level_m)
     if (end.allFinite())
-      drawn.no_returns_m.push_back(free(end.head<2>(), static_cast<double>(end.z()), config.grid.max_free_range_m));
+      drawn.no_returns_m.push_back(free(end.head<2>(), static_cast<double>(end.z()), config.max_free_range_m));
   return drawn;
 }
 
@@ -80,7 +80,7 @@ SurfaceMap SurfaceMap::snapshot() {
 }
 
 common::OccupancyGrid SurfaceMap::occupancy() const {
-  common::OccupancyGrid occupancy = common::makeOccupancyGrid(config_.grid.resolution_m);
+  common::OccupancyGrid occupancy = common::makeOccupancyGrid(config_.resolution_m);
   grid_.forEachCell([&](CellIndex index, const SurfaceCell& cell) {
     if (!occupancy::isUnknown(cell.log_odds)) occupancy.set(index, cell.log_odds);
   });
@@ -98,7 +98,7 @@ std::vector<ContourSegment> SurfaceMap::contourAround(const Eigen::Vector2d& mid
     Eigen::Vector2d arm_m = Eigen::Vector2d::Zero();
     if (normal.norm() > kClearNormal * kNormalLength) {
       const Eigen::Vector2d along = normal.unitOrthogonal();
-      arm_m = 0.5 * config_.grid.resolution_m / along.cwiseAbs().maxCoeff() * along;
+      arm_m = 0.5 * config_.resolution_m / along.cwiseAbs().maxCoeff() * along;
     }
     contour.push_back({at_m - arm_m, at_m + arm_m});
   });
@@ -107,7 +107,7 @@ std::vector<ContourSegment> SurfaceMap::contourAround(const Eigen::Vector2d& mid
 
 /// Marks the cells that beams cross and the cells that they end in. A cell where beams do both is marked as an end.
 void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, DrawingBoard& board) const {
-  const double scale = 1.0 / config_.grid.resolution_m;
+  const double scale = 1.0 / config_.resolution_m;
   const Eigen::Vector2d body = scale * T_map_body.position_m();
   const Eigen::Matrix2d R = scale * Eigen::Rotation2Dd(T_map_body.yaw_rad).toRotationMatrix();
   const auto inCells = [&](const Eigen::Vector2f& p) -> Eigen::Vector2d { return body + R * p.cast<double>(); };
@@ -151,7 +151,7 @@ void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, Drawin
 void SurfaceMap::update(CellIndex index, int steps) {
   const SurfaceCell old = grid_.at(index);
   const int sum = (occupancy::isUnknown(old.log_odds) ? 0 : old.log_odds) + steps;
-  const auto value = static_cast<Cell>(std::clamp(sum, -config_.grid.max_steps, config_.grid.max_steps));
+  const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
   if (value == old.log_odds) return;
   SurfaceCell& cell = grid_.mutableAt(index);
   cell.log_odds = value;
@@ -161,8 +161,8 @@ void SurfaceMap::update(CellIndex index, int steps) {
 void SurfaceMap::addSurface(const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal) {
   const CellIndex index = grid_.cellAt(point_m);
   SurfaceCell& cell = grid_.mutableAt(index);
-  if (cell.hits < config_.max_hits) ++cell.hits;
-  const Eigen::Vector2d offset = (point_m - grid_.centerOf(index)) * (kOffsetsPerCell / config_.grid.resolution_m);
+  if (cell.hits < kMaxHits) ++cell.hits;
+  const Eigen::Vector2d offset = (point_m - grid_.centerOf(index)) * (kOffsetsPerCell / config_.resolution_m);
   cell.offset_x = meanWith(cell.offset_x, offset.x(), cell.hits);
   cell.offset_y = meanWith(cell.offset_y, offset.y(), cell.hits);
   cell.normal_x = meanWith(cell.normal_x, kNormalLength * normal.x(), cell.hits);
@@ -175,7 +175,7 @@ void SurfaceMap::draw(const SurfaceScan& scan, const Pose2& T_map_body, DrawingB
   for (int y = board.rect.begin.y; y < board.rect.end.y; ++y) {
     for (int x = board.rect.begin.x; x < board.rect.end.x; ++x, ++mark) {
       if (*mark == 0) continue;
-      update({x, y}, (*mark & kViewEnded) != 0 ? config_.grid.hit_steps : -config_.grid.free_steps);
+      update({x, y}, (*mark & kViewEnded) != 0 ? config_.hit_steps : -config_.free_steps);
     }
   }
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(T_map_body.yaw_rad).toRotationMatrix();

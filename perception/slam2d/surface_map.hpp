@@ -13,7 +13,6 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "perception/projection/scan_projection.hpp"
@@ -22,13 +21,6 @@
 #include "perception/slam2d/grid_drawing_config.hpp"
 
 namespace swiftlet::perception {
-
-struct SurfaceMapConfig {
-  /// Size and confidence of the cells. makeSlam() sets it to that of the published map.
-  GridDrawingConfig grid;
-  static constexpr int max_hits = 10;       ///< The surface in a cell is the mean of about this many of its last hits.
-  static constexpr double max_gap_m = 0.3;  ///< Neighbouring end points nearer than this are of one surface.
-};
 
 /// A band of heights above the take-off floor; by default all heights.
 struct DrawnHeights {
@@ -52,7 +44,7 @@ struct SurfaceScan {
 };
 /// A beam that leaves the band shows free space up to where it leaves. A scan from outside the band has nothing to
 /// draw.
-SurfaceScan toDraw(const ProjectedScan& scan, const SurfaceMapConfig& config, const DrawnHeights& band = {});
+SurfaceScan toDraw(const ProjectedScan& scan, const GridDrawingConfig& config, const DrawnHeights& band = {});
 
 /// 6 bytes, because a map has many of them.
 struct SurfaceCell {
@@ -74,16 +66,21 @@ struct DrawingBoard {
 /// Not thread-safe.
 class SurfaceMap {
  public:
-  explicit SurfaceMap(const SurfaceMapConfig& config) : config_(config), grid_(config.grid.resolution_m) {}
+  /// The surface in a cell is the mean of about this many of its last hits.
+  static constexpr int kMaxHits = 10;
+  /// Neighbouring end points nearer than this are of one surface.
+  static constexpr double kMaxGap_m = 0.3;
+
+  explicit SurfaceMap(const GridDrawingConfig& config) : config_(config), grid_(config.resolution_m) {}
 
   void draw(const SurfaceScan& scan, const common::Pose2& T_map_body, DrawingBoard& board);
 
-  double resolution_m() const { return config_.grid.resolution_m; }
+  double resolution_m() const { return config_.resolution_m; }
   common::CellIndex cellAt(const Eigen::Vector2d& point_m) const { return grid_.cellAt(point_m); }
   SurfaceCell at(common::CellIndex cell) const { return grid_.at(cell); }
   /// The position of the surface in an occupied cell.
   Eigen::Vector2d surface_m(common::CellIndex index, const SurfaceCell& cell) const {
-    return grid_.centerOf(index) + Eigen::Vector2d(cell.offset_x, cell.offset_y) * (config_.grid.resolution_m / 254.0);
+    return grid_.centerOf(index) + Eigen::Vector2d(cell.offset_x, cell.offset_y) * (config_.resolution_m / 254.0);
   }
 
   /// A copy that shares all tiles until one of the two is drawn to.
@@ -101,7 +98,7 @@ class SurfaceMap {
   void update(common::CellIndex index, int steps);
   void addSurface(const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal);
 
-  SurfaceMapConfig config_;
+  GridDrawingConfig config_;
   common::TiledGrid<SurfaceCell> grid_;
 };
 

@@ -32,11 +32,17 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
+/// How certain the motion over a gap must be to connect the pieces before and after it (docs/decisions/slam.md#026): as
+/// certain as the local match after the gap requires (Slam2dConfig::local_sigma_m). It is no setting: the word
+/// "trusted" in a report means the same for every profile.
+constexpr double kBridgeSigma_m = 0.10;
+constexpr double kBridgeSigma_deg = 3.0;
+
 /// A map is not trusted when more than one in this many scans matched nothing, or lost the track.
 constexpr std::uint64_t kOneUnmatchedOf = 10;
 constexpr std::uint64_t kOneLostOf = 100;
 
-/// Mean violation (MapJudgement) of a map that is not trusted: decision 026 has the figures.
+/// Mean violation (MapJudgement) of a map that is not trusted (measured: docs/decisions/slam.md#026).
 constexpr double kMostViolation = 0.05;
 
 /// Places that two pieces must have seen in common to be connected by them, and the number of places among which one
@@ -105,8 +111,8 @@ void TrackPieces::add(const FollowedScan& followed, std::uint64_t keys_before, s
       sigma_m = std::max(sigma_m, surprise.position_m().norm());
       sigma_rad = std::max(sigma_rad, std::abs(surprise.yaw_rad));
     }
-    breaks_.push_back({matched_keys_, keys_before,
-                       sigma_m <= config_.max_sigma_m && sigma_rad <= config_.max_sigma_deg * common::kRadPerDeg});
+    breaks_.push_back(
+        {matched_keys_, keys_before, sigma_m <= kBridgeSigma_m && sigma_rad <= kBridgeSigma_deg * common::kRadPerDeg});
   }
   if (!followed.matched && !followed.broken) return;
   last_matches_.push_back(followed.broken ? common::Pose2{} : followed.T_expected_robot);

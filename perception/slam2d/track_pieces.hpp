@@ -19,14 +19,6 @@ struct MapJudgement;
 struct SlamEdge;
 struct FollowedScan;
 
-/// How certain the motion over a gap must be to connect the pieces before and after it (decision 026): as certain as
-/// the local match after the gap requires (Slam2dConfig::local_sigma_m). It is no setting: the word "trusted" in a
-/// report means the same for every profile.
-struct BridgeConfig {
-  double max_sigma_m = 0.10;
-  double max_sigma_deg = 3.0;
-};
-
 /// How the pieces that have key scans are connected.
 struct TrackConnection {
   std::uint64_t breaks = 0;            ///< Times the track was lost and restarted.
@@ -43,8 +35,6 @@ std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const Tr
 /// Records the pieces of a track, scan by scan. Not thread-safe.
 class TrackPieces {
  public:
-  explicit TrackPieces(const BridgeConfig& config = {}) : config_(config) {}
-
   /// Takes in the next scan. `keys_before` and `keys_after`: numbers of key scans before and after it was added.
   void add(const FollowedScan& followed, std::uint64_t keys_before, std::uint64_t keys_after);
 
@@ -61,7 +51,6 @@ class TrackPieces {
     bool bridged = false;
   };
 
-  BridgeConfig config_;
   std::vector<Break> breaks_;
   std::uint64_t matched_keys_ = 0;                            ///< Number of key scans at the last match.
   Eigen::Matrix3d gap_covariance_ = Eigen::Matrix3d::Zero();  ///< Of the motion since the last match.

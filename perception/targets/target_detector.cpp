@@ -13,6 +13,24 @@
 namespace swiftlet::perception {
 namespace {
 
+/// Least pixels of a target; smaller ones are too far away.
+constexpr int kPixelsMin = 40;
+/// Least diameter of a target of unknown diameter.
+constexpr double kDiameterMin_m = 0.08;
+/// Greatest diameter of a target of unknown diameter.
+constexpr double kDiameterMax_m = 0.5;
+/// Greatest difference from a known diameter, as a share of it.
+constexpr double kDiameterTolerance = 0.5;
+/// Least share of the rectangle around a target that it fills: a disc fills 0.79, a strip on the slant little.
+constexpr double kFillMin = 0.5;
+/// What is next to a target in the picture counts as behind it if it is farther by this than the target's surface
+/// continued. On a picture of a target, no neighbour is.
+constexpr double kRelief_m = 0.04;
+/// Least share of a target's outline with something behind it.
+constexpr double kOutlineShareMin = 0.5;
+/// Greatest share of a target's outline with something in front of it, as the floor before a target is.
+constexpr double kHiddenShareMax = 0.4;
+
 /// A ring of which a smaller share has a depth is not judged.
 constexpr double kKnownShare = 0.25;
 /// The mean depth of the visible half of a ball is two thirds of its radius in front of its middle; the face of a box
@@ -50,22 +68,21 @@ bool touchesTheEdge(const ColoredBlob& blob, const common::PinholeCamera& camera
 
 }  // namespace
 
-TargetDetector::TargetDetector(std::vector<TargetClassConfig> classes, const TargetDetectorConfig& config)
-    : classes_(std::move(classes)), config_(config), colors_(classes_) {}
+TargetDetector::TargetDetector(std::vector<TargetClassConfig> classes)
+    : classes_(std::move(classes)), colors_(classes_) {}
 
 std::vector<TargetSighting> TargetDetector::detect(const common::RgbdFrame& frame) const {
   std::vector<TargetSighting> sightings;
   if (!isWhole(frame)) return sightings;
-  for (const ColoredBlob& blob : coloredBlobs(frame, colors_, config_.pixels_min)) {
+  for (const ColoredBlob& blob : coloredBlobs(frame, colors_, kPixelsMin)) {
     if (touchesTheEdge(blob, frame.camera)) continue;
     const Extent extent = extentOf(blob, frame);
     const double diameter_m = std::sqrt(4.0 * extent.area_m2 / std::numbers::pi);
-    if (extent.fill < config_.fill_min || !hasSize(blob.color, diameter_m)) continue;
-    const BlobOutline outline = outlineOf(blob, frame, config_.relief_m);
+    if (extent.fill < kFillMin || !hasSize(blob.color, diameter_m)) continue;
+    const BlobOutline outline = outlineOf(blob, frame, kRelief_m);
     const double known = outline.known();
     if (known < kKnownShare * (known + outline.unknown)) continue;
-    if (outline.behind < config_.outline_share_min * known || outline.in_front > config_.hidden_share_max * known)
-      continue;
+    if (outline.behind < kOutlineShareMin * known || outline.in_front > kHiddenShareMax * known) continue;
     const double size_m = classes_[blob.color].diameter_m > 0.0 ? classes_[blob.color].diameter_m : diameter_m;
     const Eigen::Vector3d along = extent.mean_camera_m.normalized();
     TargetSighting sighting{blob.color, extent.mean_camera_m + kBehind * size_m * along, {}, diameter_m};
@@ -79,8 +96,8 @@ std::vector<TargetSighting> TargetDetector::detect(const common::RgbdFrame& fram
 
 bool TargetDetector::hasSize(std::uint8_t color, double diameter_m) const {
   const double expected_m = classes_[color].diameter_m;
-  if (!(expected_m > 0.0)) return diameter_m >= config_.diameter_min_m && diameter_m <= config_.diameter_max_m;
-  return std::abs(diameter_m - expected_m) <= config_.diameter_tolerance * expected_m;
+  if (!(expected_m > 0.0)) return diameter_m >= kDiameterMin_m && diameter_m <= kDiameterMax_m;
+  return std::abs(diameter_m - expected_m) <= kDiameterTolerance * expected_m;
 }
 
 }  // namespace swiftlet::perception

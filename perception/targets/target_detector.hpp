@@ -30,7 +30,7 @@ struct TargetSighting {
 /// Immutable; safe from any thread. The same frame gives the same bits.
 class TargetDetector {
  public:
-  TargetDetector(std::vector<TargetClassConfig> classes, const TargetDetectorConfig& config);
+  explicit TargetDetector(std::vector<TargetClassConfig> classes);
 
   /// A frame whose images have another size than its camera has no sightings.
   std::vector<TargetSighting> detect(const common::RgbdFrame& frame) const;
@@ -41,7 +41,6 @@ class TargetDetector {
   bool hasSize(std::uint8_t color, double diameter_m) const;
 
   std::vector<TargetClassConfig> classes_;
-  TargetDetectorConfig config_;
   ColorClasses colors_;
 };
 

@@ -15,6 +15,22 @@ namespace {
 
 using common::Pose3;
 
+/// Places from which a target must be seen to count as found (docs/decisions/cameras_and_lasers.md#050).
+constexpr int kConfirmViews = 3;
+/// Least distance between two places from which a target is seen; a picture from a place before is no new measurement
+/// (docs/decisions/cameras_and_lasers.md#050).
+constexpr double kViewDistance_m = 0.2;
+/// Standard deviation of the vehicle's attitude.
+constexpr double kAttitudeSigma_deg = 0.4;
+/// Standard deviation of the camera's error of inverse depth that is equal in all pictures.
+constexpr double kInverseDepthSigma_1_m = 0.001;
+/// Standard deviation of the time of a picture: it matters in turns.
+constexpr double kTimeSigma_s = 0.004;
+/// Greatest Mahalanobis distance of a sighting from its target.
+constexpr double kGateSigma = 4.0;
+/// A candidate is dropped after this many pictures with a free-space violation of its place.
+constexpr int kMissesMax = 6;
+
 /// This many of the places from which a target was seen are compared with the next one.
 constexpr std::size_t kPlacesKept = 64;
 /// A sighting nearer to a target of its class than this share of their diameter is of that target, even if the
@@ -39,7 +55,7 @@ PointEstimate::SharedCovariance sharedCovariance(const TargetTrackerConfig& conf
   const double mount_rad = config.mount_sigma_deg * common::kRadPerDeg;
   PointEstimate::SharedCovariance shared = PointEstimate::SharedCovariance::Zero();
   shared.diagonal() << common::square(mount_rad), common::square(mount_rad), common::square(mount_rad),
-      common::square(config.inverse_depth_sigma_1_m);
+      common::square(kInverseDepthSigma_1_m);
   return shared;
 }
 
@@ -79,8 +95,7 @@ PointMeasurement TargetTracker::measurement(const TargetSighting& sighting, cons
   by_shared.leftCols<3>() = -common::skew(p);
   by_shared.col(3) = -p.x() * p;
   m.by_shared = R_key_camera * by_shared;
-  const double angle_rad =
-      std::hypot(config_.attitude_sigma_deg * common::kRadPerDeg, view.turn_rate_rad_s * config_.time_sigma_s);
+  const double angle_rad = std::hypot(kAttitudeSigma_deg * common::kRadPerDeg, view.turn_rate_rad_s * kTimeSigma_s);
   const Eigen::Matrix3d turning = common::skew(p);
   m.covariance_m2 =
       R_key_camera * (sighting.covariance_m2 + common::square(angle_rad) * turning * turning.transpose()) *
@@ -98,7 +113,7 @@ TargetTracker::Track* TargetTracker::trackOf(const TargetSighting& sighting, con
     const PointMeasurement m = measurement(sighting, view, track.key);
     const double distance = track.place_key.distanceSquared(m);
     const double apart_m = (m.point_m - track.place_key.point_m()).norm();
-    const bool same = distance <= common::square(config_.gate_sigma) ||
+    const bool same = distance <= common::square(kGateSigma) ||
                       apart_m < kSameShare * std::max(track.diameter_m, sighting.diameter_m);
     if (!same || !(distance < least)) continue;
     nearest = &track;
@@ -127,10 +142,10 @@ void TargetTracker::update(Track& track, const TargetSighting& sighting, const T
   track.misses = 0;
   const Eigen::Vector3d from_key_m = cameraIn(track.key, view).position_m;
   const bool known = std::any_of(track.views_key_m.begin(), track.views_key_m.end(), [&](const Eigen::Vector3d& place) {
-    return (place - from_key_m).norm() < config_.view_distance_m;
+    return (place - from_key_m).norm() < kViewDistance_m;
   });
   const PointMeasurement m = measurement(sighting, view, track.key);
-  if (known || track.place_key.distanceSquared(m) > common::square(config_.gate_sigma)) return;
+  if (known || track.place_key.distanceSquared(m) > common::square(kGateSigma)) return;
   track.place_key.update(m);
   track.diameter_m += (sighting.diameter_m - track.diameter_m) / ++track.views;
   if (track.views_key_m.size() == kPlacesKept) track.views_key_m.erase(track.views_key_m.begin());
@@ -139,7 +154,7 @@ void TargetTracker::update(Track& track, const TargetSighting& sighting, const T
 }
 
 void TargetTracker::confirm(Track& track) {
-  if (track.number == 0 && track.views >= config_.confirm_views) track.number = ++last_number_[track.color];
+  if (track.number == 0 && track.views >= kConfirmViews) track.number = ++last_number_[track.color];
 }
 
 /// A candidate that is in the middle of the picture and in range, where the camera sees something farther.
@@ -157,7 +172,7 @@ void TargetTracker::dropViolated(const TargetView& view) {
     const float depth_m = view.frame.depth.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
     const double seen_m = depth_m == common::DepthImage::kTooFar ? range_m_ : static_cast<double>(depth_m);
     if (seen_m > p.x() + kThrough_m) ++track.misses;
-    return track.misses >= config_.misses_max;
+    return track.misses >= kMissesMax;
   });
 }
 

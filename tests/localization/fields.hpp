@@ -12,7 +12,7 @@
 namespace swiftlet::test {
 
 inline std::shared_ptr<const perception::MapField> fieldOf(const Building& building) {
-  return std::make_shared<const perception::MapField>(mapOf(building), perception::MapFieldConfig{});
+  return std::make_shared<const perception::MapField>(mapOf(building));
 }
 
 inline std::vector<Eigen::Vector2f> pointsAt(const Building& building, const common::Pose2& pose,

@@ -31,14 +31,13 @@ std::vector<FittingPlace> exhaustively(const MapField& map, const GlobalSearchCo
   const auto centerOf = [&](int column, int row) -> Eigen::Vector2d {
     return map.low_m() + Eigen::Vector2d(column + 0.5, row + 0.5) * config.cell_m;
   };
-  const MapFieldConfig& field = map.config();
   std::vector<int> values;
   for (int row = -border; row < rows + border; ++row)
     for (int column = -border; column < columns + border; ++column) {
       const MapField::Place place = map.at(centerOf(column, row));
-      const double value = beamValue(place.wall_distance_m, config.sigma_m, field.random_share);
+      const double value = beamValue(place.wall_distance_m, config.sigma_m, MapField::kRandomShare);
       values.push_back(
-          static_cast<int>(std::lround(255.0 * (place.known ? value : std::max(value, field.unknown_value)))));
+          static_cast<int>(std::lround(255.0 * (place.known ? value : std::max(value, MapField::kUnknownValue)))));
     }
   std::vector<float> x_m, y_m;
   for (const Eigen::Vector2f& point : points) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "perception/localization/localizer.hpp"
+#include "perception/localization/scan_support.hpp"
 #include "tests/localization/buildings.hpp"
 
 namespace swiftlet::test {
@@ -122,8 +123,7 @@ class LostCase {
     walks_ = std::make_unique<Walks>(truth_building_);
     walker_ = std::make_unique<Walker>(*walks_, seed);
     localizer_ = std::make_unique<perception::Localizer>(mapOf(mapped_), common::Pose2{}, config, seed);
-    support_config_ = config.support;
-    field_ = std::make_unique<perception::MapField>(mapOf(mapped_), config.field);
+    field_ = std::make_unique<perception::MapField>(mapOf(mapped_));
     carried_s_ = random.uniform(6.0, 10.0);
     start(random);
   }
@@ -142,8 +142,7 @@ class LostCase {
       const auto estimate = localizer_->add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), true, false});
       judge(t, odometry.pose(), estimate);
       if (samples != nullptr && estimate.state == perception::LocalizationState::kLocalized)
-        samples->push_back(
-            {wrong_, perception::supportOf(*field_, scan.points_level_m, estimate.T_map_body, support_config_)});
+        samples->push_back({wrong_, perception::supportOf(*field_, scan.points_level_m, estimate.T_map_body)});
       const common::Pose2 before = walker_->pose();
       walker_->advance(kScan_s);
       odometry.step(between(before, walker_->pose()));
@@ -211,7 +210,6 @@ class LostCase {
   std::unique_ptr<Walker> walker_;
   std::unique_ptr<perception::Localizer> localizer_;
   std::unique_ptr<perception::MapField> field_;
-  perception::ScanSupportConfig support_config_;
   double carried_s_ = 0.0;
   CaseResult result_;
   std::optional<double> wrong_since_s_;

@@ -14,7 +14,7 @@ class MapDoubtStory : public testing::Test {
   void searchGivenUp(double step_m, const std::vector<LikelyPlace>& places) { add(step_m, places, false); }
   void add(double step_m, const std::vector<LikelyPlace>& places, bool complete) {
     move(step_m);
-    doubt_.add(config_, places, complete, path_length_m_, now_);
+    doubt_.add(places, complete, path_length_m_, now_);
   }
   /// Flies on while the map explains what is seen.
   void believe(double step_m) {
@@ -26,7 +26,6 @@ class MapDoubtStory : public testing::Test {
     now_ += common::Duration::fromSeconds(step_m / speed_m_s_);
   }
 
-  LocalizerConfig config_;
   MapDoubt doubt_;
   double path_length_m_ = 0.0, speed_m_s_ = 0.7;
   common::Time now_;

@@ -23,7 +23,7 @@ using test::fieldOf;
 TEST(MapField, DistancesEqualTheDistanceToTheNearestWall) {
   const test::Building building = test::offices(3);
   const common::OccupancyGrid map = test::mapOf(building);
-  const MapField field(map, MapFieldConfig{});
+  const MapField field(map);
   std::vector<Eigen::Vector2d> walls;
   map.forEachCell([&](common::CellIndex c, common::occupancy::Cell cell) {
     if (common::occupancy::isOccupied(cell)) walls.push_back(map.centerOf(c));
@@ -44,7 +44,7 @@ TEST(MapField, DistancesEqualTheDistanceToTheNearestWall) {
 
 TEST(MapField, IndexesTheFreeCellsRowByRow) {
   const common::OccupancyGrid map = test::mapOf(test::offices(3));
-  const MapField field(map, MapFieldConfig{});
+  const MapField field(map);
   const common::CellRect known = common::knownExtent(map);
   std::size_t n = 0;
   for (int y = known.begin.y; y < known.end.y; ++y)
@@ -139,11 +139,11 @@ TEST(ScanSupport, DistinguishesExplainedContradictedAndUnknownBeams) {
     for (int x = 0; x < 120; ++x) map.set({x, y}, -common::occupancy::kMaxSteps);
     map.set({80, y}, common::occupancy::kMaxSteps);
   }
-  const MapField field(map, MapFieldConfig{});
+  const MapField field(map);
   const Pose2 pose{1.0, 0.0, 0.0};
   const auto supportOfPoint = [&](float x, float y) {
     const std::vector<Eigen::Vector2f> points{{x, y}};
-    return supportOf(field, points, pose, ScanSupportConfig{});
+    return supportOf(field, points, pose);
   };
   EXPECT_EQ(supportOfPoint(3.02F, 0.0F).explained, 1.0);
   EXPECT_EQ(supportOfPoint(2.0F, 0.0F).explained, 0.0);  // In front of the wall: a new object.
@@ -163,20 +163,20 @@ TEST(ScanSupport, ABoxBesideTheRobotThatIsGoneIsOneChange) {
       const bool box = x >= 63 && x < 67 && y >= 58 && y < 62;
       map.set({x, y}, wall || box ? common::occupancy::kMaxSteps : -common::occupancy::kMaxSteps);
     }
-  const MapField field(map, MapFieldConfig{});
+  const MapField field(map);
   const Pose2 pose{3.0, 3.0, 0.0};
   std::vector<Eigen::Vector2f> points;
   for (int i = 0; i < 90; ++i) {
     const double angle_rad = common::kRadPerDeg * (i - 45);
     points.emplace_back(Eigen::Vector2d(2.97, 2.97 * std::tan(angle_rad)).cast<float>());
   }
-  const ScanSupport support = supportOf(field, points, pose, ScanSupportConfig{});
+  const ScanSupport support = supportOf(field, points, pose);
   EXPECT_GT(support.explained, 0.75);
-  EXPECT_LE(LostTest{LostTestConfig{}}.logOdds(support), 0.0);
+  EXPECT_LE(LostTest{}.logOdds(support), 0.0);
 }
 
 TEST(LostTest, DetectsAChangeSoonAfterALongGoodTime) {
-  LostTest test{LostTestConfig{}};
+  LostTest test;
   const ScanSupport good{90, 90, 0.95}, bad{90, 90, 0.2}, none{90, 3, 0.0};
   for (int i = 0; i < 10'000; ++i) test.add(good, 0.1);
   EXPECT_FALSE(test.doubtful());

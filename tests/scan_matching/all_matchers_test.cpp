@@ -51,9 +51,9 @@ Kind correlative(const std::string& name, PoseEstimate estimate, const Tolerance
   return {name, make, tolerance};
 }
 
-template <typename Matcher, typename Config>
+template <typename Matcher>
 Kind leastSquares(const std::string& name) {
-  return {name, []() -> std::unique_ptr<ScanMatcher> { return std::make_unique<Matcher>(Config{}); }, {}};
+  return {name, []() -> std::unique_ptr<ScanMatcher> { return std::make_unique<Matcher>(); }, {}};
 }
 
 class AllMatchers : public testing::TestWithParam<Kind> {
@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AllMatchers,
                          testing::Values(correlative("Correlative", PoseEstimate::kSurface),
                                          correlative("WeightedMean", PoseEstimate::kWeightedMean, kOfTheGrid),
                                          correlative("ScoreGrid", PoseEstimate::kScoreGrid),
-                                         leastSquares<GaussNewtonMatcher, GaussNewtonMatcherConfig>("GaussNewton"),
-                                         leastSquares<PointToLineMatcher, PointToLineMatcherConfig>("PointToLine")),
+                                         leastSquares<GaussNewtonMatcher>("GaussNewton"),
+                                         leastSquares<PointToLineMatcher>("PointToLine")),
                          [](const auto& kind) { return kind.param.name; });
 
 /// The pose of the reference, and the greatest error of the guess.

@@ -20,15 +20,7 @@ using test::scanAt;
 template <typename Type>
 class LeastSquaresMatchers : public testing::Test {};
 
-struct GaussNewton {
-  using Matcher = GaussNewtonMatcher;
-  using Config = GaussNewtonMatcherConfig;
-};
-struct PointToLine {
-  using Matcher = PointToLineMatcher;
-  using Config = PointToLineMatcherConfig;
-};
-using Kinds = testing::Types<GaussNewton, PointToLine>;
+using Kinds = testing::Types<GaussNewtonMatcher, PointToLineMatcher>;
 TYPED_TEST_SUITE(LeastSquaresMatchers, Kinds);
 
 Pose2 stepWithin(common::RandomStream& random, double distance_m, double turn_rad) {
@@ -49,7 +41,7 @@ MatchErrors measureAccuracy(int trials, double distance_m, double turn_rad) {
   common::RandomStream random(5, "accuracy");
   MatchErrors accuracy;
   for (int trial = 0; trial < trials; ++trial) {
-    typename Kind::Matcher matcher{{}};
+    Kind matcher;
     const Pose2 reference = poseInFlat(random);
     const auto frame = 2 * static_cast<std::uint64_t>(trial);
     matcher.addReference(scanAt(world, reference, frame), reference);
@@ -100,7 +92,7 @@ TYPED_TEST(LeastSquaresMatchers, ReportNoUnobservableDirectionInARoom) {
   common::RandomStream random(10, "room");
   const test::PlanarWorld world = test::flat();
   for (int trial = 0; trial < 30; ++trial) {
-    typename TypeParam::Matcher matcher{{}};
+    TypeParam matcher;
     const Pose2 reference = poseInFlat(random);
     matcher.addReference(scanAt(world, reference, 0), reference);
     EXPECT_FALSE(matcher.match(scanAt(world, reference, 1), reference, {0.05, 0.02}).unobservable_direction);
@@ -108,7 +100,7 @@ TYPED_TEST(LeastSquaresMatchers, ReportNoUnobservableDirectionInARoom) {
 }
 
 TYPED_TEST(LeastSquaresMatchers, ReportAFailedMatch) {
-  typename TypeParam::Matcher matcher{{}};
+  TypeParam matcher;
   const test::PlanarWorld world = test::flat();
   const ProjectedScan here = scanAt(world, {}, 0);
   EXPECT_TRUE(matcher.match(here, {}, {0.1, 0.03}).failed);  // No reference.
@@ -142,7 +134,7 @@ TYPED_TEST(LeastSquaresMatchers, ReportAFailedMatch) {
 
 TYPED_TEST(LeastSquaresMatchers, IgnorePointsThatAreNotFinite) {
   const test::PlanarWorld world = test::flat();
-  typename TypeParam::Matcher clean{{}}, dirty{{}};
+  TypeParam clean, dirty;
   ProjectedScan reference = scanAt(world, {}, 0), scan = scanAt(world, {0.02, 0.01, 0.0}, 1);
   clean.addReference(reference, {});
   const auto garbage = [](ProjectedScan& s) {
@@ -162,7 +154,7 @@ TYPED_TEST(LeastSquaresMatchers, IgnorePointsThatAreNotFinite) {
 
 TYPED_TEST(LeastSquaresMatchers, ClearTheirReference) {
   const test::PlanarWorld world = test::flat();
-  typename TypeParam::Matcher used{{}}, fresh{{}};
+  TypeParam used, fresh;
   used.addReference(scanAt(world, {6.5, 2.0, 0.8}, 0), {6.5, 2.0, 0.8});
   static_cast<void>(used.match(scanAt(world, {6.5, 2.0, 0.8}, 1), {6.5, 2.0, 0.8}, {0.5, 0.1}));
   used.clearReference();
@@ -177,7 +169,7 @@ TYPED_TEST(LeastSquaresMatchers, CombineSeveralScansIntoOneReference) {
   const test::PlanarWorld world = test::flat();
   // Neither scan sees everything that the one between them sees.
   const Pose2 west{0.5, 0.9, 3.1}, east{6.0, 0.9, 0.0}, truth{3.4, 0.95, 0.02};
-  typename TypeParam::Matcher matcher{{}};
+  TypeParam matcher;
   matcher.addReference(scanAt(world, west, 0), west);
   const ProjectedScan scan = scanAt(world, truth, 2);
   const double overlap = matcher.match(scan, {3.38, 0.92, 0.0}, {0.1, 0.05}).overlap;
@@ -195,7 +187,7 @@ TYPED_TEST(LeastSquaresMatchers, AgreeWithTheExhaustiveMatcher) {
     const Pose2 reference = poseInFlat(random), truth = reference * stepWithin(random, 0.08, 0.015);
     const auto frame = 2 * static_cast<std::uint64_t>(trial);
     const ProjectedScan first = scanAt(world, reference, frame), second = scanAt(world, truth, frame + 1);
-    typename TypeParam::Matcher matcher{{}};
+    TypeParam matcher;
     CorrelativeMatcher correlative{{}};
     matcher.addReference(first, reference);
     correlative.addReference(first, reference);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/config_check.hpp"
 #include "common/random.hpp"
 #include "perception/scan_matching/contour_normals.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
@@ -17,7 +16,6 @@ namespace swiftlet::perception {
 namespace {
 
 using common::Pose2;
-using common::config::problemsOf;
 
 TEST(InterpolatedField, TheSlopeIsTheDerivative) {
   common::RandomStream random(1, "slope");

@@ -36,7 +36,7 @@ ProjectedScan scanOf(const test::PlanarWorld& world, const Pose2& T_world_body, 
   return project(test::sweep(world, laser, pose, {}, random), laser, pose, {});
 }
 
-SurfaceMap mapOf(const test::PlanarWorld& world, const std::vector<Pose2>& poses, const SurfaceMapConfig& config,
+SurfaceMap mapOf(const test::PlanarWorld& world, const std::vector<Pose2>& poses, const GridDrawingConfig& config,
                  double range_max_m = 20.0) {
   SurfaceMap map(config);
   DrawingBoard board;
@@ -53,18 +53,18 @@ SurfaceScan wallAhead(double distance_m) {
 }
 
 TEST(SurfaceMap, ConfidenceIsCapped) {
-  const SurfaceMapConfig config;
+  const GridDrawingConfig config;
   SurfaceMap map(config);
   DrawingBoard board;
   const CellIndex wall = map.cellAt({2.02, 0.0}), before = map.cellAt({1.0, 0.0});
   for (int i = 0; i < 1000; ++i) map.draw(wallAhead(2.02), {}, board);
-  EXPECT_EQ(map.at(wall).log_odds, config.grid.max_steps);
-  EXPECT_EQ(map.at(before).log_odds, -config.grid.max_steps);
-  EXPECT_LE(map.at(wall).hits, config.max_hits);
+  EXPECT_EQ(map.at(wall).log_odds, config.max_steps);
+  EXPECT_EQ(map.at(before).log_odds, -config.max_steps);
+  EXPECT_LE(map.at(wall).hits, SurfaceMap::kMaxHits);
 }
 
 TEST(SurfaceMap, BeamsWithoutReturnDoNotClearBehindADarkWall) {
-  const SurfaceMapConfig config;
+  const GridDrawingConfig config;
   SurfaceMap map(config);
   DrawingBoard board;
   const CellIndex wall = map.cellAt({2.02, 0.0}), before = map.cellAt({1.0, 0.0}), behind = map.cellAt({3.0, 0.0});
@@ -75,7 +75,7 @@ TEST(SurfaceMap, BeamsWithoutReturnDoNotClearBehindADarkWall) {
   for (int i = 0; i < 50; ++i) map.draw(dark, {}, board);
   EXPECT_EQ(map.at(wall).log_odds, sure);
   EXPECT_TRUE(common::occupancy::isUnknown(map.at(behind).log_odds));
-  EXPECT_EQ(map.at(before).log_odds, -config.grid.max_steps) << "up to the wall they do clear";
+  EXPECT_EQ(map.at(before).log_odds, -config.max_steps) << "up to the wall they do clear";
   SurfaceMap open(config);
   open.draw(dark, {}, board);
   EXPECT_TRUE(common::occupancy::isFree(open.at(behind).log_odds));
@@ -83,7 +83,7 @@ TEST(SurfaceMap, BeamsWithoutReturnDoNotClearBehindADarkWall) {
 
 /// However long it stood there: a thousand scans of a wall are forgotten as fast as ten.
 TEST(SurfaceMap, AChangedPlaceIsSoonRemapped) {
-  const SurfaceMapConfig config;
+  const GridDrawingConfig config;
   DrawingBoard board;
   std::vector<int> scans_to_free, scans_to_occupied;
   for (const int seen : {10, 1000}) {
@@ -106,7 +106,7 @@ TEST(SurfaceMap, AChangedPlaceIsSoonRemapped) {
 TEST(SurfaceMap, SurfacesAreMoreAccurateThanTheCellSize) {
   DrawingBoard board;
   for (const double distance_m : {2.012, 2.021, 2.034}) {
-    SurfaceMap fresh{SurfaceMapConfig{}};
+    SurfaceMap fresh{GridDrawingConfig{}};
     for (int i = 0; i < 5; ++i) fresh.draw(wallAhead(distance_m), {}, board);
     const CellIndex index = fresh.cellAt({distance_m, 0.0});
     EXPECT_NEAR(fresh.surface_m(index, fresh.at(index)).x(), distance_m, 0.001);
@@ -126,7 +126,7 @@ std::vector<int> bytesOf(const SurfaceMap& map) {
 
 TEST(SurfaceMap, DrawingDoesNotAffectOtherCopies) {
   DrawingBoard board;
-  SurfaceMap parent{SurfaceMapConfig{}};
+  SurfaceMap parent{GridDrawingConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
   const auto before = bytesOf(parent);
   SurfaceMap child = parent.snapshot(), sibling = parent.snapshot(), grandchild = child.snapshot();
@@ -142,7 +142,7 @@ TEST(SurfaceMap, DrawingDoesNotAffectOtherCopies) {
 
 TEST(SurfaceMap, TilesWithoutDrawingStayShared) {
   DrawingBoard board;
-  SurfaceMap parent{SurfaceMapConfig{}};
+  SurfaceMap parent{GridDrawingConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
   parent.draw(wallAhead(2.0), {40.0, 0.0, 0.0}, board);
   SurfaceMap child = parent.snapshot();
@@ -162,8 +162,8 @@ ProjectedScan nodding(double body_m) {
 }
 
 TEST(SurfaceMap, DrawsOnlyTheHeightBand) {
-  const SurfaceMapConfig config;
-  const DrawnHeights heights = heightsAround(1.0, config.grid);  // 0.75 to 1.25 m.
+  const GridDrawingConfig config;
+  const DrawnHeights heights = heightsAround(1.0, config);  // 0.75 to 1.25 m.
   const SurfaceScan level = toDraw(nodding(1.0), config, heights);
   ASSERT_EQ(level.hits.size(), 1U);
   EXPECT_EQ(level.hits[0].point_m.x(), 2.0F);
@@ -182,7 +182,7 @@ TEST(SurfaceMap, DrawsOnlyTheHeightBand) {
 
 TEST(SurfaceMap, TheContourLiesOnTheSurfaces) {
   DrawingBoard board;
-  SurfaceMap map{SurfaceMapConfig{}};
+  SurfaceMap map{GridDrawingConfig{}};
   for (int i = 0; i < 5; ++i) map.draw(wallAhead(2.034), {}, board);
   const std::vector<ContourSegment> contour = map.contourAround({2.0, 0.0}, 5.0);
   EXPECT_GE(contour.size(), 40U);
@@ -204,19 +204,18 @@ Eigen::Matrix3d motionCovariance(double sigma_m, double sigma_rad) {
 
 TEST(MapMatch, FindsThePoseWithAMatchingCovariance) {
   const test::PlanarWorld world = test::flat();
-  const SurfaceMapConfig map_config;
-  const MapMatchConfig config;
+  const GridDrawingConfig map_config;
   const SurfaceMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
   double nees = 0.0, worst_m = 0.0, worst_rad = 0.0;
   constexpr int kCases = 60;
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     RandomStream random(seed, "pose");
     const Pose2 truth{random.uniform(-0.2, 0.6), random.uniform(-0.2, 0.4), random.uniform(-0.3, 0.3)};
-    const auto points = pointsToMatch(scanOf(world, truth, seed), config, map_config.max_gap_m);
-    const MotionPrior prior{
+    const auto points = pointsToMatch(scanOf(world, truth, seed));
+    const UncertainPose prior{
         {truth.x_m + random.gaussian(0.03), truth.y_m + random.gaussian(0.03), truth.yaw_rad + random.gaussian(0.01)},
         motionCovariance(0.03, 0.01)};
-    const MapMatch match = matchToMap(map, points, prior, config);
+    const MapMatch match = matchToMap(map, points, prior);
     const Eigen::Vector3d e(match.T_map_body.x_m - truth.x_m, match.T_map_body.y_m - truth.y_m,
                             common::wrapAngle(match.T_map_body.yaw_rad - truth.yaw_rad));
     worst_m = std::max(worst_m, e.head<2>().norm());
@@ -235,17 +234,16 @@ TEST(MapMatch, FindsThePoseWithAMatchingCovariance) {
 /// A slip is not in the covariance of the motion, so only the map can correct it.
 TEST(MapMatch, CorrectsASlipOfTheMotion) {
   const test::PlanarWorld world = test::flat();
-  const SurfaceMapConfig map_config;
-  const MapMatchConfig config;
+  const GridDrawingConfig map_config;
   const SurfaceMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
   const Pose2 truth{0.2, 0.1, 0.05};
-  const auto points = pointsToMatch(scanOf(world, truth, 7), config, map_config.max_gap_m);
-  const MotionPrior slipped{{0.35, 0.0, 0.08}, motionCovariance(0.005, 0.002)};
-  const MotionPrior right{truth, motionCovariance(0.005, 0.002)};
-  const MapMatch match = matchToMap(map, points, slipped, config);
+  const auto points = pointsToMatch(scanOf(world, truth, 7));
+  const UncertainPose slipped{{0.35, 0.0, 0.08}, motionCovariance(0.005, 0.002)};
+  const UncertainPose right{truth, motionCovariance(0.005, 0.002)};
+  const MapMatch match = matchToMap(map, points, slipped);
   EXPECT_LT((match.T_map_body.position_m() - truth.position_m()).norm(), 0.01);
   // A particle that got there without a slip is more likely.
-  EXPECT_GT(matchToMap(map, points, right, config).log_motion, match.log_motion + 1.0);
+  EXPECT_GT(matchToMap(map, points, right).log_motion, match.log_motion + 1.0);
 }
 
 TEST(MapMatch, TheRightMapIsMoreLikelyThanAWrongOne) {
@@ -253,17 +251,14 @@ TEST(MapMatch, TheRightMapIsMoreLikelyThanAWrongOne) {
   test::PlanarWorld other = world;
   other.addBox(2.2, -1.5, 0.5, 0.5);
   other.addBox(1.5, 1.8, 0.6, 0.3);
-  const SurfaceMapConfig map_config;
-  const MapMatchConfig config;
+  const GridDrawingConfig map_config;
   const std::vector<Pose2> poses{{0.0, 0.0, 0.0}, {0.3, 0.1, 0.1}};
   const SurfaceMap right = mapOf(world, poses, map_config), wrong = mapOf(other, poses, map_config);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Pose2 truth{0.2, 0.05, 0.05};
-    const auto points = pointsToMatch(scanOf(world, truth, seed), config, map_config.max_gap_m);
-    const MotionPrior prior{truth, motionCovariance(0.01, 0.005)};
-    EXPECT_GT(matchToMap(right, points, prior, config).log_likelihood,
-              matchToMap(wrong, points, prior, config).log_likelihood)
-        << seed;
+    const auto points = pointsToMatch(scanOf(world, truth, seed));
+    const UncertainPose prior{truth, motionCovariance(0.01, 0.005)};
+    EXPECT_GT(matchToMap(right, points, prior).log_likelihood, matchToMap(wrong, points, prior).log_likelihood) << seed;
   }
 }
 
@@ -272,15 +267,14 @@ TEST(MapMatch, KeepsTheMotionAlongACorridor) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);
   corridor.addPolyline({{-50.0, 1.0}, {50.0, 1.0}}, false);
-  const SurfaceMapConfig map_config;
-  const MapMatchConfig config;
+  const GridDrawingConfig map_config;
   std::vector<Pose2> poses;
   for (int i = 0; i < 10; ++i) poses.push_back({0.3 * i, 0.0, 0.0});
   const SurfaceMap map = mapOf(corridor, poses, map_config, 5.6);
   const Pose2 truth{2.5, 0.02, 0.01};
-  const auto points = pointsToMatch(scanOf(corridor, truth, 3, 5.6), config, map_config.max_gap_m);
-  const MotionPrior prior{{2.35, 0.0, 0.0}, motionCovariance(0.1, 0.02)};
-  const MapMatch match = matchToMap(map, points, prior, config);
+  const auto points = pointsToMatch(scanOf(corridor, truth, 3, 5.6));
+  const UncertainPose prior{{2.35, 0.0, 0.0}, motionCovariance(0.1, 0.02)};
+  const MapMatch match = matchToMap(map, points, prior);
   EXPECT_NEAR(match.T_map_body.x_m, prior.T_map_body.x_m, 0.02);
   EXPECT_NEAR(match.T_map_body.y_m, truth.y_m, 0.01);
   EXPECT_NEAR(match.T_map_body.yaw_rad, truth.yaw_rad, 0.005);
@@ -289,12 +283,11 @@ TEST(MapMatch, KeepsTheMotionAlongACorridor) {
 }
 
 TEST(MapMatch, KeepsTheMotionWithoutSupport) {
-  const MapMatchConfig config;
-  const SurfaceMap empty{SurfaceMapConfig{}};
-  const MotionPrior prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};
-  const auto points = pointsToMatch(scanOf(test::flat(), {}, 1), config, 0.3);
+  const SurfaceMap empty{GridDrawingConfig{}};
+  const UncertainPose prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};
+  const auto points = pointsToMatch(scanOf(test::flat(), {}, 1));
   for (const auto& some : {points, std::vector<OrientedPoint>{}}) {
-    const MapMatch match = matchToMap(empty, some, prior, config);
+    const MapMatch match = matchToMap(empty, some, prior);
     EXPECT_EQ(match.T_map_body.x_m, 1.0);
     EXPECT_EQ(match.support, 0.0);
     EXPECT_TRUE(match.covariance.isApprox(prior.covariance, 1e-9));

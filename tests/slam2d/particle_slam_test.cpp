@@ -118,7 +118,7 @@ TEST(ParticleSlam, IgnoresLateEmptyAndInvalidScans) {
 TEST(ParticleSlam, TheConfidenceOfTheBestMapStaysCapped) {
   ParticleSlam slam(someParticles(5));
   flyFlat(slam, 200, 3);
-  const int cap = SurfaceMapConfig{}.grid.max_steps;
+  const int cap = GridDrawingConfig::max_steps;
   int known = 0;
   slam.snapshot().forEachCell([&](CellIndex, common::occupancy::Cell value) {
     if (common::occupancy::isUnknown(value)) return;

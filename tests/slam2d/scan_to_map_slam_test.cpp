@@ -23,7 +23,7 @@ Eigen::Vector3d errorOf(const Pose2& estimate, const Pose2& truth) {
 
 /// Compares the pose relative to the last key scan with the truth.
 TEST(ScanToMapSlam, ItsCovarianceAgreesWithItsErrors) {
-  const ScanToMapConfig config;
+  const GridDrawingConfig config;
   ScanToMapSlam slam(config);
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 1);
   double nees = 0.0;
@@ -40,8 +40,8 @@ TEST(ScanToMapSlam, ItsCovarianceAgreesWithItsErrors) {
       const Eigen::Vector3d error = errorOf(slam.T_anchor_body(), between(truth_of_key, step.truth_T_world_body));
       nees += error.dot(covariance.ldlt().solve(error));
       ++scans;
-      EXPECT_GE(std::sqrt(slam.covariance()(0, 0)), config.map_sigma_m);
-      EXPECT_GE(std::sqrt(slam.covariance()(2, 2)), config.map_sigma_deg * kRadPerDeg);
+      EXPECT_GE(std::sqrt(slam.covariance()(0, 0)), ScanToMapSlam::kMapSigma_m);
+      EXPECT_GE(std::sqrt(slam.covariance()(2, 2)), ScanToMapSlam::kMapSigma_deg * kRadPerDeg);
     }
     if (update.key_scan) truth_of_key = step.truth_T_world_body;
   }

@@ -16,10 +16,8 @@ using ::testing::SizeIs;
 const Eigen::Vector3d kAhead(2.5, 0.2, -0.3);
 
 std::vector<TargetSighting> sightingsIn(const simulation::WorldModel& world,
-                                        const std::vector<TargetClassConfig>& classes = redAndGreen(),
-                                        const TargetDetectorConfig& config = {}) {
-  return TargetDetector(classes, config)
-      .detect(simulation::frameOf(world, flyingCamera(), simulation::RgbdErrorsConfig{}));
+                                        const std::vector<TargetClassConfig>& classes = redAndGreen()) {
+  return TargetDetector(classes).detect(simulation::frameOf(world, flyingCamera(), simulation::RgbdErrorsConfig{}));
 }
 
 TEST(ColorClasses, HueAndSaturationDoNotDependOnTheBrightness) {
@@ -93,7 +91,7 @@ TEST(TargetDetector, OneAtTheEdgeOfThePictureIsNotMeasured) {
 TEST(TargetDetector, BadFramesHaveNone) {
   common::RgbdFrame frame =
       simulation::frameOf(roomWith({cube(kAhead, 0.24, kRed)}), flyingCamera(), simulation::RgbdErrorsConfig{});
-  const TargetDetector detector(redAndGreen(), {});
+  const TargetDetector detector(redAndGreen());
   common::RgbdFrame cut = frame;
   cut.depth.depth_m.resize(100);
   EXPECT_THAT(detector.detect(cut), IsEmpty());

@@ -15,6 +15,32 @@ namespace {
 using common::CellIndex;
 using common::Pose2;
 
+/// Points of a scan that are matched, spread evenly along its contour.
+constexpr int kPoints = 180;
+/// Points that are matched while they are still far from the surfaces they belong to.
+constexpr int kCoarsePoints = 60;
+/// Where the motion may have slipped, a surface is searched this far along the normal of a point.
+constexpr double kReach_m = 0.30;
+/// Where the motion has not slipped, a surface is searched this near a point.
+constexpr double kSupport_m = 0.08;
+/// With a greater share of points on a surface the motion has not slipped.
+constexpr double kEnoughSupport = 0.7;
+/// Greatest number of steps.
+constexpr int kIterations = 10;
+/// Least distance of a point from its surface that the weights assume.
+constexpr double kResidual_m = 0.02;
+/// Factor on the covariance of independent points, which neighbouring ones are not.
+constexpr double kCovarianceScale = 2.0;
+/// Degrees of freedom of the Student t distribution of the motion: the motion's covariance does not include slips
+/// (docs/decisions/slam.md#016).
+constexpr double kMotionFreedom = 3.0;
+/// Spread, in the likelihood, of end points about the surfaces of a good map.
+constexpr double kBeamSigma_m = 0.05;
+/// Share of end points on what is not in the map.
+constexpr double kOutlierShare = 0.1;
+/// Number of independent beams that a scan counts for (measured: docs/decisions/slam.md#016).
+constexpr double kIndependentBeams = 20.0;
+
 /// Least cosine between the normals of a point and of its surface. Other surfaces are ignored: the far side of a wall.
 constexpr double kSameSide = 0.5;
 /// The reach shrinks by this factor each step. It starts wide, so that walls that do not fit yet take part too.
@@ -32,9 +58,8 @@ struct Surface {
 
 class Matching {
  public:
-  Matching(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
-           const MapMatchConfig& config)
-      : map_(map), points_(points), prior_(prior), config_(config), information_(prior.covariance.inverse()) {
+  Matching(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const UncertainPose& prior)
+      : map_(map), points_(points), prior_(prior), information_(prior.covariance.inverse()) {
     double lever2 = 0.0;
     for (const OrientedPoint& p : points) lever2 += static_cast<double>(p.point_m.squaredNorm());
     lever_m_ =
@@ -63,8 +88,7 @@ class Matching {
 
   const SurfaceMap& map_;
   const std::vector<OrientedPoint>& points_;
-  const MotionPrior& prior_;
-  const MapMatchConfig& config_;
+  const UncertainPose& prior_;
   Eigen::Matrix3d information_;
   double lever_m_ = 1.0;
 };
@@ -98,7 +122,7 @@ std::optional<Surface> Matching::surfaceAlong(const Eigen::Vector2d& at_m, const
 std::optional<Surface> Matching::surfaceNear(const Eigen::Vector2d& at_m, const Eigen::Vector2d& normal) const {
   const CellIndex middle = map_.cellAt(at_m);
   std::optional<Surface> nearest;
-  double nearest2 = config_.support_m * config_.support_m;
+  double nearest2 = kSupport_m * kSupport_m;
   for (int y = middle.y - 1; y <= middle.y + 1; ++y) {
     for (int x = middle.x - 1; x <= middle.x + 1; ++x) {
       const auto surface = surfaceIn({x, y}, normal);
@@ -113,9 +137,9 @@ std::optional<Surface> Matching::surfaceNear(const Eigen::Vector2d& at_m, const 
 }
 
 Matching::View Matching::viewFrom(const Pose2& pose, double reach_m) const {
-  const bool fine = reach_m <= config_.support_m;
+  const bool fine = reach_m <= kSupport_m;
   const std::size_t stride =
-      fine ? 1 : std::max<std::size_t>(1, points_.size() / static_cast<std::size_t>(config_.coarse_points));
+      fine ? 1 : std::max<std::size_t>(1, points_.size() / static_cast<std::size_t>(kCoarsePoints));
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
   View view;
   view.beams_per_point = static_cast<double>(stride);
@@ -126,11 +150,11 @@ Matching::View Matching::viewFrom(const Pose2& pose, double reach_m) const {
     double fit = 0.0;
     if (surface) {
       const double distance_m = surface->normal.dot(at_m - surface->point_m);
-      const double sigmas = distance_m / config_.beam_sigma_m;
+      const double sigmas = distance_m / kBeamSigma_m;
       fit = std::exp(-0.5 * sigmas * sigmas);
       view.equations.add(arm_m, surface->normal, distance_m * surface->normal, 1.0 / lever_m_);
     }
-    view.log_sum += std::log((1.0 - config_.outlier_share) * fit + config_.outlier_share);
+    view.log_sum += std::log((1.0 - kOutlierShare) * fit + kOutlierShare);
   }
   return view;
 }
@@ -144,7 +168,7 @@ Eigen::Vector3d Matching::offset(const Pose2& pose) const {
 /// wrong.
 double Matching::motionTrust(const Pose2& pose) const {
   const Eigen::Vector3d off = offset(pose);
-  const double freedom = config_.motion_freedom;
+  const double freedom = kMotionFreedom;
   return std::min(1.0, (freedom + kDimensions) / (freedom + off.dot(information_ * off)));
 }
 
@@ -153,41 +177,41 @@ Eigen::Matrix3d Matching::scanInformation(const NormalEquations& e, double resid
   Eigen::Matrix3d curvature;
   curvature << e.xx, e.xy, e.xt, e.xy, e.yy, e.yt, e.xt, e.yt, e.tt;
   const Eigen::Vector3d units(1.0, 1.0, lever_m_);
-  return units.asDiagonal() * curvature * units.asDiagonal() / (residual2_m2 * config_.covariance_scale);
+  return units.asDiagonal() * curvature * units.asDiagonal() / (residual2_m2 * kCovarianceScale);
 }
 
 /// Gauss-Newton from the predicted pose, with a reach that shrinks.
 Pose2 Matching::refine(double reach_m) const {
-  const double residual2_m2 = config_.residual_m * config_.residual_m;
+  const double residual2_m2 = kResidual_m * kResidual_m;
   Pose2 pose = prior_.T_map_body;
-  for (int i = 0; i < config_.iterations; ++i) {
-    const bool fine = reach_m <= config_.support_m;
+  for (int i = 0; i < kIterations; ++i) {
+    const bool fine = reach_m <= kSupport_m;
     const View view = viewFrom(pose, reach_m);
     const NormalEquations& e = view.equations;
     const Eigen::Vector3d pull =
-        view.beams_per_point / (residual2_m2 * config_.covariance_scale) * Eigen::Vector3d(e.x, e.y, lever_m_ * e.t);
+        view.beams_per_point / (residual2_m2 * kCovarianceScale) * Eigen::Vector3d(e.x, e.y, lever_m_ * e.t);
     const Eigen::Matrix3d motion = motionTrust(pose) * information_;
     const Eigen::Matrix3d H = view.beams_per_point * scanInformation(e, residual2_m2) + motion;
     const Eigen::Vector3d step = -H.ldlt().solve(pull + motion * offset(pose));
     pose = {pose.x_m + step.x(), pose.y_m + step.y(), common::wrapAngle(pose.yaw_rad + step.z())};
-    reach_m = std::max(config_.support_m, kShrink * reach_m);
+    reach_m = std::max(kSupport_m, kShrink * reach_m);
     if (fine && step.head<2>().norm() + lever_m_ * std::abs(step.z()) < kSmallStep_m) break;
   }
   return pose;
 }
 
 MapMatch Matching::evaluate(const Pose2& pose) const {
-  const View view = viewFrom(pose, config_.support_m);
+  const View view = viewFrom(pose, kSupport_m);
   const NormalEquations& e = view.equations;
-  const double residual2_m2 = std::max(e.squares_m2 / std::max(e.count, 1), config_.residual_m * config_.residual_m);
+  const double residual2_m2 = std::max(e.squares_m2 / std::max(e.count, 1), kResidual_m * kResidual_m);
   const auto count = static_cast<double>(std::max<std::size_t>(points_.size(), 1));
   const Eigen::Vector3d off = offset(pose);
-  const double freedom = config_.motion_freedom;
+  const double freedom = kMotionFreedom;
   MapMatch match;
   match.T_map_body = pose;
   match.covariance = (scanInformation(e, residual2_m2) + motionTrust(pose) * information_).inverse();
   match.support = e.count / count;
-  match.log_likelihood = config_.independent_beams * view.log_sum / count;
+  match.log_likelihood = kIndependentBeams * view.log_sum / count;
   match.log_motion = -0.5 * (freedom + kDimensions) * std::log1p(off.dot(information_ * off) / freedom);
   return match;
 }
@@ -195,21 +219,20 @@ MapMatch Matching::evaluate(const Pose2& pose) const {
 /// Usually the predicted motion is right, and a search near it is enough. If the scan then lacks support, the motion
 /// has slipped or the area is new: a wide search is tried too, and the likelier result is returned.
 MapMatch Matching::run() const {
-  MapMatch near = evaluate(refine(config_.support_m));
-  if (near.support > config_.enough_support) return near;
-  const MapMatch far = evaluate(refine(config_.reach_m));
+  MapMatch near = evaluate(refine(kSupport_m));
+  if (near.support > kEnoughSupport) return near;
+  const MapMatch far = evaluate(refine(kReach_m));
   return far.log_likelihood + far.log_motion > near.log_likelihood + near.log_motion ? far : near;
 }
 
 }  // namespace
 
-std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan, const MapMatchConfig& config, double max_gap_m) {
-  return orientedPoints(scan, config.points, max_gap_m, config.max_range_m);
+std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan) {
+  return orientedPoints(scan, kPoints, SurfaceMap::kMaxGap_m, ScanMatcher::kMaxRange_m);
 }
 
-MapMatch matchToMap(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
-                    const MapMatchConfig& config) {
-  return Matching(map, points, prior, config).run();
+MapMatch matchToMap(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const UncertainPose& prior) {
+  return Matching(map, points, prior).run();
 }
 
 }  // namespace swiftlet::perception
