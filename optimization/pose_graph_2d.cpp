@@ -75,10 +75,10 @@ EdgeError2D edgeError(const Pose2& from, const Pose2& to, const Pose2& T_from_to
   return e;
 }
 
-PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& config) {
+PoseGraphSolution<common::Pose2> optimize(const PoseGraph2D& graph, const PoseGraphConfig& config) {
   const int size = static_cast<int>(graph.poses.size());
   SWIFTLET_CHECK(size == 0 || (graph.fixed >= 0 && graph.fixed < size), graph.fixed, size);
-  PoseGraph2DSolution solution;
+  PoseGraphSolution<common::Pose2> solution;
   solution.poses = graph.poses;
   solution.converged = true;
   if (size == 0) return solution;

@@ -12,16 +12,9 @@
 
 namespace swiftlet::optimization {
 
-struct PoseGraph2DSolution {
-  std::vector<common::Pose2> poses;
-  std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 3 degrees of freedom.
-  int iterations = 0;                  ///< Steps tried.
-  bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
-};
-
 /// Poses that no edge connects to the fixed one stay where they were (a slight prior holds them). Indices must be
 /// valid.
-PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& config);
+PoseGraphSolution<common::Pose2> optimize(const PoseGraph2D& graph, const PoseGraphConfig& config);
 
 /// The error of an edge, (R_from' (t_to - t_from) - t, yaw), and its Jacobians with respect to (x, y, yaw) of each
 /// pose.

@@ -63,8 +63,8 @@ void addEdges(ceres::Problem& problem, const PoseGraph3D& graph, const PoseGraph
 
 }  // namespace
 
-PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraphConfig& config) {
-  PoseGraph3DSolution solution;
+PoseGraphSolution<common::Pose3> optimize(const PoseGraph3D& graph, const PoseGraphConfig& config) {
+  PoseGraphSolution<common::Pose3> solution;
   solution.poses = graph.poses;
   solution.converged = true;
   if (graph.poses.empty()) return solution;

@@ -17,15 +17,8 @@
 
 namespace swiftlet::optimization {
 
-struct PoseGraph3DSolution {
-  std::vector<common::Pose3> poses;
-  std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 6 degrees of freedom.
-  int iterations = 0;                  ///< Steps tried.
-  bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
-};
-
 /// If no edge connects a group of poses to a fixed one, the first of the group stays where it is and the others are
 /// placed relative to it. Indices must be valid.
-PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraphConfig& config);
+PoseGraphSolution<common::Pose3> optimize(const PoseGraph3D& graph, const PoseGraphConfig& config);
 
 }  // namespace swiftlet::optimization

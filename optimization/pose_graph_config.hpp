@@ -1,5 +1,7 @@
-// How pose graphs are optimized, those of the plane and those of space.
+// How pose graphs are optimized, those of the plane and those of space, and the result.
 #pragma once
+
+#include <vector>
 
 namespace swiftlet::optimization {
 
@@ -12,6 +14,15 @@ struct PoseGraphConfig {
   /// no setting: only optimizeFromBestStart() needs another than the default of Ceres
   /// (Solver::Options::initial_trust_region_radius), which this is.
   double trust_radius = 1e4;
+};
+
+template <typename Pose>
+struct PoseGraphSolution {
+  std::vector<Pose> poses;
+  /// Of each edge at the solution: e' * information * e, with 3 degrees of freedom in the plane and 6 in space.
+  std::vector<double> squared_errors;
+  int iterations = 0;      ///< Steps tried.
+  bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
 };
 
 }  // namespace swiftlet::optimization

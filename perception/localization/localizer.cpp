@@ -26,11 +26,6 @@ namespace {
 
 /// A pose is not accepted while the map explains a smaller share of the local map (docs/localization.md).
 constexpr double kLeastExplained = 0.70;
-/// Time between searches of the whole map while the pose explains too little.
-constexpr double kDistrustSearch_s = 0.5;
-/// A place that is likelier by this log-ratio means that the pose is lost (docs/localization.md).
-constexpr double kElsewhereNats = 10.0;
-
 /// Spread of the particles about a place that was found: the remaining error of the search.
 const Eigen::Matrix3d kPlaceCovariance = common::planarCovariance(0.05, 1.0 * kRadPerDeg);
 
@@ -141,6 +136,7 @@ void Localizer::Impl::track(const LocalizationInput& input) {
 /// Checks the pose against the scan. While the check fails, scans are collected in the local map and searched for in
 /// the whole map.
 void Localizer::Impl::doubt(const LocalizationInput& input) {
+  constexpr double kDistrustSearch_s = 0.5;  // Time between searches while the pose explains too little.
   support = supportOf(*map, input.scan.points_level_m, tracker.T_grid_body());
   const bool doubted = lost_test.doubtful();
   lost_test.add(support, elapsed_s);
@@ -155,10 +151,8 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
       local_map.empty() ||
       (between(local_map.T_odom_last(), tracker.T_odom_body()).position_m().norm() >= config.generation_distance_m);
   if (moved) local_map.add(tracker.T_odom_body(), input.scan.points_level_m);
-  if (lost_test.lost()) {
-    lose(fmt::format("the map explains {:.0f} % of what is seen", 100.0 * lost_test.explained()));
-    return;
-  }
+  if (lost_test.lost())
+    return lose(fmt::format("the map explains {:.0f} % of what is seen", 100.0 * lost_test.explained()));
   since_search_s += elapsed_s;
   if (since_search_s < kDistrustSearch_s) return;
   since_search_s = 0.0;
@@ -166,6 +160,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
 }
 
 void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
+  constexpr double kElsewhereNats = 10.0;  // Another place that is likelier by this refutes it (docs/localization.md).
   if (found.places.empty() || found.places.front().explained < kLeastExplained) return;
   const LikelyPlace& best = found.places.front();
   const Pose2 here = tracker.T_grid_odom() * found.whole.T_odom_middle;

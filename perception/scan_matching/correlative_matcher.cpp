@@ -22,36 +22,25 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
-/// Distance from the guess at which half of guess_weight is lost.
-constexpr double kGuessDistance_m = 0.08;
-/// Rotation from the guess at which half of guess_weight is lost.
-constexpr double kGuessRotation_deg = 3.0;
-/// Factor on the covariance of independent points, calibrated by the tests of the covariance
-/// (tests/scan_matching/correlative_matcher_test.cpp).
+/// Distance and rotation from the guess at which half of guess_weight is lost.
+constexpr double kGuessDistance_m = 0.08, kGuessRotation_deg = 3.0;
+/// Factor on the covariance of independent points, calibrated by tests/scan_matching/correlative_matcher_test.cpp.
 constexpr double kCovarianceScale = 1.5;
-/// Error of roll and pitch, which moves each end point by its height over the body times this.
-constexpr double kAttitudeError_deg = 1.0;
 /// A direction less certain than this is not observed: the pose keeps the guess there.
 constexpr double kUnobservableSigma_m = 0.1;
-/// Difference in quality that makes a pose e times less likely (docs/decisions/scan_matching.md).
-constexpr double kProfileTemperature = 0.010;
-
 /// The profile of the scores widens the covariance only if the contour facing the least constrained direction is a
 /// smaller share than this.
 constexpr double kProfiledSpread = 0.25;
 constexpr double kTopValue = LikelihoodField::kTopValue;
 /// Windows with more poses are searched by branch and bound even with kScoreGrid: this many scores take 80 MB.
 constexpr double kMostScores = 2e7;
-
 /// Points this close to the edge of the reference's view may lie outside it, because poses err and scores are blurred.
 constexpr double kViewMargin_m = 0.15;
 /// With a smaller share of the points in the view of the reference, the guess is probably wrong, so all points are
 /// used (docs/decisions/scan_matching.md#021).
 constexpr double kLeastInView = 0.25;
-/// A match of a smaller share must fit better, because chance matches are likelier
-/// (docs/decisions/scan_matching.md#023).
+/// A match of a smaller share must fit better, as chance matches are likelier (docs/decisions/scan_matching.md#023).
 constexpr double kUsuallyInView = 0.5;
-
 /// Limit on the half width of a window, in steps.
 constexpr double kMostSteps = 4000.0;
 
@@ -196,6 +185,7 @@ Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& 
                                                              double step_rad, const Peak& peak) {
   // A smaller shift is below the least standard deviation of a match (quadratic_peak.cpp, kFloorSigma_m).
   constexpr float kLeastShift_m = 0.0005F;
+  constexpr double kAttitudeError_deg = 1.0;  // Of roll and pitch; moves a point by its height over the body times it.
   const auto error_rad = static_cast<float>(kAttitudeError_deg * kRadPerDeg);
   float greatest_m = 0.0F;
   for (const float height : points.heights_m) greatest_m = std::max(greatest_m, std::abs(height));
@@ -238,8 +228,7 @@ void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double l
   peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
   const common::SymmetricEigen<2> spread =
       common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
-  const double unseen_m = kUnobservableSigma_m;
-  if (!peak.unobservable_direction && spread.values(1) > unseen_m * unseen_m)
+  if (!peak.unobservable_direction && spread.values(1) > kUnobservableSigma_m * kUnobservableSigma_m)
     holdAlong(spread.vectors.col(1), expected, peak);
 }
 
@@ -260,6 +249,7 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
     distances_m.push_back(distance_m);
     qualities.push_back(sum / (kTopValue * static_cast<double>(points.x_m.size())));
   }
+  constexpr double kProfileTemperature = 0.010;  // Makes a pose e times less likely (docs/decisions/scan_matching.md).
   const double best = *std::max_element(qualities.begin(), qualities.end());
   double weights = 0.0, sum2 = 0.0;
   for (std::size_t i = 0; i < qualities.size(); ++i) {

@@ -1,8 +1,10 @@
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "perception/scan_matching/interpolated_field.hpp"
+#include "perception/scan_matching/least_squares_match.hpp"
 
 namespace swiftlet::perception {
 namespace {

@@ -10,10 +10,7 @@
 
 #include <memory>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 

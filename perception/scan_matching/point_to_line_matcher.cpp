@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/normal_distribution.hpp"
+#include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/oriented_points.hpp"
 
 namespace swiftlet::perception {

@@ -5,10 +5,7 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {

@@ -60,7 +60,7 @@ LoopConsensus optimizeWithRejection(const SlamGraph& graph, const std::vector<Fo
   Trial trial(graph, loops);
   std::vector<int> removed;
   while (true) {
-    optimization::PoseGraph2DSolution solution = optimization::optimize(trial.problem, config.graph);
+    optimization::PoseGraphSolution<common::Pose2> solution = optimization::optimize(trial.problem, config.graph);
     const std::vector<double>& errors = solution.squared_errors;
     std::optional<std::size_t> worst;
     for (std::size_t i = 0; i < errors.size(); ++i)
@@ -80,7 +80,7 @@ std::optional<LoopConsensus> consensusOfRejected(const SlamGraph& graph, const s
   }
   std::vector<int> removed;
   while (true) {
-    optimization::PoseGraph2DSolution solution = optimization::optimize(trial.problem, config.graph);
+    optimization::PoseGraphSolution<common::Pose2> solution = optimization::optimize(trial.problem, config.graph);
     const std::size_t before = removed.size();
     for (std::size_t i = solution.squared_errors.size(); i-- > 0;)
       if (solution.squared_errors[i] > kMostError &&

@@ -12,6 +12,8 @@
 #include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/grid_update.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
+#include "perception/slam2d/particle/map_match.hpp"
+#include "perception/slam2d/surface_map.hpp"
 
 namespace swiftlet::perception {
 namespace {

@@ -15,9 +15,8 @@
 #include <memory>
 #include <vector>
 
-#include "perception/slam2d/particle/map_match.hpp"
+#include "perception/slam2d/grid_drawing_config.hpp"
 #include "perception/slam2d/planar_slam.hpp"
-#include "perception/slam2d/surface_map.hpp"
 
 namespace swiftlet::perception {
 

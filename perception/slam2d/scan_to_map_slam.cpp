@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "perception/laser_odometry/unknown_step.hpp"
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
 #include "perception/slam2d/progress.hpp"
 #include "perception/slam2d/sliced_map.hpp"
+#include "perception/slam2d/surface_map.hpp"
 #include "perception/slam2d/uncertain_pose.hpp"
 
 namespace swiftlet::perception {

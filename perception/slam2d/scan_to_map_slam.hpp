@@ -23,9 +23,8 @@
 #include <memory>
 #include <vector>
 
-#include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/slam2d/grid_drawing_config.hpp"
 #include "perception/slam2d/planar_slam.hpp"
-#include "perception/slam2d/surface_map.hpp"
 
 namespace swiftlet::perception {
 

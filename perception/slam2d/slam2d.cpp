@@ -20,48 +20,16 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
 
-/// A scan is matched to the map after this distance, and becomes a key scan where there is none near.
-constexpr double kKeyDistance_m = 0.4;
-/// A scan is matched to the map after this rotation.
-constexpr double kKeyRotation_deg = 25.0;
-/// A scan is matched to the map after this time.
-constexpr double kKeyTime_s = 2.0;
-/// A scan tilted more than this waits half as long again, for a level one.
-constexpr double kLevelTilt_deg = 2.0;
-/// A scan within this distance and kReuseRotation_deg of a key scan does not become one, so that the graph does not
-/// grow in known area (docs/decisions/scan_matching.md#021).
-constexpr double kReuseDistance_m = 0.25;
-/// A scan within this rotation and kReuseDistance_m of a key scan does not become one.
-constexpr double kReuseRotation_deg = 20.0;
-/// Between key scans, a scan is drawn after this distance.
-constexpr double kDrawDistance_m = 0.10;
-/// Between key scans, a scan is drawn after this rotation.
-constexpr double kDrawRotation_deg = 6.0;
-/// Between key scans, a scan is drawn after this time.
-constexpr double kDrawTime_s = 0.25;
-/// Newest drawn scans that are kept with a key scan, to redraw the grid.
-constexpr int kScansPerKey = 16;
-/// Half the search window of the local match.
-constexpr double kLocalWindow_m = 0.15;
-/// Half the search window of the local match's rotation.
-constexpr double kLocalWindow_deg = 3.0;
-
-/// The limits before the next match are multiplied by this for a tilted scan, so that a level one may come first: a
-/// tilted scan brings the error of its attitude into the map.
-constexpr double kPatience = 1.5;
-
-/// Path length that must lie between two optimizations, for each key scan of the graph.
-constexpr double kOptimizationPathPerKey_m = 0.02;
-
-/// A match to an earlier pass is used when at least this share of the scan overlaps it.
-constexpr double kLeastOverlap = 0.75;
-
-/// The first of `keys` (ascending) that belongs to the newest pass.
-std::vector<int>::const_iterator newestPass(const std::vector<int>& keys) {
-  auto begin = keys.end();
-  while (begin != keys.begin() && (begin == keys.end() || !areOfTwoPasses(*(begin - 1), *begin))) --begin;
-  return begin;
-}
+/// A scan is matched to the map after this distance, rotation or time, and becomes a key scan where there is none near.
+constexpr double kKeyDistance_m = 0.4, kKeyRotation_deg = 25.0, kKeyTime_s = 2.0;
+/// A scan tilted more than this waits half as long again, so that a level one may come first: a tilted scan brings the
+/// error of its attitude into the map.
+constexpr double kLevelTilt_deg = 2.0, kPatience = 1.5;
+/// A scan within this distance and rotation of a key scan does not become one, so that the graph does not grow in known
+/// area (docs/decisions/scan_matching.md#021).
+constexpr double kReuseDistance_m = 0.25, kReuseRotation_deg = 20.0;
+/// Between key scans, a scan is drawn after this distance, rotation or time.
+constexpr double kDrawDistance_m = 0.10, kDrawRotation_deg = 6.0, kDrawTime_s = 0.25;
 
 bool isLevel(const ProjectedScan& scan, double tilt_deg) {
   return common::cosTilt(scan.T_odom_body.rotation) >= std::cos(tilt_deg * kRadPerDeg);
@@ -187,7 +155,9 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
 /// to the newest pass alone. A match to passes that do not agree yet would be a compromise between them. On return,
 /// `keys` are those that were matched.
 MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int>& keys) {
-  const SearchWindow window{kLocalWindow_m, kLocalWindow_deg * kRadPerDeg};
+  constexpr double kHalf_m = 0.15, kHalf_deg = 3.0;  // Half the search window.
+  constexpr double kLeastOverlap = 0.75;             // Least share of the scan that overlaps an earlier pass.
+  const SearchWindow window{kHalf_m, kHalf_deg * kRadPerDeg};
   const auto newest = newestPass(keys);
   if (newest == keys.begin()) return reference.match(graph, keys, scan, T_map_body(), window);
   std::vector<int> earlier(keys.cbegin(), newest);
@@ -254,11 +224,12 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
 }
 
 void Slam2d::Impl::draw(const ProjectedScan& scan) {
+  constexpr std::size_t kScansPerKey = 16;  // Newest drawn scans that are kept with a key scan, to redraw the grid.
   const AttachedScan attached{std::make_shared<const DrawnScan>(thinForDrawing(scan, config.grid)), T_anchor_body};
   if (config.live_map) map.draw(*attached.scan, T_map_body());
   std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
   drawn.push_back(attached);
-  if (static_cast<int>(drawn.size()) > kScansPerKey) drawn.pop_front();
+  if (drawn.size() > kScansPerKey) drawn.pop_front();
   if (task_outstanding) drawn_since_task.emplace_back(anchor, attached);
 }
 
@@ -357,6 +328,7 @@ std::optional<SlamTask> Slam2d::takeLastTask() {
 /// Whether an optimization is due that no loop closure asks for. The path length between two of them grows with the
 /// graph, so that the work per metre is bounded.
 bool Slam2d::Impl::optimizationIsDue() const {
+  constexpr double kOptimizationPathPerKey_m = 0.02;  // Path length between two optimizations, for each key scan.
   return passes_connected &&
          path_length_since_optimization_m >= kOptimizationPathPerKey_m * static_cast<double>(graph.keys.size());
 }

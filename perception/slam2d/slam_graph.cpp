@@ -127,4 +127,10 @@ optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph) {
   return result;
 }
 
+std::vector<int>::const_iterator newestPass(const std::vector<int>& keys) {
+  auto begin = keys.end();
+  while (begin != keys.begin() && (begin == keys.end() || !areOfTwoPasses(*(begin - 1), *begin))) --begin;
+  return begin;
+}
+
 }  // namespace swiftlet::perception

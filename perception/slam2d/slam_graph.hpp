@@ -37,6 +37,8 @@ inline bool areOfTwoPasses(int a, int b) {
   constexpr int kOtherPass = 15;
   return std::abs(a - b) > kOtherPass;
 }
+/// The first of `keys` (ascending) that belongs to the newest pass.
+std::vector<int>::const_iterator newestPass(const std::vector<int>& keys);
 
 struct SlamGraph {
   std::vector<KeyScan> keys;

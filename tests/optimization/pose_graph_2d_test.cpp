@@ -76,7 +76,7 @@ TEST(PoseGraph2D, JacobiansAreTheNumericDerivativesOfTheError) {
 TEST(PoseGraph2D, ClosingTheRingRemovesTheDrift) {
   std::vector<Pose2> truth;
   const PoseGraph2D graph = ring(100, 3, truth);
-  const PoseGraph2DSolution solution = optimize(graph, {});
+  const PoseGraphSolution<common::Pose2> solution = optimize(graph, {});
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(worst(solution.poses, truth), 0.5 * worst(graph.poses, truth));
   // With one loop, the errors have three degrees of freedom.
@@ -91,7 +91,7 @@ TEST(PoseGraph2D, AFalseClosureDoesNotBendTheMap) {
   const double honest_m = worst(optimize(graph, {}).poses, truth);
   PoseEdge2D lie{10, 60, {0.0, 0.0, 0.0}, Eigen::Vector3d(1e4, 1e4, 1e5).asDiagonal(), true};
   graph.edges.push_back(lie);
-  const PoseGraph2DSolution robust = optimize(graph, {});
+  const PoseGraphSolution<common::Pose2> robust = optimize(graph, {});
   EXPECT_LT(worst(robust.poses, truth), honest_m + 0.10);
   EXPECT_GT(robust.squared_errors.back(), 1000.0);
   // Without the robust kernel the false closure bends the map.

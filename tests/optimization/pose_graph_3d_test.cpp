@@ -141,7 +141,7 @@ TEST(PoseGraph3D, TheOptimumEqualsThatOfDenseGaussNewton) {
     const PoseGraph3D graph = noisyGraph<Graph3D>(8, 0.05, 0.05, random);
     PoseGraphConfig config;
     config.relative_decrease = 1e-14;
-    const PoseGraph3DSolution solution = optimize(graph, config);
+    const PoseGraphSolution<common::Pose3> solution = optimize(graph, config);
     const std::vector<Pose3> expected = denseGaussNewton(graph);
     EXPECT_TRUE(solution.converged);
     EXPECT_NEAR(sum(solution.squared_errors), sum(squaredErrors(graph, expected)), 1e-6);
@@ -192,7 +192,7 @@ TEST(PoseGraph3D, AFalseClosureDoesNotBendTheMap) {
   lie.information = 1e4 * Matrix6d::Identity();
   lie.robust = true;
   graph.edges.push_back(lie);
-  const PoseGraph3DSolution robust = optimize(graph, {});
+  const PoseGraphSolution<common::Pose3> robust = optimize(graph, {});
   EXPECT_LT(worst(robust.poses, truth), honest_m + 0.10);
   EXPECT_GT(robust.squared_errors.back(), 1000.0);
   graph.edges.back().robust = false;
@@ -215,7 +215,7 @@ TEST(PoseGraph3D, FixedPosesAndPosesWithoutEdgesStay) {
   PoseGraph3D graph = noisyGraph<Graph3D>(6, 0.05, 0.05, random);
   graph.fixed = {2, 4};
   graph.poses.push_back(randomPose3(random, 3.0));
-  const PoseGraph3DSolution solution = optimize(graph, {});
+  const PoseGraphSolution<common::Pose3> solution = optimize(graph, {});
   for (const std::size_t i : {2, 4, 6}) {
     EXPECT_EQ(solution.poses[i].position_m, graph.poses[i].position_m) << i;
     EXPECT_LT(solution.poses[i].rotation.angularDistance(graph.poses[i].rotation), 1e-12) << i;

@@ -4,7 +4,6 @@
 // laser odometry (Bachrach 2009, section 5.3).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
