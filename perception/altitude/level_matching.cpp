@@ -18,8 +18,7 @@ constexpr double kEnterAfter_s = 0.3;
 constexpr double kUnknownPer_m = 1.0;
 /// Factor by which the take-off floor is likelier to be met than another level.
 constexpr double kFloorWeight = 10.0;
-/// Nothing is less than this below the take-off floor: a step down in a building is higher
-/// (docs/decisions/altitude.md#008).
+/// Nothing is less than this below the take-off floor (docs/decisions/altitude.md#008).
 constexpr double kLeastStepDown_m = 0.25;
 
 // Beyond the gate, an error of the height is likelier than a step down from the floor.

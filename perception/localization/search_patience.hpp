@@ -29,7 +29,7 @@ class SearchPatience {
     // In its map a vehicle is found within a few metres. With a spacing of a quarter of the path, the number of
     // searches grows only with the logarithm of the path.
     constexpr double kPatience_m = 8.0, kSpacingShare = 0.25;
-    constexpr double kLeast_m = 0.4;  // The local map has changed after that path.
+    constexpr double kLeast_m = 0.4;  // Path length after which the whole map is searched again.
     const double in_vain_m = path_length_m - hopeful_path_length_m_ - kPatience_m;
     return std::clamp(kSpacingShare * in_vain_m, kLeast_m, std::max(kLeast_m, LocalizerConfig::local_map_length_m));
   }

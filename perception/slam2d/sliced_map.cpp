@@ -219,19 +219,19 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays, common::Time 
     markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
     if (ray.ended) glass_.hit(cellOf(ray.to), ray.to - body_, ray.incidence);
   }
-  slices_.try_emplace(slice, common::makeOccupancyGrid(config_.resolution_m));
+  common::OccupancyGrid& grid =
+      slices_.try_emplace(slice, common::makeOccupancyGrid(config_.resolution_m)).first->second;
   const std::uint32_t* mark = marks_.data();
   for (int y = rect.begin.y; y < rect.end.y; ++y) {
     for (int x = rect.begin.x; x < rect.end.x; ++x, ++mark) {
       const std::uint32_t ended = *mark >> 16, crossed = *mark & 0xFFFF;
-      if (*mark != 0 && (ended == 0 || ended >= crossed)) apply(slice, {x, y}, ended > 0, stamp);
+      if (*mark != 0 && (ended == 0 || ended >= crossed)) apply(slice, grid, {x, y}, ended > 0, stamp);
     }
   }
 }
 
-void SlicedMap::apply(int slice, CellIndex cell, bool ended, common::Time stamp) {
+void SlicedMap::apply(int slice, common::OccupancyGrid& grid, CellIndex cell, bool ended, common::Time stamp) {
   if (!ended && isGlass(cell)) return;
-  common::OccupancyGrid& grid = slices_.at(slice);
   const Cell old = grid.at(cell);
   const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended ? config_.hit_steps : -config_.free_steps);
   const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));

@@ -69,7 +69,7 @@ class SlicedMap {
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
   bool isWall(common::CellIndex cell) const;
   void drawSlice(int slice, const std::vector<Ray>& rays, common::Time stamp);
-  void apply(int slice, common::CellIndex cell, bool ended, common::Time stamp);
+  void apply(int slice, common::OccupancyGrid& grid, common::CellIndex cell, bool ended, common::Time stamp);
   bool isGlass(common::CellIndex cell) const;
   bool meetLow(int slice, common::CellIndex cell, common::Time stamp);
   void fadeAround(int slice, common::CellIndex cell);
