@@ -14,6 +14,7 @@
 
 #include "apps/files_of_kind.hpp"
 #include "autonomy/flight_sensors.hpp"
+#include "autonomy/health/checks.hpp"
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"

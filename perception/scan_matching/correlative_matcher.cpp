@@ -25,9 +25,9 @@ using common::Pose2;
 /// Distance and rotation from the guess at which half of guess_weight is lost.
 constexpr double kGuessDistance_m = 0.08, kGuessRotation_deg = 3.0;
 /// Factor on the covariance of independent points, calibrated by tests/scan_matching/correlative_matcher_test.cpp.
-constexpr double kCovarianceScale = 1.5;
+constexpr double kSurfaceCovarianceScale = 1.5;
 /// A direction less certain than this is not observed: the pose keeps the guess there.
-constexpr double kUnobservableSigma_m = 0.1;
+constexpr double kSurfaceUnobservableSigma_m = 0.1;
 /// The profile of the scores widens the covariance only if the contour facing the least constrained direction is a
 /// smaller share than this.
 constexpr double kProfiledSpread = 0.25;
@@ -221,14 +221,14 @@ BestPose CorrelativeMatcher::Impl::searchGrid(const std::vector<Eigen::Vector2f>
 }
 
 /// Widens the covariance by the likely poses elsewhere in the window. If a direction becomes less certain than
-/// `kUnobservableSigma_m`, the pose keeps the guess along it.
+/// `kSurfaceUnobservableSigma_m`, the pose keeps the guess along it.
 void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double log_per_score,
                                                   const Eigen::Vector3d& step, const ExpectedPose& expected,
                                                   Peak& peak) const {
   peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
   const common::SymmetricEigen<2> spread =
       common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
-  if (!peak.unobservable_direction && spread.values(1) > kUnobservableSigma_m * kUnobservableSigma_m)
+  if (!peak.unobservable_direction && spread.values(1) > kSurfaceUnobservableSigma_m * kSurfaceUnobservableSigma_m)
     holdAlong(spread.vectors.col(1), expected, peak);
 }
 
@@ -329,8 +329,8 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   surface.step_rad = step_rad;
   const ExpectedPose expected = expectedFrom(finest, guess, window);
   const double supported_there = std::min(supported, static_cast<double>(surface_points.x_m.size()));
-  const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), kCovarianceScale,
-                           kUnobservableSigma_m};
+  const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), kSurfaceCovarianceScale,
+                           kSurfaceUnobservableSigma_m};
   Peak peak = findPeak(surface, scale, expected);
   peak.covariance += attitudeCovariance(surface_points, finest, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();

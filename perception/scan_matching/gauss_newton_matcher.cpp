@@ -16,7 +16,7 @@ constexpr double kResolution_m = 0.01;
 /// Maps, each four times as coarse as the one before, as is the support of a point in it.
 constexpr int kLevels = 3;
 /// Greatest number of steps at each level but the finest.
-constexpr int kIterations = 4;
+constexpr int kLevelIterations = 4;
 /// Greatest number of steps at the finest level.
 constexpr int kFinestIterations = 8;
 
@@ -102,7 +102,7 @@ std::size_t GaussNewtonMatcher::Impl::coarsestNeeded(const LeastSquaresMatch& ma
 double GaussNewtonMatcher::Impl::climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const {
   const LikelihoodField& field = fields[level];
   const std::size_t stride = level == 0 ? 1 : kCoarseStride;
-  const int most = level == 0 ? kFinestIterations : kIterations;
+  const int most = level == 0 ? kFinestIterations : kLevelIterations;
   Linearized here = linearize(Purpose::kStep, match, field, pose, stride);
   double moved_m = 0.0;
   for (int i = 0; i < most; ++i) {

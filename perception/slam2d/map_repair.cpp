@@ -15,7 +15,7 @@ constexpr std::size_t kMostSearches = 40;
 
 }  // namespace
 
-MapJudgement judgeMap(const SlamGraph& graph, const std::vector<common::Pose2>& T_map_key, const Slam2dConfig& config) {
+MapJudgement judgeMap(const SlamGraph& graph, const std::vector<common::Pose2>& T_map_key) {
   std::vector<PlacedScan> placed;
   for (std::size_t i = 0; i < graph.keys.size(); ++i) placed.push_back({graph.keys[i].scan.get(), T_map_key[i]});
   return judgeMap(placed, ScanMatcher::kMaxRange_m);

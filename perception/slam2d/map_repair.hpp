@@ -12,7 +12,7 @@
 namespace swiftlet::perception {
 
 /// The judgement of the key scans at these poses.
-MapJudgement judgeMap(const SlamGraph& graph, const std::vector<common::Pose2>& T_map_key, const Slam2dConfig& config);
+MapJudgement judgeMap(const SlamGraph& graph, const std::vector<common::Pose2>& T_map_key);
 
 /// Closures between the stretches that contradict each other, searched for farther than their uncertainty reaches. They
 /// are only as good as each match: the graph decides which agree, and the map whether they made it better. Pure.

@@ -21,7 +21,7 @@ using common::Pose2;
 using common::Time;
 
 /// A scan is matched to the map after this distance, rotation or time, and becomes a key scan where there is none near.
-constexpr double kKeyDistance_m = 0.4, kKeyRotation_deg = 25.0, kKeyTime_s = 2.0;
+constexpr double kKeyScanDistance_m = 0.4, kKeyScanRotation_deg = 25.0, kKeyScanTime_s = 2.0;
 /// A scan tilted more than this waits half as long again, so that a level one may come first: a tilted scan brings the
 /// error of its attitude into the map.
 constexpr double kLevelTilt_deg = 2.0, kPatience = 1.5;
@@ -259,8 +259,8 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
   } else {
     self.follow(T_odom_body, covariance_since_last);
     const double patience = isLevel(scan, kLevelTilt_deg) ? 1.0 : kPatience;
-    if (self.last_match.exceeds(T_odom_body, scan.stamp, patience * kKeyDistance_m, patience * kKeyRotation_deg,
-                                patience * kKeyTime_s)) {
+    if (self.last_match.exceeds(T_odom_body, scan.stamp, patience * kKeyScanDistance_m, patience * kKeyScanRotation_deg,
+                                patience * kKeyScanTime_s)) {
       self.last_match = {T_odom_body, scan.stamp};
       learned = self.correct(scan, update);
     }

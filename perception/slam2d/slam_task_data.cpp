@@ -36,14 +36,14 @@ double greatestShift(const SlamGraph& graph, const std::vector<Pose2>& poses) {
 std::optional<LoopConsensus> repaired(const SlamTask::Data& in) {
   std::vector<Pose2> poses;
   for (const KeyScan& key : in.graph.keys) poses.push_back(key.T_map_body);
-  const MapJudgement before = judgeMap(in.graph, poses, in.config);
+  const MapJudgement before = judgeMap(in.graph, poses);
   if (before.violation() < kLeastViolation) return std::nullopt;
   const std::vector<FoundLoop> loops = loopsWhereContradicting(in.graph, before, in.config);
   if (loops.empty()) return std::nullopt;
   LoopConsensus consensus = optimizeWithRejection(in.graph, loops, in.config);
   if (!consensus.refused.empty())
     if (auto overruled = consensusOfRejected(in.graph, loops, in.config)) consensus = std::move(*overruled);
-  const double after = judgeMap(in.graph, consensus.T_map_key, in.config).violation();
+  const double after = judgeMap(in.graph, consensus.T_map_key).violation();
   if (after > kRepairedShare * before.violation()) return std::nullopt;
   return consensus;
 }

@@ -16,7 +16,7 @@ using common::CellIndex;
 using common::Pose2;
 
 /// Points of a scan that are matched, spread evenly along its contour.
-constexpr int kPoints = 180;
+constexpr int kMatchedPoints = 180;
 /// Points that are matched while they are still far from the surfaces they belong to.
 constexpr int kCoarsePoints = 60;
 /// Where the motion may have slipped, a surface is searched this far along the normal of a point.
@@ -228,7 +228,7 @@ MapMatch Matching::run() const {
 }  // namespace
 
 std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan) {
-  return orientedPoints(scan, kPoints, SurfaceMap::kMaxGap_m, ScanMatcher::kMaxRange_m);
+  return orientedPoints(scan, kMatchedPoints, SurfaceMap::kMaxGap_m, ScanMatcher::kMaxRange_m);
 }
 
 MapMatch matchToMap(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const UncertainPose& prior) {
