@@ -7,8 +7,8 @@
 
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
-#include "common/small_matrices.hpp"
 #include "common/resampling.hpp"
+#include "common/small_matrices.hpp"
 #include "common/validation.hpp"
 #include "perception/localization/beam_sums.hpp"
 #include "perception/localization/evenly_spread.hpp"

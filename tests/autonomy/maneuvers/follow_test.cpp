@@ -1,5 +1,4 @@
 // Follow: a person who walks, stops, turns a corner, is hidden, and meets another one; a vehicle too near to a wall.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
