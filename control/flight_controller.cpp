@@ -164,10 +164,10 @@ common::Setpoint FlightController::tick(const FlightTick& given) {
 }
 
 void FlightController::keepPathInMap(const common::Pose2& T_map_odom) {
-  const common::Pose2& now = T_map_odom;
   const common::Pose2& before = last_state_.T_map_odom;
-  const bool same = now.x_m == before.x_m && now.y_m == before.y_m && now.yaw_rad == before.yaw_rad;
-  if (!same) follower_.movePath(now.inverse() * before);
+  const bool same =
+      T_map_odom.x_m == before.x_m && T_map_odom.y_m == before.y_m && T_map_odom.yaw_rad == before.yaw_rad;
+  if (!same) follower_.movePath(T_map_odom.inverse() * before);
 }
 
 /// Until the vehicle has flown, the margin is only that of the data sheet or of an earlier flight.
