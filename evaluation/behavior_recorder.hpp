@@ -37,6 +37,7 @@ struct BehaviorRecord {
     double farthest_m = 0.0;
     double lost_s = 0.0;  ///< Longest time in which the estimated person was more than 1 m from the truth.
 
+    /// docs/decisions/following.md#064, "Measured".
     static constexpr double kNear_m = 1.5, kFar_m = 3.0, kWrong_m = 1.0;
   };
 

@@ -92,6 +92,7 @@ CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& r
 Pose3 alignment(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
   constexpr int kIterations = 20;
   constexpr std::size_t kPoints = 5000;
+  // Pairs farther than kOutlier medians do not count, after the adaptive threshold of Zhang 1994 (IJCV 13:2).
   constexpr double kReach_m = 0.5, kOutlier = 3.0, kLeastReach_m = 0.03;
   const Cloud cloud = thinned(cloud_world_m, kPoints);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();

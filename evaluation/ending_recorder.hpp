@@ -33,6 +33,7 @@ struct EndingRecord {
   double airborne_until_then_s = 0.0;
   double charge_before_end = 1.0;  ///< kLanding_s before the last tick, or at the take-off if that was later.
 
+  /// docs/decisions/simulation.md#031.
   static constexpr double kTrail_s = 30.0;
   static constexpr double kTrailPeriod_s = 0.5;
   static constexpr double kAround_s = 5.0;    ///< Longer than any fault takes to end a mission.

@@ -71,6 +71,8 @@ VerdictFacts factsOf(const FlightRecord& record, const TrueWorld& world);
 
 Judgement judge(const VerdictFacts& facts);
 
+// The sources of the bounds: docs/decisions/simulation.md#031.
+
 /// Thrust at 95 % throttle over the weight below which a landing is not needless: what a draw of the nature `real` has
 /// at least (config/nature/real.yaml), and the least that leaves something to climb with.
 inline constexpr double kLowMargin = 1.15;

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// The bounds and their sources: docs/decisions/simulation.md#031.
 constexpr double kHome_m = 0.5;         // As near as the hull is wide.
 constexpr double kStepDown_m = 0.5;     // A floor that far below the take-off floor is another one.
 constexpr double kResolution_m = 0.05;  // As fine as the vehicle's own map.
@@ -73,7 +74,7 @@ bool isAboveFloor(const Vector3d& position_world_m, const FlightRecord& record, 
 }
 
 void lookBack(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
-  constexpr double kUnfixed_s = 3.0, kNoFloor_s = 0.9;
+  constexpr double kUnfixed_s = 3.0, kNoFloor_s = 0.9;  // Of the last EndingRecord::kTrail_s; simulation.md#031.
   int unfixed = 0, no_floor = 0;
   for (const Vector3d& position : record.ending.trail_world_m) {
     unfixed += fixesPosition(position, world) ? 0 : 1;

@@ -66,7 +66,7 @@ TEST_F(FlightScoring, AGoodFlightPasses) {
   EXPECT_EQ(result.figure("home_error_m"), 0.04);
   EXPECT_NEAR(*result.figure("estimate_rms_m"), 0.03, 1e-12);
   EXPECT_NEAR(*result.figure("map_wall_error_median_m"), 0.025, 1e-3);
-  EXPECT_DOUBLE_EQ(result.figure("realtime_factor"), 30.0);
+  EXPECT_DOUBLE_EQ(result.figure("realtime_factor").value(), 30.0);
   EXPECT_GT(result.figure("reachable_area_m2"), 8.0);
 }
 

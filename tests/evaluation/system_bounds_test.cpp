@@ -57,9 +57,9 @@ TEST(SystemBounds, OfFiguresOverAllFlightsAreJudged) {
   TrialResult result{"hover", "swiftlet", {}, {}, {}, twoSystems().byCondition().at(1).figureBounds()};
   result.flights.resize(3);
   EXPECT_THAT(result.missed(), ElementsAre("estimate_rms_median_m: not measured, at most 0.01 was asked for"));
-  for (FlightScore& flight : result.flights) flight.estimate_rms_m = 0.02;
+  for (FlightScore& flight : result.flights) flight["estimate_rms_m"] = 0.02;
   EXPECT_THAT(result.missed(), ElementsAre("estimate_rms_median_m: 0.0200, at most 0.01 was asked for"));
-  for (FlightScore& flight : result.flights) flight.estimate_rms_m = 0.005;
+  for (FlightScore& flight : result.flights) flight["estimate_rms_m"] = 0.005;
   EXPECT_THAT(result.missed(), IsEmpty());
 }
 
