@@ -168,14 +168,14 @@ void PhaseRecorder::tickInPhase(const PhaseTick& tick) {
   const Eigen::Vector3d& velocity_m_s = tick.velocity_map_m_s;
   if (course_.last) course_.time_s += (tick.now - *course_.last).seconds();
   course_.last = tick.now;
-  x_m_.push_back(tick.T_map_truth.position_m.x());
-  y_m_.push_back(tick.T_map_truth.position_m.y());
-  height_m_.push_back(tick.T_map_truth.position_m.z());
-  speed_m_s_.push_back(velocity_m_s.head<2>().norm());
-  speed_x_m_s_.push_back(std::abs(velocity_m_s.x()));
-  speed_y_m_s_.push_back(std::abs(velocity_m_s.y()));
-  yaw_rad_.push_back(common::yawOf(tick.T_map_truth.rotation));
-  const double yaw_off_rad = std::abs(common::wrapAngle(yaw_rad_.back() - course_.yaw_begin_rad));
+  series_.x_m.push_back(tick.T_map_truth.position_m.x());
+  series_.y_m.push_back(tick.T_map_truth.position_m.y());
+  series_.height_m.push_back(tick.T_map_truth.position_m.z());
+  series_.speed_m_s.push_back(velocity_m_s.head<2>().norm());
+  series_.speed_x_m_s.push_back(std::abs(velocity_m_s.x()));
+  series_.speed_y_m_s.push_back(std::abs(velocity_m_s.y()));
+  series_.yaw_rad.push_back(common::yawOf(tick.T_map_truth.rotation));
+  const double yaw_off_rad = std::abs(common::wrapAngle(series_.yaw_rad.back() - course_.yaw_begin_rad));
   course_.yaw_off_max_rad = std::max(course_.yaw_off_max_rad, yaw_off_rad);
   if (tick.reference_odom_m)
     course_.control_error_max_m = std::max(course_.control_error_max_m.value_or(0.0),
@@ -184,7 +184,7 @@ void PhaseRecorder::tickInPhase(const PhaseTick& tick) {
   true_velocities_m_s_.emplace_back(tick.now, velocity_m_s);
   if (true_velocities_m_s_.size() > kTruths) true_velocities_m_s_.pop_front();
   if (const auto then_m_s = trueVelocityAt(tick.estimate.stamp))
-    velocity_error_m_s_.push_back((tick.estimate.velocity_map_m_s() - *then_m_s).norm());
+    series_.velocity_error_m_s.push_back((tick.estimate.velocity_map_m_s() - *then_m_s).norm());
 }
 
 /// Interpolated; nothing outside of the last ticks.
@@ -200,14 +200,15 @@ std::optional<Eigen::Vector3d> PhaseRecorder::trueVelocityAt(Time time) const {
 
 /// Yaw is unwrapped about its circular mean.
 void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
-  const Statistics x = statisticsOf(x_m_), y = statisticsOf(y_m_), speed = statisticsOf(speed_m_s_);
-  const Statistics height = statisticsOf(height_m_), velocity_error = statisticsOf(velocity_error_m_s_);
-  const Statistics along_x = statisticsOf(speed_x_m_s_), along_y = statisticsOf(speed_y_m_s_);
+  const Statistics x = statisticsOf(series_.x_m), y = statisticsOf(series_.y_m),
+                   speed = statisticsOf(series_.speed_m_s);
+  const Statistics height = statisticsOf(series_.height_m), velocity_error = statisticsOf(series_.velocity_error_m_s);
+  const Statistics along_x = statisticsOf(series_.speed_x_m_s), along_y = statisticsOf(series_.speed_y_m_s);
   double sine = 0.0, cosine = 0.0;
-  for (const double yaw : yaw_rad_) sine += std::sin(yaw), cosine += std::cos(yaw);
+  for (const double yaw : series_.yaw_rad) sine += std::sin(yaw), cosine += std::cos(yaw);
   const double yaw_mean = std::atan2(sine, cosine);
   std::vector<double> yaw_off;
-  for (const double yaw : yaw_rad_) yaw_off.push_back(common::wrapAngle(yaw - yaw_mean));
+  for (const double yaw : series_.yaw_rad) yaw_off.push_back(common::wrapAngle(yaw - yaw_mean));
   const PhaseFigures all = {{"position_mean_x_m", x.mean},
                             {"position_mean_y_m", y.mean},
                             {"position_std_m", std::hypot(x.standard_deviation, y.standard_deviation)},
@@ -225,8 +226,8 @@ void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
   figures.insert(figures.end(), all.begin(), all.end());
   if (config_.place_map_m.empty()) return;
   std::vector<double> off_m;
-  for (std::size_t i = 0; i < x_m_.size(); ++i)
-    off_m.push_back(std::hypot(x_m_[i] - config_.place_map_m[0], y_m_[i] - config_.place_map_m[1]));
+  for (std::size_t i = 0; i < series_.x_m.size(); ++i)
+    off_m.push_back(std::hypot(series_.x_m[i] - config_.place_map_m[0], series_.y_m[i] - config_.place_map_m[1]));
   figures.emplace_back("position_rms_m", statisticsOf(off_m).rmse);
   if (!off_m.empty()) figures.emplace_back("position_max_m", *std::max_element(off_m.begin(), off_m.end()));
 }
@@ -239,7 +240,7 @@ void PhaseRecorder::addBounds(PhaseFigures& figures) const {
   if (course_.control_error_max_m) figures.emplace_back("control_error_max_m", *course_.control_error_max_m);
   if (config_.height_map_m <= 0.0) return;
   double error_max_m = 0.0;
-  for (const double height_m : height_m_)
+  for (const double height_m : series_.height_m)
     error_max_m = std::max(error_max_m, std::abs(height_m - config_.height_map_m));
   figures.emplace_back("height_error_max_m", error_max_m);
 }
@@ -252,7 +253,7 @@ void PhaseRecorder::addLevels(PhaseFigures& figures) const {
 
 PhaseScore PhaseRecorder::finish() const {
   PhaseScore score{config_.name, {{"time_s", course_.time_s}}, config_.criteria};
-  if (x_m_.empty()) return score;
+  if (series_.x_m.empty()) return score;
   addPlaces(score.figures);
   addBounds(score.figures);
   addLevels(score.figures);

@@ -78,6 +78,12 @@ struct PhaseTick {
   std::optional<Eigen::Vector3d> reference_odom_m = std::nullopt;  ///< Of the controller; nullopt unless it flies.
 };
 
+/// One value a tick that counts.
+struct PhaseSeries {
+  std::vector<double> x_m, y_m, height_m, speed_m_s, yaw_rad, velocity_error_m_s;
+  std::vector<double> speed_x_m_s, speed_y_m_s;  ///< Sizes of the velocity along the axes of `map`.
+};
+
 /// Collects the ticks of one phase, and computes its figures from the truth.
 class PhaseRecorder {
  public:
@@ -121,9 +127,8 @@ class PhaseRecorder {
   bool in_phase_ = false;  ///< By the last snapshot.
   Course course_;
   std::deque<std::pair<common::Time, Eigen::Vector3d>> true_velocities_m_s_;  ///< Of the last ticks, in `map`.
-  std::vector<double> x_m_, y_m_, height_m_, speed_m_s_, yaw_rad_, velocity_error_m_s_;
-  std::vector<double> speed_x_m_s_, speed_y_m_s_;  ///< Sizes of the velocity along the axes of `map`.
-  std::vector<double> level_heights_m_;            ///< Of the last map in the phase, ascending.
+  PhaseSeries series_;
+  std::vector<double> level_heights_m_;  ///< Of the last map in the phase, ascending.
 };
 
 }  // namespace swiftlet::evaluation

@@ -40,8 +40,8 @@ TEST_F(LaserStory, LaterScansAreMeasuredFromTheClone) {
     ASSERT_TRUE(step.matched && step.measurement);
     EXPECT_FALSE(step.clone_before);
     EXPECT_EQ(step.measurement->from, clone);
-    EXPECT_NEAR(step.measurement->T_from_to.x_m, 0.02 * i, 0.01);
-    EXPECT_NEAR(step.measurement->T_from_to.y_m, 0.01 * i, 0.01);
+    EXPECT_NEAR(step.measurement->pose.x_m, 0.02 * i, 0.01);
+    EXPECT_NEAR(step.measurement->pose.y_m, 0.01 * i, 0.01);
     EXPECT_GE(std::sqrt(step.measurement->covariance(0, 0)), LaserPipeline::kMatchFloor_m);
     EXPECT_TRUE(step.covariance.isZero()) << "within one reference nothing drifts";
   }
@@ -88,7 +88,7 @@ TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
       axis_odom_rad = now_rad;
     }
     if (!step.clone_after) continue;
-    if (step.measurement) clone_yaw_rad += step.measurement->T_from_to.yaw_rad;
+    if (step.measurement) clone_yaw_rad += step.measurement->pose.yaw_rad;
     ++clones;
   }
   EXPECT_GT(unseen, 60);

@@ -164,7 +164,7 @@ TEST_F(RgbdStory, TheFilterGetsAMeasurementFromFrameToFrame) {
   step = pipeline_.steps().take();
   ASSERT_TRUE(step && step->measurement);
   EXPECT_EQ(step->measurement->from, Time::fromSeconds(1.0));
-  EXPECT_LT(step->measurement->T_from_to.position_m.norm(), 0.01);
+  EXPECT_LT(step->measurement->pose3.position_m.norm(), 0.01);
   EXPECT_FALSE(pipeline_.steps().take()) << "it counts once";
   // The filter has dropped its clone: the next frame begins a new one.
   pipeline_.steps().forgetClone();

@@ -19,7 +19,7 @@ class StepUncertaintyTest : public testing::Test {
     step.matched = true;
     step.covariance = 1e-4 * Eigen::Matrix3d::Identity();
     step.measurement.emplace();
-    step.measurement->T_from_to = {1.0, 2.0, yaw_rad};
+    step.measurement->pose = {1.0, 2.0, yaw_rad};
     if (!sees_x) step.measurement->unobservable_direction = Eigen::Vector2d::UnitX();
     Eigen::Matrix2d covariance_m2 = 0.5 * Eigen::Matrix2d::Identity();
     covariance_m2(0, 0) = variance_x_m2;

@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string library(const std::string& name) { return SWIFTLET_BINARY_DIR "/leaf_libraries/libleaves_" + name + ".so"; }
-const std::string kSquare = library("square");
+const std::string kSquareLibrary = library("square");
 const std::string kMission = SWIFTLET_SOURCE_DIR "/examples/own_leaf/square.xml";
 
 class LeafLibraries : public test_support::Scratch {};
@@ -25,33 +25,34 @@ TEST_F(LeafLibraries, AreKnownToTheCheckAndToEditors) {
   const ProgramEnd without = runSwiftlet({"check", kMission});
   EXPECT_EQ(without.exit_code, 2) << describe(without);
   EXPECT_THAT(without.err, HasSubstr("square.xml:9:9: Square: "));
-  const ProgramEnd with = runSwiftlet({"check", kMission, "--leaves", kSquare});
+  const ProgramEnd with = runSwiftlet({"check", kMission, "--leaves", kSquareLibrary});
   EXPECT_EQ(with.exit_code, 0) << describe(with);
   EXPECT_EQ(with.err, "");
-  EXPECT_THAT(runSwiftlet({"nodes", "--leaves", kSquare, "Square"}).out,
+  EXPECT_THAT(runSwiftlet({"nodes", "--leaves", kSquareLibrary, "Square"}).out,
               AllOf(HasSubstr("Square: Flies round a square"), HasSubstr("side_m: a number in metres from 0.3 to 10")));
-  EXPECT_THAT(runSwiftlet({"nodes", "--leaves", kSquare, "--xml"}).out, HasSubstr("<Action ID=\"Square\">"));
-  EXPECT_THAT(runSwiftlet({"nodes", "--leaves", kSquare, "--xsd"}).out, HasSubstr("<xs:element name=\"Square\">"));
-  const ProgramEnd owners = runSwiftlet({"check", kMission, "--leaves", kSquare, "--mock-leaves"});
+  EXPECT_THAT(runSwiftlet({"nodes", "--leaves", kSquareLibrary, "--xml"}).out, HasSubstr("<Action ID=\"Square\">"));
+  EXPECT_THAT(runSwiftlet({"nodes", "--leaves", kSquareLibrary, "--xsd"}).out,
+              HasSubstr("<xs:element name=\"Square\">"));
+  const ProgramEnd owners = runSwiftlet({"check", kMission, "--leaves", kSquareLibrary, "--mock-leaves"});
   EXPECT_THAT(owners.out, HasSubstr("1 of --leaves: Square\n")) << describe(owners);
 }
 
 TEST_F(LeafLibraries, AreCheckedAsTheLeavesOfSwiftlet) {
   const std::string early = write("early.xml", missionWith("      <Square/>\n      <TakeOff/>\n      <Land/>\n"));
-  EXPECT_THAT(runSwiftlet({"check", early, "--leaves", kSquare}).err,
+  EXPECT_THAT(runSwiftlet({"check", early, "--leaves", kSquareLibrary}).err,
               HasSubstr("early.xml:4:7: Square: the vehicle stands on the floor here, expected a TakeOff before it"));
   const std::string near =
       write("near.xml", missionWith("      <TakeOff/>\n      <Square clearance_m=\"0\"/>\n      <Land/>\n"));
-  EXPECT_THAT(runSwiftlet({"check", near, "--leaves", kSquare}).err,
+  EXPECT_THAT(runSwiftlet({"check", near, "--leaves", kSquareLibrary}).err,
               HasSubstr("near.xml:5:15: Square.clearance_m: 0 m cannot be flown with this system"));
   const std::string script = write("square.script", "Square: RUNNING x2, SUCCESS\n");
-  const ProgramEnd dry = runSwiftlet({"check", kMission, "--leaves", kSquare, "--dry-run", script});
+  const ProgramEnd dry = runSwiftlet({"check", kMission, "--leaves", kSquareLibrary, "--dry-run", script});
   EXPECT_THAT(dry.out, HasSubstr("Square: RUNNING -> SUCCESS")) << describe(dry);
 }
 
 TEST_F(LeafLibraries, Fly) {
-  const ProgramEnd end = runSwiftlet(
-      {"fly", kMission, "--leaves", kSquare, "--headless", "--json", "--time-limit", "120", "--out", path("run")});
+  const ProgramEnd end = runSwiftlet({"fly", kMission, "--leaves", kSquareLibrary, "--headless", "--json",
+                                      "--time-limit", "120", "--out", path("run")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   EXPECT_THAT(test_support::readText(path("run/events.jsonl")), HasSubstr("Square"));
 }
@@ -75,7 +76,7 @@ TEST_F(LeafLibraries, AreRefusedWithTheReason) {
               HasSubstr("Wink: its port `times` has a default that it does not take"));
   EXPECT_THAT(refusal(library("other_number")),
               HasSubstr("Wink: its port `mode` has `fast` as number 1, which is 0 in scripts"));
-  const ProgramEnd twice = runSwiftlet({"nodes", "--leaves", kSquare, "--leaves", kSquare});
+  const ProgramEnd twice = runSwiftlet({"nodes", "--leaves", kSquareLibrary, "--leaves", kSquareLibrary});
   EXPECT_THAT(twice.err, HasSubstr("Square: there is a node of that name")) << describe(twice);
 }
 

@@ -12,7 +12,7 @@
 namespace swiftlet::control {
 namespace {
 
-constexpr double kDt_s = 0.01;
+constexpr double kCarrotDt_s = 0.01;
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 TEST(PathCarrot, SpeedsUpAndBrakesWithinItsAccelerationsAndEndsAtTheGoal) {
@@ -20,16 +20,17 @@ TEST(PathCarrot, SpeedsUpAndBrakesWithinItsAccelerationsAndEndsAtTheGoal) {
   carrot.lay({{0, 0, 1}, {2, 0, 1}}, {1.0, 0.8, 0.5, 0.12}, 0.96);
   double before_m_s = 0.0, fastest_m_s = 0.0;
   for (int i = 0; i < 1000 && carrot.remaining_m() > 0.0; ++i) {
-    const Carrot now = carrot.advance(kDt_s, 1.0);
+    const Carrot now = carrot.advance(kCarrotDt_s, 1.0);
     const double speed_m_s = now.velocity_odom_m_s.x();
-    EXPECT_LE(speed_m_s - before_m_s, 0.8 * kDt_s + 1e-9);
+    EXPECT_LE(speed_m_s - before_m_s, 0.8 * kCarrotDt_s + 1e-9);
     const bool ended = carrot.remaining_m() <= 0.0;
-    EXPECT_TRUE(ended || speed_m_s - before_m_s >= -0.96 * kDt_s - 1e-9) << "braking from " << before_m_s << " m/s";
+    EXPECT_TRUE(ended || speed_m_s - before_m_s >= -0.96 * kCarrotDt_s - 1e-9)
+        << "braking from " << before_m_s << " m/s";
     fastest_m_s = std::max(fastest_m_s, before_m_s = speed_m_s);
   }
   EXPECT_EQ(carrot.remaining_m(), 0.0);
   EXPECT_NEAR(fastest_m_s, 1.0, 1e-9);
-  EXPECT_EQ(carrot.advance(kDt_s, 1.0).position_odom_m, carrot.goal());
+  EXPECT_EQ(carrot.advance(kCarrotDt_s, 1.0).position_odom_m, carrot.goal());
 }
 
 TEST(PathCarrot, ALowerCapBrakesIt) {
@@ -37,15 +38,15 @@ TEST(PathCarrot, ALowerCapBrakesIt) {
   carrot.lay({{0, 0, 1}, {9, 0, 1}}, {1.0, 1.0, 0.5, 0.12}, 1.2);
   carrot.setSpeed(1.0);
   int ticks = 0;
-  while (carrot.advance(kDt_s, 0.4).velocity_odom_m_s.x() > 0.4) ++ticks;
-  EXPECT_NEAR(ticks * kDt_s, 0.6 / 1.2, 0.02);
+  while (carrot.advance(kCarrotDt_s, 0.4).velocity_odom_m_s.x() > 0.4) ++ticks;
+  EXPECT_NEAR(ticks * kCarrotDt_s, 0.6 / 1.2, 0.02);
 }
 
 TEST(PathCarrot, APointIsItsOwnGoal) {
   PathCarrot carrot;
   carrot.lay({{1, 2, 3}}, {1.0, 1.0, 0.5, 0.12}, 1.2);
   EXPECT_TRUE(carrot.line_m().isZero());
-  EXPECT_EQ(carrot.advance(kDt_s, kFree).position_odom_m, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(carrot.advance(kCarrotDt_s, kFree).position_odom_m, Eigen::Vector3d(1, 2, 3));
   carrot.move({1.0, 0.0, 0.0});
   EXPECT_EQ(carrot.goal(), Eigen::Vector3d(2, 2, 3));
 }
@@ -54,13 +55,13 @@ TEST(VelocityCarrot, ReversesAlongAStraightLine) {
   VelocityCarrot carrot({{0, 0, 1}, {0.5, 0, 0}, {0, 0, 0}});
   carrot.setTarget({-0.5, 0, 0}, 1.0);
   Carrot now;
-  for (int i = 0; i < 50; ++i) now = carrot.advance(kDt_s);
+  for (int i = 0; i < 50; ++i) now = carrot.advance(kCarrotDt_s);
   EXPECT_NEAR(now.velocity_odom_m_s.x(), 0.0, 1e-9);
   EXPECT_NEAR(now.position_odom_m.x(), 0.5 * 0.5 * 0.5, 1e-9);
-  for (int i = 0; i < 100; ++i) now = carrot.advance(kDt_s);
+  for (int i = 0; i < 100; ++i) now = carrot.advance(kCarrotDt_s);
   EXPECT_NEAR(now.velocity_odom_m_s.x(), -0.5, 1e-9);
   carrot.turn(M_PI / 2.0);
-  for (int i = 0; i < 200; ++i) now = carrot.advance(kDt_s);
+  for (int i = 0; i < 200; ++i) now = carrot.advance(kCarrotDt_s);
   EXPECT_NEAR(now.velocity_odom_m_s.y(), -0.5, 1e-9);
 }
 
@@ -69,9 +70,9 @@ double yawAfter(YawReference& yaw, const std::optional<Eigen::Vector3d>& ahead_m
   Reference reference;
   for (int i = 0; i < 300; ++i) {
     const double before_rad_s = reference.yaw_rate_rad_s;
-    yaw.advance(reference, ahead_m, looks, kDt_s);
+    yaw.advance(reference, ahead_m, looks, kCarrotDt_s);
     EXPECT_LE(std::abs(reference.yaw_rate_rad_s), 60.0 * common::kRadPerDeg + 1e-9);
-    EXPECT_LE(std::abs(reference.yaw_rate_rad_s - before_rad_s), 1.2 * 180.0 * common::kRadPerDeg * kDt_s + 1e-9);
+    EXPECT_LE(std::abs(reference.yaw_rate_rad_s - before_rad_s), 1.2 * 180.0 * common::kRadPerDeg * kCarrotDt_s + 1e-9);
   }
   return reference.yaw_odom_rad;
 }

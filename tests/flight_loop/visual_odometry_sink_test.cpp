@@ -5,6 +5,8 @@
 
 #include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
+#include "evaluation/figure_measures.hpp"
+#include "evaluation/flight_score.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 
 namespace swiftlet::apps {
@@ -47,14 +49,14 @@ TEST(VisualOdometrySink, TracksAFlightByItsCameraAloneAndCountsWhatItLoses) {
   for (const autonomy::TickOutcome& tick : witness.ticks)
     estimate.push_back({tick.state.stamp, tick.state.T_map_body()});
   const evaluation::VisualOdometryRecord record = sink.record();
-  const auto score = evaluation::scoreOf(record, estimate);
-  ASSERT_TRUE(score && score->rms_m);
+  evaluation::FlightScore score;
+  evaluation::measureVisualOdometry(record, estimate, score);
   EXPECT_GT(record.frames, 80u);
   EXPECT_EQ(record.body.size() + record.lost, record.frames);
   // With seeds 10 to 17 it is 0.04 to 0.27 m, and the rounding of another processor gives others of them. A map that
   // was lost or a step in the wrong direction is a metre off.
-  EXPECT_LT(*score->rms_m, 0.5);
-  EXPECT_LT(score->lost_share, 0.3) << "on the ground the floor is nearer than the camera measures";
+  EXPECT_LT(score["visual_odometry_rms_m"].value(), 0.5);
+  EXPECT_LT(score["visual_odometry_lost_share"].value(), 0.3) << "on the ground the floor is nearer than the camera measures";
 
   // The body and not the camera: from the same frames, the tracks differ by the mount, which is 10 cm and more off.
   const common::Trajectory camera_track = misplaced.record().body;

@@ -1,4 +1,4 @@
-// Unfinished work, machine paths, long files, names of tests, links, scripts and presets.
+// Unfinished work, machine paths, names of tests, links, scripts and presets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,13 +88,6 @@ TEST(Files, LibrariesUseNoClockRandomnessOrThreadsOfTheirOwn) {
     }
   }
   EXPECT_THAT(found, IsEmpty()) << joined(found);
-}
-
-TEST(Files, AreNotLong) {
-  for (const auto& [path, text] : trackedFiles()) {
-    if (!endsWithAny(path, {".cpp", ".hpp", ".js", ".mjs", ".css", ".sh"})) continue;
-    EXPECT_LE(linesOf(text).size(), 400U) << path << ": two subjects are two files";
-  }
 }
 
 /// What is wrong with the names of the tests in a file: "line: text".

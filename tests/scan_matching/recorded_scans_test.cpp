@@ -46,8 +46,8 @@ std::array<Agreement, 3> compareOn(interfaces::LaserLog& log, int stride) {
     const ProjectedScan first = projectedFrom(reference), second = projectedFrom(*logged);
     const Pose2 guess = odometryOf(reference).inverse() * odometryOf(*logged);
     CorrelativeMatcher correlative{{}};
-    GaussNewtonMatcher gauss_newton{{}};
-    PointToLineMatcher point_to_line{{}};
+    GaussNewtonMatcher gauss_newton;
+    PointToLineMatcher point_to_line;
     const std::array<ScanMatcher*, 3> matchers{&correlative, &gauss_newton, &point_to_line};
     MatchResult everywhere;
     for (std::size_t k = 0; k < matchers.size(); ++k) {
