@@ -116,8 +116,10 @@ int printActive(const FailsafeOptions& options) {
   std::vector<FindingKind> findings;
   for (const std::string& word : options.findings)
     findings.push_back(allFindings()[placeOf(word, known_findings, "finding")]);
-  showError(problems);
-  if (!problems.empty()) return kBadInput;
+  if (!problems.empty()) {
+    showError(problems);
+    return kBadInput;
+  }
   const Failsafe* active = control::activeFailsafe(findings, phase);
   std::string text =
       fmt::format("{}: {}\n", control::toString(phase), active == nullptr ? "nothing follows" : responseOf(*active));
@@ -135,6 +137,11 @@ int printActive(const FailsafeOptions& options) {
 }
 
 int printFailsafes(const FailsafeOptions& options) {
+  const int forms = int{options.markdown} + int{options.json};
+  if (forms > 1 || (forms == 1 && !options.findings.empty())) {
+    showError("failsafe: expected findings, or one of --markdown and --json\n");
+    return kBadInput;
+  }
   if (!options.findings.empty()) return printActive(options);
   show(options.markdown ? page() : options.json ? json() : table());
   return kDone;

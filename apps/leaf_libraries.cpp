@@ -46,6 +46,7 @@ std::string problemOf(const tree::NodeManifest& leaf, const tree::Registry& know
   if (!isName(leaf.id)) return "its name is not one of letters, digits and _";
   if (known.find(leaf.id) != nullptr || leaf.id == tree::subTreeManifest().id) return "there is a node of that name";
   if (leaf.description.empty()) return "its manifest has no description";
+  tree::Constants numbers = known.constants();
   for (auto port = leaf.ports.begin(); port != leaf.ports.end(); ++port) {
     const std::string whose = "its port `" + port->name + "` ";
     if (!isName(port->name)) return whose + "is not named by letters, digits and _";
@@ -54,10 +55,11 @@ std::string problemOf(const tree::NodeManifest& leaf, const tree::Registry& know
       if (const tree::ReadValue value = readValue(*port, *port->default_value); !value.value)
         return whose + "has a default that it does not take: " + value.problem;
     for (std::size_t i = 0; i < port->choices.size(); ++i) {
-      const auto number = known.constants().find(tree::constantOf(port->choices[i]));
-      if (number != known.constants().end() && number->second != static_cast<std::int64_t>(i))
+      const auto number = static_cast<std::int64_t>(i);
+      const std::int64_t known_number = numbers.emplace(tree::constantOf(port->choices[i]), number).first->second;
+      if (known_number != number)
         return whose +
-               fmt::format("has `{}` as number {}, which is {} in scripts", port->choices[i], i, number->second);
+               fmt::format("has `{}` as number {}, which is {} in scripts", port->choices[i], number, known_number);
     }
   }
   return {};
@@ -74,7 +76,7 @@ tree::Registry leavesOf(const std::string& file) {
            "build it against the installed libraries of this one");
   tree::Registry leaves;
   try {
-    library.add(leaves);
+    if (library.add != nullptr) library.add(leaves);
   } catch (const std::exception& error) {
     refuse(file, kEntry, error.what(), "");
   }

@@ -1,6 +1,5 @@
 #include "autonomy/supervisor.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -132,7 +131,7 @@ const Supervision& Supervisor::tick(Time now, VehicleCondition condition) {
   return supervision_;
 }
 
-/// A vehicle that lands for good does not begin anything else.
+/// Does and tells what the row of the finding says. A vehicle that lands for good is only told of more.
 void Supervisor::begin(Time now, const Finding& finding) {
   const Response response = control::failsafeFor(finding.what, control::phaseOf(flight_))->response;
   if (response == Response::kLand) return land(now, finding.why);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "autonomy/health/checks.hpp"
 #include "autonomy/health/health_monitor.hpp"

@@ -11,6 +11,7 @@
 #include <cstddef>
 
 #include "behaviors/flight_tick.hpp"
+#include "behaviors/leaf_traits.hpp"
 #include "behaviors/tree/registry.hpp"
 #include "common/intent.hpp"
 #include "common/world.hpp"
@@ -26,7 +27,8 @@ inline constexpr std::size_t kLeafLayout = [] {
   for (const std::size_t size :
        {sizeof(tree::Registry), sizeof(tree::NodeManifest), sizeof(tree::PortManifest), sizeof(tree::NodeSetup),
         sizeof(tree::PortBinding), sizeof(tree::Slot), sizeof(tree::Node), sizeof(FlightTick), sizeof(MissionMemory),
-        sizeof(Context), sizeof(common::World), sizeof(common::IntentKind), sizeof(common::MissionRequest)})
+        sizeof(Context), sizeof(LeafTraits), sizeof(common::World), sizeof(common::IntentKind),
+        sizeof(common::MissionRequest)})
     layout = 31 * layout + size;
   return layout;
 }();

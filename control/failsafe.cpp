@@ -217,7 +217,6 @@ std::string_view operatorCan(Response response) {
     case Response::kHold:
       return "land it, fly it by hand";
     case Response::kLand:
-      return "fly it by hand";
     case Response::kDescend:
       return "fly it by hand";
     case Response::kMotorsOff:

@@ -29,9 +29,9 @@ enum class FindingKind {
   kPilotSilent,         ///< A pilot who flies is not heard of.
   kHeightUnmeasured,    ///< The surface below is not measured.
   kPositionUncertain,
-  kChargeForHome,      ///< The charge still suffices for the flight home.
-  kHomeOutOfReach,     ///< It suffices no longer during the flight home.
-  kBatteryUnmeasured,  ///< Without a sample of the battery yet.
+  kChargeForHome,      ///< The charge suffices for the flight home and hardly for more.
+  kHomeOutOfReach,     ///< During the flight home: the charge suffices for it no longer.
+  kBatteryUnmeasured,  ///< The battery has sent no sample yet.
   kChargeBelow30,
   kChargeBelow20,
   kChargeCountedOn,  ///< The gauge gives nothing usable: the charge is the last one less the current drawn.
@@ -42,7 +42,7 @@ enum class Response {
   kNone,
   kWarn,
   kRefuseTakeOff,
-  kFlyHome,  ///< And lands there.
+  kFlyHome,  ///< It lands there.
   kFlyBack,  ///< Along its trail until height and position are known again.
   kHold,
   kLand,       ///< Where it is, for good.

@@ -209,8 +209,7 @@ common::Setpoint FlightController::setpointFor(const FlightTick& tick) {
   return setpoint;
 }
 
-// -------------------------------------------------------------------------------------- an estimate that cannot be
-// used
+// ------------------------------------------------------------------------------------- an estimate that cannot be used
 
 void FlightController::watch(const FlightTick& tick) {
   const common::Time now = clock_.now();
@@ -277,8 +276,7 @@ bool FlightController::velocityIsKnown() const {
          kDampedVelocitySigma_m_s * kDampedVelocitySigma_m_s;
 }
 
-// ------------------------------------------------------------------------------------------------ the states in the
-// air
+// ----------------------------------------------------------------------------------------------- the states in the air
 
 common::Setpoint FlightController::takeOff(const FlightTick& tick) {
   if (const auto share = vertical_.spoolUpShare(clock_.now())) {
@@ -367,8 +365,7 @@ Horizontal FlightController::horizontalFor(const FlightTick& tick) const {
   return damped ? Horizontal::kVelocity : Horizontal::kLevel;
 }
 
-// -------------------------------------------------------------------------------------------------- changes of the
-// state
+// ------------------------------------------------------------------------------------------------ changes of the state
 
 void FlightController::transition(FlightInput input, const std::string& reason) {
   const FlightState from = state();
@@ -447,8 +444,7 @@ void FlightController::beginAtVehicle() {
   vertical_.skipSpoolUp(clock_.now());
 }
 
-// -------------------------------------------------------------------------------------------------------- what is
-// known
+// ------------------------------------------------------------------------------------------------------- what is known
 
 double FlightController::bodyYaw_odom_rad() const { return common::yawOf(last_state_.T_odom_body.rotation); }
 

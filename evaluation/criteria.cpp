@@ -92,7 +92,7 @@ double Criteria::operator[](std::string_view key) const {
 
 bool Criteria::asksFor(std::string_view figure) const {
   const Criterion& criterion = flightFigure(figure).criterion;
-  return criterion.asks((*this)[criterion.key]);
+  return criterion.key != nullptr && criterion.asks((*this)[criterion.key]);
 }
 
 void Criteria::describe(common::config::Fields& fields) {

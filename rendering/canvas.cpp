@@ -81,6 +81,7 @@ class ShapeMask {
   }
 
   void paint(Color color, common::Image& image) const {
+    if (box_.empty()) return;
     for (int y = 0; y < box_.height; ++y) {
       const std::uint8_t *upper = covered_.ptr(kScale * y), *lower = covered_.ptr(kScale * y + 1);
       std::uint8_t* pixel = &image.rgb[3 * (static_cast<std::size_t>(box_.y + y) * image.width_px + box_.x)];

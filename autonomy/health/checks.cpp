@@ -7,7 +7,6 @@
 namespace swiftlet::autonomy {
 
 using common::Concern;
-using common::FlightState;
 using control::FindingKind;
 
 namespace {
@@ -126,9 +125,10 @@ std::string thrustSpentWhy(const Condition& condition, const Config& config) {
                      config.least_thrust_margin);
 }
 
-/// While nothing is seen at all, the rules of that come first: the mirror that looks down is part of the laser.
+/// While nothing is seen at all, this is not found, as the rules of that come first: the mirror that looks down is part
+/// of the laser. Nor does it end then, as the height is not known again.
 Reading heightUnmeasured(const Condition& condition, const Config&, bool active) {
-  if (condition.unseen_s > kUnseenHold_s) return {};
+  if (!active && condition.unseen_s > kUnseenHold_s) return {};
   return above(condition.vertical_age_s, active ? kHeightSeen_s : kHeightBack_s);
 }
 

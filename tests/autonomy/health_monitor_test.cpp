@@ -1,6 +1,8 @@
 // Findings: their hysteresis, their phases, and that each check has its row in the table of fail-safes.
 #include "autonomy/health/health_monitor.hpp"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::autonomy {
@@ -45,6 +47,30 @@ TEST_F(HealthStory, AnUncertainPositionEndsByANarrowerBoundAndAfterATime) {
   at(12.0);
   EXPECT_FALSE(finds(FindingKind::kPositionUncertain));
   EXPECT_EQ(monitor_.left(), std::vector{FindingKind::kPositionUncertain});
+}
+
+TEST_F(HealthStory, ASilentLaserNeitherFindsNorEndsAnUnmeasuredHeight) {
+  condition_.vertical_age_s = 0.6;
+  condition_.unseen_s = 0.4;
+  at(1.0);
+  EXPECT_FALSE(finds(FindingKind::kHeightUnmeasured));
+  condition_.unseen_s = 0.0;
+  at(2.0);
+  ASSERT_TRUE(finds(FindingKind::kHeightUnmeasured));
+  condition_.unseen_s = 0.4;
+  for (const double t_s : {3.0, 4.0, 5.0}) at(t_s);
+  ASSERT_TRUE(finds(FindingKind::kHeightUnmeasured)) << "the height is not known again";
+  EXPECT_FALSE(monitor_.find(FindingKind::kHeightUnmeasured)->reading.beyond) << "and does not land the vehicle";
+}
+
+TEST_F(HealthStory, WhatStoodBeforeTheTakeOffIsToldAnewInTheAir) {
+  condition_.energy.battery_remaining = 0.01;
+  at(1.0, common::FlightState::kPreparation);
+  ASSERT_TRUE(finds(FindingKind::kChargeSpent));
+  const std::string refusal = monitor_.find(FindingKind::kChargeSpent)->why;
+  at(2.0, common::FlightState::kTakingOff);
+  ASSERT_TRUE(finds(FindingKind::kChargeSpent));
+  EXPECT_NE(monitor_.find(FindingKind::kChargeSpent)->why, refusal);
 }
 
 TEST_F(HealthStory, WhatNeverEndsInAFlightEndsOnTheGround) {

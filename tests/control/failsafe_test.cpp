@@ -39,7 +39,7 @@ TEST(Failsafe, AFindingHasAtMostOneRowInAPhase) {
     }
 }
 
-TEST(Failsafe, WhatEndsALandingIsTheGround) {
+TEST(Failsafe, ALandingDoesNotEndInTheAir) {
   for (const Failsafe& row : failsafes())
     EXPECT_TRUE(row.response < Response::kLand || row.ends == Ends::kNever) << toString(row.finding);
 }

@@ -12,11 +12,29 @@ function itemOf({ finding, phases, response, ends, operator_can }) {
   return item;
 }
 
+/** What the list shows instead when the table cannot be had; it is asked for again when it is next opened. */
+function missingItem(reason) {
+  const item = document.createElement('li');
+  item.textContent = `The table of fail-safes cannot be read: ${reason}`;
+  return item;
+}
+
+async function readTable() {
+  const answer = await fetch('failsafes.json');
+  if (!answer.ok) throw new Error(`status ${answer.status}`);
+  return answer.json();
+}
+
 export function showFailsafesOnDemand(card) {
+  let known = false;
   card.addEventListener('toggle', async () => {
+    if (!card.open || known) return;
     const list = card.querySelector('ol');
-    if (!card.open || list.children.length > 0) return;
-    const answer = await fetch('failsafes.json');
-    if (answer.ok) list.replaceChildren(...(await answer.json()).map(itemOf));
+    try {
+      list.replaceChildren(...(await readTable()).map(itemOf));
+      known = true;
+    } catch (error) {
+      list.replaceChildren(missingItem(error.message));
+    }
   });
 }
