@@ -1,6 +1,7 @@
 // swiftlet failsafe: what the vehicle does about what is found to be wrong.
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ using control::FlightPhase;
 
 struct FailsafeOptions {
   std::vector<std::string> findings;
-  std::string phase = "flying";
+  std::string phase;  ///< Empty: flying for findings, all for the table.
   bool markdown = false;
   bool json = false;
 };
@@ -64,7 +65,7 @@ std::string page() {
       "| finding | when | the vehicle does | ends | the operator can |\n| --- | --- | --- | --- | --- |\n";
   for (const Failsafe& row : control::failsafes())
     text += fmt::format("| {} | {} | {} | {} | {} |\n", control::toString(row.finding), phasesOf(row), responseOf(row),
-                        control::toString(row.ends), control::operatorCan(row.response));
+                        control::toString(row.ends), control::operatorCan(row));
   text += "\n| finding | it is found when |\n| --- | --- |\n";
   for (const FindingKind finding : allFindings())
     text += fmt::format("| {} | {} |\n", control::toString(finding), control::meaning(finding));
@@ -82,20 +83,22 @@ std::string json() {
                     {"phases", phases},
                     {"response", responseOf(row)},
                     {"ends", control::toString(row.ends)},
-                    {"operator_can", control::operatorCan(row.response)}});
+                    {"operator_can", control::operatorCan(row)}});
   }
   return rows.dump(1) + "\n";
 }
 
-std::string table() {
+/// Of one phase, or of all.
+std::string table(const std::optional<FlightPhase>& phase) {
   std::string text = fmt::format("{:<21} {:<25} {:<45} {}\n", "finding", "ends", "the vehicle does", "when");
   for (const Failsafe& row : control::failsafes())
-    text += fmt::format("{:<21} {:<25} {:<45} {}\n", wordOf(control::toString(row.finding)),
-                        control::toString(row.ends), responseOf(row), phasesOf(row));
+    if (!phase || row.phases[static_cast<std::size_t>(*phase)])
+      text += fmt::format("{:<21} {:<25} {:<45} {}\n", wordOf(control::toString(row.finding)),
+                          control::toString(row.ends), responseOf(row), phasesOf(row));
   return text;
 }
 
-/// What is active when all of these are found, and what each would cause alone.
+/// What is active when all of these are found, and what each would cause alone; the table without any.
 int printActive(const FailsafeOptions& options) {
   std::vector<std::string> known_findings, known_phases;
   for (const FindingKind finding : allFindings()) known_findings.push_back(wordOf(control::toString(finding)));
@@ -112,20 +115,25 @@ int printActive(const FailsafeOptions& options) {
                   "\n";
     return static_cast<std::size_t>(found == known.end() ? 0 : found - known.begin());
   };
-  const FlightPhase phase = control::kFlightPhases[placeOf(options.phase, known_phases, "phase")];
+  const std::string word = options.phase.empty() ? "flying" : options.phase;
+  const FlightPhase phase = control::kFlightPhases[placeOf(word, known_phases, "phase")];
   std::vector<FindingKind> findings;
-  for (const std::string& word : options.findings)
-    findings.push_back(allFindings()[placeOf(word, known_findings, "finding")]);
+  for (const std::string& finding : options.findings)
+    findings.push_back(allFindings()[placeOf(finding, known_findings, "finding")]);
   if (!problems.empty()) {
     showError(problems);
     return kBadInput;
+  }
+  if (findings.empty()) {
+    show(table(options.phase.empty() ? std::nullopt : std::optional(phase)));
+    return kDone;
   }
   const Failsafe* active = control::activeFailsafe(findings, phase);
   std::string text =
       fmt::format("{}: {}\n", control::toString(phase), active == nullptr ? "nothing follows" : responseOf(*active));
   if (active != nullptr)
     text += fmt::format("  because of: {}\n  ends: {}\n  the operator can: {}\n", control::toString(active->finding),
-                        control::toString(active->ends), control::operatorCan(active->response));
+                        control::toString(active->ends), control::operatorCan(*active));
   for (const FindingKind finding : findings) {
     const Failsafe* row = control::failsafeFor(finding, phase);
     if (row == active) continue;
@@ -142,8 +150,8 @@ int printFailsafes(const FailsafeOptions& options) {
     showError("failsafe: expected findings, or one of --markdown and --json\n");
     return kBadInput;
   }
-  if (!options.findings.empty()) return printActive(options);
-  show(options.markdown ? page() : options.json ? json() : table());
+  if (forms == 0) return printActive(options);
+  show(options.markdown ? page() : json());
   return kDone;
 }
 
@@ -153,7 +161,9 @@ void addFailsafe(Command& program) {
   auto options = std::make_shared<FailsafeOptions>();
   Command command = program.command("failsafe", "Print what the vehicle does about what is found to be wrong.");
   command.optionalArguments("finding", options->findings, "Findings at the same time; the table of all without any.");
-  command.option("--phase", options->phase, "on-the-ground, taking-off, flying or landing.");
+  command.option(
+      "--phase", options->phase,
+      "on-the-ground, taking-off, flying or landing; flying for findings, all for the table when not given.");
   command.flag("--markdown", options->markdown, "The table as a page: docs/failsafes.md.");
   command.flag("--json", options->json, "The table for programs: web/console/failsafes.json.");
   command.footer("Example: swiftlet failsafe --phase flying surroundings-unseen charge-for-home");

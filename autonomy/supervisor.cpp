@@ -1,6 +1,7 @@
 #include "autonomy/supervisor.hpp"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,8 @@ std::string headlineOf(const Finding& finding, Response response) {
     case FindingKind::kChargeBelow30:
     case FindingKind::kChargeBelow20:
       return fmt::format("{:.0f} % of the battery left", 100.0 * finding.reading.value);
+    case FindingKind::kHomeOutOfReach:
+      return "home is out of reach";
     case FindingKind::kChargeCountedOn:
       return "the charge is counted on by the current";
     default:
@@ -120,12 +123,14 @@ const Supervision& Supervisor::tick(Time now, VehicleCondition condition) {
   for (const FindingKind what : health_.left()) end(now, what);
   followPlace(now);
 
-  supervision_.unseen = !blindness().empty();
+  supervision_.unseen = health_.find(FindingKind::kSurroundingsUnseen) != nullptr;
   supervision_.hold_reason = holdReason();
   supervision_.hold = !supervision_.hold_reason.empty();
-  const bool may_fly = !supervision_.unseen && !pilot_flies_ && !operator_holds_;
-  supervision_.back = may_fly && flies_back_ ? flights_back_ : 0;
-  supervision_.home = home_.active && may_fly && !flies_back_ ? home_.count : 0;
+  const Response response = activeResponse();
+  const bool may_fly = !pilot_flies_ && !operator_holds_;
+  supervision_.back = may_fly && response == Response::kFlyBack ? flights_back_ : 0;
+  // The operator's flight home is none of the table's, and goes on as long as nothing above it is active.
+  supervision_.home = may_fly && home_.active && response <= Response::kFlyHome ? home_.count : 0;
   supervision_.take_off_refusal = takeOffRefusal();
   supervision_.flown_by = flownBy();
   return supervision_;
@@ -133,16 +138,15 @@ const Supervision& Supervisor::tick(Time now, VehicleCondition condition) {
 
 /// Does and tells what the row of the finding says. A vehicle that lands for good is only told of more.
 void Supervisor::begin(Time now, const Finding& finding) {
-  const Response response = control::failsafeFor(finding.what, control::phaseOf(flight_))->response;
+  const control::Failsafe& row = *control::failsafeFor(finding.what, control::phaseOf(flight_));
+  const Response response = row.response;
   if (response == Response::kLand) return land(now, finding.why);
   if (response == Response::kFlyBack) return;  // Of two that are unknown one begins the flight: followPlace.
   if (response == Response::kFlyHome) startHome(finding.why);
   // After the pilot's last sample it is unknown who flies. A hold is right for both: a pilot's sticks override it, and
   // without a pilot the vehicle stays where it is, instead of going on with the mission that the pilot took it from.
-  if (finding.what == FindingKind::kPilotSilent) {
-    pilot_flies_ = false;
-    operator_holds_ = true;
-  }
+  if (finding.what == FindingKind::kPilotSilent) pilot_flies_ = false;
+  if (row.ends == control::Ends::kOnResume) operator_holds_ = true;
   log_.warn(now, kSupervisor, headlineOf(finding, response), finding.why, finding.concern);
 }
 
@@ -172,9 +176,16 @@ const Finding* Supervisor::unknownPlace() const {
   return nullptr;
 }
 
-/// Why the vehicle must stop where it is, because it sees nothing; empty if it need not.
-std::string Supervisor::blindness() const {
-  return health_.find(FindingKind::kSurroundingsUnseen) != nullptr ? "the laser is silent" : "";
+/// That of the highest row of the table among the findings. A flight back that has ended is not active though its
+/// finding remains for a moment.
+Response Supervisor::activeResponse() const {
+  std::vector<FindingKind> found;
+  for (const Finding& finding : health_.findings()) {
+    const control::Failsafe* row = control::failsafeFor(finding.what, control::phaseOf(flight_));
+    if (flies_back_ || row->response != Response::kFlyBack) found.push_back(finding.what);
+  }
+  const control::Failsafe* row = control::activeFailsafe(found, control::phaseOf(flight_));
+  return row == nullptr ? Response::kNone : row->response;
 }
 
 std::string Supervisor::takeOffRefusal() const {
@@ -193,7 +204,7 @@ void Supervisor::backEnded(Time now) {
 
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
-  if (const std::string blind = blindness(); !blind.empty()) return blind;
+  if (supervision_.unseen) return "the laser is silent";
   if (operator_holds_)
     return flies_back_ ? "the operator holds, and it would fly back along its trail" : "the operator holds";
   if (flies_back_) return "it flies back along its trail";

@@ -93,7 +93,7 @@ class Supervisor {
   void end(common::Time now, control::FindingKind what);
   void followPlace(common::Time now);
   const Finding* unknownPlace() const;
-  std::string blindness() const;
+  control::Response activeResponse() const;
   std::string takeOffRefusal() const;
   void startHome(std::string reason, AtHome then = AtHome::kHold);
   common::CommandResult resume(std::uint64_t id);

@@ -204,8 +204,9 @@ std::string_view toString(Ends ends) {
   return {};
 }
 
-std::string_view operatorCan(Response response) {
-  switch (response) {
+std::string_view operatorCan(const Failsafe& row) {
+  if (row.ends == Ends::kOnResume) return "resume, land it, fly it by hand";
+  switch (row.response) {
     case Response::kNone:
     case Response::kWarn:
       return "everything";
@@ -222,7 +223,7 @@ std::string_view operatorCan(Response response) {
     case Response::kMotorsOff:
       return "mend the cause";
   }
-  SWIFTLET_CHECK(false, static_cast<int>(response));
+  SWIFTLET_CHECK(false, static_cast<int>(row.response));
   return {};
 }
 

@@ -93,6 +93,6 @@ std::string_view toString(FlightPhase phase);
 /// "with the finding".
 std::string_view toString(Ends ends);
 /// What the operator can do meanwhile.
-std::string_view operatorCan(Response response);
+std::string_view operatorCan(const Failsafe& row);
 
 }  // namespace swiftlet::control

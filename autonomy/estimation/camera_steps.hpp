@@ -20,6 +20,8 @@ class CameraSteps {
   /// A tracked frame whose pose is that of `time`, by the flight's clock.
   void add(common::Time time, const mapping3d::MovingBody& body, const mapping3d::MappedFrame& mapped,
            const common::KeyPoses& keys, const mapping3d::CameraCalibration& calibration);
+  /// A tracked frame at whose time the motion of the body is not known: it measures nothing.
+  void addUnplaced() { step_ = CameraStep{}; }
   /// The measurement of the last frame; nullopt if it was taken before, or without a new frame.
   std::optional<CameraStep> take() { return std::exchange(step_, std::nullopt); }
   /// The filter no longer has the clone from which the measurements start.

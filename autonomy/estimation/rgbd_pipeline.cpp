@@ -101,6 +101,8 @@ void RgbdPipeline::measure(const Outcome& outcome, Time now) {
   }
   if (outcome.body)
     steps_.add(outcome.time, outcome.body->motion, outcome.mapped, *outcome.scans, calibration_.calibration());
+  else
+    steps_.addUnplaced();
 }
 
 std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_ptr<const common::KeyPoses>& keys) {

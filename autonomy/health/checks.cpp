@@ -166,7 +166,9 @@ constexpr Check kAllChecks[] = {
     {FindingKind::kThrustSpent, kThrustMargin_s, 0.0, thrustSpent, thrustSpentWhy, Concern::kLanding},
     {FindingKind::kChargeSpent, 0.0, 0.0, chargeSpent, chargeSpentWhy, Concern::kLanding},
     {FindingKind::kBatteryUnmeasured, 0.0, 0.0,
-     [](const Condition& c, const Config&, bool) { return atMost(c.energy.battery_voltage_v, 0.0); },
+     [](const Condition& c, const Config&, bool) {
+       return Reading{c.energy.battery_voltage_v, 0.0, !(c.energy.battery_voltage_v > 0.0)};
+     },
      [](const Condition&, const Config&) { return std::string("the battery has not been measured"); }, Concern::kNone},
     {FindingKind::kHeightUnmeasured, 0.0, kKnownAgain_s, heightUnmeasured,
      [](const Condition& c, const Config&) {

@@ -55,7 +55,7 @@ struct Finding {
   control::FindingKind what;
   Reading reading;  ///< Of now, against the bound at which it began.
   common::Time since;
-  std::string why;  ///< For people, with the figures at its beginning.
+  std::string why;  ///< For people, with the figures of when it last was beyond its bound.
   common::Concern concern;
 
   bool operator==(control::FindingKind kind) const { return what == kind; }

@@ -37,10 +37,10 @@ void HealthMonitor::update(common::Time now, const VehicleCondition& condition) 
     if (edge == Edge::kLeft) left_.push_back(check.what);
     if (!state.active()) continue;
     const auto known = std::find(before.begin(), before.end(), check.what);
-    // What stood before a take-off is told anew in the air, as the bounds differ.
-    const bool is_new = edge == Edge::kEntered || known == before.end();
+    // What is within its bound again, but not for long enough, is told as it last was beyond it.
+    const bool is_told_now = reading.beyond || known == before.end();
     findings_.push_back(
-        {check.what, reading, state.since(), is_new ? check.why(condition, config_) : known->why, check.concern});
+        {check.what, reading, state.since(), is_told_now ? check.why(condition, config_) : known->why, check.concern});
     if (edge == Edge::kEntered) entered_.push_back(findings_.back());
   }
 }

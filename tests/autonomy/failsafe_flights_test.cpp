@@ -1,6 +1,7 @@
 // The table of fail-safes in the air: a fault that causes a finding begins in a phase of a flight, and what the vehicle
 // does is compared with the row of that finding and phase. Twelve cells are drawn by a seed; SWIFTLET_ALL_FAILSAFES=1
-// flies all of them.
+// flies all that a single fault can cause in a room. What it cannot (a lost or uncertain position, a spent thrust, home
+// out of reach) is told to the supervisor in supervisor_test.cpp.
 #include <algorithm>
 #include <cstdlib>
 #include <limits>

@@ -3,6 +3,9 @@
 
 #include <string>
 
+#include <algorithm>
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::autonomy {
@@ -83,6 +86,16 @@ TEST_F(HealthStory, WhatNeverEndsInAFlightEndsOnTheGround) {
   at(3.0, common::FlightState::kLanded);
   at(4.0);
   EXPECT_FALSE(finds(FindingKind::kChargeBelow30));
+}
+
+TEST_F(HealthStory, EachRowIsFoundBySomebody) {
+  using enum FindingKind;
+  const std::set<FindingKind> of_the_flight_controller{kEstimateDiverged, kHeightLost, kInertialUnusable,
+                                                       kHorizontalLost};
+  for (const control::Failsafe& row : control::failsafes()) {
+    const bool found = std::ranges::any_of(checks(), [&](const Check& check) { return check.what == row.finding; });
+    EXPECT_NE(found, of_the_flight_controller.contains(row.finding)) << control::toString(row.finding);
+  }
 }
 
 TEST_F(HealthStory, EachCheckHasARowAndEachPhaseItsOwn) {

@@ -252,7 +252,7 @@ TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
   at(4.0);
   const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "home out of reach");
+  EXPECT_EQ(events[0].text, "home is out of reach");
   EXPECT_EQ(events[0].reason, "10 % to fly 20.0 m home, 7 % left to fly with: it lands on the way");
 }
 

@@ -7,7 +7,7 @@
 namespace swiftlet::repository {
 namespace {
 
-/// Without comments and the contents of strings.
+/// Without comments, characters and the contents of strings.
 std::string codeOf(const std::string& text) {
   std::string code;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -15,6 +15,8 @@ std::string codeOf(const std::string& text) {
       i = std::min(text.find('\n', i), text.size()) - 1;
     } else if (text.compare(i, 2, "/*") == 0) {
       i = std::min(text.find("*/", i), text.size() - 2) + 1;
+    } else if (text[i] == '\'' && i + 2 < text.size() && (text[i + 2] == '\'' || text[i + 1] == '\\')) {
+      i = text.find('\'', i + (text[i + 1] == '\\' ? 3 : 2));  // Not the mark between digits of a number.
     } else if (text[i] == '"') {
       for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\' ? 1 : 0;
     } else {
