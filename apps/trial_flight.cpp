@@ -15,6 +15,7 @@
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "evaluation/flight_scoring.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/files/unusable_folder.hpp"
 #include "interfaces/run_folder.hpp"

@@ -4,7 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "evaluation/flight_recorder.hpp"
 #include "evaluation/flight_score.hpp"
+#include "evaluation/true_world.hpp"
 
 namespace swiftlet::evaluation {
 

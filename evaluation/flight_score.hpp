@@ -1,4 +1,4 @@
-// The figures of one flight, and whether they are good enough.
+// The figures of one flight, and which of them are not good enough.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "common/machine_use.hpp"
-#include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/marker_errors.hpp"
-#include "evaluation/true_world.hpp"
 #include "evaluation/verdict.hpp"
 
 namespace swiftlet::evaluation {
@@ -58,10 +56,6 @@ struct FlightScore {
 
   std::map<std::string, std::optional<double>, std::less<>> measured = {};  ///< Read them with figure().
 };
-
-/// `wall_time_s` is the computing time; 0 if not known.
-FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
-                    double wall_time_s, const common::MachineUse& machine = {});
 
 /// The measured figures by their names, those of phases too, for the report of the flight; coverage is stored
 /// separately there.

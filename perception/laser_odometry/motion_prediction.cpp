@@ -13,6 +13,8 @@
 namespace swiftlet::perception {
 namespace {
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
 using common::kRadPerDeg;
 using common::Pose2;
 using common::square;
@@ -73,12 +75,12 @@ double MotionPrediction::stepSigma_rad() const { return sigma_rad(best()); }
 std::optional<MotionPrediction::Alternative> MotionPrediction::alternative() const {
   const Source* source = other();
   if (source == nullptr) return std::nullopt;
-  return Alternative{before_ * *source->step, sigma_m(*source), sigma_rad(*source)};
+  return Alternative{before_.pose * *source->step, sigma_m(*source), sigma_rad(*source)};
 }
 
 void MotionPrediction::takeAlternative() {
-  velocity_ = velocity_before_;
-  covariance_ = covariance_before_;
+  now_.velocity = before_.velocity;
+  now_.covariance = before_.covariance;
   follow(*other());
 }
 
@@ -93,29 +95,29 @@ void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double 
       wheels_.step.reset();
     }
   }
-  const Eigen::Vector3d coasted = std::min(elapsed_s_, kLongestCoast_s) * velocity_;
+  const Eigen::Vector3d coasted = std::min(elapsed_s_, kLongestCoast_s) * now_.velocity;
   inertia_.step = Pose2{coasted.x(), coasted.y(), coasted.z()};
 
-  before_ = pose_;
-  velocity_before_ = velocity_;
-  covariance_before_ = covariance_;
+  before_.pose = now_.pose;
+  before_.velocity = now_.velocity;
+  before_.covariance = now_.covariance;
   follow(best());
 }
 
 void MotionPrediction::follow(const Source& source) {
   const double dt = elapsed_s_;
   const Pose2& step = *source.step;
-  pose_ = before_ * step;
+  now_.pose = before_.pose * step;
   Matrix6d move = Matrix6d::Identity();
-  const Eigen::Vector2d moved_m = pose_.position_m() - before_.position_m();
+  const Eigen::Vector2d moved_m = now_.pose.position_m() - before_.pose.position_m();
   move.block<2, 1>(0, 2) = Eigen::Vector2d(-moved_m.y(), moved_m.x());
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(before_.yaw_rad).toRotationMatrix();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(before_.pose.yaw_rad).toRotationMatrix();
   // The Jacobian of the state by the step.
   Eigen::Matrix<double, 6, 3> by_step;
   by_step << turn, Eigen::Matrix3d::Identity() / dt;
   if (&source == &wheels_) {
-    velocity_ = Eigen::Vector3d(step.x_m, step.y_m, step.yaw_rad) / dt;
+    now_.velocity = Eigen::Vector3d(step.x_m, step.y_m, step.yaw_rad) / dt;
     move.bottomRightCorner<3, 3>().setZero();
   } else {
     move.topRightCorner<3, 3>() = turn * dt;
@@ -123,24 +125,24 @@ void MotionPrediction::follow(const Source& source) {
   const double position_m =
       &source == &wheels_ ? sigma_m(source) : std::max(sigma_m(source), kAcceleration_m_s2 * dt * dt);
   const Eigen::Vector3d variances(square(position_m), square(position_m), square(sigma_rad(source)));
-  covariance_ = move * covariance_ * move.transpose() + by_step * variances.asDiagonal() * by_step.transpose();
+  now_.covariance = move * now_.covariance * move.transpose() + by_step * variances.asDiagonal() * by_step.transpose();
 }
 
 void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& covariance,
                                const std::optional<Eigen::Vector2d>& unobservable_direction) {
   const Eigen::Matrix<double, 6, 3> gain =
-      covariance_.leftCols<3>() * (covariance_.topLeftCorner<3, 3>() + covariance).inverse();
-  const Eigen::Vector3d off(matched.x_m - pose_.x_m, matched.y_m - pose_.y_m,
-                            common::wrapAngle(matched.yaw_rad - pose_.yaw_rad));
+      now_.covariance.leftCols<3>() * (now_.covariance.topLeftCorner<3, 3>() + covariance).inverse();
+  const Eigen::Vector3d off(matched.x_m - now_.pose.x_m, matched.y_m - now_.pose.y_m,
+                            common::wrapAngle(matched.yaw_rad - now_.pose.yaw_rad));
   const Eigen::Matrix<double, 6, 1> change = gain * off;
-  pose_ = {pose_.x_m + change(0), pose_.y_m + change(1), common::wrapAngle(pose_.yaw_rad + change(2))};
-  velocity_ += change.tail<3>();
-  covariance_ -= gain * covariance_.topRows<3>();
-  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+  now_.pose = {now_.pose.x_m + change(0), now_.pose.y_m + change(1), common::wrapAngle(now_.pose.yaw_rad + change(2))};
+  now_.velocity += change.tail<3>();
+  now_.covariance -= gain * now_.covariance.topRows<3>();
+  now_.covariance = 0.5 * (now_.covariance + now_.covariance.transpose()).eval();
 
   std::optional<Eigen::Vector2d> unobservable_before;
-  if (unobservable_direction) unobservable_before = Eigen::Rotation2Dd(-before_.yaw_rad) * *unobservable_direction;
-  const Pose2 step = between(before_, matched);
+  if (unobservable_direction) unobservable_before = Eigen::Rotation2Dd(-before_.pose.yaw_rad) * *unobservable_direction;
+  const Pose2 step = between(before_.pose, matched);
   learn(wheels_, step, unobservable_before);
   learn(inertia_, step, unobservable_before);
 }
@@ -165,17 +167,17 @@ void MotionPrediction::learn(Source& source, const Pose2& step,
 }
 
 void MotionPrediction::lose(double sought_m, double sought_rad) {
-  velocity_ *= 0.5;
+  now_.velocity *= 0.5;
   if (&best() == &inertia_)
-    covariance_.diagonal().head<3>() += Eigen::Vector3d(square(sought_m), square(sought_m), square(sought_rad));
-  for (int i = 0; i < 2; ++i) covariance_(3 + i, 3 + i) += square(stepSigma_m() / elapsed_s_);
-  covariance_(5, 5) += square(stepSigma_rad() / elapsed_s_);
+    now_.covariance.diagonal().head<3>() += Eigen::Vector3d(square(sought_m), square(sought_m), square(sought_rad));
+  for (int i = 0; i < 2; ++i) now_.covariance(3 + i, 3 + i) += square(stepSigma_m() / elapsed_s_);
+  now_.covariance(5, 5) += square(stepSigma_rad() / elapsed_s_);
 }
 
 void MotionPrediction::rebase() {
-  pose_ = Pose2{};
-  covariance_.topRows<3>().setZero();
-  covariance_.leftCols<3>().setZero();
+  now_.pose = Pose2{};
+  now_.covariance.topRows<3>().setZero();
+  now_.covariance.leftCols<3>().setZero();
 }
 
 }  // namespace swiftlet::perception

@@ -17,6 +17,13 @@ struct MotionPredictionConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// Pose and velocity of the robot at a scan, with their covariance.
+struct MotionState {
+  common::Pose2 pose;                                  ///< In the frame of the reference.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< (m/s, m/s, rad/s), axes of the robot.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
 /// A filter of pose and velocity relative to a reference scan, to which the other scans are matched. Not thread-safe.
 class MotionPrediction {
  public:
@@ -46,9 +53,9 @@ class MotionPrediction {
   /// Makes the robot's present pose the reference of all poses.
   void rebase();
 
-  const common::Pose2& T_reference_robot() const { return pose_; }
+  const common::Pose2& T_reference_robot() const { return now_.pose; }
   /// The covariance of the additive errors (x_m, y_m, yaw_rad) of the pose, axes of the reference.
-  Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
+  Eigen::Matrix3d covariance() const { return now_.covariance.topLeftCorner<3, 3>(); }
   /// Standard deviation of the last prediction in each direction, from the errors of earlier ones.
   double stepSigma_m() const;
   double stepSigma_rad() const;
@@ -56,7 +63,6 @@ class MotionPrediction {
   std::uint64_t implausibleSteps() const { return implausible_steps_; }
 
  private:
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
   struct Source {
     std::optional<common::Pose2> step;  ///< The predicted step, T_before_now; nullopt if not available.
     double variance_m2 = 0.0, variance_rad2 = 0.0;
@@ -74,13 +80,7 @@ class MotionPrediction {
   std::optional<common::Pose2> T_odom_robot_;
   std::uint64_t implausible_steps_ = 0;
   double elapsed_s_ = 0.0;
-  common::Pose2 before_;  ///< The pose at the previous scan.
-
-  common::Pose2 pose_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< (m/s, m/s, rad/s), axes of the robot.
-  Matrix6d covariance_ = Matrix6d::Zero();              ///< Of pose and velocity.
-  Eigen::Vector3d velocity_before_ = Eigen::Vector3d::Zero();
-  Matrix6d covariance_before_ = Matrix6d::Zero();
+  MotionState now_, before_;  ///< At the present scan, and at the previous one.
 };
 
 }  // namespace swiftlet::perception

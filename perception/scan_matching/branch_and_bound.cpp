@@ -85,7 +85,7 @@ int BranchAndBound::leastPenalty(const GuessPenalty& penalty, const PoseGrid& gr
 }
 
 const std::vector<std::int32_t>& BranchAndBound::offsetsAt(const LikelihoodField& field, int rotation, int level) {
-  Rotation& r = rotations_[static_cast<std::size_t>(rotation)];
+  RotatedCells& r = rotations_[static_cast<std::size_t>(rotation)];
   std::vector<std::int32_t>& offsets = r.offsets[static_cast<std::size_t>(level)];
   if (r.has_offsets[static_cast<std::size_t>(level)]) return offsets;
   const int stride = field.level(level).stride;
@@ -140,8 +140,8 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   const auto nodeAt = [&](std::size_t i) {
     const auto index = static_cast<std::int32_t>(i);
     const std::int32_t row = index / blocks;
-    return Node{bounds_[i], index, static_cast<std::int16_t>(row / blocks), static_cast<std::int16_t>(index % blocks),
-                static_cast<std::int16_t>(row % blocks)};
+    return SearchNode{bounds_[i], index, static_cast<std::int16_t>(row / blocks),
+                      static_cast<std::int16_t>(index % blocks), static_cast<std::int16_t>(row % blocks)};
   };
   const auto greatest = std::max_element(bounds_.begin(), bounds_.end());
   descend(field, nodeAt(static_cast<std::size_t>(greatest - bounds_.begin())), top, grid, best);
@@ -149,7 +149,7 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   for (std::size_t i = 0; i < bounds_.size(); ++i)
     if (bounds_[i] > best.score) nodes_.push_back(nodeAt(i));
   // A heap is cheaper than sorting, because most nodes are never examined.
-  const auto isWorse = [](const Node& a, const Node& b) { return b.isBetter(a); };
+  const auto isWorse = [](const SearchNode& a, const SearchNode& b) { return b.isBetter(a); };
   std::make_heap(nodes_.begin(), nodes_.end(), isWorse);
   while (!nodes_.empty() && nodes_.front().bound > best.score) {
     descend(field, nodes_.front(), top, grid, best);
@@ -174,7 +174,7 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
   std::vector<std::uint16_t> sums(size * kWindowColumns);
   bounds_.resize(static_cast<std::size_t>(grid.rotations) * size * size);
   for (int k = 0; k < grid.rotations; ++k) {
-    Rotation& r = rotations_[static_cast<std::size_t>(k)];
+    RotatedCells& r = rotations_[static_cast<std::size_t>(k)];
     r.has_offsets.fill(false);
     cellsAt(field, x_m_, y_m_, grid.first_yaw_rad + k * grid.step_yaw_rad, grid.first_x_m, grid.first_y_m, border,
             r.x_cells, r.y_cells);
@@ -194,7 +194,7 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
 }
 
 /// Whether all poses of the block are excluded.
-bool BranchAndBound::isExcluded(const Node& node, int level) const {
+bool BranchAndBound::isExcluded(const SearchNode& node, int level) const {
   const int half = excluded_->half_translation, last = (1 << level) - 1;
   const int x = node.x << level, y = node.y << level;
   const int apart = std::abs(node.rotation - excluded_->center.rotation);
@@ -203,7 +203,7 @@ bool BranchAndBound::isExcluded(const Node& node, int level) const {
          y + last <= excluded_->center.y + half;
 }
 
-void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int level, const PoseGrid& grid,
+void BranchAndBound::descend(const LikelihoodField& field, const SearchNode& node, int level, const PoseGrid& grid,
                              BestPose& best) {
   if (node.bound <= best.score || (excluded_ != nullptr && isExcluded(node, level))) return;
   if (level == 0) {
@@ -215,7 +215,7 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
   std::array<std::uint16_t, 2 * kWindowColumns> sums;
   sumWindows(instructions_, finer.cells + 2 * (static_cast<std::ptrdiff_t>(node.y) * finer.stride + node.x),
              finer.stride, offsets, 2, sums.data());
-  std::array<Node, 4> children;
+  std::array<SearchNode, 4> children;
   std::size_t count = 0;
   for (int i = 0; i < 4; ++i) {
     const int dx = i % 2, dy = i / 2;
@@ -225,7 +225,7 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
     if (bound <= best.score || first_x >= grid.translations || first_y >= grid.translations) continue;
     bound -= leastPenalty(penalty_, grid, first_x, first_y, node.rotation, level - 1);
     if (bound <= best.score) continue;
-    const Node child{bound, i, node.rotation, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
+    const SearchNode child{bound, i, node.rotation, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
     std::size_t place = count++;
     for (; place > 0 && child.isBetter(children[place - 1]); --place) children[place] = children[place - 1];
     children[place] = child;

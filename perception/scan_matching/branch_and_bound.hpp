@@ -59,6 +59,27 @@ struct ExcludedPoses {
   int half_rotation = 0;
 };
 
+/// A block of poses in the search, with the bound of their scores.
+struct SearchNode {
+  std::int32_t bound = 0;
+  std::int32_t order = 0;  // Breaks ties.
+  std::int16_t rotation = 0;
+  std::int16_t x = 0;
+  std::int16_t y = 0;
+
+  bool isBetter(const SearchNode& other) const {
+    return bound != other.bound ? bound > other.bound : order < other.order;
+  }
+};
+
+/// The cells of the points at one rotation, and their offsets at each level.
+struct RotatedCells {
+  std::vector<std::int32_t> x_cells;
+  std::vector<std::int32_t> y_cells;
+  std::array<std::vector<std::int32_t>, LikelihoodField::kLevels> offsets;
+  std::array<bool, LikelihoodField::kLevels> has_offsets{};
+};
+
 /// Keeps its buffers between searches. Not thread-safe.
 class BranchAndBound {
  public:
@@ -87,38 +108,22 @@ class BranchAndBound {
   static int leastPenalty(const GuessPenalty& penalty, const PoseGrid& grid, int x, int y, int rotation, int level);
 
  private:
-  struct Node {
-    std::int32_t bound = 0;
-    std::int32_t order = 0;  // Breaks ties.
-    std::int16_t rotation = 0;
-    std::int16_t x = 0;
-    std::int16_t y = 0;
-
-    bool isBetter(const Node& other) const { return bound != other.bound ? bound > other.bound : order < other.order; }
-  };
-  struct Rotation {
-    std::vector<std::int32_t> x_cells;
-    std::vector<std::int32_t> y_cells;
-    std::array<std::vector<std::int32_t>, LikelihoodField::kLevels> offsets;
-    std::array<bool, LikelihoodField::kLevels> has_offsets{};
-  };
-
   void boundTopLevel(const LikelihoodField& field, const PoseGrid& grid, int top, int blocks, int border);
   const std::vector<std::int32_t>& offsetsAt(const LikelihoodField& field, int rotation, int level);
   BestPose searchFrom(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                       BestPose best);
-  bool isExcluded(const Node& node, int level) const;
-  void descend(const LikelihoodField& field, const Node& node, int level, const PoseGrid& grid, BestPose& best);
+  bool isExcluded(const SearchNode& node, int level) const;
+  void descend(const LikelihoodField& field, const SearchNode& node, int level, const PoseGrid& grid, BestPose& best);
 
   Instructions instructions_;
   const ExcludedPoses* excluded_ = nullptr;  // Set only during searchElsewhere().
   int steps_per_turn_ = 0;                   // Rotation steps in a full turn; valid with excluded_.
   GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
-  std::vector<Rotation> rotations_;
+  std::vector<RotatedCells> rotations_;
   std::vector<double> block_shares_;  // Translation part of the penalty of each top-level block.
   std::vector<std::int32_t> bounds_;
-  std::vector<Node> nodes_;
+  std::vector<SearchNode> nodes_;
 };
 
 }  // namespace swiftlet::perception

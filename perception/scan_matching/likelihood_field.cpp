@@ -172,15 +172,15 @@ void LikelihoodField::markTile(int tile) {
 
 void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int border) {
   if (drawn_) {
-    min_x = std::min(min_x, min_x_);
-    min_y = std::min(min_y, min_y_);
-    max_x = std::max(max_x, max_x_);
-    max_y = std::max(max_y, max_y_);
+    min_x = std::min(min_x, extent_.min_x);
+    min_y = std::min(min_y, extent_.min_y);
+    max_x = std::max(max_x, extent_.max_x);
+    max_y = std::max(max_y, extent_.max_y);
   }
-  min_x_ = min_x;
-  min_y_ = min_y;
-  max_x_ = max_x;
-  max_y_ = max_y;
+  extent_.min_x = min_x;
+  extent_.min_y = min_y;
+  extent_.max_x = max_x;
+  extent_.max_y = max_y;
   border_ = std::max(border_, border);
   if (width_ > 0 && min_x - border_ >= begin_x_ && min_y - border_ >= begin_y_ && max_x + border_ < begin_x_ + width_ &&
       max_y + border_ < begin_y_ + height_)
@@ -230,7 +230,7 @@ void LikelihoodField::prepare(int top_level, int border) {
   SWIFTLET_CHECK(top_level < kLevels, top_level);
   if (!drawn_) return;
   prepared_top_ = std::max(prepared_top_, top_level);
-  if (border > border_) reserve(min_x_, min_y_, max_x_, max_y_, border);
+  if (border > border_) reserve(extent_.min_x, extent_.min_y, extent_.max_x, extent_.max_y, border);
   for (int k = 1; k <= top_level; ++k) {
     for (const int tile : drawn_tiles_) {
       std::uint8_t& levels = tile_levels_[static_cast<std::size_t>(tile)];

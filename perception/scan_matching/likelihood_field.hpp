@@ -17,6 +17,11 @@
 
 namespace swiftlet::perception {
 
+/// A rectangle of cells; the greatest ones belong to it.
+struct CellExtent {
+  int min_x = 0, min_y = 0, max_x = 0, max_y = 0;
+};
+
 /// Not thread-safe. A pointer from `level` is valid until the next non-const call.
 class LikelihoodField {
  public:
@@ -75,8 +80,7 @@ class LikelihoodField {
   int begin_x_ = 0, begin_y_ = 0;  // Multiples of kTile.
   int width_ = 0, height_ = 0;
   int border_ = kTile;
-  // Extent of the drawn cells, relative to the origin of the reference frame.
-  int min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;
+  CellExtent extent_;  ///< Of the drawn cells, relative to the origin of the reference frame.
   bool drawn_ = false;
   int prepared_top_ = 0;  ///< Highest level ever computed.
   std::array<std::vector<std::uint8_t>, kLevels> levels_;

@@ -197,10 +197,10 @@ bool SlicedMap::isWall(CellIndex cell) const {
 /// A cell in which some beams of a scan end and others cross gains confidence if at least as many end there, so that
 /// noise in range does not thicken walls. If any beam ends there, the cell does not lose confidence, so that a wall
 /// seen at a grazing angle gets no holes.
-void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays, common::Time stamp) {
+void SlicedMap::drawSlice(int slice, const std::vector<SliceRay>& rays, common::Time stamp) {
   const CellIndex first = cellOf(rays.front().from);
   common::CellRect rect{first, {first.x + 1, first.y + 1}};
-  for (const Ray& ray : rays) {
+  for (const SliceRay& ray : rays) {
     for (const CellIndex& c : {cellOf(ray.from), cellOf(ray.to)}) {
       rect.begin = {std::min(rect.begin.x, c.x), std::min(rect.begin.y, c.y)};
       rect.end = {std::max(rect.end.x, c.x + 1), std::max(rect.end.y, c.y + 1)};
@@ -211,7 +211,7 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays, common::Time 
     return marks_[static_cast<std::size_t>(c.y - rect.begin.y) * static_cast<std::size_t>(rect.width()) +
                   static_cast<std::size_t>(c.x - rect.begin.x)];
   };
-  for (const Ray& ray : rays) {
+  for (const SliceRay& ray : rays) {
     visitCrossed(ray.from, ray.to, [&](const CellIndex& cell, double, double) {
       markAt(cell) += kCrossed;
       return true;

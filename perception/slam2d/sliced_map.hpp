@@ -33,6 +33,14 @@ struct DrawnScan {
 /// Thins a scan to the grid and cuts its beams to the height band and the ranges that are drawn.
 DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& config);
 
+/// A beam's part in one slice, in cells, with fractions.
+struct SliceRay {
+  Eigen::Vector2d from, to;
+  /// Whether the beam ended here on something.
+  bool ended = false;
+  Incidence incidence = Incidence::kUnknown;
+};
+
 /// In each slice, cells where beams end gain confidence and cells that beams cross lose it, each at most once a scan. A
 /// beam without return crosses cells only up to the first one that is occupied at flight height, or in which another
 /// beam of its scan ended. A wall that is dark, or hit at a grazing angle, returns no beam, so nothing is known behind
@@ -56,19 +64,11 @@ class SlicedMap {
   SlicedMap snapshot();
 
  private:
-  /// A beam's part in one slice, in cells, with fractions.
-  struct Ray {
-    Eigen::Vector2d from, to;
-    /// Whether the beam ended here on something.
-    bool ended = false;
-    Incidence incidence = Incidence::kUnknown;
-  };
-
   int sliceAt(double height_m) const;
   bool isCombined(int slice) const { return slice >= lowest_ && slice <= highest_; }
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
   bool isWall(common::CellIndex cell) const;
-  void drawSlice(int slice, const std::vector<Ray>& rays, common::Time stamp);
+  void drawSlice(int slice, const std::vector<SliceRay>& rays, common::Time stamp);
   void apply(int slice, common::OccupancyGrid& grid, common::CellIndex cell, bool ended, common::Time stamp);
   bool isGlass(common::CellIndex cell) const;
   bool meetLow(int slice, common::CellIndex cell, common::Time stamp);
@@ -88,7 +88,7 @@ class SlicedMap {
   int drawn_ = 0;  ///< Number of drawn scans.
   // Working memory for the scan being drawn.
   int laser_slice_ = 0;  ///< The slice of the laser.
-  std::map<int, std::vector<Ray>> rays_;
+  std::map<int, std::vector<SliceRay>> rays_;
   std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
   Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
   std::vector<std::uint32_t> marks_;

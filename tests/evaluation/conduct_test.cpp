@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "evaluation/conduct_recorder.hpp"
-#include "evaluation/flight_score.hpp"
+#include "evaluation/flight_scoring.hpp"
 #include "small_world.hpp"
 #include "tests/support/layers.hpp"
 

@@ -1,5 +1,5 @@
 // From a record to figures, and from figures to a verdict.
-#include "evaluation/flight_score.hpp"
+#include "evaluation/flight_scoring.hpp"
 
 #include <gmock/gmock.h>
 
