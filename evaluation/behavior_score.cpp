@@ -6,6 +6,7 @@
 
 #include "common/rgbd_frame.hpp"
 #include "evaluation/figure_measures.hpp"
+#include "evaluation/true_world.hpp"
 
 namespace swiftlet::evaluation {
 namespace {

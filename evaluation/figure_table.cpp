@@ -1,6 +1,7 @@
 // The table of the figures of a flight: one row each, in groups.
 #include <utility>
 
+#include "evaluation/criteria.hpp"
 #include "evaluation/figure_rows.hpp"
 
 namespace swiftlet::evaluation {

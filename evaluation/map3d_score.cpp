@@ -5,6 +5,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "evaluation/cloud_metrics.hpp"
 #include "evaluation/figure_measures.hpp"
+#include "evaluation/true_world.hpp"
 
 namespace swiftlet::evaluation {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "evaluation/criteria.hpp"
 #include "evaluation/phase_metrics.hpp"
 
 namespace swiftlet::evaluation {

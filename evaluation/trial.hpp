@@ -8,11 +8,13 @@
 
 #include "common/config_fwd.hpp"
 #include "common/error.hpp"
+#include "evaluation/criteria.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
 #include "evaluation/system_bounds.hpp"
 #include "evaluation/target_score.hpp"
+#include "evaluation/true_world.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/survey.hpp"
 

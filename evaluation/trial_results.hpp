@@ -8,6 +8,7 @@
 
 #include "common/build_version.hpp"
 #include "common/table.hpp"
+#include "evaluation/criteria.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
 

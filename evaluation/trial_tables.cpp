@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/criteria.hpp"
 #include "evaluation/trial_results.hpp"
 
 namespace swiftlet::evaluation {

@@ -95,7 +95,8 @@ Progress Explore::fly(const ManeuverInput& input) {
 /// time that its path takes.
 double Explore::reconsiderAfter_s() const {
   const double rest_m = common::polylineLength(flight_.remaining_map_m());
-  return std::max(kExplorePeriod_s, kExplorePeriodShare * rest_m / setup_.controller.follower().speed_m_s(intent_.mode));
+  return std::max(kExplorePeriod_s,
+                  kExplorePeriodShare * rest_m / setup_.controller.follower().speed_m_s(intent_.mode));
 }
 
 bool Explore::look(const ManeuverInput& input) {

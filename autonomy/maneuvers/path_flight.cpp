@@ -25,11 +25,7 @@ Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double sp
 }
 
 PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
-    : controller_(setup.controller),
-      desk_(setup.desk),
-      memory_(setup.memory),
-      client_(setup.client),
-      mode_(mode) {}
+    : controller_(setup.controller), desk_(setup.desk), memory_(setup.memory), client_(setup.client), mode_(mode) {}
 
 void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question, const perception::PersonWatch* left_out) {
   if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = heightsOf(memory_, controller_);

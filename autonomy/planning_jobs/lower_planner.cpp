@@ -109,8 +109,7 @@ tl::expected<planning::Path, planning::PlanFailure> LowerPlanner::plan(const Pla
       failure = planning::failureOf(place.error());
       continue;
     }
-    auto path =
-        planAtTwoHeights(*maps_, request.T_map_body.position_m(), *place, goal.height.isLower(), kChangeCost_m);
+    auto path = planAtTwoHeights(*maps_, request.T_map_body.position_m(), *place, goal.height.isLower(), kChangeCost_m);
     if (path) return path;
     failure = path.error();
   }

@@ -1,5 +1,7 @@
 // What behaviours promise, by the truth.
 #include "evaluation/behavior_recorder.hpp"
+#include "evaluation/criteria.hpp"
+#include "evaluation/true_world.hpp"
 
 #include <numbers>
 

@@ -1,5 +1,7 @@
 // A cloud of points against the surfaces that it should lie on.
 #include "evaluation/cloud_metrics.hpp"
+#include "evaluation/criteria.hpp"
+#include "evaluation/true_world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // The table of figures: every row is whole, and its criterion judges.
 #include "evaluation/figures.hpp"
+#include "evaluation/criteria.hpp"
 
 #include <set>
 

@@ -1,6 +1,7 @@
 // Which reported targets are true ones, and how far they are off.
 #include <gtest/gtest.h>
 
+#include "evaluation/criteria.hpp"
 #include "evaluation/figure_measures.hpp"
 
 namespace swiftlet::evaluation {

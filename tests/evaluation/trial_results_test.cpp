@@ -1,5 +1,6 @@
 // The results of trials: verdicts over all flights, JSON and tables.
 #include "evaluation/trial_results.hpp"
+#include "evaluation/criteria.hpp"
 
 #include <filesystem>
 #include <string>

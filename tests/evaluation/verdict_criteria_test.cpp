@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "evaluation/criteria.hpp"
 #include "evaluation/trial_results.hpp"
 
 namespace swiftlet::evaluation {

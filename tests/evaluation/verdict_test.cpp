@@ -1,5 +1,6 @@
 // The judge of flights that did not do their mission: from facts to a verdict, and from records to facts.
 #include "evaluation/verdict.hpp"
+#include "evaluation/true_world.hpp"
 
 #include <gmock/gmock.h>
 

@@ -56,7 +56,8 @@ TEST(VisualOdometrySink, TracksAFlightByItsCameraAloneAndCountsWhatItLoses) {
   // With seeds 10 to 17 it is 0.04 to 0.27 m, and the rounding of another processor gives others of them. A map that
   // was lost or a step in the wrong direction is a metre off.
   EXPECT_LT(score["visual_odometry_rms_m"].value(), 0.5);
-  EXPECT_LT(score["visual_odometry_lost_share"].value(), 0.3) << "on the ground the floor is nearer than the camera measures";
+  EXPECT_LT(score["visual_odometry_lost_share"].value(), 0.3)
+      << "on the ground the floor is nearer than the camera measures";
 
   // The body and not the camera: from the same frames, the tracks differ by the mount, which is 10 cm and more off.
   const common::Trajectory camera_track = misplaced.record().body;

@@ -259,7 +259,8 @@ TEST_F(GoToManeuver, FliesInTheModeOfTheIntent) {
   want(careful);
   runUntil([this] { return position_m().x() > 3.0; }, 15.0);
   EXPECT_NEAR(state_.velocity_odom_m_s.norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful), 0.02);
-  EXPECT_NEAR(executor_.aim().velocity_map_m_s.norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful), 1e-9);
+  EXPECT_NEAR(executor_.aim().velocity_map_m_s.norm(), controller_.follower().speed_m_s(common::FlightMode::kCareful),
+              1e-9);
 }
 
 class GoToWithWavefront : public ManeuverInFlight {

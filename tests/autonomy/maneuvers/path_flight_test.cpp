@@ -31,7 +31,8 @@ TEST_F(PathFlightTest, FliesAnOfferedPlanInItsModeAtTheFlightHeight) {
   EXPECT_TRUE(flight_.keep(input())) << "without a plan one is wanted";
   flight_.offer(straight({1.5, 2.0}, {5.0, 2.0}), now_, state_);
   EXPECT_FALSE(flight_.keep(input()));
-  EXPECT_NEAR(flight_.aim().velocity_map_m_s.x(), controller_.follower().speed_m_s(common::FlightMode::kAccurate), 1e-9);
+  EXPECT_NEAR(flight_.aim().velocity_map_m_s.x(), controller_.follower().speed_m_s(common::FlightMode::kAccurate),
+              1e-9);
   runUntil([this] { return position_m().x() > 2.5; }, 20.0);
   EXPECT_NEAR(state_.velocity_odom_m_s.head<2>().norm(),
               controller_.follower().speed_m_s(common::FlightMode::kAccurate), 0.02);
