@@ -117,8 +117,11 @@ ClassSize sizeOf(const std::string& name, bool is_struct, const std::string& bod
       static const std::regex kInitialized(" = [^,]*");
       const std::string names = std::regex_replace(withoutArguments(one.text), kInitialized, "");
       int members = static_cast<int>(std::ranges::count(names, ',')) + 1;
+      // What a container has many of is not a part of the class; what it holds itself is.
       for (const auto& [type, inner] : nested)
-        if (!is_struct && std::regex_search(one.text, std::regex("\\b" + type + "\\b"))) members *= inner;
+        if (!is_struct &&
+            std::regex_search(one.text, std::regex("^(?:mutable |const )*(?:std::optional<)?" + type + "\\b")))
+          members *= inner;
       size.members += members;
     }
   }

@@ -9,7 +9,7 @@ namespace swiftlet::repository {
 struct ClassSize {
   std::string name;
   bool is_struct = false;
-  int members = 0;         ///< A member of a nested struct's type counts as that struct's members.
+  int members = 0;         ///< One of a nested struct's type, or an optional one, counts as that struct's members.
   int public_methods = 0;  ///< Without constructors, destructor and operators.
 };
 
