@@ -14,6 +14,7 @@
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
+#include "apps/system.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/error.hpp"
 #include "interfaces/files/tum.hpp"
@@ -37,6 +38,7 @@ struct Map3dOptions {
   std::string folder;
   std::string poses = "none";
   std::string intrinsics;
+  std::string system = "swiftlet";
   std::string out;
   bool mesh = false;
   bool json = false;
@@ -216,7 +218,7 @@ int map3d(const Map3dOptions& options) {
   const fs::path recording = wholePath(options.folder);
   ResultsFolder results(
       options.out.empty() ? fs::path(recording.filename().string() + "-map3d") : fs::path(options.out), kMap3dResults);
-  Map3dRun run;
+  Map3dRun run(loadSystem(options.system).config.autonomy.estimator.rgbd.mapper.odometry.method);
   const double rate_Hz = folder.listing().stamps_per_s;
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
   requireInReach(options, run.given, folder);
@@ -273,6 +275,8 @@ void addMap3d(Command& program) {
   command.option("--intrinsics", options->intrinsics,
                  "Calibration of the camera (YAML), as far as it differs from the usual one of the format. Default: "
                  "calibration.yaml of the folder, if there is one.");
+  command.option("--system", options->system,
+                 "A profile of config/systems, or a file: the method that finds the pose of a frame.");
   command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
   command.flag("--mesh", options->mesh, "Also write mesh.ply, the surfaces of the map as coloured triangles.");
   command.flag("--json", options->json, "Print the figures as JSON.");

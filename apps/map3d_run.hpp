@@ -28,7 +28,13 @@ struct WorldAnchor {
 };
 
 struct Map3dRun {
-  mapping3d::Mapper3d mapper{mapping3d::configOfRecordings()};
+  using Method = mapping3d::RgbdOdometryConfig::Method;
+
+  explicit Map3dRun(Method odometry = Method::kDirect)
+      : method(odometry), mapper(mapping3d::configOfRecordings(odometry)) {}
+
+  Method method;
+  mapping3d::Mapper3d mapper;
   std::vector<TrackedFrame> tracked;
   std::optional<WorldAnchor> anchor;
   common::Trajectory given;  ///< Poses of the recorder's camera from other sensors.
@@ -52,7 +58,7 @@ struct Map3dRun {
 
   /// Forgets the map; the next frame begins another.
   void beginAnew() {
-    mapper = mapping3d::Mapper3d(mapping3d::configOfRecordings());
+    mapper = mapping3d::Mapper3d(mapping3d::configOfRecordings(method));
     tracked.clear();
     before = frames;
     lost = lost_in_a_row = found_again = key_frames = loops = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
+#include "mapping3d/landmarks/model_icp.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
@@ -28,6 +29,11 @@ RgbdFrame withoutPeople(RgbdFrame frame, const Pose3& T_map_camera, std::span<co
   return frame;
 }
 
+std::unique_ptr<FrameOdometry> makeOdometry(const RgbdOdometryConfig& config) {
+  if (config.method == RgbdOdometryConfig::Method::kModelIcp) return std::make_unique<ModelIcp>(config.features);
+  return std::make_unique<RgbdOdometry>(config);
+}
+
 /// Depths this far away determine turns, and the place only little; beyond, they are mostly wrong.
 constexpr double kFarthestOfRecordings_m = 9.0;
 
@@ -39,33 +45,34 @@ void Mapper3dConfig::describe(common::config::Fields& fields) {
   fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
 }
 
-Mapper3dConfig configOfRecordings() {
+Mapper3dConfig configOfRecordings(RgbdOdometryConfig::Method method) {
   Mapper3dConfig config;
+  config.odometry.method = method;
   config.odometry.features.depth_noise.farthest_m = kFarthestOfRecordings_m;
   return config;
 }
 
 Mapper3d::Mapper3d(const Mapper3dConfig& config)
     : config_(config),
-      odometry_(config.odometry),
+      odometry_(makeOdometry(config.odometry)),
       graph_(config.graph),
       submaps_(config.submaps, config.voxels, config.odometry.features.depth_noise) {}
 
 MappedFrame Mapper3d::add(const RgbdFrame& frame, const FrameContext& context) {
   // What hangs on the first key frame must not move when that becomes a node of the graph.
   if (!context.scans && context.seed && graph_.size() == 0) graph_.beginAt(context.seed->T_map_camera);
-  odometry_.moveTo(context.scans ? context.scans : graph_.poses());
+  odometry_->moveTo(context.scans ? context.scans : graph_.poses());
   const bool mask = !context.people.empty() && context.seed;
   const RgbdFrame masked = mask ? withoutPeople(frame, context.seed->T_map_camera, context.people) : RgbdFrame{};
   const RgbdFrame& still = mask ? masked : frame;
   MappedFrame mapped;
-  mapped.pose = odometry_.process(still, context.seed);
+  mapped.pose = odometry_->process(still, context.seed);
   const RgbdPose& pose = mapped.pose;
   if (!context.scans && pose.isTracked()) grow(still, mapped);
   if (pose.isTracked())
     submaps_.draw({frame, still, pose.T_map_camera, pose.scan, context.people, pose.became_key_frame},
                   context.scans ? *context.scans : *graph_.poses());
-  mapped.T_scan_camera = odometry_.keyFrames().T_map_scan(pose.scan).inverse() * pose.T_map_camera;
+  mapped.T_scan_camera = odometry_->keyFrames().T_map_scan(pose.scan).inverse() * pose.T_map_camera;
   return mapped;
 }
 
@@ -74,20 +81,20 @@ void Mapper3d::grow(const RgbdFrame& still, MappedFrame& mapped) {
   if (!pose.aligned_to.empty()) pose.scan = pose.aligned_to.front();
   if (!pose.became_key_frame) return;
   const auto number = static_cast<int>(graph_.size());
-  const auto edges = trackEdges(pose, number, odometry_.keyFrames());
+  const auto edges = trackEdges(pose, number, odometry_->keyFrames());
   pose.scan = graph_.add(pose.stamp, pose.T_map_camera, edges);
-  odometry_.moveTo(graph_.poses());
-  odometry_.hangNewestOn(pose.scan);
+  odometry_->moveTo(graph_.poses());
+  odometry_->hangNewestOn(pose.scan);
   checkFocal(still, pose);
-  const auto loops = findLoops(still, pose, odometry_.keyFrames(), config_.odometry, config_.loop_candidates);
+  const auto loops = findLoops(still, pose, odometry_->keyFrames(), config_.odometry, config_.loop_candidates);
   if (loops.empty()) return;
   mapped.loops = graph_.close(loops);
-  odometry_.moveTo(graph_.poses());
-  pose.T_map_camera = odometry_.keyFrames().T_map_scan(pose.scan);
+  odometry_->moveTo(graph_.poses());
+  pose.T_map_camera = odometry_->keyFrames().T_map_scan(pose.scan);
 }
 
 void Mapper3d::checkFocal(const RgbdFrame& still, const RgbdPose& pose) {
-  const KeyFrameMap& keys = odometry_.keyFrames();
+  const KeyFrameMap& keys = odometry_->keyFrames();
   if (focal_.isDone() || keys.size() < 2) return;
   const std::size_t before = keys.size() - 2;
   focal_.add(makePyramid(still), pose, keys.at(before), keys.placeOf(before).T_map_key, config_.odometry);

@@ -1,12 +1,12 @@
 // Makes the 3D map from RGB-D frames: finds the pose of each frame against what was seen before, and draws it.
 //
-//   frame, seed, key scans --> RgbdOdometry (persistent key frames) --> pose --> SubmapStore (points, voxels)
+//   frame, seed, key scans --> FrameOdometry (persistent model) --> pose --> SubmapStore (points, voxels)
 //                                     \-- does not fit: left out
 //
 // Key frames and submaps hang on the key scans of the 2D map, so a loop closure moves them and draws nothing again.
-// After Saeedi et al., Algorithm 1, with two differences: frames are aligned directly instead of matching features by
-// ICP (decision 032), and instead of a bundle adjustment the poses of key frames follow those of the 2D map, or a graph
-// of their own where there is none.
+// After Saeedi et al., Algorithm 1. Its model of corners and its bundle adjustment are one method (ModelIcp). The usual
+// one aligns frames directly (RgbdOdometry, decision 032). With either, the poses of key frames follow those of the 2D
+// map, or a graph of their own where there is none.
 #pragma once
 
 #include <memory>
@@ -42,7 +42,7 @@ struct Mapper3dConfig {
 
 /// For a recording, of which only the camera is known: it may be any, in a room of any size. Cloud and voxels keep
 /// their own ranges.
-Mapper3dConfig configOfRecordings();
+Mapper3dConfig configOfRecordings(RgbdOdometryConfig::Method method = RgbdOdometryConfig::Method::kDirect);
 
 /// What other parts know at a frame's time.
 struct FrameContext {
@@ -69,7 +69,7 @@ class Mapper3d {
 
   /// See SubmapStore::snapshot. It copies the points of the submap that grows.
   std::vector<common::Submap3d> submaps() { return submaps_.snapshot(); }
-  const KeyFrameMap& keyFrames() const { return odometry_.keyFrames(); }
+  const KeyFrameMap& keyFrames() const { return odometry_->keyFrames(); }
   /// What submaps and frames hang on where there is no 2D map.
   std::shared_ptr<const common::KeyPoses> scans() const { return graph_.poses(); }
   /// See FocalCheck; without a 2D map only.
@@ -82,7 +82,7 @@ class Mapper3d {
   void checkFocal(const common::RgbdFrame& still, const RgbdPose& pose);
 
   Mapper3dConfig config_;
-  RgbdOdometry odometry_;
+  std::unique_ptr<FrameOdometry> odometry_;
   KeyFrameGraph graph_;
   FocalCheck focal_;
   SubmapStore submaps_;

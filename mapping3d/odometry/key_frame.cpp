@@ -4,6 +4,21 @@
 
 namespace swiftlet::mapping3d {
 
+std::shared_ptr<const KeyFrame> makeKeyFrame(common::Time stamp, const FramePyramid& pyramid,
+                                             const std::vector<vision::Feature>& features, const Exposure& exposure,
+                                             const vision::DepthNoiseConfig& noise) {
+  auto key = std::make_shared<KeyFrame>();
+  key->stamp = stamp;
+  const auto gain = static_cast<float>(exposure.gain), offset = static_cast<float>(exposure.offset);
+  for (const PyramidLevel& level : pyramid) {
+    key->levels.push_back(referencePoints(level, noise));
+    for (ReferencePoint& point : key->levels.back()) point.gray = (point.gray - offset) / gain;
+  }
+  key->described = describedPoints(pyramid.front().gray, features);
+  key->median_depth_m = medianDepth_m(key->levels.back());
+  return key;
+}
+
 std::vector<DescribedPoint> describedPoints(const vision::GrayImage& gray,
                                             const std::vector<vision::Feature>& features) {
   std::vector<Eigen::Vector2d> pixels;

@@ -22,17 +22,8 @@ constexpr double kLeastAgreement = 0.6;
 constexpr int kLeastPoints = 150;
 /// Least correlation of a frame's grey values with those of the key frames, where there is texture.
 constexpr double kLeastCorrelation = 0.4;
-/// Standard deviations of the acceleration and the angular acceleration; they bound the steps and the turns where
-/// little is seen.
-constexpr double kAcceleration_m_s2 = 5.0, kAngularAcceleration_rad_s2 = 10.0;
 /// After this many frames that do not fit, the key frames restart at the seed.
 constexpr int kUnfitFrames = 5;
-/// A velocity is not extrapolated over a longer gap.
-constexpr double kLongestPrediction_s = 0.5;
-/// Shorter gaps are mostly the jitter of the stamps (those of arrival over a link come in bursts). The motion in them
-/// is as uncertain as over kJitter_s.
-constexpr double kLeastGap_s = 0.01;
-constexpr double kJitter_s = 0.045;
 /// Key frames that are tried for each frame while lost: each costs a millisecond or two.
 constexpr std::size_t kTriedPerFrame = 8;
 /// For this long after its last frame, a lost camera is also aligned from where it was.
@@ -45,17 +36,6 @@ constexpr double kLeastCorrelationAlone = 0.8;
 constexpr double kMotionSigmaFactor = 5.0;
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
-/// The information on a predicted motion over a gap from the bounds of the acceleration, as PosePrior::information.
-Matrix6d motionInformation(double gap_s) {
-  const double squared_s2 = std::pow(gap_s < kLeastGap_s ? kJitter_s : gap_s, 2);
-  const double sigma_m = 0.5 * kAcceleration_m_s2 * squared_s2;
-  const double sigma_rad = 0.5 * kAngularAcceleration_rad_s2 * squared_s2;
-  Matrix6d information = Matrix6d::Zero();
-  information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
-  information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
-  return information;
-}
-
 std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const vision::FeatureConfig& config) {
   return vision::findFeatures(pyramid.front().gray, pyramid.front().depth, pyramid.front().camera, config);
 }
@@ -63,6 +43,9 @@ std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const visio
 }  // namespace
 
 void RgbdOdometryConfig::describe(common::config::Fields& fields) {
+  fields.choice("method", method, {"direct", "model_icp"},
+                "How the pose of a frame is found: aligned directly to key frames, or by matching its corners to "
+                "landmarks (ICP), with local bundle adjustment.");
   fields.section("features", features, "Features of a picture.");
   fields.section("alignment", alignment, "Alignment of a frame to key frames.");
 }
@@ -117,9 +100,7 @@ RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::option
 std::vector<Pose3> RgbdOdometry::predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const {
   std::vector<Pose3> poses;
   const double gap_s = (stamp - last_->stamp).seconds();
-  if (gap_s > 0.0 && gap_s < kLongestPrediction_s)
-    poses.push_back(last_->T_map_camera *
-                    Pose3{common::expSO3(gap_s * last_->rate_camera_rad_s), gap_s * last_->velocity_camera_m_s});
+  if (gap_s > 0.0 && gap_s < kLongestPrediction_s) poses.push_back(last_->T_map_camera * last_->motion.over(gap_s));
   if (seed && last_->seed && !seed->rate_covariance)
     poses.push_back(last_->T_map_camera * (last_->seed->T_map_camera.inverse() * seed->T_map_camera));
   if (isInMap(seed)) poses.push_back(seed->T_map_camera);
@@ -290,30 +271,15 @@ void RgbdOdometry::lose(RgbdPose& pose, const FramePyramid& pyramid, const std::
 }
 
 void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid) {
-  auto key = std::make_shared<KeyFrame>();
-  key->stamp = pose.stamp;
-  const auto gain = static_cast<float>(pose.fit.exposure.gain), offset = static_cast<float>(pose.fit.exposure.offset);
-  for (const PyramidLevel& level : pyramid) {
-    key->levels.push_back(referencePoints(level, config_.features.depth_noise));
-    for (ReferencePoint& point : key->levels.back()) point.gray = (point.gray - offset) / gain;
-  }
-  key->described = describedPoints(pyramid.front().gray, featuresOf(pyramid, config_.features));
-  key->median_depth_m = medianDepth_m(key->levels.back());
-  keys_.add(std::move(key), place);
+  keys_.add(makeKeyFrame(pose.stamp, pyramid, featuresOf(pyramid, config_.features), pose.fit.exposure,
+                         config_.features.depth_noise),
+            place);
 }
 
 void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
-  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan,
-            seed,       pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  if (last_ && pose.state == TrackState::kTracked) {
-    const double gap_s = (pose.stamp - last_->stamp).seconds();
-    const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;
-    if (gap_s > 0.0) {
-      const double bounded_s = std::max(gap_s, kLeastGap_s);
-      next.velocity_camera_m_s = step.position_m / bounded_s;
-      next.rate_camera_rad_s = common::logSO3(step.rotation) / bounded_s;
-    }
-  }
+  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan, seed, pose.fit.exposure, {}};
+  if (last_ && pose.state == TrackState::kTracked)
+    next.motion = motionBetween(last_->T_map_camera, pose.T_map_camera, (pose.stamp - last_->stamp).seconds());
   last_ = next;
 }
 

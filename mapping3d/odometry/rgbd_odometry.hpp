@@ -25,13 +25,21 @@
 #include "common/rgbd_frame.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 #include "mapping3d/odometry/camera_seed.hpp"
+#include "mapping3d/odometry/frame_odometry.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
-#include "mapping3d/odometry/measured_pose.hpp"
+#include "mapping3d/odometry/motion_prior.hpp"
 #include "vision/features.hpp"
 
 namespace swiftlet::mapping3d {
 
 struct RgbdOdometryConfig {
+  /// How the pose of a frame is found.
+  enum class Method {
+    kDirect,    ///< Aligned to key frames: RgbdOdometry.
+    kModelIcp,  ///< Corners matched to landmarks: ModelIcp.
+  };
+
+  Method method = Method::kDirect;
   vision::FeatureConfig features;
   AlignmentConfig alignment;
 
@@ -41,55 +49,15 @@ struct RgbdOdometryConfig {
 /// Whether an aligned frame agrees with its key frames, as far as the frame itself can show.
 bool isGoodFit(const Alignment& fit);
 
-enum class TrackState {
-  kTracked,
-  kFoundAgain,  ///< Tracked, after it was lost.
-  kLost,        ///< The pose is only predicted, or that of the seed.
-};
-
-/// The motion since a key frame, aligned to that one alone and without a prior: measured by the pictures alone.
-struct KeyFrameMotion {
-  common::Time from;  ///< The key frame's stamp.
-  common::Pose3 T_from_to;
-  /// Of the error (x, y, z, rotation vector) in the axes of the camera at the end.
-  Matrix6d covariance = Matrix6d::Identity();
-};
-
-struct RgbdPose {
-  common::Time stamp;
-  TrackState state = TrackState::kLost;
-  common::Pose3 T_map_camera;
-  /// Covariance of the error (x, y, z, rotation vector), in the axes of the camera; meaningless while lost.
-  Matrix6d covariance = Matrix6d::Zero();
-  int scan = 0;  ///< The key scan next to it; see CameraSeed.
-  /// The pose as the frame alone measures it; nullopt if it was not aligned.
-  std::optional<MeasuredPose> measured;
-  /// Of a frame that became a key frame: the motion since the one before. nullopt without overlap, or if there is
-  /// too little texture.
-  std::optional<KeyFrameMotion> motion;
-  Alignment fit;
-  /// The key scans on which the key frames hang that it was aligned to, the best first.
-  std::vector<int> aligned_to;
-  bool became_key_frame = false;
-
-  bool isTracked() const { return state != TrackState::kLost; }
-};
-
-class RgbdOdometry {
+class RgbdOdometry final : public FrameOdometry {
  public:
   explicit RgbdOdometry(const RgbdOdometryConfig& config) : config_(config) {}
 
-  /// Moves the model with the key scans of the 2D map. Where there are any, it must be called before the first frame.
-  void moveTo(std::shared_ptr<const common::KeyPoses> scans);
-
-  /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time. The first frame
-  /// with enough surfaces places the map; those before it are lost.
-  RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt);
-
-  /// For a frame that just became a key frame: it, and the frames after it, hang on this key scan.
-  void hangNewestOn(int scan);
-
-  const KeyFrameMap& keyFrames() const { return keys_; }
+  void moveTo(std::shared_ptr<const common::KeyPoses> scans) override;
+  /// The first frame with enough surfaces places the map; those before it are lost.
+  RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt) override;
+  void hangNewestOn(int scan) override;
+  const KeyFrameMap& keyFrames() const override { return keys_; }
 
  private:
   struct Last {
@@ -99,8 +67,7 @@ class RgbdOdometry {
     int scan = 0;
     std::optional<CameraSeed> seed;
     Exposure exposure;
-    Eigen::Vector3d velocity_camera_m_s = Eigen::Vector3d::Zero();
-    Eigen::Vector3d rate_camera_rad_s = Eigen::Vector3d::Zero();
+    CameraVelocity motion;
   };
   struct Fit {
     Alignment alignment;

@@ -1,0 +1,69 @@
+// The pose of each frame of an RGB-D camera in a map that grows with the frames, whatever the method.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/key_pose.hpp"
+#include "common/rgbd_frame.hpp"
+#include "mapping3d/odometry/alignment.hpp"
+#include "mapping3d/odometry/camera_seed.hpp"
+#include "mapping3d/odometry/key_frame_map.hpp"
+#include "mapping3d/odometry/measured_pose.hpp"
+
+namespace swiftlet::mapping3d {
+
+enum class TrackState {
+  kTracked,
+  kFoundAgain,  ///< Tracked, after it was lost.
+  kLost,        ///< The pose is only predicted, or that of the seed.
+};
+
+/// The motion since a key frame, aligned to that one alone and without a prior: measured by the pictures alone.
+struct KeyFrameMotion {
+  common::Time from;  ///< The key frame's stamp.
+  common::Pose3 T_from_to;
+  /// Of the error (x, y, z, rotation vector) in the axes of the camera at the end.
+  Matrix6d covariance = Matrix6d::Identity();
+};
+
+struct RgbdPose {
+  common::Time stamp;
+  TrackState state = TrackState::kLost;
+  common::Pose3 T_map_camera;
+  /// Covariance of the error (x, y, z, rotation vector), in the axes of the camera; meaningless while lost.
+  Matrix6d covariance = Matrix6d::Zero();
+  int scan = 0;  ///< The key scan next to it; see CameraSeed.
+  /// The pose as the frame alone measures it; nullopt if it was not aligned.
+  std::optional<MeasuredPose> measured;
+  /// Of a frame that became a key frame: the motion since the one before. nullopt without overlap, or if there is
+  /// too little texture.
+  std::optional<KeyFrameMotion> motion;
+  Alignment fit;
+  /// The key scans on which the key frames hang that it was aligned to, the best first.
+  std::vector<int> aligned_to;
+  bool became_key_frame = false;
+
+  bool isTracked() const { return state != TrackState::kLost; }
+};
+
+/// A function of its calls; one thread.
+class FrameOdometry {
+ public:
+  virtual ~FrameOdometry() = default;
+
+  /// Moves the model with the key scans of the 2D map. Where there are any, it must be called before the first frame.
+  virtual void moveTo(std::shared_ptr<const common::KeyPoses> scans) = 0;
+
+  /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time.
+  virtual RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed) = 0;
+
+  /// For a frame that just became a key frame: it, and the frames after it, hang on this key scan.
+  virtual void hangNewestOn(int scan) = 0;
+
+  virtual const KeyFrameMap& keyFrames() const = 0;
+};
+
+}  // namespace swiftlet::mapping3d
