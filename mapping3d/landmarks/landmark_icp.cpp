@@ -61,6 +61,8 @@ Association associated(std::span<const vision::Feature> features, const Seen& se
       if (error.squaredNorm() > kReach_m * kReach_m) continue;
       in_reach = true;
       const Eigen::Matrix3d sum = seen.covariances_m2[j] + features[i].covariance_camera_m2 + search;
+      // No variance along any direction exceeds the trace, so that most candidates need no inverse.
+      if (error.squaredNorm() >= least * sum.trace()) continue;
       const double distance = error.dot(sum.inverse() * error);
       if (distance >= least) continue;
       least = distance;

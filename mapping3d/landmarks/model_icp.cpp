@@ -20,7 +20,7 @@ using common::Pose3;
 constexpr int kLeastMatches = 25;
 constexpr double kLeastAgreement = 0.4;
 /// The first frame has at least this many features.
-constexpr std::size_t kLeastFeatures = 60;
+constexpr std::size_t kLeastFeatures = 40;
 /// After this many frames that do not fit, the model restarts at the seed.
 constexpr int kUnfitFrames = 5;
 /// Key frames that are tried for each frame while lost.

@@ -38,6 +38,27 @@ TEST(DepthMixture, AtAnEdgeSpansBothSurfaces) {
   EXPECT_NEAR(mixture->variance_m2, 0.25 * 0.75 * 1.0, 2e-4);
 }
 
+TEST(DepthMixture, HasTheMomentsOfSamples) {
+  common::DepthImage depth = flat(9, 9, 2.0F);
+  common::RandomStream random(5, "mixture");
+  for (float& depth_m : depth.depth_m) depth_m += static_cast<float>(random.uniform(0.0, 0.1));
+  const DepthNoiseConfig noise;
+  double mean_m = 0.0, second_m2 = 0.0;
+  constexpr int kSamples = 200'000;
+  for (int i = 0; i < kSamples; ++i) {
+    // The sum of two bits, less one, has the weights 1, 2, 1 of the neighbours.
+    const auto offset = [&] { return (random.chance(0.5) ? 1 : 0) - (random.chance(0.5) ? 1 : 0); };
+    const auto pixel_m = static_cast<double>(at(depth, 4 + offset(), 4 + offset()));
+    const double sample_m = pixel_m + random.gaussian(noise.sigma_m(pixel_m));
+    mean_m += sample_m / kSamples;
+    second_m2 += sample_m * sample_m / kSamples;
+  }
+  const auto mixture = depthMixture(depth, 4, 4, noise);
+  ASSERT_TRUE(mixture);
+  EXPECT_NEAR(mixture->mean_m, mean_m, 3e-4);
+  EXPECT_NEAR(mixture->variance_m2, second_m2 - mean_m * mean_m, 0.02 * mixture->variance_m2);
+}
+
 TEST(DepthMixture, NeedsThePixelAndMostOfItsNeighbours) {
   common::DepthImage hole = flat(9, 9, 2.0F);
   at(hole, 4, 4) = common::DepthImage::kUnknown;
