@@ -1,9 +1,8 @@
 // Iterative closest point of a frame's features to landmarks, by the Mahalanobis distance.
 //
 // Source: Saeedi et al., section III-C.3 and line 3 of Algorithm 1, after I. Dryanovski, R. G. Valenti, J. Xiao, "Fast
-// visual odometry and mapping from RGB-D data", ICRA 2013, section V. They associate by the Mahalanobis distance and
-// solve for the pose by the squares of the Euclidean ones (closed form); here both are Mahalanobis distances, solved by
-// Gauss-Newton, which also gives the covariance.
+// visual odometry and mapping from RGB-D data", ICRA 2013. The pose minimizes the Mahalanobis distances by
+// Gauss-Newton, which also gives its covariance.
 #pragma once
 
 #include <span>

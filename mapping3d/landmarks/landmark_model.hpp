@@ -1,8 +1,8 @@
 // The model of Saeedi's Algorithm 1: corners as persistent landmarks, each a Gaussian in the map.
 //
-// Source: I. Dryanovski, R. G. Valenti, J. Xiao, "Fast visual odometry and mapping from RGB-D data", ICRA 2013, section
-// V: a feature that a landmark explains updates it by a Kalman filter, others become landmarks, and the model is
-// bounded.
+// Source: Saeedi et al., section III-C.3, after I. Dryanovski, R. G. Valenti, J. Xiao, "Fast visual odometry and
+// mapping from RGB-D data", ICRA 2013: a feature that a landmark explains updates it by a Kalman filter, others become
+// landmarks, and the model is bounded.
 #pragma once
 
 #include <cstdint>
