@@ -84,7 +84,7 @@ Vector7d blockOf(const common::Pose3& pose) {
   return block;
 }
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t indexOf(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -92,13 +92,13 @@ double squaredError(const Bundle& bundle) {
   double sum = 0.0;
   Eigen::Vector3d point_error;
   for (const PointObservation& seen : bundle.observations) {
-    PointError{seen}(blockOf(bundle.poses[at(seen.pose)]).data(), bundle.landmarks_m[at(seen.landmark)].data(),
-                     point_error.data());
+    PointError{seen}(blockOf(bundle.poses[indexOf(seen.pose)]).data(),
+                     bundle.landmarks_m[indexOf(seen.landmark)].data(), point_error.data());
     sum += point_error.squaredNorm();
   }
   Vector6d pose_error;
   for (const MeasuredPose3D& measured : bundle.measured) {
-    PoseError{measured}(blockOf(bundle.poses[at(measured.pose)]).data(), pose_error.data());
+    PoseError{measured}(blockOf(bundle.poses[indexOf(measured.pose)]).data(), pose_error.data());
     sum += pose_error.squaredNorm();
   }
   return sum;
@@ -114,15 +114,15 @@ void adjust(Bundle& bundle, const PoseGraphConfig& config) {
     poses.push_back(blockOf(pose));
     problem.AddParameterBlock(poses.back().data(), 7, manifold);
   }
-  for (const int fixed : bundle.fixed) problem.SetParameterBlockConstant(poses[at(fixed)].data());
+  for (const int fixed : bundle.fixed) problem.SetParameterBlockConstant(poses[indexOf(fixed)].data());
   std::vector<Eigen::Vector3d> landmarks_m = bundle.landmarks_m;
   for (const PointObservation& seen : bundle.observations)
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PointError, 3, 7, 3>(new PointError(seen)),
-                             new ceres::CauchyLoss(config.robust_width), poses[at(seen.pose)].data(),
-                             landmarks_m[at(seen.landmark)].data());
+                             new ceres::CauchyLoss(config.robust_width), poses[indexOf(seen.pose)].data(),
+                             landmarks_m[indexOf(seen.landmark)].data());
   for (const MeasuredPose3D& measured : bundle.measured)
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PoseError, 6, 7>(new PoseError(measured)), nullptr,
-                             poses[at(measured.pose)].data());
+                             poses[indexOf(measured.pose)].data());
   if (!solve(problem, config).IsSolutionUsable()) return;
   bundle.landmarks_m = std::move(landmarks_m);
   for (std::size_t i = 0; i < poses.size(); ++i)
