@@ -1,7 +1,6 @@
 #include "autonomy/supervisor.hpp"
 
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,10 +17,11 @@ namespace {
 constexpr const char* kSupervisor = "supervisor";
 
 /// The event of a finding, with what is done about it.
-std::string headlineOf(const Finding& finding, Response response) {
+std::string headlineOf(const Finding& finding) {
+  const Response response = finding.row->response;
   if (response == Response::kFlyHome) return "turn back";
   if (response != Response::kWarn) return std::string(control::toString(response));
-  switch (finding.what) {
+  switch (finding.row->finding) {
     case FindingKind::kChargeBelow30:
     case FindingKind::kChargeBelow20:
       return fmt::format("{:.0f} % of the battery left", 100.0 * finding.reading.value);
@@ -30,7 +30,7 @@ std::string headlineOf(const Finding& finding, Response response) {
     case FindingKind::kChargeCountedOn:
       return "the charge is counted on by the current";
     default:
-      return std::string(control::toString(finding.what));
+      return std::string(control::toString(finding.row->finding));
   }
 }
 
@@ -138,16 +138,15 @@ const Supervision& Supervisor::tick(Time now, VehicleCondition condition) {
 
 /// Does and tells what the row of the finding says. A vehicle that lands for good is only told of more.
 void Supervisor::begin(Time now, const Finding& finding) {
-  const control::Failsafe& row = *control::failsafeFor(finding.what, control::phaseOf(flight_));
-  const Response response = row.response;
+  const Response response = finding.row->response;
   if (response == Response::kLand) return land(now, finding.why);
   if (response == Response::kFlyBack) return;  // Of two that are unknown one begins the flight: followPlace.
   if (response == Response::kFlyHome) startHome(finding.why);
   // After the pilot's last sample it is unknown who flies. A hold is right for both: a pilot's sticks override it, and
   // without a pilot the vehicle stays where it is, instead of going on with the mission that the pilot took it from.
-  if (finding.what == FindingKind::kPilotSilent) pilot_flies_ = false;
-  if (row.ends == control::Ends::kOnResume) operator_holds_ = true;
-  log_.warn(now, kSupervisor, headlineOf(finding, response), finding.why, finding.concern);
+  if (finding == FindingKind::kPilotSilent) pilot_flies_ = false;
+  if (finding.row->ends == control::Ends::kOnResume) operator_holds_ = true;
+  log_.warn(now, kSupervisor, headlineOf(finding), finding.why, finding.concern);
 }
 
 void Supervisor::end(Time now, FindingKind what) {
@@ -179,13 +178,10 @@ const Finding* Supervisor::unknownPlace() const {
 /// That of the highest row of the table among the findings. A flight back that has ended is not active though its
 /// finding remains for a moment.
 Response Supervisor::activeResponse() const {
-  std::vector<FindingKind> found;
-  for (const Finding& finding : health_.findings()) {
-    const control::Failsafe* row = control::failsafeFor(finding.what, control::phaseOf(flight_));
-    if (flies_back_ || row->response != Response::kFlyBack) found.push_back(finding.what);
-  }
-  const control::Failsafe* row = control::activeFailsafe(found, control::phaseOf(flight_));
-  return row == nullptr ? Response::kNone : row->response;
+  Response highest = Response::kNone;
+  for (const Finding& finding : health_.findings())
+    if (flies_back_ || finding.row->response != Response::kFlyBack) highest = std::max(highest, finding.row->response);
+  return highest;
 }
 
 std::string Supervisor::takeOffRefusal() const {

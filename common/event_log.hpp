@@ -1,4 +1,4 @@
-// Where the parts of the autonomy say what happens, in the order in which it happens.
+// The events that the parts of the autonomy report, in the order in which they happen.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace swiftlet::common {
 
-/// Whoever speaks is given one at construction, which must outlive it. One thread.
+/// Each part that reports events gets a reference at construction; the log must outlive the part. One thread.
 class EventLog {
  public:
   void add(Event event) { events_.push_back(std::move(event)); }

@@ -49,6 +49,46 @@ static_assert(std::is_sorted(std::begin(kFailsafes), std::end(kFailsafes),
                              [](const Failsafe& a, const Failsafe& b) { return a.response > b.response; }),
               "the rows stand by rank");
 
+/// A finding in words: its name, and when it is found.
+struct FindingText {
+  FindingKind finding;
+  std::string_view name, meaning;
+};
+
+constexpr FindingText kFindingTexts[] = {
+    {kEstimateDiverged, "estimate diverged", "Innovations or covariances of the fusion are impossible."},
+    {kHeightLost, "height lost", "There is no valid height for 0.3 s."},
+    {kInertialUnusable, "inertial unusable", "Inertial samples are missing, not finite, old or repeated for 0.2 s."},
+    {kSensorContradicted, "sensor contradicted",
+     "Inertial samples have contradicted the AHRS or the thrust for 1.5 s and are replaced."},
+    {kHorizontalLost, "horizontal lost", "There is no valid horizontal position for 1.0 s."},
+    {kSurroundingsLost, "surroundings lost",
+     "No sensor has seen the surroundings for 1 s, or for 10 s while other sensors measure the position."},
+    {kPositionLost, "position lost", "The position is uncertain by more than 2 m, in the open 4 m."},
+    {kChargeSpent, "charge spent",
+     "The charge is below `battery_land_share`, before a take-off below that and `home_reserve_share`."},
+    {kThrustSpent, "thrust spent",
+     "The greatest thrust has been below `least_thrust_margin` times the weight for 1 s."},
+    {kSurroundingsUnseen, "surroundings unseen", "No sensor has seen the surroundings for 0.3 s."},
+    {kPilotSilent, "pilot silent", "A pilot who flies has not been heard of for 1 s."},
+    {kHeightUnmeasured, "height unmeasured", "The surface below has not been measured for 0.5 s."},
+    {kPositionUncertain, "position uncertain", "The position is uncertain by more than 1 m."},
+    {kChargeForHome, "charge for home",
+     "The charge suffices for 1.15 times the flight home and `home_reserve_share`, and no longer."},
+    {kHomeOutOfReach, "home out of reach", "The charge is less than 0.8 times what the flight home takes."},
+    {kBatteryUnmeasured, "battery unmeasured", "The battery has sent no sample yet."},
+    {kChargeBelow30, "charge below 30", "The charge is 30 % or less."},
+    {kChargeBelow20, "charge below 20", "The charge is 20 % or less."},
+    {kChargeCountedOn, "charge counted on",
+     "The gauge of the battery is silent or stands still: the charge is counted on by the current."},
+};
+
+const FindingText& textOf(FindingKind finding) {
+  const auto text = std::ranges::find(kFindingTexts, finding, &FindingText::finding);
+  SWIFTLET_CHECK(text != std::end(kFindingTexts), static_cast<int>(finding));
+  return *text;
+}
+
 }  // namespace
 
 FlightPhase phaseOf(FlightState state) {
@@ -88,95 +128,9 @@ const Failsafe* activeFailsafe(std::span<const FindingKind> findings, FlightPhas
   return active;
 }
 
-std::string_view toString(FindingKind finding) {
-  switch (finding) {
-    case kEstimateDiverged:
-      return "estimate diverged";
-    case kHeightLost:
-      return "height lost";
-    case kInertialUnusable:
-      return "inertial unusable";
-    case kSensorContradicted:
-      return "sensor contradicted";
-    case kHorizontalLost:
-      return "horizontal lost";
-    case kSurroundingsLost:
-      return "surroundings lost";
-    case kPositionLost:
-      return "position lost";
-    case kChargeSpent:
-      return "charge spent";
-    case kThrustSpent:
-      return "thrust spent";
-    case kSurroundingsUnseen:
-      return "surroundings unseen";
-    case kPilotSilent:
-      return "pilot silent";
-    case kHeightUnmeasured:
-      return "height unmeasured";
-    case kPositionUncertain:
-      return "position uncertain";
-    case kChargeForHome:
-      return "charge for home";
-    case kHomeOutOfReach:
-      return "home out of reach";
-    case kBatteryUnmeasured:
-      return "battery unmeasured";
-    case kChargeBelow30:
-      return "charge below 30";
-    case kChargeBelow20:
-      return "charge below 20";
-    case kChargeCountedOn:
-      return "charge counted on";
-  }
-  SWIFTLET_CHECK(false, static_cast<int>(finding));
-  return {};
-}
+std::string_view toString(FindingKind finding) { return textOf(finding).name; }
 
-std::string_view meaning(FindingKind finding) {
-  switch (finding) {
-    case kEstimateDiverged:
-      return "Innovations or covariances of the fusion are impossible.";
-    case kHeightLost:
-      return "There is no valid height for 0.3 s.";
-    case kInertialUnusable:
-      return "Inertial samples are missing, not finite, old or repeated for 0.2 s.";
-    case kSensorContradicted:
-      return "Inertial samples have contradicted the AHRS or the thrust for 1.5 s and are replaced.";
-    case kHorizontalLost:
-      return "There is no valid horizontal position for 1.0 s.";
-    case kSurroundingsLost:
-      return "No sensor has seen the surroundings for 1 s, or for 10 s while other sensors measure the position.";
-    case kPositionLost:
-      return "The position is uncertain by more than 2 m, in the open 4 m.";
-    case kChargeSpent:
-      return "The charge is below `battery_land_share`, before a take-off below that and `home_reserve_share`.";
-    case kThrustSpent:
-      return "The greatest thrust has been below `least_thrust_margin` times the weight for 1 s.";
-    case kSurroundingsUnseen:
-      return "No sensor has seen the surroundings for 0.3 s.";
-    case kPilotSilent:
-      return "A pilot who flies has not been heard of for 1 s.";
-    case kHeightUnmeasured:
-      return "The surface below has not been measured for 0.5 s.";
-    case kPositionUncertain:
-      return "The position is uncertain by more than 1 m.";
-    case kChargeForHome:
-      return "The charge suffices for 1.15 times the flight home and `home_reserve_share`, and no longer.";
-    case kHomeOutOfReach:
-      return "The charge is less than 0.8 times what the flight home takes.";
-    case kBatteryUnmeasured:
-      return "The battery has sent no sample yet.";
-    case kChargeBelow30:
-      return "The charge is 30 % or less.";
-    case kChargeBelow20:
-      return "The charge is 20 % or less.";
-    case kChargeCountedOn:
-      return "The gauge of the battery is silent or stands still: the charge is counted on by the current.";
-  }
-  SWIFTLET_CHECK(false, static_cast<int>(finding));
-  return {};
-}
+std::string_view meaning(FindingKind finding) { return textOf(finding).meaning; }
 
 std::string_view toString(Response response) {
   constexpr std::array<std::string_view, kResponses> kNames{

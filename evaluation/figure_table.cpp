@@ -245,7 +245,7 @@ Figures behaviorRows() {
   return {
       row("keep_out_gap_m",
           atLeast("keep_out_gap_min_m", "distance from keep-out zones, m",
-                  "Least distance of the hull from keep-out zones; 0 asks for nothing.", kAlways, Bounds{0, 100}),
+                  "Least distance of the hull from keep-out zones; 0: no bound.", kAlways, Bounds{0, 100}),
           least("keep_out_gap_min_m")),
       row("inspect_axis_max_deg",
           atMost("inspect_axis_max_deg", "angle to the inspected point, deg",

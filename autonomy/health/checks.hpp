@@ -1,5 +1,5 @@
-// What is doubted in flight. Each check is one row: what it finds, for how long that must have been so, the value with
-// its bound, and the sentence for people. What follows from a finding stands in control/failsafe.
+// The checks of the health of a flight. Each is one row: what it finds, for how long that must have been so, the value
+// with its bound, and the sentence for people. What follows from a finding stands in control/failsafe.
 #pragma once
 
 #include <span>
@@ -52,13 +52,13 @@ struct Reading {
 };
 
 struct Finding {
-  control::FindingKind what;
-  Reading reading;  ///< Of now, against the bound at which it began.
+  const control::Failsafe* row;  ///< Of the table, for the present phase; never null.
+  Reading reading;               ///< Of now, against the bound at which it began.
   common::Time since;
   std::string why;  ///< For people, with the figures of when it last was beyond its bound.
   common::Concern concern;
 
-  bool operator==(control::FindingKind kind) const { return what == kind; }
+  bool operator==(control::FindingKind kind) const { return row->finding == kind; }
 };
 
 /// A row. `active`: it has been found before, and its bound may be a narrower one until it ends.

@@ -29,7 +29,7 @@ void HealthMonitor::update(common::Time now, const VehicleCondition& condition) 
     if (row == nullptr) continue;
     const Reading reading = check.read(condition, config_, false);
     if (row->response == Response::kRefuseTakeOff) {
-      if (reading.beyond) findings_.push_back({check.what, reading, now, check.why(condition, config_), check.concern});
+      if (reading.beyond) findings_.push_back({row, reading, now, check.why(condition, config_), check.concern});
       continue;
     }
     const bool is_so = state.active() ? check.read(condition, config_, true).beyond : reading.beyond;
@@ -40,7 +40,7 @@ void HealthMonitor::update(common::Time now, const VehicleCondition& condition) 
     // What is within its bound again, but not for long enough, is told as it last was beyond it.
     const bool is_told_now = reading.beyond || known == before.end();
     findings_.push_back(
-        {check.what, reading, state.since(), is_told_now ? check.why(condition, config_) : known->why, check.concern});
+        {row, reading, state.since(), is_told_now ? check.why(condition, config_) : known->why, check.concern});
     if (edge == Edge::kEntered) entered_.push_back(findings_.back());
   }
 }

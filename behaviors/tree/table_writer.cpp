@@ -28,7 +28,7 @@ std::string valueText(const PortManifest& port) {
 
 std::string writeNodeTable(const Registry& registry) {
   std::string text =
-      "# Nodes of missions\n\nMade from what each node says of itself, by `scripts/nodes`; a test fails when it is "
+      "# Nodes of missions\n\nGenerated from the manifests of the nodes by `scripts/nodes`; a test fails when it is "
       "stale. How a tree works\nis in [behaviors](behaviors.md).\n\n"
       "| node | kind | what it does | ends | ports |\n| --- | --- | --- | --- | --- |\n";
   for (const auto& [id, type] : registry.types()) {

@@ -5,11 +5,10 @@
 namespace swiftlet::tree {
 
 NodeManifest Priority::manifest() {
-  return {
-      .id = "Priority",
-      .kind = NodeKind::kControl,
-      .ports = {},
-      .description = "The highest child that has something to do has the vehicle; lower ones are suspended meanwhile."};
+  return {.id = "Priority",
+          .kind = NodeKind::kControl,
+          .ports = {},
+          .description = "The highest child that is active controls the vehicle; lower ones are suspended meanwhile."};
 }
 
 void Priority::clear(TickContext&) { holder_ = asker_ = kNone; }
