@@ -9,12 +9,7 @@
 
 #include "apps/command.hpp"
 #include "apps/dry_run.hpp"
-#include "apps/files_of_kind.hpp"
-#include "apps/given_map.hpp"
-#include "apps/leaf_libraries.hpp"
-#include "apps/mission_limits.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission.hpp"
 #include "behaviors/mission_check.hpp"
@@ -23,7 +18,12 @@
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/error.hpp"
+#include "flight/files_of_kind.hpp"
+#include "flight/given_map.hpp"
+#include "flight/leaf_libraries.hpp"
+#include "flight/mission_limits.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -47,8 +47,7 @@ struct NamedMission {
 };
 
 void append(const std::vector<common::Problem>& problems, std::vector<tree::Problem>& all) {
-  for (const auto& [location, element, message, hint] : problems)
-    all.push_back({{location.file, location.line, location.column}, element, message, hint, {}});
+  for (const common::Problem& problem : problems) all.push_back(behaviors::toTree(problem));
 }
 
 std::vector<NamedMission> find(const std::vector<std::string>& names) {
@@ -56,7 +55,7 @@ std::vector<NamedMission> find(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     NamedMission& mission = missions.emplace_back(NamedMission{name});
     try {
-      mission.file = findMission(name);
+      mission.file = flight::findMission(name);
     } catch (const common::InputError& missing) {
       append(missing.problems(), mission.problems);
     }
@@ -76,16 +75,16 @@ tree::TreeFiles treesOf(const std::vector<NamedMission>& missions) {
 /// What is odd about the maps that a mission may load is a warning, a map that cannot be used a problem.
 void addMapNotes(const std::string& file, const behaviors::NodeTypes& types, behaviors::MissionVerdict& verdict) {
   try {
-    append(mapNotes(behaviors::Mission::fromFile(file, types).mapFiles(), file), verdict.warnings);
+    append(flight::mapNotes(behaviors::Mission::fromFile(file, types).mapFiles(), file), verdict.warnings);
   } catch (const common::InputError& unusable) {
     append(unusable.problems(), verdict.problems);
   }
 }
 
-behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions& options, const System& system,
+behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions& options, const flight::System& system,
                                 const behaviors::NodeTypes& types, const tree::TreeFiles& together) {
   if (mission.file.empty()) return {mission.problems, {}, {}};
-  behaviors::MissionLimits limits = missionLimits(system, true);
+  behaviors::MissionLimits limits = flight::missionLimits(system, true);
   limits.operator_goes_on = limits.operator_gives_goals = !options.headless;
   if (options.mock_leaves) return behaviors::judgeMissionWithMocks(mission.file, limits, *types, together);
   behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file, limits, *types, together);
@@ -100,7 +99,8 @@ nlohmann::json jsonOf(const std::vector<tree::Problem>& problems) {
                     {"line", problem.location.line},
                     {"column", problem.location.column},
                     {"element", problem.element},
-                    {"message", problem.message},
+                    {"code", problem.message.name()},
+                    {"message", problem.message.text()},
                     {"hint", problem.hint},
                     {"path", problem.path}});
   return list;
@@ -120,9 +120,9 @@ void add(std::vector<tree::Problem>& all, const std::vector<tree::Problem>& foun
 
 CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission>& missions,
                      const behaviors::NodeTypes& types, const tree::TreeFiles& together) {
-  const System system = loadSystem(options.system);
+  const flight::System system = flight::loadSystem(options.system);
   CheckReport report;
-  append(problemsOfSensors(system), report.problems);
+  append(flight::problemsOfSensors(system), report.problems);
   if (options.mock_leaves) add(report.warnings, together.warnings);
   for (const NamedMission& mission : missions) {
     behaviors::MissionVerdict verdict = judge(mission, options, system, types, together);
@@ -163,7 +163,7 @@ void requireOneTree(const CheckOptions& options) {
 int check(const CheckOptions& options) {
   requireOneTree(options);
   if (!options.draw.empty()) requireWritable(options.draw, "--draw");
-  const behaviors::NodeTypes types = nodesWith(options.leaves);
+  const behaviors::NodeTypes types = flight::nodesWith(options.leaves);
   const std::vector<NamedMission> missions = find(options.missions);
   tree::ParseOptions parsing;
   parsing.trees_elsewhere = treesOf(missions);
@@ -191,7 +191,7 @@ void addCheck(Command& program) {
       program.command("check", "Validate missions without flying; every error and every warning with its place.");
   command.arguments("missions", options->missions, "Mission files.");
   command.option("--system", options->system, "The profile they are to be flown with.");
-  addLeavesOption(command, options->leaves);
+  command.leavesOption(options->leaves);
   command.option("--dry-run", options->dry_run,
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "
                  "`TakeOff: RUNNING x3, SUCCESS`. The exit code is 1 unless the mission ends with SUCCESS.");

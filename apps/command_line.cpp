@@ -245,6 +245,10 @@ void Command::flag(const std::string& name, bool& value, const std::string& desc
   app_->add_flag(name, value, description);
 }
 
+void Command::leavesOption(std::vector<std::string>& files) {
+  option("--leaves", files, "Library (.so) with leaves of your own that missions may use; may be given several times.");
+}
+
 void Command::footer(const std::string& text) { app_->footer(text); }
 
 void Command::runs(Run run) {

@@ -37,9 +37,6 @@ struct Within {
   double low = 0.0, high = 0.0;
 };
 
-/// Seeds are bounded, so that counting on from them does not overflow.
-constexpr double kGreatestSeed = 1e9;
-
 /// A handle: copies are the same command. The variables named must live until the command has run. Their
 /// initial value is the default, which --help shows; the description gives that of an empty text or optional.
 class Command {
@@ -73,6 +70,8 @@ class Command {
     choice(name, value, choices, description);
   }
   void flag(const std::string& name, bool& value, const std::string& description);
+  /// --leaves, which flight::nodesWith reads.
+  void leavesOption(std::vector<std::string>& files);
 
   /// The end of --help, for instance an example.
   void footer(const std::string& text);

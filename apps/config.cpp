@@ -5,11 +5,11 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
-#include "apps/system.hpp"
 #include "common/config_reference.hpp"
 #include "common/printable.hpp"
 #include "evaluation/envelope.hpp"
 #include "evaluation/trial.hpp"
+#include "flight/system.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -26,7 +26,7 @@ std::string reference() {
          "[profile](tutorials/profile.md).\n" +
          chapter("System profile",
                  "A file of `config/systems`. `swiftlet config --system NAME` prints what is in force.",
-                 SystemConfig()) +
+                 flight::SystemConfig()) +
          chapter("Vehicle", "A file of `config/vehicles`.", common::VehicleConfig()) +
          chapter("Laser", "A file of `config/sensors`.", common::LaserConfig()) +
          chapter("RGB-D camera", "A file of `config/sensors`.", common::RgbdCameraConfig()) +
@@ -55,9 +55,9 @@ void addConfig(Command& program) {
     if (options->reference) {
       fmt::print("{}", reference());
     } else if (options->list) {
-      for (const std::string& name : systemNames()) fmt::print("{}\n", common::printable(name));
+      for (const std::string& name : flight::systemNames()) fmt::print("{}\n", common::printable(name));
     } else {
-      fmt::print("{}", loadSystem(options->system).toYaml(!options->plain));
+      fmt::print("{}", flight::loadSystem(options->system).toYaml(!options->plain));
     }
     return kDone;
   });

@@ -9,13 +9,13 @@
 
 #include "apps/command.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
 #include "common/error.hpp"
 #include "common/rounding.hpp"
+#include "flight/system.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 #include "perception/fusion/consistency.hpp"
 #include "perception/fusion/inertial_drift.hpp"
 #include "rendering/plot_svg.hpp"
@@ -90,7 +90,7 @@ std::vector<std::string> missed(const Consistency& consistency) {
 }
 
 /// Fig. 3a of Bachrach 2009, of the first flight: the velocity by the accelerometer alone.
-void plotDrift(const TapedFlight& flight, const System& system, const ConsistencyOptions& options) {
+void plotDrift(const TapedFlight& flight, const flight::System& system, const ConsistencyOptions& options) {
   rendering::Plot plot;
   plot.title = "Forward velocity";
   plot.x_label = "time (s)";
@@ -118,7 +118,7 @@ void plotDrift(const TapedFlight& flight, const System& system, const Consistenc
 }
 
 int consistencyOfRuns(const ConsistencyOptions& options) {
-  const System system = loadSystem(options.system);
+  const flight::System system = flight::loadSystem(options.system);
   if (!options.drift.empty()) requireWritable(options.drift, "--drift");
   std::vector<TapedFlight> flights;
   refuseRunsGivenTwice(options.runs, "run");

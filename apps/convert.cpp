@@ -14,13 +14,13 @@
 #include "apps/listed_numbers.hpp"
 #include "apps/output_file.hpp"
 #include "apps/recorded_log.hpp"
-#include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "interfaces/clouds/point_cloud.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
+#include "interfaces/files/required.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
 #include "mapping3d/voxels/floor_plan.hpp"
 #include "mapping3d/voxels/point_voxels.hpp"
@@ -74,7 +74,7 @@ Kind kindOf(const fs::path& file, bool may_be_plan) {
   throw common::InputError(common::Problem{{options.from}, "", message, hint});
 }
 
-void showNotes(const std::vector<std::string>& notes) {
+void tellNotes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) show(fmt::format("note: {}\n", note));
 }
 
@@ -85,7 +85,7 @@ void sayLeftOut(const ConvertOptions& options, std::size_t left_out, std::size_t
   const std::string points = plural(all, "point", "points");
   if (left_out == all) refuseFile(options, fmt::format("all of its {} are {}", points, where), hint);
   const bool many = left_out > all / 10 && !hint.empty();
-  showNotes({fmt::format("{} of {} left out: {}{}", left_out, points, where, many ? ": " + hint : "")});
+  tellNotes({fmt::format("{} of {} left out: {}{}", left_out, points, where, many ? ": " + hint : "")});
 }
 
 interfaces::CloudPlacement placementOf(const ConvertOptions& options) {
@@ -115,15 +115,15 @@ std::string originNear(const std::vector<common::SurfacePoint>& points, const in
 }
 
 void sayUnless(bool known, const std::string& note) {
-  if (!known && !note.empty()) showNotes({note});
+  if (!known && !note.empty()) tellNotes({note});
 }
 
 interfaces::StoredCloud readPoints(const ConvertOptions& options) {
   const interfaces::CloudPlacement placement = placementOf(options);
   interfaces::StoredCloud cloud = interfaces::readCloud(options.from, placement);
-  showNotes(cloud.notes);
+  tellNotes(cloud.notes);
   sayUnless(options.scale.has_value(), headerUnitNote(options.from, cloud));
-  if (cloud.points.empty() && cloud.not_finite == 0) showNotes({fmt::format("{} holds no points", options.from)});
+  if (cloud.points.empty() && cloud.not_finite == 0) tellNotes({fmt::format("{} holds no points", options.from)});
   sayLeftOut(options, cloud.not_finite, cloud.points.size() + cloud.not_finite, "without a finite position", "");
   if (cloud.rounding_m > kMostRounding_m)
     refuseFile(
@@ -137,22 +137,22 @@ interfaces::StoredCloud readPoints(const ConvertOptions& options) {
 void sayWithoutColors(const std::vector<common::SurfacePoint>& points) {
   const auto any = [&](const auto& has) { return std::any_of(points.begin(), points.end(), has); };
   if (any([](const common::SurfacePoint& point) { return point.rgb != common::kUnknownColor; }))
-    showNotes({"colours left out: an octree is written without"});
+    tellNotes({"colours left out: an octree is written without"});
   if (any([](const common::SurfacePoint& point) { return !point.normal.isZero(); }))
-    showNotes({"normals left out: an octree has none"});
+    tellNotes({"normals left out: an octree has none"});
 }
 
 interfaces::StoredOctree readTree(const ConvertOptions& options) {
   interfaces::StoredOctree octree = interfaces::readOctree(options.from);
-  showNotes(octree.notes);
-  if (mapping3d::occupiedCount(octree.map) == 0) showNotes({fmt::format("{} holds no occupied voxels", options.from)});
+  tellNotes(octree.notes);
+  if (mapping3d::occupiedCount(octree.map) == 0) tellNotes({fmt::format("{} holds no occupied voxels", options.from)});
   return octree;
 }
 
 common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
   if (from == Kind::kOctree) {
     interfaces::StoredOctree octree = readTree(options);
-    if (to == Kind::kOctree && !octree.colors.empty()) showNotes({"colours left out: an octree is written without"});
+    if (to == Kind::kOctree && !octree.colors.empty()) tellNotes({"colours left out: an octree is written without"});
     return std::move(octree.map);
   }
   const interfaces::StoredCloud cloud = readPoints(options);

@@ -10,10 +10,10 @@
 
 #include "apps/command.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "evaluation/trial.hpp"
+#include "flight/system.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -36,8 +36,8 @@ Finding folderFinding(const std::string& name) {
 Finding profilesFinding() {
   try {
     std::string names;
-    for (const std::string& name : systemNames()) {
-      (void)loadSystem(name);
+    for (const std::string& name : flight::systemNames()) {
+      (void)flight::loadSystem(name);
       names += (names.empty() ? "" : ", ") + name;
     }
     return {"system profiles", true, names, ""};

@@ -13,21 +13,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/build_version.hpp"
 #include "apps/command_line.hpp"
 #include "apps/envelope_page.hpp"
-#include "apps/files_of_kind.hpp"
-#include "apps/flight.hpp"
-#include "apps/flights_in_parallel.hpp"
 #include "apps/progress_line.hpp"
-#include "apps/required.hpp"
 #include "apps/show.hpp"
-#include "apps/stop_signals.hpp"
-#include "apps/trial_flight.hpp"
-#include "apps/wall_clock.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "evaluation/envelope_results.hpp"
+#include "flight/build_version.hpp"
+#include "flight/files_of_kind.hpp"
+#include "flight/stop_signals.hpp"
+#include "flight/wall_clock.hpp"
+#include "interfaces/files/required.hpp"
+#include "simulated_flight/flight.hpp"
+#include "simulated_flight/flights_in_parallel.hpp"
+#include "simulated_flight/trial_flight.hpp"
 #include "simulation/plant_keys.hpp"
 
 namespace swiftlet::apps {
@@ -77,12 +77,12 @@ TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, con
 
 /// The trial with everything pinned, ready to be flown.
 TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature& base) {
-  const fs::path file = findTrial(options.trial);
+  const fs::path file = flight::findTrial(options.trial);
   if (fs::is_directory(file))
     throw common::InputError(
         common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});
   std::vector<TrialConfig> trials = {onlyCondition(evaluation::readTrial(file), options, file)};
-  prepare(trials, *options.types);
+  simulated_flight::prepare(trials, *options.types);
   TrialConfig trial = std::move(trials.front());
   trial.scenario = evaluation::pinned(trial.scenario, base);
   return trial;
@@ -95,7 +95,7 @@ evaluation::EnvelopeResults emptyResults(const EnvelopeOptions& options, evaluat
   results.trial = trial.name;
   results.system = trial.system;
   results.mission = trial.mission;
-  results.version = toString(buildVersion());
+  results.version = toString(flight::buildVersion());
   results.first_seed = options.seed.value_or(trial.scenario.seed);
   for (const auto& quantity : config.quantities) {
     EnvelopeEntry& entry = results.entries.emplace_back();
@@ -119,14 +119,15 @@ class EnvelopeRun {
       : trial_(std::move(trial)),
         results_(std::move(results)),
         out_(std::move(out)),
-        started_(startedNow()),
+        started_(flight::startedNow()),
         options_(options),
         stop_(stop),
         progress_(options.json),
-        map_(givenMap(trial_, out_)) {}
+        map_(simulated_flight::givenMap(trial_, out_)) {}
 
   /// What keeps a flight from being flown at all ends the search, and is thrown once the files have what was flown.
   void run() {
+    if (map_.map) showNotes(map_.map->notes);
     std::exception_ptr failure;
     try {
       search();
@@ -144,7 +145,9 @@ class EnvelopeRun {
 
  private:
   void search() {
-    const auto fly = [&](int count, auto&& work) { flyInParallel(count, options_.jobs, stop_, work); };
+    const auto fly = [&](int count, auto&& work) {
+      simulated_flight::flyInParallel(count, options_.jobs, stop_, work);
+    };
     fly(results_.config.seeds, [this](int i) { flyBase(i); });
     collectBase();
     for (EnvelopeEntry& entry : results_.entries) entry.finding.steps = {at(entry.finding.from)};
@@ -162,7 +165,11 @@ class EnvelopeRun {
 
   /// nullopt if it was stopped from outside.
   std::optional<EnvelopeFlight> fly(const TrialConfig& trial, int seed, const fs::path& folder) const {
-    EnvelopeFlight flight = envelopeFlight(flyOne(trial, map_, seed, folder, stop_, {.types = options_.types}));
+    simulated_flight::SimulatedSetup setup = simulated_flight::setupOf(trial, map_, seed, folder);
+    setup.types = options_.types;
+    simulated_flight::SimulatedHooks hooks;
+    hooks.stop = &stop_;
+    EnvelopeFlight flight = envelopeFlight(simulated_flight::flyScored(trial, setup, std::move(hooks)));
     const bool stopped = stop_, kept = !stopped && !flight.acceptable;
     flight.folder = kept ? folder.lexically_relative(out_).string() : "";
     if (!kept) fs::remove_all(folder);  // Hundreds of them; they can be flown again.
@@ -176,7 +183,8 @@ class EnvelopeRun {
     base_.resize(static_cast<std::size_t>(results_.config.seeds));
     base_[static_cast<std::size_t>(number)] = std::move(flight);
     ++flown_;
-    progress_.update(fmt::format("base: {} of {} flights", flown_, results_.config.seeds), secondsSince(begin_));
+    progress_.update(fmt::format("base: {} of {} flights", flown_, results_.config.seeds),
+                     flight::secondsSince(begin_));
   }
 
   void search(EnvelopeFinding& finding) {
@@ -207,7 +215,7 @@ class EnvelopeRun {
       ++flown_;
       progress_.update(fmt::format("{} of {} quantities, {} flights; {} at {}", searched_, results_.entries.size(),
                                    flown_, key, evaluation::shownValue(key, value)),
-                       secondsSince(begin_));
+                       flight::secondsSince(begin_));
       if (!flight->acceptable) break;
     }
     return step;
@@ -243,8 +251,8 @@ class EnvelopeRun {
   const EnvelopeOptions& options_;
   const std::atomic<bool>& stop_;
   ProgressLine progress_;
-  std::shared_ptr<const FlightMap> map_;
-  const Clock::time_point begin_ = Clock::now();
+  simulated_flight::PlacedMap map_;
+  const flight::Clock::time_point begin_ = flight::Clock::now();
   std::mutex mutex_;  ///< Of results and progress.
   std::vector<std::optional<EnvelopeFlight>> base_;
   int flown_ = 0;
@@ -262,7 +270,7 @@ void showEnd(const evaluation::EnvelopeResults& results, const fs::path& out) {
 }  // namespace
 
 int flyEnvelope(const EnvelopeOptions& options) {
-  const std::atomic<bool>& stop = stopOnSignals().first;
+  const std::atomic<bool>& stop = flight::stopOnSignals().first;
   outliveReaders();
   evaluation::EnvelopeConfig config = evaluation::readEnvelope(common::findData(options.quantities));
   if (!options.only.empty()) keepOnly(options.only, config);
@@ -270,12 +278,12 @@ int flyEnvelope(const EnvelopeOptions& options) {
   if (!options.write.empty()) checkPage(options.write, kEnvelopeMarks);
   TrialConfig trial = pinnedTrial(options, simulation::Nature::load(config.base));
   evaluation::EnvelopeResults results = emptyResults(options, std::move(config), trial);
-  checkSeeds(results.first_seed, results.config.seeds);
-  const TrialResultsProof proof{"envelope.json", "\"envelope\""};
-  const fs::path out = trialFolder(options.out, "envelope", proof);
+  simulated_flight::checkSeeds(results.first_seed, results.config.seeds);
+  const simulated_flight::TrialResultsProof proof{"envelope.json", "\"envelope\""};
+  const fs::path out = simulated_flight::trialFolder(options.out, "envelope", proof);
   for (int i = 0; i < results.config.seeds; ++i)
-    checkFlightFolder(baseFolder(out, results.first_seed + i), trial.scenario);
-  clearOfOlderResults(out, proof);
+    simulated_flight::checkFlightFolder(baseFolder(out, results.first_seed + i), trial.scenario);
+  simulated_flight::clearOfOlderResults(out, proof);
   EnvelopeRun run(std::move(trial), std::move(results), out, options, stop);
   run.run();
   if (options.json)

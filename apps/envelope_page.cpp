@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "apps/build_version.hpp"
-#include "apps/required.hpp"
+#include "flight/build_version.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/envelope_svg.hpp"
 
@@ -70,7 +70,7 @@ std::string envelopePicture(const EnvelopeResults& results) {
 
 std::string envelopeReport(const EnvelopeResults& results, const std::string& started) {
   interfaces::TrialReport report;
-  report.version = buildVersion();
+  report.version = flight::buildVersion();
   report.title = fmt::format("Envelope of {}", results.trial);
   report.subtitle = started;
   report.plots_svg.push_back(envelopePicture(results));

@@ -9,15 +9,15 @@
 
 #include <fmt/format.h>
 
-#include "apps/flights_in_parallel.hpp"
 #include "apps/log_run.hpp"
 #include "apps/log_table.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/shared_logs.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
-#include "apps/wall_clock.hpp"
 #include "common/error.hpp"
+#include "flight/system.hpp"
+#include "flight/wall_clock.hpp"
+#include "simulated_flight/flights_in_parallel.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -49,19 +49,19 @@ std::vector<SharedLog> chosen(const LogsOptions& options) {
 int evaluateLogs(const LogsOptions& options) {
   if (!options.out.empty()) checkLogPage(options.out);
   const std::vector<LogRun> runs = logRuns(chosen(options));
-  (void)loadSystem(options.system);
+  (void)flight::loadSystem(options.system);
   std::vector<LogOutcome> outcomes(runs.size());
-  const auto begin = Clock::now();
+  const auto begin = flight::Clock::now();
   ProgressLine line(false);
   std::mutex mutex;
   std::size_t done = 0;
   const std::atomic<bool> stop{false};
-  flyInParallel(static_cast<int>(runs.size()), options.jobs, stop, [&](int i) {
+  simulated_flight::flyInParallel(static_cast<int>(runs.size()), options.jobs, stop, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     outcomes[at] = mapped(runs[at], options.system);
     const std::scoped_lock lock(mutex);
     ++done;
-    line.update(fmt::format("{} of {} maps", done, runs.size()), secondsSince(begin));
+    line.update(fmt::format("{} of {} maps", done, runs.size()), flight::secondsSince(begin));
   });
   line.close();
   const std::string table = logTable(runs, outcomes);

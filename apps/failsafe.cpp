@@ -110,7 +110,7 @@ int printActive(const FailsafeOptions& options) {
     if (found == known.end())
       problems += toString(tree::Problem{{},
                                          "failsafe",
-                                         fmt::format("unknown {} `{}`", kind, word),
+                                         tree::Message("failsafe.unknown-word", "unknown {} `{}`", kind, word),
                                          similar.empty() ? "`swiftlet failsafe` lists all" : similar}) +
                   "\n";
     return static_cast<std::size_t>(found == known.end() ? 0 : found - known.begin());

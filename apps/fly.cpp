@@ -7,20 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
-#include "apps/files_of_kind.hpp"
-#include "apps/flight.hpp"
-#include "apps/groot_link.hpp"
-#include "apps/leaf_libraries.hpp"
-#include "apps/mission_limits.hpp"
-#include "apps/mission_shelf.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
 #include "apps/start_option.hpp"
-#include "apps/stop_signals.hpp"
-#include "apps/trial_files.hpp"
-#include "apps/trial_world.hpp"
-#include "apps/web_link.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 #include "common/printable.hpp"
@@ -31,6 +21,14 @@
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "evaluation/trial.hpp"
+#include "flight/files_of_kind.hpp"
+#include "flight/groot_link.hpp"
+#include "flight/leaf_libraries.hpp"
+#include "flight/stop_signals.hpp"
+#include "flight/web_link.hpp"
+#include "simulated_flight/flight.hpp"
+#include "simulated_flight/trial_files.hpp"
+#include "simulated_flight/trial_world.hpp"
 #include "simulation/nature.hpp"
 #include "web/server/public_url.hpp"
 
@@ -69,7 +67,8 @@ struct FlyOptions {
 
 void takeWorldOptions(const FlyOptions& options, simulation::Scenario& scenario) {
   std::vector<std::string> folders;
-  for (const std::string& folder : options.model_paths) folders.push_back(findModelFolder(folder, "--model-path"));
+  for (const std::string& folder : options.model_paths)
+    folders.push_back(simulated_flight::findModelFolder(folder, "--model-path"));
   scenario.model_paths.insert(scenario.model_paths.begin(), folders.begin(), folders.end());
   scenario.allow_incomplete_world = scenario.allow_incomplete_world || options.allow_incomplete_world;
   if (options.start.empty()) return;
@@ -85,29 +84,29 @@ evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
   if (!options.scenario.empty() && !options.world.empty())
     throw common::InputError(common::Problem{{}, "--scenario", "the scenario says which world", "leave out --world"});
   if (options.scenario.empty()) {
-    trial.scenario.world = findWorldFile(options.world.empty() ? kWorld : options.world).string();
+    trial.scenario.world = simulated_flight::findWorldFile(options.world.empty() ? kWorld : options.world).string();
   } else {
-    trial = evaluation::readTrial(findTrial(options.scenario));
-    findWorld(trial);
+    trial = evaluation::readTrial(flight::findTrial(options.scenario));
+    simulated_flight::findWorld(trial);
   }
   if (!options.system.empty())
     trial.system = options.system;
   else if (!trial.systems.empty())
     trial.system = trial.systems.front();
   if (options.system.empty())
-    if (auto missing = findSystemOf(trial)) throw common::InputError(*std::move(missing));
+    if (auto missing = simulated_flight::findSystemOf(trial)) throw common::InputError(*std::move(missing));
   if (!options.nature.empty()) trial.natures = {options.nature};
   takeWorldOptions(options, trial.scenario);
   return trial;
 }
 
-FlightSetup setupOf(const FlyOptions& options) {
+simulated_flight::SimulatedSetup setupOf(const FlyOptions& options) {
   for (const std::string& url : options.public_urls) (void)web::parsePublicUrl(url);
-  FlightSetup setup;
-  setup.types = nodesWith(options.leaves);
-  setup.mission_file = findMission(options.mission);
+  simulated_flight::SimulatedSetup setup;
+  setup.types = flight::nodesWith(options.leaves);
+  setup.mission_file = flight::findMission(options.mission);
   const evaluation::TrialConfig trial = conditionsOf(options);
-  setup.system = loadSystem(trial.system);
+  setup.system = flight::loadSystem(trial.system);
   setup.scenario = trial.scenario;
   if (options.seed) setup.scenario.seed = *options.seed;
   // A battery is charged before a flight, unless the scenario or the option says otherwise.
@@ -116,14 +115,12 @@ FlightSetup setupOf(const FlyOptions& options) {
   if (!trial.batteries.empty()) setup.scenario.setCharge(trial.batteries.front());
   if (options.battery) setup.scenario.setCharge(*options.battery);
   if (!options.vehicle_memory.empty())
-    setup.memory = setupOfMemory(options.vehicle_memory, setup.system.vehicle, setup.scenario.vehicles.size(),
-                                 MemoryUse::kReadAndWrite);
+    setup.memory = flight::setupOfMemory(options.vehicle_memory, setup.system.vehicle, setup.scenario.vehicles.size(),
+                                         flight::MemoryUse::kReadAndWrite);
   setup.control_log = options.control_log;
   setup.record_rgbd = options.record_rgbd;
-  setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
-  setup.linger_s = options.headless ? 0.0 : 2.0;
   setup.out = options.out;
   setup.wait = options.wait;
   if (options.wait && options.headless)
@@ -149,7 +146,7 @@ std::string oneOfSeveral(const common::World& world) {
                      world.vehicle->distance_flown_m, 100.0 * world.energy->battery_remaining);
 }
 
-std::string progressLine(const FlightProgress& progress) {
+std::string progressLine(const simulated_flight::FlightProgress& progress) {
   std::string vehicles;
   for (const auto& world : progress.worlds)
     vehicles += progress.worlds.size() == 1 ? oneVehicle(*world) + "  " : oneOfSeveral(*world) + "  ";
@@ -161,7 +158,9 @@ class Terminal {
  public:
   explicit Terminal(bool quiet) : quiet_(quiet), line_(quiet) {}
 
-  void progress(const FlightProgress& progress) { line_.update(progressLine(progress), progress.wall_s); }
+  void progress(const simulated_flight::FlightProgress& progress) {
+    line_.update(progressLine(progress), progress.wall_s);
+  }
 
   void event(const common::Event& event) {
     if (quiet_) return;
@@ -185,7 +184,7 @@ class Terminal {
   ProgressLine line_;
 };
 
-nlohmann::json endJson(const VehicleResult& vehicle) {
+nlohmann::json endJson(const flight::VehicleResult& vehicle) {
   const interfaces::FlightSummary& summary = vehicle.summary;
   const std::optional<double>& explored_m2 = summary.explored_area_m2;
   nlohmann::json json = {
@@ -202,14 +201,14 @@ nlohmann::json endJson(const VehicleResult& vehicle) {
 }
 
 /// Of several vehicles: the list, and whether all are done.
-nlohmann::json endJson(const FlightResult& result) {
+nlohmann::json endJson(const simulated_flight::FlightResult& result) {
   if (result.vehicles.size() == 1) return endJson(result.vehicles.front());
   nlohmann::json vehicles = nlohmann::json::array();
-  for (const VehicleResult& vehicle : result.vehicles) vehicles.push_back(endJson(vehicle));
+  for (const flight::VehicleResult& vehicle : result.vehicles) vehicles.push_back(endJson(vehicle));
   return {{"outcome", result.done() ? "done" : "failed"}, {"run", result.folder.string()}, {"vehicles", vehicles}};
 }
 
-void printEnd(const VehicleResult& vehicle) {
+void printEnd(const flight::VehicleResult& vehicle) {
   const interfaces::FlightSummary& summary = vehicle.summary;
   const std::optional<double>& explored_m2 = summary.explored_area_m2;
   show(fmt::format("\n{}{}{} after {:.1f} s and {:.1f} m{}, {:.1f} x real time\n",
@@ -220,48 +219,45 @@ void printEnd(const VehicleResult& vehicle) {
   show(fmt::format("run     {}\nreport  {}\n", vehicle.folder.string(), (vehicle.folder / "report.html").string()));
 }
 
-void printEnd(const FlightResult& result, bool json) {
+void printEnd(const simulated_flight::FlightResult& result, bool json) {
   if (json) return showJson(endJson(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  for (const VehicleResult& vehicle : result.vehicles) printEnd(vehicle);
+  for (const flight::VehicleResult& vehicle : result.vehicles) printEnd(vehicle);
 }
 
 /// What `check` warns of does not keep the vehicle on the ground.
-void showWarnings(const std::vector<FlightMission>& missions, const tree::Registry& types, bool headless) {
+void showWarnings(const std::vector<flight::FlightMission>& missions, const tree::Registry& types, bool headless) {
   behaviors::MissionLimits limits;
   limits.operator_goes_on = limits.operator_gives_goals = !headless;
-  for (const FlightMission& mission : missions) {
+  for (const flight::FlightMission& mission : missions) {
     for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits, types).warnings)
       showError(lineOf(warning, true));
-    showNotes(mapNotes(mission.mission.mapFiles(), mission.file));
+    showNotes(flight::mapNotes(mission.mission.mapFiles(), mission.file));
   }
 }
 
-std::unique_ptr<WebLink> servePage(const FlyOptions& options, const FlightSetup& setup) {
+std::unique_ptr<flight::WebLink> servePage(const FlyOptions& options, const simulated_flight::SimulatedSetup& setup) {
   web::WebServerOptions page;
   page.address = options.listen;
   page.port = options.port;
   page.public_urls = options.public_urls;
   page.title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
                            std::filesystem::path(setup.scenario.world).stem().string());
-  page.hull_diameter_m = setup.system.vehicle.hull_diameter_m;
-  return std::make_unique<WebLink>(
-      std::move(page), vehicleNames(setup.scenario),
-      std::make_unique<FolderShelf>(setup.mission_file, shippedMissions(),
-                                    static_cast<std::uint64_t>(setup.scenario.seed), setup.types));
+  return flight::servePage(std::move(page), setup, static_cast<std::uint64_t>(setup.scenario.seed),
+                           simulated_flight::vehicleNames(setup.scenario));
 }
 
 int fly(const FlyOptions& options) {
-  FlightSetup setup = setupOf(options);
-  std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
+  simulated_flight::SimulatedSetup setup = setupOf(options);
+  std::vector<flight::FlightMission> missions = simulated_flight::soundMissions(setup, !options.map.empty());
   showWarnings(missions, *setup.types, options.headless);
   if (!options.map.empty()) {
-    setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
+    setup.map = std::make_shared<const flight::FlightMap>(flight::readFlightMap(options.map));
     showNotes(setup.map->notes);
   }
-  const StopSignals& signals = stopOnSignals();
+  const flight::StopSignals& signals = flight::stopOnSignals();
   outliveReaders();
 
-  std::unique_ptr<WebLink> web;
+  std::unique_ptr<flight::WebLink> web;
   if (!options.headless) {
     web = servePage(options, setup);
     std::string pages;
@@ -271,9 +267,9 @@ int fly(const FlyOptions& options) {
     else
       show(pages + "\n");
   }
-  std::unique_ptr<GrootLink> groot;
+  std::unique_ptr<flight::GrootLink> groot;
   if (options.groot) {
-    groot = std::make_unique<GrootLink>(options.listen, *options.groot, *setup.types);
+    groot = std::make_unique<flight::GrootLink>(options.listen, *options.groot, *setup.types);
     const std::string line = fmt::format("groot   {}:{}\n", options.listen, groot->port());
     if (options.json)
       showError(line);
@@ -281,15 +277,15 @@ int fly(const FlyOptions& options) {
       show(line);
   }
   Terminal terminal(options.json);
-  FlightHooks hooks;
-  hooks.progress = [&](const FlightProgress& progress) { terminal.progress(progress); };
+  simulated_flight::SimulatedHooks hooks;
+  hooks.progress = [&](const simulated_flight::FlightProgress& progress) { terminal.progress(progress); };
   hooks.event = [&](const common::Event& event) { terminal.event(event); };
   hooks.web = web.get();
   hooks.groot = groot.get();
   hooks.land = &signals.first;
   hooks.stop = &signals.second;
 
-  const FlightResult result = flySimulated(setup, std::move(missions), hooks);
+  const simulated_flight::FlightResult result = simulated_flight::flySimulated(setup, std::move(missions), hooks);
   terminal.closeLine();
   printEnd(result, options.json);
   if (const auto failure = result.writeFailure()) {
@@ -305,7 +301,7 @@ void addFly(Command& program) {
   auto options = std::make_shared<FlyOptions>();
   Command command = program.command("fly", "Fly a mission in the simulator; the page shows it live.");
   command.argument("mission", options->mission, "Mission file (XML).");
-  addLeavesOption(command, options->leaves);
+  command.leavesOption(options->leaves);
   command.option("--world", options->world, fmt::format("World to fly in (SDF). Default: {}.", kWorld));
   command.option("--model-path", options->model_paths,
                  "Folder that holds models which the world includes; may be given several times.");
@@ -332,7 +328,7 @@ void addFly(Command& program) {
                "Keep commands, motion and battery at 100 Hz in the run: what `identify` reads.");
   command.flag("--record-rgbd", options->record_rgbd,
                "Keep the frames of the RGB-D camera in the run, as a folder that `map3d` reads.");
-  command.option("--seed", options->seed, {0, kGreatestSeed},
+  command.option("--seed", options->seed, {0, simulation::kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");
   command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
   command.flag("--headless", options->headless, "Without the page.");

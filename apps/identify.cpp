@@ -10,10 +10,8 @@
 
 #include "apps/command.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
 #include "common/config.hpp"
 #include "common/config_check.hpp"
 #include "common/data_paths.hpp"
@@ -22,7 +20,9 @@
 #include "common/rounding.hpp"
 #include "common/table.hpp"
 #include "control/identification/identify.hpp"
+#include "flight/system.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 #include "simulation/bench.hpp"
 #include "simulation/nature.hpp"
 
@@ -69,8 +69,8 @@ std::string modelYaml(control::VehicleModel model, const common::VehicleConfig& 
   for (control::ThrustPoint& point : model.thrust)
     point = {common::rounded(point.voltage_v), rounded6(point.hover_command), common::rounded(point.seen_s)};
   std::vector<common::Problem> problems = model.problemsFor(vehicle);
-  for (const std::string& problem : common::config::problemsOf(model))
-    problems.push_back({{}, "", problem, "the flights do not tell a model that could be flown"});
+  for (const common::Problem& problem : common::config::problemsOf(model))
+    problems.push_back({{}, "", messageOf(problem), "the flights do not tell a model that could be flown"});
   if (!problems.empty()) throw common::InputError(std::move(problems));
   return kModelLine + "\n" + common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model);
 }
@@ -156,7 +156,7 @@ std::vector<control::CommandAngle> benchRows(const std::string& run, const commo
 
 /// An incomplete model is written as well, if it has anything; its gaps are reported.
 int identify(const IdentifyOptions& options) {
-  const common::VehicleConfig vehicle = loadVehicle(options.vehicle);
+  const common::VehicleConfig vehicle = flight::loadVehicle(options.vehicle);
   if (!options.out.empty()) requireWritable(options.out, "--out", kModelLine);
   refuseRunsGivenTwice(options.runs, "run");
   const FlownVehicle flown{vehicle, "--vehicle"};

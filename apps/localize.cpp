@@ -9,15 +9,16 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
-#include "apps/given_map.hpp"
 #include "apps/listed_numbers.hpp"
 #include "apps/localize_outputs.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
-#include "apps/wall_clock.hpp"
+#include "flight/given_map.hpp"
+#include "flight/system.hpp"
+#include "flight/wall_clock.hpp"
 #include "perception/localization/log_localizer.hpp"
+#include "simulation/scenario.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -102,13 +103,13 @@ void note(const perception::LocalizationEvent& event, common::Time stamp, std::u
 
 void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::LogLocalizer& localizer,
                  LocalizeRun& run) {
-  const auto begin = Clock::now();
+  const auto begin = flight::Clock::now();
   ProgressLine line(options.log.json);
   while (const auto logged = log.next()) {
-    const auto scan_begin = Clock::now();
+    const auto scan_begin = flight::Clock::now();
     const auto estimate = localizer.add(log.inputOf(*logged));
     const auto index = static_cast<double>(log.scans() - 1);
-    run.shown.milliseconds.add(index, 1e3 * secondsSince(scan_begin));
+    run.shown.milliseconds.add(index, 1e3 * flight::secondsSince(scan_begin));
     if (!estimate) continue;
     ++run.estimates;
     const common::Time stamp = logged->scan.stamps.measured;
@@ -125,9 +126,9 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
     }
     if (log.scans() % 50 == 0)
       line.update(log.reader().progress(), fmt::format("{} scans, {}", log.scans(), toString(run.state)),
-                  secondsSince(begin));
+                  flight::secondsSince(begin));
   }
-  run.wall_s = secondsSince(begin);
+  run.wall_s = flight::secondsSince(begin);
   line.close();
 }
 
@@ -211,11 +212,11 @@ std::vector<std::pair<std::string, std::string>> factsOf(const RecordedLog& log,
 }
 
 int localize(const LocalizeOptions& options) {
-  const interfaces::StoredMap map = readUsableMap(options.map);
-  const System system = loadSystem(options.log.system);
+  const interfaces::StoredMap map = flight::readUsableMap(options.map);
+  const flight::System system = flight::loadSystem(options.log.system);
   perception::LogLocalizer localizer(
       map.grid, map.T_map_grid,
-      {laserSlamOf(system).front_end, system.config.autonomy.estimator.localization.localizer},
+      {flight::laserSlamOf(system).front_end, system.config.autonomy.estimator.localization.localizer},
       static_cast<std::uint64_t>(options.seed));
   if (!options.start.empty()) {
     const common::Pose2 T_map_start = startInMap(options.start);
@@ -264,7 +265,7 @@ void addLocalize(Command& program) {
   addLogOptions(command, options->log, kLocalizeSuffix);
   command.option("--start", options->start,
                  "\"x;y;yaw\" where it begins, in metres and degrees; not known when not given.");
-  command.option("--seed", options->seed, {0, kGreatestSeed}, "Seed of the particles.");
+  command.option("--seed", options->seed, {0, simulation::kGreatestSeed}, "Seed of the particles.");
   command.footer("Example: swiftlet localize intel/map.yaml intel.clf.bz2 --out intel-localize");
   command.runs([options] { return localize(*options); });
 }

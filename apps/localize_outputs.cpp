@@ -4,11 +4,11 @@
 
 #include <fmt/core.h>
 
-#include "apps/build_version.hpp"
 #include "apps/map_png.hpp"
-#include "apps/required.hpp"
+#include "flight/build_version.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/json_lines.hpp"
+#include "interfaces/files/required.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/map_svg.hpp"
@@ -98,7 +98,7 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
                           const LocalizeFigures& figures) {
   const rendering::MapPicture picture = pictureOf(map, inGrid(figures.paths.paths_map_m(), map.T_map_grid));
   interfaces::LocalizationReport report;
-  report.version = buildVersion();
+  report.version = flight::buildVersion();
   report.title =
       fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);
   report.facts = figures.facts;

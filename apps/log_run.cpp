@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "apps/recorded_log.hpp"
-#include "apps/system.hpp"
-#include "apps/timed_jobs.hpp"
 #include "evaluation/relations.hpp"
 #include "evaluation/trajectory_metrics.hpp"
+#include "flight/system.hpp"
+#include "flight/timed_jobs.hpp"
 #include "interfaces/files/relations.hpp"
 #include "interfaces/files/trajectory_file.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
@@ -118,8 +118,8 @@ std::vector<LogRun> logRuns(const std::vector<SharedLog>& logs) {
 LogOutcome mapped(const LogRun& run, const std::string& system) {
   const std::vector<interfaces::LoggedScan> scans = scansOf(run.log);
   if (scans.empty()) throw common::InputError(common::Problem{{run.log.log}, "", "no scan in it could be read", ""});
-  const double begin_s = 1e-3 * processorMs();
-  LogMapping mapping(laserSlamOf(loadSystem(system)));
+  const double begin_s = 1e-3 * flight::processorMs();
+  LogMapping mapping(flight::laserSlamOf(flight::loadSystem(system)));
   RecordedLog log(std::make_unique<ScansAsLog>(run.backwards ? reversed(scans) : scans), run.log.log, run.wheels);
   while (const auto logged = log.next()) {
     const std::size_t index = run.backwards ? scans.size() - log.scans() : log.scans() - 1;
@@ -127,7 +127,7 @@ LogOutcome mapped(const LogRun& run, const std::string& system) {
   }
   mapping.finish();
   LogOutcome outcome;
-  outcome.processor_s = 1e-3 * processorMs() - begin_s;
+  outcome.processor_s = 1e-3 * flight::processorMs() - begin_s;
   outcome.path_m = mapping.pathLength_m();
   outcome.trust = mapping.trust(log.whyBent());
   outcome.violation = mapping.judgement.violation();

@@ -7,9 +7,9 @@
 
 #include "apps/markdown_page.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "common/table.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 
 namespace swiftlet::apps {
 namespace {

@@ -10,10 +10,10 @@
 
 #include <fmt/core.h>
 
-#include "apps/build_version.hpp"
 #include "apps/command.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
+#include "flight/build_version.hpp"
 
 namespace {
 
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   // Beyond a limit of the shell (ulimit -f) a write then fails, and is reported as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
 
-  apps::Program program("swiftlet", toString(apps::buildVersion()),
+  apps::Program program("swiftlet", toString(flight::buildVersion()),
                         "Explore, map and fly home indoors: autonomy for small quadrotors.");
   apps::Command& top = program.top();
   top.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");

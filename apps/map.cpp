@@ -11,8 +11,8 @@
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
-#include "apps/wall_clock.hpp"
+#include "flight/system.hpp"
+#include "flight/wall_clock.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -28,7 +28,7 @@ struct MapOptions {
 };
 
 perception::LaserSlamConfig configOf(const MapOptions& options) {
-  perception::LaserSlamConfig config = laserSlamOf(loadSystem(options.log.system));
+  perception::LaserSlamConfig config = flight::laserSlamOf(flight::loadSystem(options.log.system));
   if (!options.slam.empty()) config.slam.method = perception::slamMethodOf(options.slam);
   return config;
 }
@@ -43,21 +43,21 @@ struct MapRun {
 };
 
 void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
-  const auto begin = Clock::now();
+  const auto begin = flight::Clock::now();
   const perception::LaserSlam& slam = run.mapping.slam;
   ProgressLine line(options.log.json);
   while (const auto logged = log.next()) {
-    const auto scan_begin = Clock::now();
+    const auto scan_begin = flight::Clock::now();
     const auto tracked = run.mapping.add(logged->scan.stamps.measured, log.inputOf(*logged));
-    run.milliseconds.add(static_cast<double>(log.scans() - 1), 1e3 * secondsSince(scan_begin));
+    run.milliseconds.add(static_cast<double>(log.scans() - 1), 1e3 * flight::secondsSince(scan_begin));
     if (tracked && log.scans() % 50 == 0)
       line.update(log.reader().progress(),
                   fmt::format("{} scans, {} key scans, {}", log.scans(), slam.keyScans(),
                               plural(slam.slam().counts().loops_closed, "loop", "loops")),
-                  secondsSince(begin));
+                  flight::secondsSince(begin));
   }
   run.mapping.finish();
-  run.wall_s = secondsSince(begin);
+  run.wall_s = flight::secondsSince(begin);
   run.path_length_m = run.mapping.pathLength_m();
   line.close();
 }

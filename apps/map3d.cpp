@@ -14,9 +14,9 @@
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
-#include "apps/wall_clock.hpp"
 #include "common/error.hpp"
+#include "flight/system.hpp"
+#include "flight/wall_clock.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/cloud/cloud.hpp"
@@ -76,12 +76,12 @@ std::optional<double> medianDepth_m(const common::DepthImage& depth) {
 }
 
 void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, Map3dRun& run) {
-  const auto begin = Clock::now();
+  const auto begin = flight::Clock::now();
   const auto seed = seeds.at(frame.stamps.measured);
   const mapping3d::MappedFrame mapped = run.mapper.add(frame, {seed, nullptr, {}});
   const mapping3d::RgbdPose& pose = mapped.pose;
   seeds.compare(pose);
-  run.frame_ms.push_back(1e3 * secondsSince(begin));
+  run.frame_ms.push_back(1e3 * flight::secondsSince(begin));
   if (run.frames % kDepthFrames == 0)
     if (const auto depth_m = medianDepth_m(frame.depth)) run.depths_m.push_back(*depth_m);
   const auto index = static_cast<double>(run.frames++);
@@ -162,7 +162,7 @@ mapping3d::RecordedSeeds seedsOf(common::Trajectory poses, const RecordedCamera&
 
 void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {
   mapping3d::RecordedSeeds seeds = seedsOf(run.given, RecordedCamera(folder.calibration()));
-  const auto begin = Clock::now();
+  const auto begin = flight::Clock::now();
   ProgressLine line(options.json);
   while (const auto frame = folder.next()) {
     addFrame(*frame, seeds, run);
@@ -170,9 +170,9 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
     line.update(share,
                 fmt::format("{}, {}, {} lost", plural(run.frames, "frame", "frames"),
                             plural(run.key_frames, "key frame", "key frames"), run.lost),
-                secondsSince(begin));
+                flight::secondsSince(begin));
   }
-  run.wall_s = secondsSince(begin);
+  run.wall_s = flight::secondsSince(begin);
   run.disagreement_of_given = seeds.disagreement();
   line.close();
 }
@@ -218,7 +218,7 @@ int map3d(const Map3dOptions& options) {
   const fs::path recording = wholePath(options.folder);
   ResultsFolder results(
       options.out.empty() ? fs::path(recording.filename().string() + "-map3d") : fs::path(options.out), kMap3dResults);
-  Map3dRun run(loadSystem(options.system).config.autonomy.estimator.rgbd.mapper.odometry.method);
+  Map3dRun run(flight::loadSystem(options.system).config.autonomy.estimator.rgbd.mapper.odometry.method);
   const double rate_Hz = folder.listing().stamps_per_s;
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
   requireInReach(options, run.given, folder);

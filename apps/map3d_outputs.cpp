@@ -1,11 +1,11 @@
 #include "apps/map3d_outputs.hpp"
 
-#include "apps/build_version.hpp"
-#include "apps/pictures.hpp"
-#include "apps/required.hpp"
+#include "flight/build_version.hpp"
+#include "flight/pictures.hpp"
 #include "interfaces/clouds/point_cloud.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/octomap.hpp"
+#include "interfaces/files/required.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "interfaces/rgbd/rgbd_calibration.hpp"
@@ -59,7 +59,7 @@ std::string pictureOf(const Map3dMap& map, const common::Trajectory& trajectory)
   picture.lines.emplace_back();
   for (const common::StampedPose& at : trajectory)
     picture.lines.back().points_map_m.push_back(T_shown_recorded * at.pose.position_m);
-  return map3dPicture(picture);
+  return flight::map3dPicture(picture);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory
   if (mesh) required(interfaces::writeMesh(out / "mesh.ply", mapping3d::surfaceMesh(map.voxels, map.cloud)));
 
   interfaces::MapReport report;
-  report.version = buildVersion();
+  report.version = flight::buildVersion();
   report.title = kMap3dTitle + fs::path(figures.folder).filename().string();
   report.subtitle = figures.folder;
   report.facts = figures.facts;

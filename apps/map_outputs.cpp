@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
-#include "apps/build_version.hpp"
 #include "apps/map_png.hpp"
-#include "apps/required.hpp"
+#include "flight/build_version.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
 #include "interfaces/files/map_server.hpp"
+#include "interfaces/files/required.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/map_svg.hpp"
@@ -121,7 +121,7 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
     required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
 
   interfaces::MapReport report;
-  report.version = buildVersion();
+  report.version = flight::buildVersion();
   report.title = kMapTitle + fs::path(figures.log).filename().string();
   report.subtitle = figures.log;
   report.facts = figures.facts;

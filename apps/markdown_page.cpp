@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 
 namespace swiftlet::apps {
 namespace {

@@ -4,16 +4,16 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
-#include "apps/files_of_kind.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/tree/migrate.hpp"
 #include "common/error.hpp"
 #include "common/printable.hpp"
 #include "common/read_bytes.hpp"
+#include "flight/files_of_kind.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -25,7 +25,7 @@ struct MigrateOptions {
 
 int migrate(const MigrateOptions& options) {
   if (!options.out.empty()) requireWritable(options.out, "--out");
-  const std::string file = findMission(options.file);
+  const std::string file = flight::findMission(options.file);
   const tree::Migration migration = tree::migrateToVersion4(common::readText(file), file);
   if (!migration.problems.empty()) throw common::InputError(behaviors::toCommon(migration.problems));
   // What is printed to the standard output is the file alone, so that it can be redirected.

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "apps/command.hpp"
-#include "apps/leaf_libraries.hpp"
 #include "apps/show.hpp"
 #include "behaviors/tree/problem.hpp"
+#include "flight/leaf_libraries.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -31,10 +31,11 @@ int printNamed(const std::vector<std::string>& names, const tree::Registry& regi
       help += tree::writeNodeHelp(tree::subTreeManifest());
     else {
       const std::string similar = tree::didYouMean(name, known);
-      problems +=
-          toString(tree::Problem{
-              {}, "nodes", "unknown node `" + name + "`", similar.empty() ? "`swiftlet nodes` lists all" : similar}) +
-          "\n";
+      problems += toString(tree::Problem{{},
+                                         "nodes",
+                                         tree::Message("nodes.unknown", "unknown node `{}`", name),
+                                         similar.empty() ? "`swiftlet nodes` lists all" : similar}) +
+                  "\n";
     }
   }
   show(help);
@@ -48,7 +49,7 @@ int printNodes(const NodesOptions& options) {
     showError("nodes: expected names of nodes, or one of --xml, --xsd and --markdown\n");
     return kBadInput;
   }
-  const behaviors::NodeTypes types = nodesWith(options.leaves);
+  const behaviors::NodeTypes types = flight::nodesWith(options.leaves);
   const tree::Registry& registry = *types;
   if (!options.names.empty()) return printNamed(options.names, registry);
   show(options.xml        ? tree::writeTreeNodesModel(registry)
@@ -65,7 +66,7 @@ void addNodes(Command& program) {
   Command command = program.command("nodes", "Print the node types of missions, or the ports of those that are named.");
   command.optionalArguments("nodes", options->names,
                             "Nodes of which to print each port with unit, bounds and meaning.");
-  addLeavesOption(command, options->leaves);
+  command.leavesOption(options->leaves);
   command.flag("--xml", options->xml, "The palette that Groot2 loads: missions/groot2/palette.xml.");
   command.flag("--xsd", options->xsd, "A schema for other editors: missions/swiftlet.xsd.");
   command.flag("--markdown", options->markdown, "A table with bounds and defaults: docs/nodes.md.");

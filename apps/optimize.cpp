@@ -16,13 +16,13 @@
 #include "apps/command.hpp"
 #include "apps/optimize_report.hpp"
 #include "apps/recorded_log.hpp"
-#include "apps/required.hpp"
 #include "apps/results_folder.hpp"
 #include "apps/show.hpp"
-#include "apps/wall_clock.hpp"
 #include "common/error.hpp"
+#include "flight/wall_clock.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
+#include "interfaces/files/required.hpp"
 #include "optimization/best_start.hpp"
 #include "optimization/closure_selection.hpp"
 #include "optimization/graph_parts.hpp"
@@ -162,7 +162,7 @@ void optimizeAll(Graph& file, PoseGraph graph, const OptimizeOptions& options, O
 
 template <typename Graph>
 OptimizeReport optimizeInPlace(Graph& file, const OptimizeOptions& options) {
-  const auto begin = Clock::now();
+  const auto begin = flight::Clock::now();
   auto graph = poseGraph(file);
   if (file.poses.empty()) graph.poses = chainedPoses(graph);
   const std::size_t fixed = std::set<int>(file.fixed.begin(), file.fixed.end()).size();
@@ -177,7 +177,7 @@ OptimizeReport optimizeInPlace(Graph& file, const OptimizeOptions& options) {
     optimizeRobustly(file, std::move(graph), options, report);
   else
     optimizeAll(file, std::move(graph), options, report);
-  report.seconds = secondsSince(begin);
+  report.seconds = flight::secondsSince(begin);
   return report;
 }
 

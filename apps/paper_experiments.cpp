@@ -42,7 +42,7 @@ bool isPhaseFigure(const TrialConfig& trial, std::string_view figure) {
 bool isFigure(const TrialConfig& trial, std::string_view figure) {
   if (figure.starts_with("phases.")) return isPhaseFigure(trial, figure.substr(7));
   if (figure == "flights.open_loop_error_m" || figure == "collisions") return true;
-  return evaluation::trialFigureProblem(std::string(figure)).empty();
+  return evaluation::findTrialFigure(figure) != nullptr;
 }
 
 std::vector<std::string> problemsOf(const PaperExperiment& row, const std::map<std::string, TrialConfig>& trials) {
@@ -78,7 +78,7 @@ void PaperExperiment::describe(common::config::Fields& fields) {
   fields("shortfall", shortfall, "Why the paper's profile falls short of its own paper by more than twice.");
 }
 
-std::vector<std::string> PaperExperiment::validate() const {
+std::vector<common::Problem> PaperExperiment::validate() const {
   const int given = (trial.empty() ? 0 : 1) + (shown_by.empty() ? 0 : 1) + (missing.empty() ? 0 : 1);
   return common::Validation()
       .require(given == 1, "item", "has not one of `trial`, `shown_by` and `missing`")

@@ -14,7 +14,7 @@ struct PaperExperiment {
   double reported_at_most = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct Papers {

@@ -15,11 +15,11 @@
 #include "apps/command.hpp"
 #include "apps/output_file.hpp"
 #include "apps/paper_experiments.hpp"
-#include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 
 namespace swiftlet::apps {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/system.hpp"
 #include "common/median_step.hpp"
+#include "flight/system.hpp"
 #include "interfaces/files/stamp_units.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) {
   interfaces::LaserLogOptions log_options;
-  if (!options.sensor.empty()) log_options.sensor = loadLaser(options.sensor);
+  if (!options.sensor.empty()) log_options.sensor = flight::loadLaser(options.sensor);
   return interfaces::openLaserLog(options.file, log_options);
 }
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/system.hpp"
 #include "common/error.hpp"
 #include "common/median_step.hpp"
 #include "common/vehicle.hpp"
+#include "flight/system.hpp"
 #include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::apps {
@@ -23,7 +23,7 @@ common::InputError unusableRun(const fs::path& place, const std::string& message
 
 /// A name alone is not enough: a sheet of the user may have that of another one.
 void refuseOtherVehicle(const fs::path& config, const FlownVehicle& vehicle) {
-  const System system = loadSystem(config.string());
+  const flight::System system = flight::loadSystem(config.string());
   const common::VehicleConfig &flew = system.vehicle, &given = vehicle.sheet;
   const auto own = system.own_files.find("vehicle");
   const std::string hint =

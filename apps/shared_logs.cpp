@@ -38,7 +38,7 @@ void SharedLog::describe(common::config::Fields& fields) {
   fields("short", short_part, "It is of the short part, which a test maps.");
 }
 
-std::vector<std::string> SharedLog::validate() const {
+std::vector<common::Problem> SharedLog::validate() const {
   const int given = (relations.empty() ? 0 : 1) + (poses.empty() ? 0 : 1) + (poses_in_log ? 1 : 0);
   return common::Validation()
       .require(!name.empty() && !log.empty(), "log", "needs a name and a file")

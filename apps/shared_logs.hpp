@@ -15,7 +15,7 @@ struct SharedLog {
   int scans = 0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 
   /// The log has nothing to compare the map with.
   bool isJudgedByEye() const { return relations.empty() && poses.empty() && !poses_in_log; }

@@ -45,4 +45,13 @@ void showJson(const std::string& text) { showStyled(withoutControls(text)); }
 
 void showError(const std::string& text) { std::fputs(common::printableLines(text).c_str(), stderr); }
 
+void showNotes(const std::vector<common::Problem>& notes) {
+  for (const common::Problem& note : notes) showError("note: " + toString(note) + "\n");
+}
+
+std::string lineOf(tree::Problem problem, bool warning) {
+  if (warning) problem.element = "warning" + (problem.element.empty() ? "" : ": " + problem.element);
+  return common::printable(toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]")) + "\n";
+}
+
 }  // namespace swiftlet::apps

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "behaviors/tree/problem.hpp"
+#include "common/error.hpp"
 
 namespace swiftlet::apps {
 
@@ -18,5 +22,10 @@ void showStyled(const std::string& text);
 void showJson(const std::string& text);
 /// Prints to standard error. It may be lost: the exit code says the same.
 void showError(const std::string& text);
+/// Shows each as "note: ..." where warnings go.
+void showNotes(const std::vector<common::Problem>& notes);
+
+/// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]"; one line, whatever the names in it hold.
+std::string lineOf(tree::Problem problem, bool warning);
 
 }  // namespace swiftlet::apps

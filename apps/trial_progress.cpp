@@ -15,7 +15,7 @@ void TrialProgress::flies(const std::string& flight, double simulated_s) {
   const std::scoped_lock lock(mutex_);
   if (!line_.interactive()) return;
   now_ = fmt::format("{} at {:.0f} s", flight, simulated_s);
-  const double wall_s = secondsSince(begin_);
+  const double wall_s = flight::secondsSince(begin_);
   std::optional<double> left_s;
   if (flown_ > 0) left_s = std::max(0.0, flown_wall_s_ * flights_ / flown_ - wall_s);
   line_.update(text(), wall_s, left_s);
@@ -25,7 +25,7 @@ void TrialProgress::over(const std::string& lines, bool passed) {
   const std::scoped_lock lock(mutex_);
   ++flown_;
   failed_ += passed ? 0 : 1;
-  flown_wall_s_ = secondsSince(begin_);
+  flown_wall_s_ = flight::secondsSince(begin_);
   line_.close();
   if (!quiet_) show(lines);
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/progress_line.hpp"
-#include "apps/wall_clock.hpp"
+#include "flight/wall_clock.hpp"
 
 namespace swiftlet::apps {
 
@@ -31,7 +31,7 @@ class TrialProgress {
   double flown_wall_s_ = 0.0;  ///< When the last flight ended.
   std::mutex mutex_;
   ProgressLine line_;
-  Clock::time_point begin_ = Clock::now();
+  flight::Clock::time_point begin_ = flight::Clock::now();
 };
 
 }  // namespace swiftlet::apps

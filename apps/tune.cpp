@@ -7,15 +7,16 @@
 
 #include "apps/command.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "apps/run_logs.hpp"
 #include "apps/show.hpp"
-#include "apps/system.hpp"
 #include "apps/tune_gains.hpp"
 #include "common/error.hpp"
 #include "control/identification/axis_fit.hpp"
+#include "flight/system.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
 #include "perception/fusion/noise_tuning.hpp"
+#include "simulation/scenario.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -70,7 +71,7 @@ std::string settingsYaml(const FusionConfig& config) {
 }
 
 int tuneNoise(const TuneOptions& options) {
-  const System system = loadSystem(options.system);
+  const flight::System system = flight::loadSystem(options.system);
   if (!options.out.empty()) requireWritable(options.out, "--out", kSettingsLine);
   if (options.runs.empty())
     throw common::InputError(
@@ -134,7 +135,8 @@ void addTune(Command& program) {
   command.option("--nature", gains.nature, "With --gains: nature to fly in, instead of the trial's.");
   command.option("--flights", gains.flights, {2, 100'000}, "With --gains: flights altogether.");
   command.option("--seeds", gains.seeds, {1, 1'000}, "With --gains: flights of each set of gains, all with the same.");
-  command.option("--seed", gains.seed, {0, kGreatestSeed}, "With --gains: the first seed; score on others.");
+  command.option("--seed", gains.seed, {0, simulation::kGreatestSeed},
+                 "With --gains: the first seed; score on others.");
   command.option("--only", gains.only, "With --gains: only gains whose names begin with this.");
   command.option("--jobs", gains.jobs, {1, 64}, "With --gains: flights at the same time.");
   command.option("--out", options->out, "File (YAML) of the noise parameters, or of the profile with its new gains.");

@@ -8,20 +8,20 @@
 #include <fmt/core.h>
 
 #include "apps/command_line.hpp"
-#include "apps/flights_in_parallel.hpp"
 #include "apps/output_file.hpp"
-#include "apps/required.hpp"
 #include "apps/show.hpp"
-#include "apps/stop_signals.hpp"
-#include "apps/system.hpp"
-#include "apps/trial_flight.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "control/gains.hpp"
 #include "control/identification/gain_search.hpp"
 #include "evaluation/gain_cost.hpp"
 #include "evaluation/trial.hpp"
+#include "flight/stop_signals.hpp"
+#include "flight/system.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/required.hpp"
+#include "simulated_flight/flights_in_parallel.hpp"
+#include "simulated_flight/trial_flight.hpp"
 #include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
@@ -42,7 +42,7 @@ TrialConfig trialToFly(const TuneGainsOptions& options) {
   if (conditions.size() != 1)
     throw common::InputError(common::Problem{
         {file.string()}, "natures", "has several conditions to fly in", "choose a nature with --nature"});
-  prepare(conditions);
+  simulated_flight::prepare(conditions);
   TrialConfig one = conditions.front();
   if (one.phases.empty())
     throw common::InputError(common::Problem{
@@ -59,11 +59,11 @@ struct SearchStopped {};
 /// Flies sets of gains, each with the same seeds. What a flight leaves is removed, the profiles stay.
 class GainFlights {
  public:
-  GainFlights(TrialConfig trial, System system, const TuneGainsOptions& options, fs::path folder)
+  GainFlights(TrialConfig trial, flight::System system, const TuneGainsOptions& options, fs::path folder)
       : trial_(std::move(trial)), system_(std::move(system)), options_(options), folder_(std::move(folder)) {}
 
-  System systemWith(const std::vector<Gain>& gains) const {
-    System system = system_.namingSheetsByPath();
+  flight::System systemWith(const std::vector<Gain>& gains) const {
+    flight::System system = system_.namingSheetsByPath();
     system.config.autonomy.control = control::withGains(system.config.autonomy.control, gains);
     return system;
   }
@@ -88,7 +88,7 @@ class GainFlights {
   /// A controller may have no solution for gains of the search, as LQR for weights of very different sizes.
   static bool isRefused(const fs::path& profile) {
     try {
-      (void)loadSystem(profile.string());
+      (void)flight::loadSystem(profile.string());
       return false;
     } catch (const common::InputError&) {
       return true;
@@ -102,11 +102,14 @@ class GainFlights {
   }
 
   std::vector<FlightScore> flown(const TrialConfig& trial) {
-    const std::atomic<bool>& stop = stopOnSignals().first;
+    const std::atomic<bool>& stop = flight::stopOnSignals().first;
     std::vector<std::vector<FlightScore>> scores(static_cast<std::size_t>(options_.seeds));
-    flyInParallel(options_.seeds, options_.jobs, stop, [&](int i) {
+    simulated_flight::flyInParallel(options_.seeds, options_.jobs, stop, [&](int i) {
       const fs::path run = folder_ / fmt::format("run-{}", i);
-      scores[static_cast<std::size_t>(i)] = flyOne(trial, nullptr, options_.seed + i, run, stop);
+      simulated_flight::SimulatedHooks hooks;
+      hooks.stop = &stop;
+      scores[static_cast<std::size_t>(i)] =
+          simulated_flight::flyScored(trial, simulated_flight::setupOf(trial, {}, options_.seed + i, run), hooks);
       fs::remove_all(run);
     });
     if (stop) throw SearchStopped();
@@ -116,14 +119,14 @@ class GainFlights {
   }
 
   TrialConfig trial_;
-  System system_;
+  flight::System system_;
   const TuneGainsOptions& options_;
   fs::path folder_;
   int sets_ = 0;
   std::optional<control::GainSearch> best_;
 };
 
-std::vector<Gain> gainsToSearch(const System& system, const std::string& only) {
+std::vector<Gain> gainsToSearch(const flight::System& system, const std::string& only) {
   std::vector<Gain> gains;
   for (const Gain& gain : control::gainsOf(system.config.autonomy.control))
     if (gain.name.starts_with(only)) gains.push_back(gain);
@@ -143,14 +146,14 @@ std::string comparison(const std::vector<Gain>& before, const std::vector<Gain>&
 }  // namespace
 
 int tuneGains(const TuneGainsOptions& options) {
-  const System system = loadSystem(options.system);
+  const flight::System system = flight::loadSystem(options.system);
   if (!options.out.empty()) requireWritable(options.out, "--out", kProfileLine);
   const std::vector<Gain> start = gainsToSearch(system, options.only);
   if (options.flights < 2 * options.seeds)
     throw common::InputError(
         common::Problem{{}, "--flights", "is too few for two sets of gains", "each is flown with all --seeds"});
   const TrialConfig trial = trialToFly(options);
-  const fs::path folder = trialFolder("", "tune", kTrialResults);
+  const fs::path folder = simulated_flight::trialFolder("", "tune", simulated_flight::kTrialResults);
   GainFlights flights(trial, system, options, folder);
   control::GainSearchOptions search_options;
   search_options.evaluations = options.flights / options.seeds;

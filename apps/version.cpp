@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/build_version.hpp"
 #include "apps/command.hpp"
+#include "flight/build_version.hpp"
 
 namespace swiftlet::apps {
 
@@ -16,12 +16,12 @@ void addVersion(Command& program) {
   command.footer("Example: swiftlet version --json");
   command.runs([json] {
     if (*json) {
-      const common::BuildVersion& version = buildVersion();
+      const common::BuildVersion& version = flight::buildVersion();
       nlohmann::json told = {{"name", "swiftlet"}, {"version", version.number}, {"commit", version.commit}};
       told["dirty"] = version.dirty ? nlohmann::json(*version.dirty) : nlohmann::json(nullptr);
       fmt::print("{}\n", told.dump());
     } else {
-      fmt::print("swiftlet {}\n", toString(buildVersion()));
+      fmt::print("swiftlet {}\n", toString(flight::buildVersion()));
     }
     return kDone;
   });

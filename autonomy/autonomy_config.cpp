@@ -18,10 +18,9 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
   fields.section("assist", assist, "Assistance for a pilot who flies by hand.");
 }
 
-std::vector<std::string> AutonomyConfig::validate() const {
-  std::vector<std::string> problems;
-  for (const std::string& problem : problemsWith(execution.clearance_m))
-    problems.push_back("reactive.avoidance." + problem);
+std::vector<common::Problem> AutonomyConfig::validate() const {
+  std::vector<common::Problem> problems = problemsWith(execution.clearance_m);
+  for (common::Problem& problem : problems) problem.element = "reactive.avoidance." + problem.element;
   return problems;
 }
 
@@ -33,7 +32,7 @@ void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
   explorer.laser_range_m = std::min(explorer.laser_range_m, laser.range_max_m);
 }
 
-std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const {
+std::vector<common::Problem> AutonomyConfig::problemsWith(double clearance_m) const {
   return reactive.avoidance.validateAgainst(clearance_m, perception::DynamicObstacles::kKeepOut_m);
 }
 

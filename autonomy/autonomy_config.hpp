@@ -38,12 +38,12 @@ struct AutonomyConfig {
   PilotAssistConfig assist;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
   /// Lowers the fields of view and ranges that avoidance and exploration use to those of the laser.
   void limitTo(const common::LaserConfig& laser);
   /// Why the reactive layer would stop the vehicle, or make it retreat, on a path planned at this clearance; empty if
   /// it would not.
-  std::vector<std::string> problemsWith(double clearance_m) const;
+  std::vector<common::Problem> problemsWith(double clearance_m) const;
 };
 
 /// The parts of an autonomy. The objects of the pointers are read only while it is made, and may be destroyed then.

@@ -34,8 +34,8 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
           .target_names = config.estimator.targets.names(),
           .has_map = setup.given != nullptr,
           .map_problem = [&maps](const std::string& map, const std::string&) -> std::optional<common::Problem> {
-            const std::string why = maps.problemOf(map);
-            return why.empty() ? std::nullopt : std::optional(common::Problem{{}, "", why, ""});
+            const auto why = maps.problemOf(map);
+            return why ? std::optional(common::Problem{{}, "", *why, ""}) : std::nullopt;
           }};
 }
 
@@ -197,7 +197,7 @@ VehicleCondition Commander::condition(const Percept& percept, const Navigator& n
   condition.flight = navigator.controller().state();
   condition.lands = std::holds_alternative<common::LandIntent>(decision_.intent.kind);
   condition.energy = *context_.world->energy;
-  condition.charge_counted_on = percept.consumption->countedOn(percept.now);
+  condition.gauge_fault = percept.consumption->gaugeFault(percept.now);
   const common::VehicleState& state = percept.state;
   condition.vertical_age_s = state.verticalAge_s(percept.now);
   const double age_s = std::max(state.horizontalAge_s(percept.now), condition.vertical_age_s);

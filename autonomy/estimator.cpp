@@ -234,8 +234,10 @@ Pose3 Estimator::T_odom_bodyAt(const perception::ProjectedScan& scan) const {
 
 void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Time now) {
   if (poses_.odomAtKey()) altitude_.follow(*map_.keyPoses(), poses_.odomAtKey()->key);
-  const AltitudeStep altitude =
-      altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body, filter_->verticalAt(outcome.scan.stamp));
+  const Time stamp = outcome.scan.stamp;
+  const auto vertical = filter_->verticalAt(stamp, altitude_.lastScan());
+  const AltitudeStep altitude = altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body,
+                                              {vertical, vertical ? vertical->climb : std::nullopt, filter_->atRest()});
   fuse(altitude, outcome.scan.stamp);
   if (!altitude.below_m) return;
   outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
@@ -243,46 +245,18 @@ void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Ti
 }
 
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {
-  if (step.drift) correctClimb(*step.drift, stamp);
-  if (const auto& m = step.measurement) {
-    filter_.tell(perception::measuredHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2));
-    if (m->speed) filter_.tell(perception::measuredVerticalSpeed(m->stamp, m->speed->up_m_s, m->speed->variance_m2_s2));
-  }
-  if (step.doubt_m_s)
-    log_.warn(stamp, "altitude", "height doubtful: the ground may slope",
-              fmt::format(
-                  "what is below was taken for level, and the vertical speed corrected by {:+.2f} m/s in flight; on a "
-                  "ramp the height is then wrong by what it rises",
-                  *step.doubt_m_s));
-  if (step.slope_began) log_.info(stamp, "altitude", "the ground slopes", "as the camera saw it");
+  if (step.vertical) filter_.tell(perception::knownVertical(stamp, *step.vertical));
   if (step.slope_ended_rise_m)
-    log_.info(stamp, "altitude", "the slope has ended",
+    log_.info(stamp, "altitude", "the ground sloped",
               fmt::format("the ground is {:+.2f} m where it is level again", *step.slope_ended_rise_m));
   if (step.floor_regained_m) {
     space_.doubtCamera(stamp);
     log_.warn(
-        stamp, "altitude", "the floor is below again",
-        fmt::format("what was taken for a level covers the floor that was seen before: the height is corrected by "
-                    "{:+.2f} m",
+        stamp, "altitude", "floor recognized again",
+        fmt::format("a surface that was mapped as a level is the known floor: the height is corrected by {:+.2f} m",
                     *step.floor_regained_m));
   }
   if (step.levels_joined > 0) log_.info(stamp, "altitude", fmt::format("{} levels joined", step.levels_joined));
-}
-
-/// The camera is the only sensor beside the beams that measures the height. Where it takes a climb for rest, the levels
-/// below agree with no measurement, and the height would follow the camera up to the ceiling.
-void Estimator::correctClimb(const perception::HeightDriftRate& drift, Time stamp) {
-  const auto vertical = filter_->verticalAt(stamp);
-  if (!space_.hasCamera() || !vertical) return;
-  if (!space_.isCameraDoubted(stamp))
-    log_.warn(
-        stamp, "altitude", "the beams down contradict the height",
-        fmt::format("over one place the distance down grows by {:+.2f} m/s more than the height; the camera is not "
-                    "used for {:.0f} s",
-                    drift.speed_m_s, SpaceSensors::kCameraDoubted_s));
-  space_.doubtCamera(stamp);
-  filter_.tell(
-      perception::measuredVerticalSpeed(stamp, vertical->velocity_m_s + drift.speed_m_s, drift.variance_m2_s2));
 }
 
 void Estimator::fuse(const CameraStep& step, Time now) {

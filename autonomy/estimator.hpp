@@ -166,7 +166,6 @@ class Estimator {
   void fuse(const CameraStep& step, common::Time now);
   void localize(const LocatedScan& located, common::Time now);
   void lookAtGround(const common::RgbdFrame& frame);
-  void correctClimb(const perception::HeightDriftRate& drift, common::Time stamp);
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
 
   common::EventLog& log_;

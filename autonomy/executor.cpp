@@ -74,8 +74,8 @@ void Executor::note(const Progress& progress) {
   if (progress.state == IntentState::kRunning) return;
   maneuver_.reset();
   const bool failed = progress.state == IntentState::kFailed;
-  memory_.say(now_, failed ? common::Severity::kWarning : common::Severity::kInfo,
-              toString(intent_, names_) + (failed ? ": failed" : ": done"), progress.reason);
+  memory_.log.add({now_, failed ? common::Severity::kWarning : common::Severity::kInfo, kFlightSource,
+                   toString(intent_, names_) + (failed ? ": failed" : ": done"), progress.reason});
   if (failed && controller_.state() == common::FlightState::kFlying) controller_.hold();
 }
 

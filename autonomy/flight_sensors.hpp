@@ -9,7 +9,7 @@
 
 namespace swiftlet::autonomy {
 
-/// What the rest of the autonomy needs of a laser. The defaults are those of the settings that they come from.
+/// What the rest of the autonomy needs of a laser. The defaults are those of the places that they come from.
 struct ScanNeeds {
   int least_beams = 30;            ///< Of a match.
   double longest_silence_s = 0.3;  ///< kUnseenHold_s of autonomy/health: after it the vehicle holds.

@@ -18,20 +18,21 @@ const OfferedMap* MapShelf::find(const std::string& file) const {
   return found == maps_.end() ? nullptr : &*found;
 }
 
-std::string MapShelf::problemOf(const std::string& file) const {
-  return find(file) != nullptr ? std::string() : "the map `" + file + "` was not read before the mission";
+std::optional<common::Message> MapShelf::problemOf(const std::string& file) const {
+  if (find(file) != nullptr) return std::nullopt;
+  return common::Message("map.not-offered", "the map `{}` was not read before the mission", file);
 }
 
 std::optional<MapShelf::Answer> MapShelf::take(const common::MissionRequest& request, bool given) const {
   if (const auto* load = std::get_if<common::LoadMapRequest>(&request.kind)) {
     const OfferedMap* offered = find(load->file);
-    if (offered == nullptr) return Answer{{request.id, false, problemOf(load->file)}, std::nullopt};
+    if (offered == nullptr) return Answer{{request.id, false, problemOf(load->file)->text()}, std::nullopt};
     return Answer{{request.id, true, "map " + load->file + " is the given one"},
                   GivenMapOrder{std::make_shared<const common::GivenMap>(offered->map)}};
   }
   if (std::holds_alternative<common::RelocalizeRequest>(request.kind)) {
     if (!given) return Answer{{request.id, false, "the flight was given no map"}, std::nullopt};
-    return Answer{{request.id, true, "the place in the given map is looked for anew"}, GivenMapOrder{}};
+    return Answer{{request.id, true, "localization in the given map starts again"}, GivenMapOrder{}};
   }
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 
 #include "autonomy/feedback.hpp"
 #include "common/given_map.hpp"
+#include "common/message.hpp"
 #include "common/mission_request.hpp"
 
 namespace swiftlet::autonomy {
@@ -19,8 +20,8 @@ class MapShelf {
  public:
   /// Adds the maps; one with the name of an earlier map takes its place.
   void offer(std::vector<OfferedMap> maps);
-  /// Why a mission cannot load that map; empty if it can.
-  std::string problemOf(const std::string& file) const;
+  /// Why a mission cannot load that map; nullopt if it can.
+  std::optional<common::Message> problemOf(const std::string& file) const;
 
   /// The answer to a request, and what the senses are to do for it.
   struct Answer {

@@ -44,7 +44,7 @@ bool Senses::sense(const common::SensorEvent& event) {
 void Senses::take(const std::shared_ptr<const common::LaserScan>& scan) {
   if (scans_.add(scan) || scans_.lateScans() > 1) return;
   const common::Stamps& stamps = scan->stamps;
-  log_.warn(stamps.arrived, "laser", "a scan came too late to be used",
+  log_.warn(stamps.arrived, "laser", "late scan rejected",
             fmt::format("{:.0f} ms after it was measured, {:.0f} ms behind a later one; further ones are only counted",
                         1e3 * (stamps.arrived - stamps.measured).seconds(),
                         1e3 * (scans_.lastMeasured() - stamps.measured).seconds()));

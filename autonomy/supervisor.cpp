@@ -27,8 +27,8 @@ std::string headlineOf(const Finding& finding) {
       return fmt::format("{:.0f} % of the battery left", 100.0 * finding.reading.value);
     case FindingKind::kHomeOutOfReach:
       return "home is out of reach";
-    case FindingKind::kChargeCountedOn:
-      return "the charge is counted on by the current";
+    case FindingKind::kGaugeUnusable:
+      return "the charge is estimated by the current drawn";
     default:
       return std::string(control::toString(finding.row->finding));
   }
@@ -87,7 +87,7 @@ void Supervisor::startHome(std::string reason, AtHome then) {
 void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
   home_.active = false;
   if (!home_.reason.empty())
-    return land(now, reached ? "home again, " + home_.reason : home_.reason + "; home not reached: " + reason);
+    return land(now, reached ? "home reached, " + home_.reason : home_.reason + "; home not reached: " + reason);
   operator_holds_ = home_.then == AtHome::kHold;
   const std::string holds = operator_holds_ ? "the vehicle holds until Resume or Land"
                                             : "the vehicle holds until a mission is started, or it lands";
@@ -151,7 +151,7 @@ void Supervisor::begin(Time now, const Finding& finding) {
 
 void Supervisor::end(Time now, FindingKind what) {
   if (what == FindingKind::kSurroundingsUnseen) log_.info(now, kSupervisor, "scans are back");
-  if (what == FindingKind::kChargeCountedOn) log_.info(now, kSupervisor, "the battery's gauge is believed again");
+  if (what == FindingKind::kGaugeUnusable) log_.info(now, kSupervisor, "battery gauge trusted again");
 }
 
 /// A flight back begins when height or position is unknown, and ends when both have been known for some time.
@@ -204,7 +204,7 @@ std::string Supervisor::holdReason() const {
   if (operator_holds_)
     return flies_back_ ? "the operator holds, and it would fly back along its trail" : "the operator holds";
   if (flies_back_) return "it flies back along its trail";
-  if (home_.active) return home_.reason.empty() ? "the operator wants it home" : home_.reason;
+  if (home_.active) return home_.reason.empty() ? "the operator sent it home" : home_.reason;
   return "";
 }
 

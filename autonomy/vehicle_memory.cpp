@@ -10,6 +10,6 @@ void VehicleMemory::describe(common::config::Fields& fields) {
   fields.list("thrust", thrust, "The command that carries the weight, by battery voltage.");
 }
 
-std::vector<std::string> VehicleMemory::validate() const { return control::problemsOf(thrust); }
+std::vector<common::Problem> VehicleMemory::validate() const { return control::problemsOf(thrust); }
 
 }  // namespace swiftlet::autonomy

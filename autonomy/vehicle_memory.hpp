@@ -18,7 +18,7 @@ struct VehicleMemory {
   control::ThrustPoints thrust;  ///< By rising voltage.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 }  // namespace swiftlet::autonomy

@@ -76,13 +76,13 @@ class Walk {
     }
     if (!entry.air && !reported_[static_cast<std::size_t>(node.id())]) {
       reported_[static_cast<std::size_t>(node.id())] = true;
-      problems_.push_back({tree_.locationOf(node.id()),
-                           std::string(id),
-                           in_next_round_
-                               ? "the vehicle stands on the floor when this is repeated, expected a TakeOff before it"
-                               : "the vehicle stands on the floor here, expected a TakeOff before it",
-                           {},
-                           tree_.pathOf(node.id())});
+      problems_.push_back(
+          {tree_.locationOf(node.id()),
+           std::string(id),
+           tree::Message("mission.on-the-floor", "the vehicle stands on the floor {}, expected a TakeOff before it",
+                         in_next_round_ ? "when this is repeated" : "here"),
+           {},
+           tree_.pathOf(node.id())});
     }
     return {use == VehicleUse::kLands ? Whereabouts{true, false} : entry, entry};
   }
@@ -112,7 +112,8 @@ class Walk {
       if (child == node.children().back() || maySkip(*child)) continue;
       problems_.push_back(
           {tree_.locationOf(child->id()), child->name(),
-           "never answers SKIPPED, so that no child below it in the Priority gets the vehicle",
+           tree::Message("mission.never-skipped",
+                         "never answers SKIPPED, so that no child below it in the Priority gets the vehicle"),
            "only what can be SKIPPED may stand above another child: AvoidObstacle, Hold, or a node with _skipIf",
            tree_.pathOf(child->id())});
     }
@@ -189,8 +190,11 @@ std::vector<tree::Problem> flightOrderProblems(const tree::Tree& tree) {
   Walk walk(tree, problems);
   walk.walk(tree.root(), {true, false});
   if (!walk.takesOff() && problems.empty())
-    problems.push_back(
-        {tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}, tree.pathOf(0)});
+    problems.push_back({tree.locationOf(0),
+                        tree.name(),
+                        tree::Message("mission.no-take-off", "the mission never takes off, expected a TakeOff"),
+                        {},
+                        tree.pathOf(0)});
   return problems;
 }
 

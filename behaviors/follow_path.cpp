@@ -1,6 +1,7 @@
 #include "behaviors/follow_path.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 
 #include <fmt/format.h>
@@ -25,6 +26,13 @@ tree::PortManifest pointsPort() {
           .description =
               "In the map frame, whose origin is the take-off pose, or in the given map; z above the take-off floor, "
               "or none: the present height."};
+}
+
+/// Those of every PointsLeaf, and its own.
+std::vector<tree::PortManifest> pointsPorts(std::initializer_list<tree::PortManifest> own) {
+  std::vector<tree::PortManifest> ports{pointsPort(), tolerancePort(), shiftPort(), clearancePort(), modePort()};
+  ports.insert(ports.end(), own);
+  return ports;
 }
 
 /// Infinite while it is not known where the point lies.
@@ -87,28 +95,24 @@ tree::NodeManifest FollowPath::manifest() {
   return {
       .id = "FollowPath",
       .kind = tree::NodeKind::kAction,
-      .ports = {pointsPort(),
-                tolerancePort(),
-                shiftPort(),
-                clearancePort(),
-                modePort(),
-                {.name = "corner_m",
-                 .type = PortType::kDouble,
-                 .default_value = "0.30",
-                 .minimum = 0.01,
-                 .maximum = 5.0,
-                 .description = "A point before the last one is passed when nearer than this."},
-                {.name = "modes",
-                 .type = PortType::kString,
-                 .description = "The modes of the legs to the points, `careful | fast`; the last one holds for the "
-                                "rest. Not given: `mode`."}},
+      .ports = pointsPorts(
+          {{.name = "corner_m",
+            .type = PortType::kDouble,
+            .default_value = "0.30",
+            .minimum = 0.01,
+            .maximum = 5.0,
+            .description = "A point before the last one is passed when nearer than this."},
+           {.name = "modes",
+            .type = PortType::kString,
+            .description = "The modes of the legs to the points, `careful | fast`; the last one holds for the "
+                           "rest. Not given: `mode`."}}),
       .description = "Flies through points to the last one.",
       .details =
           "The points before the last are passed without a stop; `modes=\"careful | fast\"` gives each leg its mode.",
       .ends = "SUCCESS at the last point, or beside it as for `MoveToGoal`"};
 }
 
-tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::string& text) {
+tl::expected<std::vector<common::FlightMode>, tree::Message> modesOf(const std::string& text) {
   std::vector<common::FlightMode> modes;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t to = std::min(text.find('|', from), text.size());
@@ -118,7 +122,8 @@ tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::st
     const auto known = std::find_if(common::kFlightModes.begin(), common::kFlightModes.end(),
                                     [&](common::FlightMode mode) { return word == toString(mode); });
     if (known == common::kFlightModes.end())
-      return tl::unexpected("`" + word + "` is not a flight mode, expected fast, careful, accurate or brisk");
+      return tl::unexpected(tree::Message(
+          "mission.unknown-mode", "`{}` is not a flight mode, expected fast, careful, accurate or brisk", word));
     modes.push_back(*known);
     from = to + 1;
   }
@@ -136,7 +141,7 @@ Status FollowPath::act(tree::TickContext& context) {
     const auto text = modes_.get();
     if (!text) return fail(context, modes_.problem());
     const auto given = modesOf(*text);
-    if (!given) return fail(context, given.error());
+    if (!given) return fail(context, given.error().text());
     modes = *given;
   }
   const auto modeOfLeg = [&] { return modes[std::min(at_, modes.size() - 1)]; };
@@ -159,23 +164,19 @@ Status FollowPath::act(tree::TickContext& context) {
 tree::NodeManifest Patrol::manifest() {
   return {.id = "Patrol",
           .kind = tree::NodeKind::kAction,
-          .ports = {pointsPort(),
-                    tolerancePort(),
-                    shiftPort(),
-                    clearancePort(),
-                    modePort(),
-                    {.name = "rounds",
-                     .type = PortType::kInt,
-                     .default_value = "0",
-                     .minimum = 0.0,
-                     .maximum = 9999.0,
-                     .description = "How often all points are visited; 0: until something above the node ends it."},
-                    {.name = "pause_s",
-                     .type = PortType::kDuration,
-                     .default_value = "2",
-                     .minimum = 0.0,
-                     .maximum = 3600.0,
-                     .description = "Time at each point."}},
+          .ports = pointsPorts(
+              {{.name = "rounds",
+                .type = PortType::kInt,
+                .default_value = "0",
+                .minimum = 0.0,
+                .maximum = 9999.0,
+                .description = "How often all points are visited; 0: until something above the node ends it."},
+               {.name = "pause_s",
+                .type = PortType::kDuration,
+                .default_value = "2",
+                .minimum = 0.0,
+                .maximum = 3600.0,
+                .description = "Time at each point."}}),
           .description = "Visits points in turn, again and again.",
           .details = "It waits at each; a point that cannot be reached is left out, with an event.",
           .ends = "SUCCESS after `rounds` rounds, never with `rounds=\"0\"`; FAILURE after a round without any point",
@@ -211,7 +212,7 @@ Status Patrol::act(tree::TickContext& context) {
     if (leg.status == Status::kRunning) return leg.status;
     if (leg.status == Status::kFailure) {
       if (++left_out_ == path->points.size()) return fail(context, leg.problem);
-      tick.say(common::Severity::kWarning, name() + " leaves out a point", leg.problem);
+      tick.say(common::Severity::kWarning, name() + " skips a point", leg.problem);
       emitHold(tick);
       return next(path->points.size(), *rounds) ? Status::kSuccess : Status::kRunning;
     }

@@ -2,7 +2,7 @@
 // is flown around. After an interruption the leg that was being flown is flown again.
 //
 // FollowPath is SUCCESS at the last point; the others are passed within corner_m, without a stop. Patrol visits every
-// point, waits there, and starts over: SUCCESS after `rounds` rounds, never if `rounds` is 0. It leaves out a point
+// point, waits there, and starts over: SUCCESS after `rounds` rounds, never if `rounds` is 0. It skips a point
 // that cannot be reached, with an event, and is FAILURE after a round in which no point could be reached.
 #pragma once
 
@@ -57,7 +57,7 @@ class FollowPath final : public PointsLeaf {
 };
 
 /// The modes of a text "careful | fast", or what is wrong with it.
-tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::string& text);
+tl::expected<std::vector<common::FlightMode>, tree::Message> modesOf(const std::string& text);
 
 class Patrol final : public PointsLeaf {
  public:

@@ -13,29 +13,18 @@
 namespace swiftlet::behaviors {
 namespace {
 
-/// What is wrong with the targets that a node names; empty if nothing is.
-std::string targetProblem(const tree::Tree& tree, const tree::NodeRecord& record, const MissionLimits& limits) {
-  if (!limits.has_camera || !limits.target_names || !traitsOf(record).about_targets) return {};
-  if (limits.target_names->empty()) return "looks for targets, and the profile names none";
+/// What is wrong with the targets that a node names; nothing if they are looked for.
+std::optional<tree::Message> targetProblem(const tree::Tree& tree, const tree::NodeRecord& record,
+                                           const MissionLimits& limits) {
+  if (!limits.has_camera || !limits.target_names || !traitsOf(record).about_targets) return std::nullopt;
+  if (limits.target_names->empty())
+    return tree::Message("mission.no-targets", "looks for targets, and the profile names none");
   for (const tree::Value& value : tree.knownValues(record.node->id(), "target"))
     if (const auto* name = std::get_if<std::string>(&value); name != nullptr && !name->empty())
       if (std::find(limits.target_names->begin(), limits.target_names->end(), *name) == limits.target_names->end())
-        return "the profile looks for no `" + *name + "`, only for " + tree::quotedList(*limits.target_names);
-  return {};
-}
-
-struct AreaProblem {
-  std::string problem;  ///< Empty without one.
-  const char* hint = "";
-};
-AreaProblem areaProblem(const common::Polygon& area, bool keeps_out, bool in_take_off_frame) {
-  if (std::string problem = problemOf(area); !problem.empty())
-    return {std::move(problem), "give the corners in order along the edge"};
-  if (std::string problem = keeps_out ? "" : surveyProblem(area); !problem.empty())
-    return {std::move(problem), "survey it in parts"};
-  if (keeps_out && in_take_off_frame && area.contains(Eigen::Vector2d::Zero()))
-    return {"holds the take-off place 0;0", "the vehicle could not fly home: leave the place out"};
-  return {};
+        return tree::Message("mission.unknown-target", "the profile looks for no `{}`, only for {}", *name,
+                             tree::quotedList(*limits.target_names));
+  return std::nullopt;
 }
 
 constexpr const char* kHeightHint =
@@ -72,12 +61,12 @@ class LimitsCheck {
   }
 
  private:
-  void report(const tree::NodeRecord& node, std::string message, std::string hint) {
+  void report(const tree::NodeRecord& node, tree::Message message, std::string hint) {
     const int id = node.node->id();
     problems_.push_back(
         {tree_.locationOf(id), node.manifest->id, std::move(message), std::move(hint), tree_.pathOf(id)});
   }
-  void report(const tree::NodeRecord& node, const char* port, std::string message, std::string hint) {
+  void report(const tree::NodeRecord& node, const char* port, tree::Message message, std::string hint = {}) {
     const int id = node.node->id();
     problems_.push_back({tree_.locationOf(id, port), node.manifest->id + "." + port, std::move(message),
                          std::move(hint), tree_.pathOf(id)});
@@ -92,30 +81,32 @@ class LimitsCheck {
 
   void checkCamera(const tree::NodeRecord& node) {
     if (traitsOf(node).needs_camera && !limits_.has_camera)
-      report(node, "needs an RGB-D camera, and the vehicle has none",
+      report(node, tree::Message("mission.no-camera", "needs an RGB-D camera, and the vehicle has none"),
              "fly with a profile that has one: --system swiftlet_3d, or system: in a trial");
-    if (const std::string problem = targetProblem(tree_, node, limits_); !problem.empty())
-      report(node, problem, "name it in autonomy.estimator.targets.classes of the profile");
+    if (auto problem = targetProblem(tree_, node, limits_))
+      report(node, *std::move(problem), "name it in autonomy.estimator.targets.classes of the profile");
   }
 
   void checkFileName(const tree::NodeRecord& node) {
     if (!traitsOf(node).writes_file) return;
     forEachValue<std::string>(node, "file", [&](const std::string& file) {
-      if (const std::string problem = fileNameProblem(file); !problem.empty()) report(node, "file", problem, {});
+      if (auto problem = fileNameProblem(file)) report(node, "file", *std::move(problem));
     });
   }
 
   void checkModes(const tree::NodeRecord& node) {
     forEachValue<std::string>(node, "modes", [&](const std::string& modes) {
-      if (const auto read = modesOf(modes); !read) report(node, "modes", read.error(), {});
+      if (const auto read = modesOf(modes); !read) report(node, "modes", read.error());
     });
   }
 
   void checkClearance(const tree::NodeRecord& node) {
     if (!limits_.clearance_problems) return;
     forEachValue<double>(node, "clearance_m", [&](double clearance_m) {
-      for (const std::string& problem : limits_.clearance_problems(clearance_m))
-        report(node, "clearance_m", metres(clearance_m) + " cannot be flown with this system: " + problem,
+      for (const common::Problem& problem : limits_.clearance_problems(clearance_m))
+        report(node, "clearance_m",
+               tree::Message("mission.clearance", "{} cannot be flown with this system: {}", metres(clearance_m),
+                             toString(problem)),
                "raise it, or change that distance in the system profile");
     });
   }
@@ -126,11 +117,15 @@ class LimitsCheck {
     const auto checkGoal = [&](const char* port, const common::Goal& goal) {
       const auto verdict = common::judgeGoal(goal, {.greatest_height_m = max_height_m_}, nullptr);
       const bool height = !verdict && verdict.error().reason == common::GoalRefusal::Reason::kHeight;
-      if (!verdict) report(node, port, verdict.error().text, height ? kHeightHint : "");
+      if (!verdict)
+        report(node, port, tree::Message("mission.goal-refused", "{}", verdict.error().text),
+               height ? kHeightHint : "");
       if (verdict && goal.height_m.value_or(least_m) < least_m)
         report(node, port,
-               metres(*goal.height_m) + " is below " + metres(std::ceil(100.0 * least_m) / 100.0) +
-                   ", from which on the beams down of the laser measure the height (range_min_m)",
+               tree::Message("mission.height-low",
+                             "{} is below {}, from which on the beams down of the laser measure the height "
+                             "(range_min_m)",
+                             metres(*goal.height_m), metres(std::ceil(100.0 * least_m) / 100.0)),
                "name a higher one, or fly with a laser of a smaller range_min_m");
     };
     // A height is judged as that of a goal above the take-off place.
@@ -138,23 +133,34 @@ class LimitsCheck {
     forEachValue<double>(node, "max_height_m", [&](double height_m) {
       if (height_m > limits_.measured_height_m)
         report(node, "max_height_m",
-               metres(height_m) + " is above " + metres(std::floor(100.0 * limits_.measured_height_m) / 100.0) +
-                   ", up to which the beams down of the laser measure the height",
+               tree::Message("mission.height-unmeasured",
+                             "{} is above {}, up to which the beams down of the laser measure the height",
+                             metres(height_m), metres(std::floor(100.0 * limits_.measured_height_m) / 100.0)),
                "name a lower one, or fly with a laser that reaches farther");
     });
-    forEachValue<tree::Points>(node, "polygon", [&](const tree::Points& corners) {
-      const auto [problem, hint] = areaProblem(polygonOf(corners), traitsOf(node).keeps_out, in_take_off_frame_);
-      if (!problem.empty()) report(node, "polygon", problem, hint);
-    });
+    forEachValue<tree::Points>(node, "polygon",
+                               [&](const tree::Points& corners) { checkArea(node, polygonOf(corners)); });
     forEachValue<tree::Point>(node, "goal", [&](const tree::Point& goal) {
       checkGoal("goal", {.place_map_m = {goal.x, goal.y}, .height_m = goal.z});
     });
   }
 
+  void checkArea(const tree::NodeRecord& node, const common::Polygon& area) {
+    const bool keeps_out = traitsOf(node).keeps_out;
+    if (const auto problem = problemOf(area))
+      return report(node, "polygon", tree::Message("mission.polygon", "{}", problem->text()),
+                    "give the corners in order along the edge");
+    if (auto large = keeps_out ? std::nullopt : surveyProblem(area))
+      return report(node, "polygon", *std::move(large), "survey it in parts");
+    if (keeps_out && in_take_off_frame_ && area.contains(Eigen::Vector2d::Zero()))
+      report(node, "polygon", tree::Message("mission.home-kept-out", "holds the take-off place 0;0"),
+             "the vehicle could not fly home: leave the place out");
+  }
+
   void checkMap(const tree::NodeRecord& node) {
     const MapUse use = traitsOf(node).map;
     if (use == MapUse::kNeeds && !limits_.has_map && !loads_map_)
-      report(node, "needs a map of the place, and the flight has none",
+      report(node, tree::Message("mission.no-map", "needs a map of the place, and the flight has none"),
              "give it one: LoadMap, swiftlet fly --map MAP.yaml, or map: in a trial");
     if (use != MapUse::kLoads || !limits_.map_problem) return;
     forEachValue<std::string>(node, "file", [&](const std::string& file) {
@@ -163,7 +169,7 @@ class LimitsCheck {
       const std::string hint = std::exchange(problem->hint, {});
       std::string text = toString(*problem);
       if (text.find(file) == std::string::npos) text = "`" + file + "`: " + text;
-      report(node, "file", std::move(text),
+      report(node, "file", tree::Message("mission.map-unusable", "{}", text),
              hint.empty() ? "a map is the YAML file of map_server, as a run writes map.yaml" : hint);
     });
   }

@@ -43,7 +43,7 @@ Status Localize::act(tree::TickContext& context) {
   if (!clearance_m) return fail(context, clearance_m_.problem());
   emitIntent(tick, common::ExploreIntent{*clearance_m, std::nullopt, false, tick.mode});
   if (localization->localized()) return Status::kSuccess;
-  if (localization->refuted) return fail(context, "the given map is not that of this place");
+  if (localization->refuted) return fail(context, "the given map does not match this place");
   switch (intentState(tick)) {
     case common::IntentState::kRunning:
       return Status::kRunning;

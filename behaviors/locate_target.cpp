@@ -87,7 +87,11 @@ const common::Target* withId(const common::TargetsLayer& layer, int id) {
 std::string fileOf(const common::Target& target) {
   std::string name = labelOf(target).substr(0, 40);
   std::replace_if(
-      name.begin(), name.end(), [](char c) { return !fileNameProblem(std::string(1, c)).empty(); }, '_');
+      name.begin(), name.end(),
+      [](char c) {
+        return fileNameProblem({&c, 1}).has_value();
+      },
+      '_');
   return name;
 }
 

@@ -98,12 +98,23 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
   for (const tree::Problem& problem : problems) {
     common::Problem shown{{problem.location.file, problem.location.line, problem.location.column},
                           problem.element,
-                          problem.message,
+                          problem.message.text(),
                           problem.hint};
-    if (!problem.path.empty()) (shown.hint.empty() ? shown.message : shown.hint) += " [" + problem.path + "]";
+    const std::string path = problem.path.empty() ? "" : " [" + problem.path + "]";
+    if (shown.hint.empty())
+      shown.message += path;
+    else
+      shown.hint += path;
     result.push_back(std::move(shown));
   }
   return result;
+}
+
+tree::Problem toTree(const common::Problem& problem) {
+  return {{problem.location.file, problem.location.line, problem.location.column},
+          problem.element,
+          tree::Message("mission.input", "{}", problem.message.text()),
+          problem.hint};
 }
 
 std::vector<std::string> mapFilesOf(const tree::Tree& tree) {

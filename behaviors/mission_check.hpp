@@ -15,6 +15,8 @@ namespace swiftlet::behaviors {
 
 /// The problems in the type of common; the path of the node ends the text.
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems);
+/// A problem of another part of the program as one of a mission.
+tree::Problem toTree(const common::Problem& problem);
 
 /// The problems that flight_order.hpp and limits_check.hpp find.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);

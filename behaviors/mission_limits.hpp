@@ -15,7 +15,7 @@ namespace swiftlet::behaviors {
 struct MissionLimits {
   /// Why the reactive layer would not let the vehicle fly with a clearance (m, between hull and obstacle); empty if it
   /// would. Without a function every clearance is accepted.
-  std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
+  std::function<std::vector<common::Problem>(double clearance_m)> clearance_problems = {};
   /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
   double max_height_m = 2.0;
   /// Above the take-off floor, up to which the sensors measure the height: no TakeOff may be higher.

@@ -19,7 +19,8 @@ class Warnings {
       : tree_(tree), limits_(limits), unreached_(tree::unreachedNodes(tree, missionOutcomes(tree))) {}
 
   std::vector<tree::Problem> find() {
-    for (const tree::Unreached& node : unreached_) warn(node.node, "is never reached: " + node.why, {});
+    for (const tree::Unreached& node : unreached_)
+      warn(node.node, tree::Message("mission.unreached", "is never reached: {}", node.why));
     for (const tree::NodeRecord& record : tree_.nodes())
       if (typeNameOf(record).starts_with("Parallel")) checkParallel(*record.node);
     checkLanding();
@@ -31,15 +32,19 @@ class Warnings {
       const LeafTraits traits = traitsOf(record);
       if (isUnreached(record.node->id())) continue;
       if (traits.obeys_operator && !limits_.operator_gives_goals)
-        warn(record.node->id(), "nobody gives it a goal, and the vehicle holds here", kOperatorHint);
+        warn(record.node->id(),
+             tree::Message("mission.nobody-gives-goals", "nobody gives it a goal, and the vehicle holds here"),
+             kOperatorHint);
       if (traits.asks_operator && !limits_.operator_goes_on)
-        warn(record.node->id(), "nobody says `go on`, and it " + endOfWaiting(record), kOperatorHint);
+        warn(record.node->id(),
+             tree::Message("mission.nobody-goes-on", "nobody says `go on`, and it {}", endOfWaiting(record)),
+             kOperatorHint);
     }
     return std::move(warnings_);
   }
 
  private:
-  void warn(int node, std::string message, std::string hint) {
+  void warn(int node, tree::Message message, std::string hint = {}) {
     const tree::NodeRecord& record = tree_.nodes()[static_cast<std::size_t>(node)];
     warnings_.push_back({tree_.locationOf(node), std::string(typeNameOf(record)), std::move(message), std::move(hint),
                          tree_.pathOf(node)});
@@ -75,7 +80,8 @@ class Warnings {
       if (const tree::Node* leaf = flyingLeafIn(*child)) flying.push_back(leaf->name());
     if (flying.size() < 2) return;
     warn(parallel.id(),
-         "`" + flying[0] + "` and `" + flying[1] + "` fly in the same tick, and only the last intent is flown",
+         tree::Message("mission.two-fly", "`{}` and `{}` fly in the same tick, and only the last intent is flown",
+                       flying[0], flying[1]),
          "let one child fly and the others watch");
   }
 
@@ -92,10 +98,11 @@ class Warnings {
       const bool lands = traits.vehicle == VehicleUse::kLands || traits.obeys_operator;
       if (!lands || isUnreached(record.node->id())) continue;
       if (mayEndInTheAir(tree_))
-        warn(0, "the mission may succeed while the vehicle is in the air", "end it with a <Land/>");
+        warn(0, tree::Message("mission.ends-in-the-air", "the mission may succeed while the vehicle is in the air"),
+             "end it with a <Land/>");
       return;
     }
-    warn(0, "the mission never lands", "end it with a <Land/>");
+    warn(0, tree::Message("mission.no-landing", "the mission never lands"), "end it with a <Land/>");
   }
 
   const tree::Tree& tree_;

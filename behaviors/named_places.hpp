@@ -54,7 +54,8 @@ class NamedPlaces {
 
 /// The localization has moved the given map, and with it the goal, or has lost it.
 inline bool hasMoved(const common::GoToIntent& intent, const common::World& world) {
-  constexpr double kMoved_m = 0.03;  // Decision 054: less than the tolerance of a goal, more than the noise of a match.
+  // Less than the tolerance of a goal, more than the noise of a match (docs/decisions/localization.md#054).
+  constexpr double kMoved_m = 0.03;
   if (!intent.goal_given_m) return false;
   const auto places = NamedPlaces::in(world);
   return !places || (places->inMap_m(*intent.goal_given_m) - intent.goal_map_m).norm() > kMoved_m;

@@ -42,7 +42,7 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
       failed_node_ = -1;
       break;
     case Status::kIdle:
-      if (from == Status::kRunning) say(common::Severity::kInfo, node.name() + " is given up", {});
+      if (from == Status::kRunning) say(common::Severity::kInfo, node.name() + " is cancelled", {});
       break;
     case Status::kSkipped:
     case Status::kSuspended:
@@ -55,10 +55,10 @@ void Narrator::onSwitch(const Switch& change) {
   const std::string& to = actingIn(*change.to, *tick_).name();
   switch (change.kind) {
     case Switch::Kind::kLetsGo:
-      say(common::Severity::kInfo, actingIn(*change.from, *tick_).name() + " lets go for " + to, change.reason);
+      say(common::Severity::kInfo, actingIn(*change.from, *tick_).name() + " yields to " + to, change.reason);
       return;
     case Switch::Kind::kKeeps:
-      say(common::Severity::kInfo, to + " goes on", change.reason);
+      say(common::Severity::kInfo, to + " continues", change.reason);
       return;
     case Switch::Kind::kTakes:
       break;
@@ -66,7 +66,7 @@ void Narrator::onSwitch(const Switch& change) {
   if (change.to->status() == Status::kSuspended)
     say(common::Severity::kInfo, to + " resumes", change.reason);
   else if (change.from == nullptr)
-    say(common::Severity::kInfo, to + " has the vehicle", change.reason);
+    say(common::Severity::kInfo, to + " takes control", change.reason);
   else
     say(common::Severity::kInfo, to + " takes over from " + actingIn(*change.from, *tick_).name(), change.reason);
 }

@@ -62,7 +62,7 @@ void OperatorCommand::take(FlightTick& tick) {
   if (!tick.pending_command) return;
   const common::OperatorCommand next = *std::exchange(tick.pending_command, std::nullopt);
   if (command_)
-    tick.say(common::Severity::kInfo, nameOf(*command_, tick) + " given up", "replaced by " + nameOf(next, tick));
+    tick.say(common::Severity::kInfo, nameOf(*command_, tick) + " cancelled", "replaced by " + nameOf(next, tick));
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? *point : common::GoalCommand{tick.flight.world->vehicle->home_map.position_m()});
@@ -95,7 +95,7 @@ void OperatorCommand::followGivenMap(FlightTick& tick) {
     goal_->goal_map_m = places->inMap_m(*goal_->goal_given_m);
     return;
   }
-  tick.say(common::Severity::kWarning, nameOf(*command_, tick) + " given up", places.error());
+  tick.say(common::Severity::kWarning, nameOf(*command_, tick) + " cancelled", places.error());
   command_.reset();
   goal_.reset();
 }

@@ -50,7 +50,7 @@ tree::Status Photograph::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   const auto file = file_.get();
   if (!file) return fail(context, file_.problem());
-  if (std::string problem = fileNameProblem(*file); !problem.empty()) return fail(context, problem);
+  if (const auto problem = fileNameProblem(*file)) return fail(context, problem->text());
   emitHold(tick);
   if (request_id_ == 0 && holdReleased(tick)) request_id_ = tick.request(common::PhotographRequest{*file});
   const auto answer = tick.takeAnswer(request_id_);

@@ -118,13 +118,14 @@ inline tree::PortManifest fileNamePort(std::string default_name) {
           .default_value = std::move(default_name),
           .description = "Part of the file's name: letters, digits, - and _, at most 40."};
 }
-/// Empty if it can be part of a file's name.
-inline std::string fileNameProblem(std::string_view name) {
+/// Nothing if it can be part of a file's name.
+inline std::optional<tree::Message> fileNameProblem(std::string_view name) {
   const bool good = std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   });
-  if (good && !name.empty() && name.size() <= 40) return {};
-  return "`" + std::string(name) + "` cannot name a file, expected letters, digits, - and _, at most 40";
+  if (good && !name.empty() && name.size() <= 40) return std::nullopt;
+  return tree::Message("mission.file-name", "`{}` cannot name a file, expected letters, digits, - and _, at most 40",
+                       name);
 }
 
 }  // namespace swiftlet::behaviors

@@ -41,6 +41,9 @@ tree::Registry missionRegistry() {
   return registry;
 }
 
-NodeTypes missionNodes() { return std::make_shared<const tree::Registry>(missionRegistry()); }
+NodeTypes missionNodes() {
+  static const NodeTypes kTypes = std::make_shared<const tree::Registry>(missionRegistry());
+  return kTypes;
+}
 
 }  // namespace swiftlet::behaviors

@@ -12,7 +12,7 @@ using NodeTypes = std::shared_ptr<const tree::Registry>;
 
 /// The engine's nodes and Swiftlet's leaves, made anew: leaves of one's own may be added (`registry.add<Circle>()`).
 tree::Registry missionRegistry();
-/// The same, shared.
+/// The same, made once and shared.
 NodeTypes missionNodes();
 
 }  // namespace swiftlet::behaviors

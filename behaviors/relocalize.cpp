@@ -150,7 +150,7 @@ Status Relocalize::act(tree::TickContext& context) {
     planLooks(tick, *clearance_m, *radius_m);
   }
   if (localization->localized()) return Status::kSuccess;
-  if (localization->refuted) return fail(context, "the given map is not that of this place");
+  if (localization->refuted) return fail(context, "the given map does not match this place");
   if (flown() != nullptr) emitIntent(tick, *flown());
   if (intentState(tick) != common::IntentState::kRunning) nextLook(tick);
   if (flown() != nullptr) {

@@ -34,7 +34,7 @@ tree::NodeManifest SaveMap::manifest() {
 RequestLeaf::RequestOrProblem SaveMap::makeRequest(const FlightTick&) {
   const auto file = file_.get();
   if (!file) return tl::unexpected(file_.problem());
-  if (std::string problem = fileNameProblem(*file); !problem.empty()) return tl::unexpected(problem);
+  if (const auto problem = fileNameProblem(*file)) return tl::unexpected(problem->text());
   return common::SaveMapRequest{*file};
 }
 

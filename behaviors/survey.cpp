@@ -31,13 +31,13 @@ tree::NodeManifest Survey::manifest() {
           .ends = "SUCCESS after the last lane; FAILURE when no place is free"};
 }
 
-std::string surveyProblem(const common::Polygon& area) {
+std::optional<tree::Message> surveyProblem(const common::Polygon& area) {
   constexpr double kFarthest_m = 300.0;
   const double across_m = (area.max_map_m() - area.min_map_m()).norm();
-  return across_m <= kFarthest_m
-             ? std::string()
-             : fmt::format("is {:.0f} m from corner to corner, more than the {:.0f} m that are surveyed at once",
-                           across_m, kFarthest_m);
+  if (across_m <= kFarthest_m) return std::nullopt;
+  return tree::Message("mission.survey-large",
+                       "is {:.0f} m from corner to corner, more than the {:.0f} m that are surveyed at once", across_m,
+                       kFarthest_m);
 }
 
 Survey::Survey(const tree::NodeSetup& setup)
@@ -60,8 +60,8 @@ IntentLeaf::IntentOrProblem Survey::makeIntent(const FlightTick& tick) {
   const auto places = NamedPlaces::in(*tick.flight.world);
   if (!places) return tl::unexpected(places.error());
   const common::Polygon area = places->inMap(*points);
-  if (std::string problem = problemOf(area); !problem.empty()) return tl::unexpected(problem);
-  if (std::string problem = surveyProblem(area); !problem.empty()) return tl::unexpected(problem);
+  if (const auto problem = problemOf(area)) return tl::unexpected(problem->text());
+  if (const auto problem = surveyProblem(area)) return tl::unexpected(problem->text());
   common::Goal at_height{.place_map_m = area.corners_map_m.front(), .height_m = height_m};
   const auto verdict = common::judgeGoal(at_height, tick.flight.goal_limits, nullptr);
   if (!verdict) return tl::unexpected(verdict.error().text);

@@ -3,16 +3,17 @@
 // when it begins.
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/message.hpp"
 #include "behaviors/tree/registry.hpp"
 #include "common/polygon.hpp"
 
 namespace swiftlet::behaviors {
 
-/// Why the area is not surveyed: it is larger than any flight covers. Empty if it is not.
-std::string surveyProblem(const common::Polygon& area);
+/// Why the area is not surveyed: it is larger than any flight covers. Nothing if it is not.
+std::optional<tree::Message> surveyProblem(const common::Polygon& area);
 
 class Survey final : public IntentLeaf {
  public:

@@ -1,5 +1,5 @@
 # cmake -DNUMBER=0.2.0 -DSOURCE=folder -DOUTPUT=build_version.cpp -P BuildVersion.cmake
-#   Writes the source that defines swiftlet::apps::buildVersion(): the number of the release, the commit of the checkout
+#   Writes the source that defines swiftlet::flight::buildVersion(): the number of the release, the commit of the checkout
 #   in SOURCE, and whether its sources differ from it. Without git, or where SOURCE is no checkout of its own (an
 #   unpacked archive, even inside of another checkout), there is no commit. An unchanged file is left alone.
 cmake_policy(VERSION 3.25)
@@ -44,14 +44,14 @@ else()
 endif()
 
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[
-#include "apps/build_version.hpp"
+#include "flight/build_version.hpp"
 
-namespace swiftlet::apps {
+namespace swiftlet::flight {
 
 const common::BuildVersion& buildVersion() {
   static const common::BuildVersion kVersion{"@NUMBER@", "@commit@", @dirty@};
   return kVersion;
 }
 
-}  // namespace swiftlet::apps
+}  // namespace swiftlet::flight
 ]])

@@ -64,9 +64,7 @@ function(swiftlet_tests name)
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE SWIFTLET_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              SWIFTLET_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  if(NOT name STREQUAL "tree")  # Alone without fmt, whose definitions are among the options.
-    swiftlet_share_precompiled(test_${name} test_precompiled)
-  endif()
+  swiftlet_share_precompiled(test_${name} test_precompiled)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()

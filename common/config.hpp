@@ -64,7 +64,7 @@ class YamlReader final : public Fields {
 
  protected:
   bool beginSection(std::string_view name, std::string_view sentence) override;
-  void endSection(std::vector<std::string> problems) override;
+  void endSection(std::vector<Problem> problems) override;
   std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) override;
   void beginItem(int index) override;
   void endList() override;
@@ -72,7 +72,7 @@ class YamlReader final : public Fields {
  private:
   struct Impl;
   explicit YamlReader(std::unique_ptr<Impl> impl);
-  void finish(const std::vector<std::string>& problems);
+  void finish(const std::vector<Problem>& problems);
   void keepUnknownKeys();
   std::vector<Problem> unknownKeys() const;
   std::unique_ptr<Impl> impl_;
@@ -104,7 +104,7 @@ class YamlPrinter final : public Fields {
 
  protected:
   bool beginSection(std::string_view name, std::string_view sentence) override;
-  void endSection(std::vector<std::string> problems) override;
+  void endSection(std::vector<Problem> problems) override;
   std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) override;
   void beginItem(int index) override;
   void endList() override;

@@ -5,13 +5,16 @@
 namespace swiftlet::common::config {
 
 void Validator::check(std::string_view name, double value, const Bounds& bounds) {
-  if (!bounds.contain(value)) take({fmt::format("{}: {}", name, bounds.problem(value))});
+  if (!bounds.contain(value)) take({{{}, std::string(name), bounds.problem(value), ""}});
 }
 
-void Validator::take(const std::vector<std::string>& problems) {
+void Validator::take(std::vector<Problem> problems) {
   std::string path;
   for (const std::string& prefix : prefixes_) path += prefix;
-  for (const std::string& problem : problems) problems_.push_back(path + problem);
+  for (Problem& problem : problems) {
+    problem.element = path + problem.element;
+    problems_.push_back(std::move(problem));
+  }
 }
 
 void Validator::operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view) {
@@ -28,7 +31,10 @@ void Validator::operator()(std::string_view name, std::vector<double>& value, co
 
 void Validator::choice(std::string_view name, int& value, const std::vector<std::string>& words, std::string_view) {
   if (value < 0 || value >= static_cast<int>(words.size()))
-    take({fmt::format("{}: {} is none of its {} words", name, value, words.size())});
+    take({{{},
+           std::string(name),
+           Message("config.no-such-word", "{} is none of its {} words", value, words.size()),
+           ""}});
 }
 
 bool Validator::beginSection(std::string_view name, std::string_view) {
@@ -36,8 +42,8 @@ bool Validator::beginSection(std::string_view name, std::string_view) {
   return true;
 }
 
-void Validator::endSection(std::vector<std::string> problems) {
-  take(problems);
+void Validator::endSection(std::vector<Problem> problems) {
+  take(std::move(problems));
   prefixes_.pop_back();
 }
 

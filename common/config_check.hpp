@@ -15,7 +15,7 @@ class Validator final : public Fields {
  public:
   /// All problems, for example "mount.x_m: nan is not within -2 and 2"; empty when the config is valid.
   template <typename Config>
-  std::vector<std::string> problems(Config config) {
+  std::vector<Problem> problems(Config config) {
     config.describe(*this);
     take(relationProblems(config));
     return std::move(problems_);
@@ -34,22 +34,22 @@ class Validator final : public Fields {
 
  protected:
   bool beginSection(std::string_view name, std::string_view sentence) override;
-  void endSection(std::vector<std::string> problems) override;
+  void endSection(std::vector<Problem> problems) override;
   std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) override;
   void beginItem(int index) override;
   void endList() override;
 
  private:
   void check(std::string_view name, double value, const Bounds& bounds);
-  void take(const std::vector<std::string>& problems);
+  void take(std::vector<Problem> problems);
 
   std::vector<std::string> prefixes_;  ///< One for each open section: "mount.".
   std::vector<std::string> lists_;
-  std::vector<std::string> problems_;
+  std::vector<Problem> problems_;
 };
 
 template <typename Config>
-std::vector<std::string> problemsOf(const Config& config) {
+std::vector<Problem> problemsOf(const Config& config) {
   return Validator().problems(config);
 }
 

@@ -15,11 +15,12 @@ std::string Bounds::text() const {
   return fmt::format("{}{} to {}", low_excluded ? "above " : "", low, high);
 }
 
-std::string Bounds::problem(double value) const {
-  if (high < kFinite.high && !low_excluded) return fmt::format("{} is not within {} and {}", value, low, high);
-  if (!(low > kFinite.low)) return fmt::format("{} is not a finite number", value);
-  if (low_excluded && low == 0.0) return fmt::format("{} is not positive", value);
-  return fmt::format("{} is not {}", value, text());
+Message Bounds::problem(double value) const {
+  if (high < kFinite.high && !low_excluded)
+    return Message("config.not-within", "{} is not within {} and {}", value, low, high);
+  if (!(low > kFinite.low)) return Message("config.not-finite", "{} is not a finite number", value);
+  if (low_excluded && low == 0.0) return Message("config.not-positive", "{} is not positive", value);
+  return Message("config.out-of-bounds", "{} is not {}", value, text());
 }
 
 }  // namespace swiftlet::common::config

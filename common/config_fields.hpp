@@ -11,7 +11,7 @@
 //       fields("slow_speed_m_s", slow_speed_m_s, {0.05, 20}, "Horizontal speed near a goal.");
 //       fields.section("matcher", matcher, "Scan matching.");
 //     }
-//     std::vector<std::string> validate() const {  // Only when fields depend on each other, see common/validation.hpp.
+//     std::vector<Problem> validate() const {  // Only when fields depend on each other, see common/validation.hpp.
 //       return Validation().atMost("slow_speed_m_s", slow_speed_m_s, "max_speed_m_s", max_speed_m_s).problems();
 //     }
 //   };
@@ -26,6 +26,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace swiftlet::common::config {
 
 /// The range of numbers that a field may have. Both ends are included, unless `low_excluded`. NaN is always outside.
@@ -36,7 +38,7 @@ struct Bounds {
   /// For people: "0.05 to 20", "above 0", "at least 3"; empty when every finite number is allowed.
   std::string text() const;
   /// What is wrong with a value that is not contained: "25 is not within 0.05 and 20".
-  std::string problem(double value) const;
+  Message problem(double value) const;
 
   double low = 0.0;
   double high = 0.0;
@@ -102,7 +104,7 @@ class Fields {
  protected:
   /// The problems between fields of a Config; most Configs have no such relations and no `validate`.
   template <typename Config>
-  static std::vector<std::string> relationProblems(const Config& config) {
+  static std::vector<Problem> relationProblems(const Config& config) {
     if constexpr (requires { config.validate(); })
       return config.validate();
     else
@@ -111,7 +113,7 @@ class Fields {
 
   /// False if the section is to be skipped.
   virtual bool beginSection(std::string_view name, std::string_view sentence) = 0;
-  virtual void endSection(std::vector<std::string> problems) = 0;
+  virtual void endSection(std::vector<Problem> problems) = 0;
   /// The number of items of a list that replaces the one with `count` items, each of which begins with
   /// its defaults; nullopt: the present list is described.
   virtual std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) = 0;

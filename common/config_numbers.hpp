@@ -39,7 +39,7 @@ class NumberVisitor final : public Fields {
     prefix_ += std::string(name) + ".";
     return true;
   }
-  void endSection(std::vector<std::string>) override {
+  void endSection(std::vector<Problem>) override {
     prefix_.resize(lengths_.back());
     lengths_.pop_back();
   }

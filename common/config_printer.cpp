@@ -56,7 +56,7 @@ bool YamlPrinter::beginSection(std::string_view name, std::string_view sentence)
   return true;
 }
 
-void YamlPrinter::endSection(std::vector<std::string>) { --depth_; }
+void YamlPrinter::endSection(std::vector<Problem>) { --depth_; }
 
 std::optional<int> YamlPrinter::beginList(std::string_view name, int count, std::string_view sentence) {
   line(name, count == 0 ? "[]" : "", sentence);

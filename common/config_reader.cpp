@@ -67,7 +67,7 @@ struct YamlReader::Impl {
     return fmt::format("{}.{}", base, name);
   }
 
-  void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
+  void report(const YAML::Node& node, std::string_view name, Message message, std::string hint = {}) {
     Problem problem{placeOf(name, node), pathOf(name), std::move(message), {}};
     // A key that is read twice, as `based_on`, has its problem once.
     if (!reported.insert(toString(problem)).second || problems.size() == kMostProblems) return;
@@ -99,8 +99,12 @@ struct YamlReader::Impl {
   }
 
   void reportValue(const YAML::Node& node, std::string_view name, std::string_view expected) {
-    report(node, name, fmt::format("{} is not {}", textOf(node), expected), valueHint(name, node, expected));
+    report(node, name, otherType(node, expected), valueHint(name, node, expected));
   }
+  static Message otherType(const YAML::Node& node, std::string_view expected) {
+    return Message("config.other-type", "{} is not {}", textOf(node), expected);
+  }
+  static Message noList(const YAML::Node& node) { return Message("config.no-list", "{} is not a list", textOf(node)); }
 
   std::optional<YAML::Node> find(std::string_view name) {
     Level& level = levels.back();
@@ -127,7 +131,7 @@ struct YamlReader::Impl {
   void number(std::string_view name, Value& value, const Bounds& bounds, const char* expected) {
     const auto node = find(name);
     if (!node) {
-      if (!bounds.contain(value)) report(levels.back().node, name, "is missing");
+      if (!bounds.contain(value)) report(levels.back().node, name, Message("config.missing", "is missing"));
       return;
     }
     Value read{};
@@ -145,7 +149,7 @@ struct YamlReader::Impl {
       list_text += (list_text.empty() ? "" : ", ") + (plain ? one.Scalar() : "?");
     }
     const std::string numbers = expected.ends_with("number") ? numberListOf(list_text) : "";
-    report(item, name, fmt::format("{} is not {}", textOf(item), expected),
+    report(item, name, otherType(item, expected),
            numbers.empty() ? valueHint(name, item, expected) : fmt::format("write `{}`", numbers));
   }
 
@@ -155,7 +159,7 @@ struct YamlReader::Impl {
     const auto node = find(name);
     if (!node) return;
     if (!node->IsSequence())
-      return report(*node, name, fmt::format("{} is not a list", textOf(*node)),
+      return report(*node, name, noList(*node),
                     node->IsScalar() ? (std::is_arithmetic_v<Value> ? numberListHint(node->Scalar())
                                                                     : fmt::format("write `[{}]`", node->Scalar()))
                     : node->IsMap()  ? "write the values in brackets, without keys"
@@ -164,7 +168,7 @@ struct YamlReader::Impl {
     for (const YAML::Node& item : *node) {
       Value value{};
       if (item.IsSequence())
-        return report(item, name, "a list within the list",
+        return report(item, name, Message("config.list-in-list", "a list within the list"),
                       "write all values in one list: leave out the inner brackets");
       if (!convert(item, value)) return reportItem(*node, item, name, expected);
       if constexpr (std::is_arithmetic_v<Value>)
@@ -204,22 +208,23 @@ struct YamlReader::Impl {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
       const auto [first, is_new] = met.emplace(key, at(entry.first).line);
       if (!is_new)
-        report(entry.first, "", fmt::format("key `{}` is given twice", key),
+        report(entry.first, "", Message("config.key-twice", "key `{}` is given twice", key),
                fmt::format("it is in line {} too: leave out one of the two", first->second));
       const auto& known_keys = level.known_keys;
       if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) continue;
       if (const auto former = what_became_of ? what_became_of(pathOf(key)) : std::nullopt) {
-        report(entry.first, "", fmt::format("`{}` {}", key, *former), "leave it out");
+        report(entry.first, "", Message("config.former-key", "`{}` {}", key, *former), "leave it out");
         continue;
       }
       const auto nearest = nearestWord(key, known_keys);
       if (keeps_unknown_keys && levels.size() == 1 && !(nearest && !level.node[*nearest].IsDefined())) {
-        kept_keys.push_back({at(entry.first), "", fmt::format("unknown key `{}`, not used", key), ""});
+        kept_keys.push_back(
+            {at(entry.first), "", Message("config.key-not-used", "unknown key `{}`, not used", key), ""});
         continue;
       }
       const std::string similar = didYouMean(key, known_keys);
       const std::size_t before = problems.size();
-      report(entry.first, "", fmt::format("unknown key `{}`", key),
+      report(entry.first, "", Message("config.unknown-key", "unknown key `{}`", key),
              similar.empty() ? "known are: " + listed(known_keys) : similar);
       if (problems.size() > before) unknown.push_back({before, level.path, key});
     }
@@ -257,12 +262,11 @@ struct YamlReader::Impl {
     return value[std::stoul(key.substr(bracket + 1))];
   }
 
-  /// Reports "loops.max_sigma_m: what is wrong" at the place of that key, or of its innermost section in the file. A
+  /// Reports a problem of "loops.max_sigma_m" at the place of that key, or of its innermost section in the file. A
   /// value that could not be read has kept its default, which says nothing about the file.
-  void reportRelation(const YAML::Node& from, const std::string& text) {
-    const std::size_t colon = text.find(": ");
-    if (colon == std::string::npos) return report(from, "", text);
-    const std::string name = text.substr(0, colon);
+  void reportRelation(const YAML::Node& from, const Problem& relation) {
+    const std::string& name = relation.element;
+    if (name.empty()) return report(from, "", relation.message, relation.hint);
     if (isReported(name)) return;
     YAML::Node node = from;
     for (std::size_t begin = 0; begin <= name.size() && node.IsMap();) {
@@ -272,7 +276,7 @@ struct YamlReader::Impl {
       node.reset(next);
       begin = end + 1;
     }
-    report(node, name, text.substr(colon + 2));
+    report(node, name, relation.message, relation.hint);
   }
 
   /// The line of a text that may go over several, from where it begins.
@@ -283,17 +287,17 @@ struct YamlReader::Impl {
     return line.substr(std::min<std::size_t>(static_cast<std::size_t>(place.column) - 1, line.size()));
   }
 
-  void closeLevel(const std::vector<std::string>& relations) {
+  void closeLevel(const std::vector<Problem>& relations) {
     const Level level = levels.back();
     known[level.path] = level.known_keys;
     if (level.node.IsMap())
       refuseUnknownKeys(level);
     else if (!level.node.IsNull())
-      report(level.node, "", fmt::format("{} where keys were expected", textOf(level.node)),
+      report(level.node, "", Message("config.no-keys", "{} where keys were expected", textOf(level.node)),
              level.node.IsScalar()                    ? keyHint(writtenAt(level.node))
              : writtenAt(level.node).starts_with('[') ? "write `{key: value}` in place of the brackets"
                                                       : "leave out the dashes");
-    for (const std::string& text : relations) reportRelation(level.node, text);
+    for (const Problem& relation : relations) reportRelation(level.node, relation);
     levels.pop_back();
   }
 };
@@ -348,7 +352,7 @@ void YamlReader::choice(std::string_view name, int& value, const std::vector<std
     value = static_cast<int>(i);
     return;
   }
-  impl_->report(*node, name, fmt::format("{} is none of: {}", Impl::textOf(*node), listed(words)),
+  impl_->report(*node, name, Message("config.unknown-word", "{} is none of: {}", Impl::textOf(*node), listed(words)),
                 didYouMean(word, words));
 }
 
@@ -359,13 +363,12 @@ bool YamlReader::beginSection(std::string_view name, std::string_view) {
   impl_->levels.push_back({*node, path, {}});
   return true;
 }
-void YamlReader::endSection(std::vector<std::string> problems) { impl_->closeLevel(problems); }
+void YamlReader::endSection(std::vector<Problem> problems) { impl_->closeLevel(problems); }
 
 std::optional<int> YamlReader::beginList(std::string_view name, int, std::string_view) {
   const auto node = impl_->find(name);
   if (node && !node->IsSequence())
-    impl_->report(*node, name, Impl::textOf(*node) + " is not a list",
-                  node->IsMap() ? "begin each item with a dash: `- `" : "");
+    impl_->report(*node, name, Impl::noList(*node), node->IsMap() ? "begin each item with a dash: `- `" : "");
   const bool given = node && node->IsSequence();
   impl_->lists.push_back(given ? *node : YAML::Node());
   impl_->list_names.push_back(impl_->pathOf(name));
@@ -388,12 +391,12 @@ void YamlReader::explainFormerKeys(WhatBecameOf what_became_of) { impl_->what_be
 void YamlReader::keepUnknownKeys() { impl_->keeps_unknown_keys = true; }
 std::vector<Problem> YamlReader::unknownKeys() const { return impl_->kept_keys; }
 
-void YamlReader::finish(const std::vector<std::string>& problems) {
+void YamlReader::finish(const std::vector<Problem>& problems) {
   impl_->closeLevel(problems);
   impl_->hintAtUnknownKeys();
   if (impl_->problems.empty()) return;
   if (const std::size_t more = impl_->reported.size() - impl_->problems.size(); more > 0)
-    impl_->problems.push_back({{impl_->file}, "", fmt::format("has {} more problems", more), ""});
+    impl_->problems.push_back({{impl_->file}, "", Message("config.more-problems", "has {} more problems", more), ""});
   throw InputError(std::move(impl_->problems));
 }
 

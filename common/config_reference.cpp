@@ -62,7 +62,7 @@ bool ReferencePrinter::beginSection(std::string_view name, std::string_view sent
   return true;
 }
 
-void ReferencePrinter::endSection(std::vector<std::string>) {
+void ReferencePrinter::endSection(std::vector<Problem>) {
   const std::string path = open_.back().path;
   const std::string text = closed();
   open_.back().sections += fmt::format("\n### `{}`\n{}", path, text);

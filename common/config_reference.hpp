@@ -35,7 +35,7 @@ class ReferencePrinter final : public Fields {
 
  protected:
   bool beginSection(std::string_view name, std::string_view sentence) override;
-  void endSection(std::vector<std::string> problems) override;
+  void endSection(std::vector<Problem> problems) override;
   std::optional<int> beginList(std::string_view name, int count, std::string_view sentence) override;
   void beginItem(int index) override;
   void endList() override;

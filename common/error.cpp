@@ -48,7 +48,7 @@ std::string toString(const SourceLocation& location) {
 
 std::string toString(const Problem& problem) {
   std::string text = toString(problem.location);
-  for (const std::string* part : {&problem.element, &problem.message}) {
+  for (const std::string* part : {&problem.element, &problem.message.text()}) {
     if (part->empty()) continue;
     if (!text.empty()) text += ": ";
     text += printable(*part);
@@ -56,6 +56,8 @@ std::string toString(const Problem& problem) {
   if (!problem.hint.empty()) text += ", " + printable(problem.hint);
   return text;
 }
+
+Message messageOf(const Problem& problem) { return Message(problem.message.name(), "{}", toString(problem)); }
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/message.hpp"
+
 namespace swiftlet::common {
 
 /// A place in a file. Lines and columns count from 1; 0 means unknown.
@@ -24,12 +26,14 @@ std::string toString(const SourceLocation& location);
 struct Problem {
   SourceLocation location;
   std::string element;  ///< The key, tag or field it is about; may be empty.
-  std::string message;  ///< What is wrong and what was expected, with the text that caused it.
+  Message message;      ///< What is wrong and what was expected, with the text that caused it.
   std::string hint;     ///< "did you mean `x`?"; may be empty.
 };
 
 /// "file:line:column: element: message, hint".
 std::string toString(const Problem& problem);
+/// All of that as the message of another problem.
+Message messageOf(const Problem& problem);
 
 /// Thrown for input that cannot be used; carries every problem found, not only the first.
 class InputError : public std::runtime_error {

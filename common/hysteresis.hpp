@@ -35,6 +35,8 @@ class Hysteresis {
   bool active() const { return active_; }
   /// Since when the condition has held; only while it is active.
   Time since() const { return since_; }
+  /// For how long the condition has held, in seconds; 0 while it is not active.
+  double active_s(Time now) const { return active_ ? (now - since_).seconds() : 0.0; }
 
  private:
   double enter_after_s_, leave_after_s_;

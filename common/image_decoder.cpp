@@ -11,8 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace swiftlet::common {
 namespace {
 
@@ -28,17 +26,23 @@ std::size_t samples(int width_px, int height_px) {
 /// None if it is at most that large.
 std::optional<ImageFault> tooLarge(int width_px, int height_px, int most_px) {
   if (std::max(width_px, height_px) <= most_px) return std::nullopt;
-  return ImageFault{fmt::format("is {}x{} pixels large, 1 to {} can be read", width_px, height_px, most_px)};
+  return ImageFault{
+      Message("image.too-large", "is {}x{} pixels large, 1 to {} can be read", width_px, height_px, most_px)};
 }
+
+ImageFault neitherPngNorJpeg() { return {Message("image.no-png-or-jpeg", "is neither PNG nor JPEG")}; }
+
+constexpr const char* kCutOff = "is cut off";
 
 /// What libpng and libjpeg say of bytes that are missing or changed, and of images that are whole: of 12 bits, or with
 /// the colours of printers.
-ImageFault faultOf(std::string said) {
+ImageFault faultOf(const std::string& said) {
+  if (said == kCutOff) return {Message("image.cut-off", "is cut off"), true};
   constexpr std::array<std::string_view, 6> kWholes{"upported", "implemented", "determine",
                                                     "limit",    "memory",      "is not a"};
   const bool is_whole = std::any_of(kWholes.begin(), kWholes.end(),
                                     [&](std::string_view text) { return said.find(text) != std::string::npos; });
-  return {std::move(said), !is_whole};
+  return {Message("image.not-decoded", "{}", said), !is_whole};
 }
 
 /// Deflate packs at most so many bytes into one, and JPEG fewer. A header that promises more pixels must not allocate
@@ -74,7 +78,7 @@ void onWarning(png_structp, png_const_charp) {}
 
 void onRead(png_structp png, png_bytep out, std::size_t count) {
   PngRead& read = *static_cast<PngRead*>(png_get_io_ptr(png));
-  if (read.bytes.size() - read.at < count) png_error(png, "is cut off");
+  if (read.bytes.size() - read.at < count) png_error(png, kCutOff);
   std::memcpy(out, read.bytes.data() + read.at, count);
   read.at += count;
 }
@@ -119,7 +123,7 @@ void placeRows(PngRead& read) {
   if (isTooLarge(read, wanted == Wanted::kGrey ? kMostGreySide_px : kMostImageSide_px)) return false;
   if (png_get_rowbytes(read.png, read.info) * static_cast<std::size_t>(read.height_px) / kMostUnpacked >
       read.bytes.size())
-    png_error(read.png, "is cut off");
+    png_error(read.png, kCutOff);
   convertTo(read, wanted);
   png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
@@ -134,7 +138,7 @@ void placeRows(PngRead& read) {
 bool readPng(PngRead& read, Wanted wanted) {
   read.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &read, onError, onWarning);
   if (read.png != nullptr) return readPixels(read, wanted);
-  read.fault = {"cannot be read for lack of memory"};
+  read.fault = {Message("image.no-memory", "cannot be read for lack of memory")};
   return false;
 }
 
@@ -142,7 +146,7 @@ tl::expected<Image, ImageFault> colorFromPng(std::string_view bytes) {
   PngRead read(bytes);
   if (!readPng(read, Wanted::kRgb)) return unexpected(std::move(read.fault));
   if (read.pixels.size() != 3 * samples(read.width_px, read.height_px))
-    return unexpected(ImageFault{"is not an 8-bit RGB image"});
+    return unexpected(ImageFault{Message("image.not-8-bit", "is not an 8-bit RGB image")});
   return Image{read.width_px, read.height_px, std::move(read.pixels)};
 }
 
@@ -175,7 +179,7 @@ tl::expected<Image, ImageFault> colorFromJpeg(std::string_view bytes, int most_p
     return unexpected(faultOf(tjGetErrorStr2(handle.get())));
   if (auto fault = tooLarge(width_px, height_px, most_px)) return unexpected(*std::move(fault));
   if (width_px <= 0 || height_px <= 0 || samples(width_px, height_px) / kMostUnpacked > bytes.size())
-    return unexpected(ImageFault{"is cut off", true});
+    return unexpected(faultOf(kCutOff));
   Image image{width_px, height_px, std::vector<std::uint8_t>(3 * samples(width_px, height_px))};
   // The accurate transform gives the same bytes with and without the CPU's vector instructions. A warning, such as a
   // premature end, counts as an error: what is missing would be grey.
@@ -190,11 +194,11 @@ tl::expected<Image, ImageFault> colorFromJpeg(std::string_view bytes, int most_p
 tl::expected<Image, ImageFault> decodeColor(std::string_view bytes) {
   if (isPng(bytes)) return colorFromPng(bytes);
   if (isJpeg(bytes)) return colorFromJpeg(bytes, kMostImageSide_px);
-  return unexpected(ImageFault{"is neither PNG nor JPEG"});
+  return unexpected(neitherPngNorJpeg());
 }
 
 tl::expected<DepthCodes, ImageFault> decodeDepth(std::string_view bytes) {
-  if (!isPng(bytes)) return unexpected(ImageFault{"is not a PNG"});
+  if (!isPng(bytes)) return unexpected(ImageFault{Message("image.no-png", "is not a PNG")});
   PngRead read(bytes);
   if (!readPng(read, Wanted::kGray16)) return unexpected(std::move(read.fault));
   DepthCodes depth{read.width_px, read.height_px, {}};
@@ -208,7 +212,7 @@ tl::expected<GreyImage, ImageFault> decodeGrey(std::string_view bytes) {
     return colorFromJpeg(bytes, kMostGreySide_px).map([](const Image& image) {
       return greyOf(image.width_px, image.height_px, image.rgb, 3);
     });
-  if (!isPng(bytes)) return unexpected(ImageFault{"is neither PNG nor JPEG"});
+  if (!isPng(bytes)) return unexpected(neitherPngNorJpeg());
   PngRead read(bytes);
   if (!readPng(read, Wanted::kGrey)) return unexpected(std::move(read.fault));
   return greyOf(read.width_px, read.height_px, read.pixels, read.channels);

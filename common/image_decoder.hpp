@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "common/image.hpp"
+#include "common/message.hpp"
 
 namespace swiftlet::common {
 
@@ -35,7 +36,7 @@ inline constexpr int kMostGreySide_px = 1 << 15;
 
 /// Why bytes are not an image that is read.
 struct ImageFault {
-  std::string reason;       ///< For people: "is cut off".
+  Message reason;           ///< "is cut off".
   bool is_damaged = false;  ///< Bytes are missing or changed, which no other program can mend.
 };
 

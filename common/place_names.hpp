@@ -1,5 +1,5 @@
 // How texts for people name places: in the frame that the reader sees on the page, which is the given map's while
-// the vehicle is localized in it, and `map` otherwise (decision 060).
+// the vehicle is localized in it, and `map` otherwise (docs/decisions/localization.md#060).
 #pragma once
 
 #include <optional>

@@ -79,17 +79,20 @@ Point Polygon::max_map_m() const {
 
 double Polygon::area_m2() const { return std::abs(signedArea_m2(corners_map_m)); }
 
-std::string problemOf(const Polygon& polygon) {
+std::optional<Message> problemOf(const Polygon& polygon) {
   const std::vector<Point>& corners = polygon.corners_map_m;
-  if (corners.size() < 3) return fmt::format("a polygon has at least 3 corners, not {}", corners.size());
+  if (corners.size() < 3)
+    return Message("polygon.too-few-corners", "a polygon has at least 3 corners, not {}", corners.size());
   if (corners.size() > kMostCorners)
-    return fmt::format("a polygon has at most {} corners, not {}", kMostCorners, corners.size());
+    return Message("polygon.too-many-corners", "a polygon has at most {} corners, not {}", kMostCorners,
+                   corners.size());
   for (const Point& corner : corners)
     if (!corner.allFinite() || corner.cwiseAbs().maxCoeff() > kGreatestCoordinate_m)
-      return "a corner is not a point of the map";
-  if (crossesItself(corners)) return "edges of the polygon cross";
-  if (polygon.area_m2() < kLeastArea_m2) return fmt::format("the polygon has an area of {:.3f} m2", polygon.area_m2());
-  return {};
+      return Message("polygon.no-point", "a corner is not a point of the map");
+  if (crossesItself(corners)) return Message("polygon.edges-cross", "edges of the polygon cross");
+  if (polygon.area_m2() < kLeastArea_m2)
+    return Message("polygon.no-area", "the polygon has an area of {:.3f} m2", polygon.area_m2());
+  return std::nullopt;
 }
 
 std::string toString(const Polygon& polygon, const PlaceNames& names) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/message.hpp"
 #include "common/place_names.hpp"
 
 namespace swiftlet::common {
@@ -32,8 +34,8 @@ inline constexpr std::size_t kMostCorners = 64;
 inline constexpr double kGreatestCoordinate_m = 1e5;
 
 /// Why it is no polygon: too few or too many corners, one that is not a point of a map, edges that cross, no area.
-/// Empty if it is sound.
-std::string problemOf(const Polygon& polygon);
+/// nullopt if it is sound.
+std::optional<Message> problemOf(const Polygon& polygon);
 /// "4 corners about (1.00, 2.00)".
 std::string toString(const Polygon& polygon, const PlaceNames& names = {});
 

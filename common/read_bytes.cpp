@@ -16,7 +16,7 @@
 namespace swiftlet::common {
 namespace {
 
-Problem problemWith(const std::filesystem::path& file, std::string message, std::string hint = "") {
+Problem problemWith(const std::filesystem::path& file, Message message, std::string hint = "") {
   return {{file.string()}, "", std::move(message), std::move(hint)};
 }
 
@@ -53,6 +53,10 @@ constexpr std::array kPackers{Packer{"\x1f\x8b", "gzip", "gunzip"}, Packer{"BZh"
                                      "xz", "unxz"},
                               Packer{"\x28\xb5\x2f\xfd", "zstd", "unzstd"}, Packer{"PK\x03\x04", "zip", "unzip"}};
 
+Problem pointerProblem(const std::filesystem::path& file, const char* keeper, const char* remedy) {
+  return problemWith(file, Message("file.pointer", "this is a pointer of {}, not the file", keeper), remedy);
+}
+
 std::optional<Problem> pointerInsteadOf(const std::filesystem::path& file) {
   std::array<char, 256> first{};
   std::ifstream stream(file, std::ios::binary);
@@ -66,7 +70,7 @@ std::optional<Problem> problemOfLink(const std::filesystem::path& file) {
   std::error_code failure;
   const std::filesystem::path target = std::filesystem::read_symlink(file, failure);
   if (failure || std::filesystem::exists(file, failure) || failure) return std::nullopt;
-  return problemWith(file, fmt::format("is a link that leads to nothing: `{}`", target.string()),
+  return problemWith(file, Message("file.broken-link", "is a link that leads to nothing: `{}`", target.string()),
                      target.generic_string().find("/annex/objects/") == std::string::npos ? "" : kAnnexRemedy);
 }
 
@@ -74,9 +78,8 @@ std::optional<Problem> problemOfPointer(const std::filesystem::path& file, std::
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // Some editors put it before a text.
   if (beginning.starts_with(kByteOrderMark)) beginning.remove_prefix(kByteOrderMark.size());
   for (const Pointer& pointer : kPointers)
-    if (beginning.starts_with(pointer.begins_with))
-      return problemWith(file, fmt::format("this is a pointer of {}, not the file", pointer.keeper), pointer.remedy);
-  if (leadsIntoAnnex(beginning)) return problemWith(file, "this is a pointer of git-annex, not the file", kAnnexRemedy);
+    if (beginning.starts_with(pointer.begins_with)) return pointerProblem(file, pointer.keeper, pointer.remedy);
+  if (leadsIntoAnnex(beginning)) return pointerProblem(file, "git-annex", kAnnexRemedy);
   return std::nullopt;
 }
 
@@ -84,9 +87,10 @@ std::optional<Problem> problemOfFile(const std::filesystem::path& file) {
   if (auto problem = problemOfLink(file)) return problem;
   std::error_code failure;
   const auto status = std::filesystem::status(file, failure);
-  if (std::filesystem::is_directory(status)) return problemWith(file, "is a folder, a file was expected");
+  if (std::filesystem::is_directory(status))
+    return problemWith(file, Message("file.is-folder", "is a folder, a file was expected"));
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    return problemWith(file, "is a pipe or a device, a file was expected");
+    return problemWith(file, Message("file.is-pipe", "is a pipe or a device, a file was expected"));
   return std::filesystem::is_regular_file(status) ? pointerInsteadOf(file) : std::nullopt;
 }
 
@@ -97,7 +101,8 @@ void requireFile(const std::filesystem::path& file) {
 std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes) {
   requireFile(file);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(problemWith(file, fmt::format("cannot be opened: {}", std::strerror(errno))));
+  if (!stream)
+    throw InputError(problemWith(file, Message("file.not-opened", "cannot be opened: {}", std::strerror(errno))));
 
   // Block by block, because files in /proc report a size of 0 and may hold any number of bytes.
   constexpr std::size_t kBlock = std::size_t{1} << 16;
@@ -108,9 +113,9 @@ std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes)
     stream.read(bytes.data() + before, kBlock);
     bytes.resize(before + static_cast<std::size_t>(stream.gcount()));
   }
-  if (stream.bad()) throw InputError(problemWith(file, "cannot be read"));
+  if (stream.bad()) throw InputError(problemWith(file, Message("file.not-read", "cannot be read")));
   if (bytes.size() > most_bytes)
-    throw InputError(problemWith(file, fmt::format("is larger than {} bytes", most_bytes)));
+    throw InputError(problemWith(file, Message("file.too-large", "is larger than {} bytes", most_bytes)));
   return bytes;
 }
 
@@ -118,7 +123,7 @@ std::string readText(const std::filesystem::path& file, std::size_t most_bytes) 
   std::string text = readBytes(file, most_bytes);
   for (const Packer& packer : kPackers)
     if (text.starts_with(packer.begins_with))
-      throw InputError(problemWith(file, fmt::format("is packed by {}, a text was expected", packer.name),
+      throw InputError(problemWith(file, Message("file.packed", "is packed by {}, a text was expected", packer.name),
                                    fmt::format("unpack it by `{}`", packer.remedy)));
   return text;
 }

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "common/config_fields.hpp"
 #include "common/pose2.hpp"
 #include "common/rgbd_frame.hpp"
@@ -32,10 +30,10 @@ void RgbdCameraConfig::describe(config::Fields& fields) {
   fields.section("mount", mount, "Pose of the camera in the body frame; it looks along its +x.");
 }
 
-std::vector<std::string> RgbdCameraConfig::validate() const {
+std::vector<Problem> RgbdCameraConfig::validate() const {
   return Validation()
       .require(row_time_s * height_px <= 1.0 / rate_hz, "row_time_s",
-               fmt::format("{} rows take more than one period of rate_hz", height_px))
+               Message("camera.rows-too-slow", "{} rows take more than one period of rate_hz", height_px))
       .atMost("range_min_m", range_min_m, "range_max_m", range_max_m)
       .problems();
 }

@@ -30,7 +30,7 @@ struct RgbdCameraConfig {
   MountConfig mount{.x_m = 0.1, .z_m = 0.05};  ///< T_body_camera; it looks along its +x.
 
   void describe(config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<Problem> validate() const;
 
   /// Square pixels, and the optical axis through the middle of the image.
   PinholeCamera camera() const;

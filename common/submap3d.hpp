@@ -29,8 +29,8 @@ struct SurfacePoint {
 };
 
 /// Where a surface was seen only with much noise, its points are averaged in cubes of this many times the side, and are
-/// as much farther apart (decision 099). It is eight times the least noise that goes there, so that a flat surface is
-/// mostly in one layer of them, and half of what the figures of the cloud call covered.
+/// as much farther apart (docs/decisions/mapping3d.md#099). It is eight times the least noise that goes there, so that
+/// a flat surface is mostly in one layer of them, and half of what the figures of the cloud call covered.
 inline constexpr double kLargeCube = 4.0;
 
 /// Immutable once published. Coordinates are those of the frame `submap`, whose z axis is vertical.

@@ -6,19 +6,25 @@
 #include <string_view>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace swiftlet::common {
 
 class Validation {
  public:
   /// Requires value <= limit, where the limit is another field.
   Validation& atMost(std::string_view name, double value, std::string_view limit_name, double limit);
-  /// Requires any condition; the problem is reported as "name: message".
-  Validation& require(bool condition, std::string_view name, std::string_view message);
+  /// Requires any condition; the element of the problem is `name`.
+  Validation& require(bool condition, std::string_view name, Message message, std::string hint = "");
+  /// Requires that a setting is given at all.
+  Validation& given(bool is_given, std::string_view name);
+  /// Takes over a problem, if there is one, as one of `name`.
+  Validation& refuse(std::string_view name, const std::optional<Problem>& problem);
 
-  std::vector<std::string> problems() const { return problems_; }
+  std::vector<Problem> problems() const { return problems_; }
 
  private:
-  std::vector<std::string> problems_;
+  std::vector<Problem> problems_;
 };
 
 }  // namespace swiftlet::common

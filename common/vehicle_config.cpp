@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "common/config_fields.hpp"
 #include "common/geometry.hpp"
 #include "common/gravity.hpp"
@@ -43,13 +41,14 @@ void LaserConfig::describe(config::Fields& fields) {
                  "Origin of the deflected beams in the body frame; they point along its -z, fanned about its x axis.");
 }
 
-std::vector<std::string> LaserConfig::validate() const {
+std::vector<Problem> LaserConfig::validate() const {
   return Validation()
-      .require(sweep_s <= 1.0 / rate_hz, "sweep_s", fmt::format("{} is more than one period of rate_hz", sweep_s))
+      .require(sweep_s <= 1.0 / rate_hz, "sweep_s",
+               Message("laser.sweep-too-long", "{} is more than one period of rate_hz", sweep_s))
       .atMost("range_min_m", range_min_m, "range_max_m", range_max_m)
       .atMost("mirror_first_beam", mirror_first_beam, "beams", beams)
       .require(mirror_beams <= static_cast<double>(beams) - mirror_first_beam, "mirror_beams",
-               fmt::format("{} are more than follow on mirror_first_beam", mirror_beams))
+               Message("laser.too-many-mirror-beams", "{} are more than follow on mirror_first_beam", mirror_beams))
       .problems();
 }
 
@@ -84,12 +83,12 @@ void VehicleConfig::describe(config::Fields& fields) {
          "Greatest height over the take-off floor, as no sensor looks up; a mission's TakeOff may name another.");
 }
 
-std::vector<std::string> VehicleConfig::validate() const {
+std::vector<Problem> VehicleConfig::validate() const {
   return Validation()
       .require(max_thrust_n >= 1.1 * kGravity_m_s2 * mass_kg, "max_thrust_n",
-               fmt::format("{} is less than 1.1 times the weight of {} kg", max_thrust_n, mass_kg))
+               Message("vehicle.too-heavy", "{} is less than 1.1 times the weight of {} kg", max_thrust_n, mass_kg))
       .require(2.0 * arm_m < hull_diameter_m, "arm_m",
-               fmt::format("{} does not fit into a hull of {} m", arm_m, hull_diameter_m))
+               Message("vehicle.arm-too-long", "{} does not fit into a hull of {} m", arm_m, hull_diameter_m))
       .atMost("battery_empty_v", battery_empty_v, "battery_full_v", battery_full_v)
       .problems();
 }

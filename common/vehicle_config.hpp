@@ -46,7 +46,7 @@ struct LaserConfig {
                              ///< its x axis.
 
   void describe(config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<Problem> validate() const;
 
   double angleMin_rad() const;
   double angleIncrement_rad() const;
@@ -70,7 +70,7 @@ struct VehicleConfig {
   double max_height_m = 2.0;
 
   void describe(config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<Problem> validate() const;
 
   double hullRadius_m() const { return 0.5 * hull_diameter_m; }
 };

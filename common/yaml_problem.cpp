@@ -63,15 +63,18 @@ std::string_view keyOf(std::string_view line) {
 /// The message for a text that is not YAML: where, what and how to mend it.
 struct Cause {
   int line = 0, column = 0;
-  std::string message, hint;
+  Message message;
+  std::string hint;
 };
 
 /// One look at a text in which the library noticed something at a line and column, both from 1.
 class Diagnosis {
  public:
-  Diagnosis(std::string_view text, int line, int column, std::string message)
+  Diagnosis(std::string_view text, int line, int column, std::string said)
       : lines_(linesOf(text)),
-        noticed_{std::clamp(line, 1, static_cast<int>(lines_.size())), column, std::move(message), ""} {}
+        said_(std::move(said)),
+        noticed_{std::clamp(line, 1, static_cast<int>(lines_.size())), column,
+                 Message("yaml.malformed", "not YAML: {}", said_), ""} {}
 
   Cause cause() const {
     for (const auto look : {&Diagnosis::conflict, &Diagnosis::lookalike, &Diagnosis::tab, &Diagnosis::unclosed,
@@ -100,8 +103,10 @@ class Diagnosis {
   std::optional<Cause> conflict() const {
     for (std::size_t i = 0; i < lines_.size(); ++i)
       if (lines_[i].starts_with("<<<<<<< "))
-        return Cause{static_cast<int>(i) + 1, 1, "two versions of the file were merged and left unresolved here",
-                     "keep one of the two, and take out the lines that begin with <<<<<<<, ======= and >>>>>>>"};
+        return Cause{
+            static_cast<int>(i) + 1, 1,
+            Message("yaml.merge-conflict", "not YAML: two versions of the file were merged and left unresolved here"),
+            "keep one of the two, and take out the lines that begin with <<<<<<<, ======= and >>>>>>>"};
     return std::nullopt;
   }
 
@@ -141,7 +146,7 @@ class Diagnosis {
                               line.substr(0, colon), quoted(written.substr(1, written.size() - 2))));
     if (written.starts_with('"') && written.find('\\') != std::string_view::npos)
       return with("in double quotes a backslash begins a special character: use single quotes");
-    if (noticed_.message == "illegal flow end") return with("leave out that bracket: none is open there");
+    if (said_ == "illegal flow end") return with("leave out that bracket: none is open there");
     const bool special = !written.empty() && std::string_view("@`%*&!|>").find(written[0]) != std::string_view::npos;
     if (special || written.find(": ") != std::string_view::npos)
       return with(fmt::format("put quotes around the value: `{}: {}`", line.substr(0, colon), quoted(written)));
@@ -149,6 +154,7 @@ class Diagnosis {
   }
 
   std::vector<std::string_view> lines_;
+  std::string said_;  ///< By the library.
   Cause noticed_;
 };
 
@@ -186,7 +192,7 @@ std::optional<Cause> Diagnosis::unclosed() const {
   // Of brackets the innermost, of which the closing one of an outer may have been taken.
   const Open& last = open.back();
   const char close = last.what == '[' ? ']' : last.what == '{' ? '}' : last.what;
-  return Cause{last.line, last.column, fmt::format("the `{}` is never closed", last.what),
+  return Cause{last.line, last.column, Message("yaml.not-closed", "not YAML: the `{}` is never closed", last.what),
                fmt::format("put a `{}` where it ends", close)};
 }
 
@@ -213,17 +219,22 @@ std::optional<Cause> Diagnosis::indentation() const {
   const std::string_view list = above > 0 ? trimmed(withoutComment(lineAt(above))) : "";
   if (is_aligned && is_item && list.ends_with(':'))
     return Cause{line, column,
-                 fmt::format("an item of a list stands left of its key `{}`", list.substr(0, list.size() - 1)),
+                 Message("yaml.item-left-of-key", "not YAML: an item of a list stands left of its key `{}`",
+                         list.substr(0, list.size() - 1)),
                  fmt::format("begin it in column {}", indentOf(lineAt(above)) + 1)};
   if (is_aligned && is_item)
-    return Cause{line, column, "an item of a list stands where a key is expected",
+    return Cause{line, column,
+                 Message("yaml.item-for-key", "not YAML: an item of a list stands where a key is expected"),
                  "leave out the dash, or give the list a key of its own"};
   if (columns.empty() || is_aligned) return std::nullopt;
   if (next == columns.end())
-    return Cause{line, column, "is indented deeper than the line above, which has a value already",
-                 fmt::format("begin it in column {}", columns.back() + 1)};
+    return Cause{
+        line, column,
+        Message("yaml.below-a-value", "not YAML: is indented deeper than the line above, which has a value already"),
+        fmt::format("begin it in column {}", columns.back() + 1)};
   const std::string or_lower = next == columns.begin() ? "" : fmt::format(" or {}", *std::prev(next) + 1);
-  return Cause{line, column, fmt::format("begins in column {}, where no key above it does", column),
+  return Cause{line, column,
+               Message("yaml.other-column", "not YAML: begins in column {}, where no key above it does", column),
                fmt::format("begin it in column {}{}", *next + 1, or_lower)};
 }
 
@@ -232,7 +243,7 @@ Problem notYaml(const std::string& text, const std::string& file, const YAML::Ex
   const std::vector<std::string_view> lines = linesOf(text);
   return {{file, cause.line, cause.column},
           std::string(keyOf(lines[static_cast<std::size_t>(cause.line) - 1])),
-          "not YAML: " + cause.message,
+          cause.message,
           cause.hint};
 }
 
@@ -247,28 +258,32 @@ Problem secondDocument(const std::string& text, const std::string& file, int lin
     else if (one.starts_with("---"))
       return {{file, line, 1},
               "",
-              "a second document begins above this line",
+              Message("yaml.second-document", "a second document begins above this line"),
               "leave out the line `---`, or give each its own file"};
     else if (!isNothing(one))
       first = above;
   }
-  if (first == 0) return {{file, line, 1}, "", "not YAML: the line goes on behind a value that is complete", ""};
+  if (first == 0)
+    return {{file, line, 1},
+            "",
+            Message("yaml.behind-a-value", "not YAML: the line goes on behind a value that is complete"),
+            ""};
   const std::string_view head = lines[static_cast<std::size_t>(first) - 1];
   const std::string_view key = trimmed(withoutComment(head));
   if (const std::size_t indent = indentOf(head); indent > 0)
     return {{file, first, static_cast<int>(indent) + 1},
             std::string(keyOf(head)),
-            fmt::format("not YAML: is indented deeper than line {}, which follows on it", line),
+            Message("yaml.first-indented", "not YAML: is indented deeper than line {}, which follows on it", line),
             "begin it in column 1"};
   if (key.starts_with('[') && key.ends_with(']'))
     return {{file, first, 1},
             "",
-            fmt::format("not YAML: `{}` heads a section in an INI file", key),
+            Message("yaml.ini-section", "not YAML: `{}` heads a section in an INI file", key),
             fmt::format("write `{}:`, and below it, indented, each setting as `key: value`",
                         key.substr(1, key.size() - 2))};
   return {{file, line, 1},
           "",
-          "not YAML: what stands above is complete without this line",
+          Message("yaml.complete-above", "not YAML: what stands above is complete without this line"),
           keyHint(trimmed(withoutComment(lines[static_cast<std::size_t>(line) - 1])))};
 }
 

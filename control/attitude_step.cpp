@@ -9,7 +9,7 @@ namespace {
 
 /// With attitude gains as autopilots have them, a step of 1 rad takes about the full thrust of a motor up and down.
 /// Half as much again is allowed, since a step lasts for less time than it takes to lose height. Measured:
-/// docs/decisions/control.md, 092 and "What else was tried" (0.5 and 0.8).
+/// docs/decisions/control.md#092 (0.5 and 0.8 were tried too).
 constexpr double kStepPerThrust_rad = 1.5;
 constexpr double kLeastStep_rad = 0.04;  ///< Enough to stay upright in gusts, at any throttle.
 

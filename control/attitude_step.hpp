@@ -1,6 +1,6 @@
 // How far ahead of the vehicle roll and pitch may be commanded. Autopilots give the motors to roll and pitch before
 // they give them to the thrust; near full throttle a large step of the attitude therefore costs height: 0.5 m/s of it
-// in 0.3 s, measured at a thrust of 1.18 times the weight (decision 092).
+// in 0.3 s, measured at a thrust of 1.18 times the weight (docs/decisions/control.md#092).
 #pragma once
 
 #include <Eigen/Geometry>

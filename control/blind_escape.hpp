@@ -17,7 +17,7 @@ class BlindEscape {
   static constexpr double kSpeed_m_s = 0.3;
   static constexpr double kAcceleration_m_s2 = 0.6;
   /// Longest displacement: a carried velocity that is off by 0.1 m/s leads 0.2 m astray in 2 s. Measured:
-  /// docs/decisions/fusion.md, 062.
+  /// docs/decisions/fusion.md#062.
   static constexpr double kReach_m = 2.0 * kSpeed_m_s;
 
   /// Where to fly if the position is lost from now on; zero to stay.

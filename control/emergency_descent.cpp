@@ -10,7 +10,7 @@ namespace swiftlet::control {
 
 namespace {
 
-/// Time constant of the alpha-beta filter of raw heights. Measured: docs/decisions/control.md, 092.
+/// Time constant of the alpha-beta filter of raw heights. Measured: docs/decisions/control.md#092.
 constexpr double kFilterTime_s = 0.09;
 constexpr double kJump_m = 0.15;      ///< A residual larger than this is a step of the ground.
 constexpr double kForgotten_s = 1.0;  ///< At the speed of a descent the height is another by then.

@@ -42,8 +42,7 @@ class AlphaBetaFilter {
 };
 
 /// Growth of the error of a vertical speed that inertial samples carry without a measured height: the bias of an
-/// accelerometer after its calibration in flight. Measured: docs/decisions/fail_safes.md, "A descent without a measured
-/// height is carried".
+/// accelerometer after its calibration in flight. Measured: docs/decisions/fail_safes.md.
 inline constexpr double kCarriedSpeed_m_s2 = 0.03;
 
 /// Height over the surface below, and vertical speed.

@@ -8,41 +8,29 @@
 namespace swiftlet::control {
 namespace {
 
-using Change = EstimateWatch::Change;
-
 constexpr double kHorizontalLoss_s = 1.0;  ///< Without a horizontal estimate for this long the vehicle lands.
 /// Without a vertical estimate for this long the emergency descent begins.
 constexpr double kVerticalLoss_s = 0.3;
 /// The emergency descent begins when inertial samples that cannot be used have been noticed for this long.
 constexpr double kInertialLoss_s = 0.2;
 
-Change changeOf(std::optional<common::Time>& lost, common::Time now, bool valid) {
-  if (valid == !lost) return Change::kNone;
-  lost = valid ? std::nullopt : std::optional(now);
-  return valid ? Change::kBack : Change::kLost;
-}
-
-bool lostFor(const std::optional<common::Time>& lost, common::Time now, double seconds) {
-  return lost && (now - *lost).seconds() >= seconds;
-}
-
 }  // namespace
 
-Change EstimateWatch::observe(common::Time now, bool vertical_valid, std::string_view inertial_fault) {
-  changeOf(vertical_lost_, now, vertical_valid);
+void EstimateWatch::observe(common::Time now, bool vertical_valid, std::string_view inertial_fault) {
+  vertical_lost_.update(!vertical_valid, now);
   inertial_fault_ = inertial_fault;
-  return changeOf(inertial_lost_, now, inertial_fault.empty());
+  const common::Edge edge = inertial_lost_.update(!inertial_fault.empty(), now);
+  if (edge == common::Edge::kEntered) log_.warn(now, "flight", "inertial samples cannot be used", inertial_fault_);
+  if (edge == common::Edge::kLeft) log_.info(now, "flight", "inertial samples can be used again");
 }
-
-Change EstimateWatch::observeHorizontal(common::Time now, bool valid) { return changeOf(horizontal_lost_, now, valid); }
 
 const Failsafe* EstimateWatch::active(common::Time now, FlightPhase phase, bool diverged) const {
   std::array<FindingKind, 4> found{};
   std::size_t count = 0;
   if (diverged) found[count++] = FindingKind::kEstimateDiverged;
-  if (lostFor(vertical_lost_, now, kVerticalLoss_s)) found[count++] = FindingKind::kHeightLost;
-  if (lostFor(inertial_lost_, now, kInertialLoss_s)) found[count++] = FindingKind::kInertialUnusable;
-  if (lostFor(horizontal_lost_, now, kHorizontalLoss_s)) found[count++] = FindingKind::kHorizontalLost;
+  if (vertical_lost_.active_s(now) >= kVerticalLoss_s) found[count++] = FindingKind::kHeightLost;
+  if (inertial_lost_.active_s(now) >= kInertialLoss_s) found[count++] = FindingKind::kInertialUnusable;
+  if (horizontal_lost_.active_s(now) >= kHorizontalLoss_s) found[count++] = FindingKind::kHorizontalLost;
   return activeFailsafe(std::span(found.data(), count), phase);
 }
 

@@ -42,6 +42,7 @@ FlightController::FlightController(const Config& config, const common::VehicleCo
       follower_(config.path),
       position_(config.controller, config.position, vehicle, model),
       clearance_(config.clearance),
+      watch_(log),
       log_(log) {
   position_.thrust().table().recall(learned);
 }
@@ -98,7 +99,7 @@ tl::expected<void, std::string> FlightController::switchTo(ControllerKind kind) 
 
 std::string FlightController::refusalToFollow(std::string_view what) const {
   if (!machine_.activation().waypoints) return fmt::format("no {} while {}", what, common::toString(state()));
-  return escape_.active() ? "the vehicle leaves the walls without a position" : std::string();
+  return escape_.active() ? "the vehicle flies away from the walls without a position" : std::string();
 }
 
 tl::expected<void, std::string> FlightController::follow(const FlightPath& path) {
@@ -213,16 +214,7 @@ common::Setpoint FlightController::setpointFor(const FlightTick& tick) {
 
 void FlightController::watch(const FlightTick& tick) {
   const common::Time now = clock_.now();
-  switch (watch_.observe(now, isFinite(tick.state) && tick.state.vertical_valid, tick.inertial_fault)) {
-    case EstimateWatch::Change::kNone:
-      break;
-    case EstimateWatch::Change::kLost:
-      log_.warn(clock_.now(), kFlight, "inertial samples cannot be used", std::string(tick.inertial_fault));
-      break;
-    case EstimateWatch::Change::kBack:
-      log_.info(clock_.now(), kFlight, "inertial samples are good again");
-      break;
-  }
+  watch_.observe(now, isFinite(tick.state) && tick.state.vertical_valid, tick.inertial_fault);
   if (state() == FlightState::kEmergencyLanding) return;
   const Failsafe* row = watch_.active(now, phaseOf(state()), tick.fusion_diverged);
   if (row != nullptr && row->response >= Response::kDescend)
@@ -239,21 +231,14 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
     escape_.end();
     follower_.stop();
   }
-  switch (watch_.observeHorizontal(now, tick.state.horizontal_valid)) {
-    case EstimateWatch::Change::kNone:
-      break;
-    case EstimateWatch::Change::kLost:
-      escape();
-      break;
-    case EstimateWatch::Change::kBack: {
-      // The present height, not the reference, which may be far away.
-      Eigen::Vector3d here = last_state_.T_odom_body.position_m;
-      here.z() = follower_.reference().position_odom_m.z();
-      follower_.reset(here, bodyYaw_odom_rad());
-      log_.info(clock_.now(), kFlight, "horizontal estimate is back");
-      break;
-    }
-  }
+  const common::Edge edge = watch_.observeHorizontal(now, tick.state.horizontal_valid);
+  if (edge == common::Edge::kEntered) escape();
+  if (edge != common::Edge::kLeft) return;
+  // The present height, not the reference, which may be far away.
+  Eigen::Vector3d here = last_state_.T_odom_body.position_m;
+  here.z() = follower_.reference().position_odom_m.z();
+  follower_.reset(here, bodyYaw_odom_rad());
+  log_.info(clock_.now(), kFlight, "horizontal estimate is back");
 }
 
 /// The vehicle brakes, or flies away from the walls.

@@ -9,7 +9,7 @@ namespace swiftlet::control {
 namespace {
 
 /// From this margin on it limits nothing. At the least one, and below it, kLeastShare of the accelerations is flown.
-/// Measured: docs/decisions/control.md, 033 and 094.
+/// Measured: docs/decisions/control.md#033 and docs/decisions/control.md#094.
 constexpr double kFullMargin = 1.20, kLeastMargin = 1.05;
 constexpr double kLeastShare = 0.35;
 constexpr double kFilter_s = 2.0;  ///< Time constant by which the limits follow the margin.

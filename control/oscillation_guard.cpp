@@ -12,7 +12,7 @@ namespace {
 constexpr double kMean_s = 0.2;  ///< Time constant of the mean that roll and pitch swing around.
 constexpr double kRms_s = 0.6;   ///< Time constant of the RMS of the swing of roll and pitch.
 /// RMS of the swing of roll and pitch up to which the horizontal gains are used in full. Measured:
-/// docs/decisions/control.md, 063: 4.1 to 5.4 deg at most in flights that end well.
+/// docs/decisions/control.md#063: 4.1 to 5.4 deg at most in flights that end well.
 constexpr double kCalm_rad = 5.0 * common::kRadPerDeg;
 constexpr double kRecovery_s = 4.0;  ///< Time constant with which the horizontal gains return.
 

@@ -13,7 +13,7 @@ namespace swiftlet::control {
 /// cycle of 1 Hz or more repeats.
 class OscillationGuard {
  public:
-  /// Least share of the horizontal gains. Measured: docs/decisions/control.md, 063.
+  /// Least share of the horizontal gains. Measured: docs/decisions/control.md#063.
   static constexpr double kLeastShare = 0.35;
 
   void reset();

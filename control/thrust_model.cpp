@@ -11,7 +11,7 @@ namespace swiftlet::control {
 namespace {
 
 constexpr double kVoltageFilter_s = 0.5;  ///< Time constant that smooths the measured voltage.
-/// Time constant by which the hover command is learned. See docs/decisions/control.md, 033.
+/// Time constant by which the hover command is learned. See docs/decisions/control.md#033.
 constexpr double kLearning_s = 2.0;
 /// A voltmeter that reads beyond these shares of the empty and of the full battery is wrong, and must not double the
 /// thrust.
@@ -61,7 +61,7 @@ void ThrustModel::Config::describe(common::config::Fields& fields) {
   fields("max_thrust", max_thrust, {0, 1}, "Greatest thrust commanded.");
 }
 
-std::vector<std::string> ThrustModel::Config::validate() const {
+std::vector<common::Problem> ThrustModel::Config::validate() const {
   return common::Validation().atMost("min_thrust", min_thrust, "max_thrust", max_thrust).problems();
 }
 

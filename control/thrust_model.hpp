@@ -20,7 +20,7 @@ class ThrustModel {
     double max_thrust = 0.95;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
+    std::vector<common::Problem> validate() const;
   };
 
   ThrustModel(const Config& config, const common::VehicleConfig& vehicle);

@@ -12,23 +12,26 @@
 namespace swiftlet::control {
 namespace {
 
+using common::Message;
+
 /// After this time near a voltage its hover command follows only half of what is learned at another voltage. See
-/// docs/decisions/control.md, 033.
+/// docs/decisions/control.md#033.
 constexpr double kFamiliar_s = 10.0;
 constexpr double kForget_s = 900.0;  ///< Time constant of flight by which what was learned loses its weight.
 
 }  // namespace
 
-std::vector<std::string> problemsOf(const ThrustPoints& points) {
-  std::vector<std::string> problems;
+std::vector<common::Problem> problemsOf(const ThrustPoints& points) {
+  std::vector<common::Problem> problems;
+  const auto add = [&](Message message) { problems.push_back({{}, "", std::move(message), ""}); };
   for (std::size_t i = 1; i < points.size(); ++i) {
     const ThrustPoint &below = points[i - 1], &above = points[i];
     if (above.voltage_v <= below.voltage_v)
-      problems.push_back(fmt::format("voltages must rise, but {} follows {}", above.voltage_v, below.voltage_v));
+      add(Message("thrust.voltage-falls", "voltages must rise, but {} follows {}", above.voltage_v, below.voltage_v));
     else if (above.hover_command > below.hover_command)
-      problems.push_back(
-          fmt::format("hover_command must not rise with the voltage, but it is {} at {} V and {} at {} V",
-                      below.hover_command, below.voltage_v, above.hover_command, above.voltage_v));
+      add(Message("thrust.command-rises",
+                  "hover_command must not rise with the voltage, but it is {} at {} V and {} at {} V",
+                  below.hover_command, below.voltage_v, above.hover_command, above.voltage_v));
   }
   return problems;
 }
@@ -40,11 +43,12 @@ std::optional<common::Problem> otherBatteryProblem(const ThrustPoints& points, c
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double voltage_v = points[i].voltage_v;
     if (voltage_v >= (1.0 - kReading) * span.low_v && voltage_v <= (1.0 + kReading) * span.high_v) continue;
-    return common::Problem{{},
-                           fmt::format("thrust[{}].voltage_v", i),
-                           fmt::format("{} V is of another battery: that of `{}` has {:.2f} to {:.2f} V in flight",
-                                       voltage_v, vehicle.name, span.low_v, span.high_v),
-                           ""};
+    return common::Problem{
+        {},
+        fmt::format("thrust[{}].voltage_v", i),
+        Message("thrust.other-battery", "{} V is of another battery: that of `{}` has {:.2f} to {:.2f} V in flight",
+                voltage_v, vehicle.name, span.low_v, span.high_v),
+        ""};
   }
   return std::nullopt;
 }
@@ -155,11 +159,12 @@ std::optional<common::Problem> problemOfRows(const ThrustPoints& points, const c
     const double sheet_command = table.sheetCommand(points[i].voltage_v);
     return common::Problem{{},
                            fmt::format("thrust[{}].hover_command", i),
-                           fmt::format("{} at {} V is too far from the {:.3f} of the data sheet of `{}`: {:.3f} to "
-                                       "{:.3f} would fit",
-                                       points[i].hover_command, points[i].voltage_v, sheet_command, vehicle.name,
-                                       (1.0 - ThrustTable::kMaxCorrection) * sheet_command,
-                                       (1.0 + ThrustTable::kMaxCorrection) * sheet_command),
+                           Message("thrust.too-far-from-sheet",
+                                   "{} at {} V is too far from the {:.3f} of the data sheet of `{}`: {:.3f} to "
+                                   "{:.3f} would fit",
+                                   points[i].hover_command, points[i].voltage_v, sheet_command, vehicle.name,
+                                   (1.0 - ThrustTable::kMaxCorrection) * sheet_command,
+                                   (1.0 + ThrustTable::kMaxCorrection) * sheet_command),
                            ""};
   }
   return std::nullopt;

@@ -25,7 +25,7 @@ using ThrustPoints = std::vector<ThrustPoint>;
 
 /// What is wrong with rows of a table for one vehicle: voltages that do not rise, or a command that rises with the
 /// voltage.
-std::vector<std::string> problemsOf(const ThrustPoints& points);
+std::vector<common::Problem> problemsOf(const ThrustPoints& points);
 
 /// The first voltage that the vehicle's battery never has in flight, so that the table is of another one. Its element
 /// is the key of a list `thrust`: "thrust[3].voltage_v".
@@ -39,7 +39,7 @@ class ThrustTable {
   /// motor whose speed goes with the voltage and whose thrust goes with the square of its speed.
   static constexpr double kVoltageExponent = 2.0;
   /// The learned hover command stays within 1 plus or minus this, times that of the data sheet. See
-  /// docs/decisions/control.md, 033.
+  /// docs/decisions/control.md#033.
   static constexpr double kMaxCorrection = 0.6;
 
   explicit ThrustTable(const common::VehicleConfig& vehicle);

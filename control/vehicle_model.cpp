@@ -14,6 +14,8 @@
 
 namespace swiftlet::control {
 
+using common::Message;
+using common::Problem;
 using common::config::atLeast;
 using common::config::kFinite;
 namespace {
@@ -49,82 +51,92 @@ double angleAtLevel_deg(const std::vector<CommandAngle>& rows) {
 constexpr double kLeastSlope = 0.5, kGreatestSlope = 2.0;
 constexpr double kMostAtLevel_deg = 10.0;
 
-std::vector<std::string> problemsOfBench(const char* name, const std::vector<CommandAngle>& rows) {
+std::vector<Problem> problemsOfBench(const std::string& name, const std::vector<CommandAngle>& rows) {
   if (rows.empty()) return {};
-  if (rows.size() == 1) return {fmt::format("{}: one row is no mapping, give two and more, or none", name)};
+  const auto problem = [](const std::string& element, Message message) {
+    return std::vector<Problem>{{{}, element, std::move(message), ""}};
+  };
+  if (rows.size() == 1)
+    return problem(name, Message("bench.one-row", "one row is no mapping, give two and more, or none"));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double command_deg = rows[i].command_deg - rows[i - 1].command_deg;
     const double angle_deg = rows[i].angle_deg - rows[i - 1].angle_deg;
     if (command_deg <= 0.0 || angle_deg <= 0.0)
-      return {fmt::format("{}[{}]: commands and angles must rise from row to row", name, i)};
+      return problem(fmt::format("{}[{}]", name, i),
+                     Message("bench.falls", "commands and angles must rise from row to row"));
     if (const double slope = angle_deg / command_deg; slope < kLeastSlope || slope > kGreatestSlope)
-      return {fmt::format("{}[{}].angle_deg: changes by {:.2g} deg for each deg of command, {} to {} would fit", name,
-                          i, slope, kLeastSlope, kGreatestSlope)};
+      return problem(fmt::format("{}[{}].angle_deg", name, i),
+                     Message("bench.slope", "changes by {:.2g} deg for each deg of command, {} to {} would fit", slope,
+                             kLeastSlope, kGreatestSlope));
   }
   if (rows.front().command_deg > 0.0 || rows.back().command_deg < 0.0)
-    return {fmt::format("{}: the commands must reach from below 0 to above 0", name)};
+    return problem(name, Message("bench.one-side", "the commands must reach from below 0 to above 0"));
   if (const double level_deg = angleAtLevel_deg(rows); std::abs(level_deg) > kMostAtLevel_deg)
-    return {fmt::format("{}: the command 0 gives {:.1f} deg, at most {} would fit", name, level_deg, kMostAtLevel_deg)};
+    return problem(name, Message("bench.not-level", "the command 0 gives {:.1f} deg, at most {} would fit", level_deg,
+                                 kMostAtLevel_deg));
   return {};
 }
 
 /// The controllers command up to the greatest tilt.
 void addShortBench(const char* name, const std::vector<CommandAngle>& rows, double max_tilt_deg,
-                   std::vector<common::Problem>& problems) {
+                   std::vector<Problem>& problems) {
   constexpr double kRounding_deg = 0.5;
   if (rows.empty()) return;
   const double low_deg = rows.front().command_deg, high_deg = rows.back().command_deg;
   if (low_deg <= kRounding_deg - max_tilt_deg && high_deg >= max_tilt_deg - kRounding_deg) return;
-  problems.push_back({{},
-                      name,
-                      fmt::format("the commands reach from {} to {} deg, but the vehicle tilts by up to {} deg",
-                                  low_deg, high_deg, max_tilt_deg),
-                      "put the vehicle on the bench again"});
+  problems.push_back(
+      {{},
+       name,
+       Message("bench.too-short", "the commands reach from {} to {} deg, but the vehicle tilts by up to {} deg",
+               low_deg, high_deg, max_tilt_deg),
+       "put the vehicle on the bench again"});
 }
 
 }  // namespace
 
-std::vector<std::string> problemsOfAxis(const std::string& axis, const AxisModel& model) {
+std::vector<Problem> problemsOfAxis(const std::string& axis, const AxisModel& model) {
   if (model.gain == 0.0) return {};
   const auto bounds = std::find_if(kAxisBounds.begin(), kAxisBounds.end(),
                                    [&](const AxisBounds& candidate) { return axis == candidate.name; });
-  std::vector<std::string> problems;
+  std::vector<Problem> problems;
+  const auto add = [&](const std::string& key, Message message) {
+    problems.push_back({{}, axis + "." + key, std::move(message), ""});
+  };
   const auto within = [&](const char* key, double value, double low, double high) {
     if (value < low || value > high)
-      problems.push_back(fmt::format("{}.{}: {:g} is not within {} and {}", axis, key, value, low, high));
+      add(key, Message("config.not-within", "{} is not within {} and {}", fmt::format("{:g}", value), low, high));
   };
   within("gain", model.gain, bounds->low_gain, bounds->high_gain);
   within("offset", model.offset, bounds->low_offset, bounds->high_offset);
   if (problems.empty() && axis == "up" && std::abs(model.gain + model.offset) > kMostAtHover_m_s2)
-    problems.push_back(fmt::format("up.offset: {:g} is not about the negative gain, {:g}", model.offset, -model.gain));
+    add("offset", Message("axis.offset", "{:g} is not about the negative gain, {:g}", model.offset, -model.gain));
   if (problems.empty() && model.gain_interval >= std::abs(model.gain))
-    problems.push_back(
-        fmt::format("{}.gain_interval: {:g} leaves nothing of the gain, {:g}", axis, model.gain_interval, model.gain));
+    add("gain_interval",
+        Message("axis.interval", "{:g} leaves nothing of the gain, {:g}", model.gain_interval, model.gain));
   return problems;
 }
 
-std::vector<std::string> VehicleModel::validate() const {
-  std::vector<std::string> problems;
-  const auto add = [&](const std::vector<std::string>& more) {
-    problems.insert(problems.end(), more.begin(), more.end());
-  };
+std::vector<Problem> VehicleModel::validate() const {
+  std::vector<Problem> problems;
+  const auto add = [&](const std::vector<Problem>& more) { problems.insert(problems.end(), more.begin(), more.end()); };
   add(problemsOfAxis("forward", forward));
   add(problemsOfAxis("left", left));
   add(problemsOfAxis("up", up));
   add(problemsOfAxis("yaw", yaw));
-  for (const std::string& problem : control::problemsOf(thrust)) problems.push_back("thrust: " + problem);
+  for (const Problem& problem : control::problemsOf(thrust)) problems.push_back({{}, "thrust", problem.message, ""});
   add(problemsOfBench("bench_pitch", bench_pitch));
   add(problemsOfBench("bench_roll", bench_roll));
   return problems;
 }
 
-std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConfig& sheet) const {
-  std::vector<common::Problem> problems;
+std::vector<Problem> VehicleModel::problemsFor(const common::VehicleConfig& sheet) const {
+  std::vector<Problem> problems;
   if (vehicle != sheet.name)
-    problems.push_back({{},
-                        "vehicle",
-                        fmt::format("the model is of `{}`, but `{}` flies", vehicle, sheet.name),
-                        fmt::format("identify a flight of `{}`", sheet.name)});
+    problems.push_back(
+        {{},
+         "vehicle",
+         Message("vehicle-model.other-vehicle", "the model is of `{}`, but `{}` flies", vehicle, sheet.name),
+         fmt::format("identify a flight of `{}`", sheet.name)});
   addShortBench("bench_pitch", bench_pitch, sheet.max_tilt_deg, problems);
   addShortBench("bench_roll", bench_roll, sheet.max_tilt_deg, problems);
   if (thrust.empty()) return problems;
@@ -133,8 +145,9 @@ std::vector<common::Problem> VehicleModel::problemsFor(const common::VehicleConf
     if (differs(of_model, of_sheet))
       problems.push_back({{},
                           name,
-                          fmt::format("C(U) was learned with a battery of {} {}, but that of `{}` has {} {}", of_model,
-                                      unit, sheet.name, of_sheet, unit),
+                          Message("vehicle-model.other-battery",
+                                  "C(U) was learned with a battery of {} {}, but that of `{}` has {} {}", of_model,
+                                  unit, sheet.name, of_sheet, unit),
                           ""});
   };
   check("battery_full_v", battery_full_v, sheet.battery_full_v, "V");

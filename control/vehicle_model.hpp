@@ -54,7 +54,7 @@ struct VehicleModel {
 
   void describe(common::config::Fields& fields);
   /// An axis that was identified must be one that a multirotor can have, see problemsOfAxis.
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 
   /// Why the model cannot be used for this vehicle, with its own keys and without places; empty if it fits.
   std::vector<common::Problem> problemsFor(const common::VehicleConfig& vehicle) const;
@@ -65,7 +65,7 @@ struct VehicleModel {
 /// Why no multirotor can have such an identified axis, "forward.gain: the reason"; empty for one that has not been
 /// identified. `axis` is the key of the axis in VehicleModel. The bounds are wide: an LQR divides by the gain, so that
 /// a wrong sign or size would fly the vehicle into a wall.
-std::vector<std::string> problemsOfAxis(const std::string& axis, const AxisModel& model);
+std::vector<common::Problem> problemsOfAxis(const std::string& axis, const AxisModel& model);
 
 /// The command for which the vehicle takes that angle, by a bench's rows of rising commands and angles; the angle
 /// itself without rows. Beyond the rows the mapping continues with a slope of 1.

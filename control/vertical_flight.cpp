@@ -19,7 +19,7 @@ constexpr double kHoverTolerance_m = 0.10, kHoverSpeed_m_s = 0.15, kHover_s = 0.
 /// Without hovering this long after the climb should have ended the vehicle lands again.
 constexpr double kTakeOffTimeout_s = 15.0;
 /// A take-off with all of its thrust for this long is given up; with enough thrust, a lift takes tenths of that.
-/// Measured: docs/decisions/control.md, 033.
+/// Measured: docs/decisions/control.md#033.
 constexpr double kSpent_s = 2.0;
 
 constexpr double kAcceleration_m_s2 = 0.8;  ///< Vertical acceleration of taking off and landing.
@@ -40,16 +40,6 @@ constexpr double kCarried_s = 0.5;  ///< Age from which the height counts as car
 /// 0.70 m/s.
 constexpr double kCarriedTouchdownSpeed_m_s = 0.35;
 constexpr double kCarriedLimit_s = 10.0;  ///< Beyond this age a carried speed counts as no worse.
-
-/// Whether the condition has held for this long; `since` keeps when it began.
-bool heldFor(std::optional<common::Time>& since, common::Time now, bool condition, double seconds) {
-  if (!condition) {
-    since.reset();
-    return false;
-  }
-  if (!since) since = now;
-  return (now - *since).seconds() >= seconds;
-}
 
 /// Without a measurement the inertial samples carry the height.
 bool isCarried(const TickClock& clock, const common::VehicleState& state) {
@@ -83,8 +73,9 @@ void VerticalFlight::start(common::Time now, double standing_m, double standing_
 void VerticalFlight::restart(double height_m, double climb_m_s) {
   height_m_ = height_m;
   rate_m_s_ = climb_m_s;
-  spent_since_.reset();
-  condition_since_.reset();
+  spent_.reset();
+  hovers_.reset();
+  rests_.reset();
 }
 
 void VerticalFlight::skipSpoolUp(common::Time now) {
@@ -114,10 +105,12 @@ std::optional<VerticalFlight::End> VerticalFlight::takeOffEnd(const TickClock& c
   const bool hovers =
       std::abs(height_m - goal_m_) <= kHoverTolerance_m && state.velocity_odom_m_s.norm() <= kHoverSpeed_m_s;
   const bool spent = thrust.isGreatest(command);
-  if (heldFor(spent_since_, clock.now(), spent, kSpent_s))
+  spent_.update(spent, clock.now());
+  hovers_.update(hovers && !spent, clock.now());
+  if (spent_.active_s(clock.now()) >= kSpent_s)
     return End{FlightInput::kLand,
-               fmt::format("{:.0f} % of the thrust for {:.1f} s do not carry it there", 100.0 * command, kSpent_s)};
-  if (heldFor(condition_since_, clock.now(), hovers && !spent, kHover_s))
+               fmt::format("{:.0f} % of the thrust for {:.1f} s did not reach the height", 100.0 * command, kSpent_s)};
+  if (hovers_.active_s(clock.now()) >= kHover_s)
     return End{FlightInput::kHoverReached, fmt::format("hovers at {:.2f} m", height_m)};
   if ((clock.now() - started_).seconds() > timeout_s)
     return End{FlightInput::kLand, fmt::format("not hovering after {:.0f} s", timeout_s)};
@@ -148,9 +141,9 @@ std::optional<std::string> VerticalFlight::touchedDown(const TickClock& clock, c
       command < kTouchdownThrust * thrust.hoverCommand() &&
       std::abs(state.velocity_odom_m_s.z()) < (carried ? kCarriedTouchdownSpeed_m_s : kTouchdownSpeed_m_s);
   const bool low = over_ground_m < standing_raw_m_ + kTouchdownMargin_m + uncertainty_m(carried, state);
-  if (!heldFor(condition_since_, clock.now(), rests && (low || !carried), low ? kTouchdown_s : kStandsHigher_s))
-    return std::nullopt;
-  return fmt::format("{:.2f} m over the ground{}", over_ground_m, low ? "" : " that the beams see, and stands");
+  rests_.update(rests && (low || !carried), clock.now());
+  if (rests_.active_s(clock.now()) < (low ? kTouchdown_s : kStandsHigher_s)) return std::nullopt;
+  return fmt::format("{:.2f} m over the ground{}", over_ground_m, low ? "" : " that the beams measure, at rest");
 }
 
 double VerticalFlight::landing_s(double height_m, const MarginLimits& margin) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/hysteresis.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
 #include "control/flight_state_machine.hpp"
@@ -83,8 +84,8 @@ class VerticalFlight {
   double rate_m_s_ = 0.0;
   bool lifted_ = false;
   common::Time started_;
-  std::optional<common::Time> spent_since_;      ///< Since when a take-off has had all of the thrust.
-  std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
+  common::Hysteresis spent_, hovers_;  ///< A take-off has all of the thrust, or hovers at its height.
+  common::Hysteresis rests_;           ///< A landing has touched the ground.
 };
 
 }  // namespace swiftlet::control

@@ -11,8 +11,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "common/quantile.hpp"
 #include "common/rgbd_frame.hpp"
-#include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -86,7 +86,7 @@ CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& r
     for (const std::uint32_t i : points) sum_m += rays.nearest(cloud_world_m[i], CloudError::kLimit_m).distance_m;
     distances_m.push_back(sum_m / static_cast<double>(points.size()));
   }
-  return {quantile(distances_m, 0.5), quantile(distances_m, 0.95)};
+  return {common::quantile(distances_m, 0.5), common::quantile(distances_m, 0.95)};
 }
 
 Pose3 alignment(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
@@ -114,7 +114,7 @@ Pose3 alignment(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
     const Eigen::Matrix<double, 6, 1> step = -pull.information.ldlt().solve(pull.gradient);
     const Eigen::Quaterniond turn = common::expSO3(step.head<3>());
     T = Pose3{turn, moved_middle + step.tail<3>() - turn * moved_middle} * T;
-    reach_m = std::clamp(kOutlier * quantile(distances_m, 0.5), kLeastReach_m, kReach_m);
+    reach_m = std::clamp(kOutlier * common::quantile(distances_m, 0.5), kLeastReach_m, kReach_m);
     if (step.norm() < 1e-6) break;
   }
   return T;

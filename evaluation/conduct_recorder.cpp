@@ -29,6 +29,7 @@ void ConductRecorder::tick(const simulation::Truth& truth) {
     if (tilt_rad > ConductRecord::kTilted_rad) record_.tilted_s += dt_s;
     record_.tilt_max_rad = std::max(record_.tilt_max_rad, tilt_rad);
     record_.charge_min = std::min(truth.battery_remaining, record_.charge_min.value_or(1.0));
+    record_.lost_cells = truth.lost_cells;
   }
   if (touched_down) {
     const double down_m_s = std::max(0.0, -last_->velocity_world_m_s.z());

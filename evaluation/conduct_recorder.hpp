@@ -29,6 +29,7 @@ struct ConductRecord {
   double tilt_max_rad = 0.0;  ///< Greatest tilt while airborne.
   std::optional<double> touch_down_speed_m_s;  ///< Greatest speed of descent at a touch-down; nullopt without one.
   std::optional<double> charge_min;            ///< Least true charge while airborne; nullopt if it never flew.
+  int lost_cells = 0;                          ///< Of the battery, while airborne.
   /// Longest time from the begin of a fault to the first snapshot in which the vehicle holds, lands or stands; nullopt
   /// without a fault, and infinite if it did none of these.
   std::optional<double> safe_action_s;

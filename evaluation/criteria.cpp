@@ -60,15 +60,12 @@ void judgeFigures(std::initializer_list<FigureGroup> groups, const FlightScore& 
   }
 }
 
-/// The end of the flight. Where verdicts are required, crashes and needless landings are judged over all flights,
-/// see TrialResult::missed().
+/// The end of the flight. Needless landings are judged over all flights, see TrialResult::missed().
 void judgeEnding(const FlightScore& flight, const Criteria& criteria, std::vector<std::string>& failures) {
   if (criteria.mission_done && !flight.mission_done) failures.push_back("mission: " + flight.outcome);
-  if (!criteria.verdicts) {
-    if (flight.avoidable_collisions > criteria.collisions_max) failures.push_back("collision: " + flight.collision);
-  } else if (flight.verdict == Verdict::kOutside || flight.verdict == Verdict::kUnfinished) {
+  if (flight.avoidable_collisions > criteria.collisions_max) failures.push_back(flight.collisionText());
+  if (criteria.verdicts && (flight.verdict == Verdict::kOutside || flight.verdict == Verdict::kUnfinished))
     failures.push_back(fmt::format("verdict {}: {}", toString(flight.verdict), flight.verdict_reason));
-  }
 }
 
 /// Criteria of single steps apply to every flight, however it ended.
@@ -104,16 +101,13 @@ void Criteria::describe(common::config::Fields& fields) {
   };
   fields("mission_done", mission_done, "Whether the mission must end well.");
   fields(
-      "collisions_max", collisions_max, {0, 1},
-      "Greatest number of collisions that the vehicle could have avoided; a flight ends with the first. A person who "
-      "walks into a vehicle that stands or moves away, and glass that never returned a beam, do not count.");
+      "collisions_max", collisions_max, {0, 0},
+      "Greatest number of contacts in a flight, but forced ones. It is always 0: no trial passes with such a contact.");
   fields(
       "verdicts", verdicts,
       "Whether a flight that did not do its mission is judged by the truth: it passes if it came home, landed inside, "
       "or refused to take off. Figures of the mission are then asked only of flights that did it.");
   describeBound(trialFigure("needless_share").criterion);
-  fields("crashes_max", crashes_max, {0, 10'000},
-         "With verdicts, greatest number of flights that crashed, where physics did not force it.");
   describeBound(trialFigure("done_share").criterion);
   for (const FigureGroup group : kOfMissions) {
     if (group == kLocalization)

@@ -19,7 +19,6 @@ class Criteria {
   bool mission_done = true;
   int collisions_max = 0;
   bool verdicts = false;
-  int crashes_max = 0;
   double localized_within_m = std::numeric_limits<double>::infinity();
   bool all_resumed = true;
 

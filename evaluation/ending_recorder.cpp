@@ -31,9 +31,6 @@ void EndingRecorder::tick(const simulation::Truth& truth, double position_error_
     faulty_at_ = truth.stamp;
     record_.faulty_sensor = toString(*truth.failed_sensor);
   }
-  if (truth.airborne) charges_.emplace_back(truth.stamp, truth.battery_remaining);
-  while (!charges_.empty() && (truth.stamp - charges_.front().first).seconds() > EndingRecord::kLanding_s)
-    charges_.pop_front();
   last_ = truth;
 }
 
@@ -47,7 +44,9 @@ void EndingRecorder::intent(const common::Intent& intent, const common::IntentSt
   const auto* go_to = std::get_if<common::GoToIntent>(&intent.kind);
   if (go_to == nullptr || status.id != intent.id) return;
   record_.failed_goal_map_m.reset();
-  if (status.state == common::IntentState::kFailed) record_.failed_goal_map_m = go_to->goal_map_m;
+  if (status.state != common::IntentState::kFailed) return;
+  record_.failed_goal_map_m = go_to->goal_map_m;
+  if (last_) record_.doors_at_failed_goal = last_->closed_doors;
 }
 
 void EndingRecorder::world(const common::World& world) {
@@ -67,7 +66,6 @@ EndingRecord EndingRecorder::finish() const {
   };
   if (!isAround(faulty_at_)) record.faulty_sensor.clear();
   if (!isAround(ordered_at_)) record.order.clear();
-  record.charge_before_end = charges_.empty() ? record.then.battery_remaining : charges_.front().second;
   for (const auto& [stamp, position_world_m] : trail_) record.trail_world_m.push_back(position_world_m);
   return record;
 }

@@ -28,16 +28,15 @@ struct EndingRecord {
   std::vector<Eigen::Vector3d> trail_world_m;  ///< True positions in the kTrail_s until then, kTrailPeriod_s apart.
   std::string faulty_sensor;                   ///< IMU or laser, if it failed within kAround_s of then; else empty.
   std::string order;                           ///< The order to end the flight that came around then; empty: no order.
-  std::optional<Eigen::Vector2d> failed_goal_map_m;  ///< The goal that the mission asked for last, if it failed.
+  std::optional<Eigen::Vector2d> failed_goal_map_m;     ///< The goal that the mission asked for last, if it failed.
+  std::vector<simulation::Actor> doors_at_failed_goal;  ///< The doors that were closed then.
   double charge_at_take_off = 1.0;
   double airborne_until_then_s = 0.0;
-  double charge_before_end = 1.0;  ///< kLanding_s before the last tick, or at the take-off if that was later.
 
   /// docs/decisions/simulation.md#031.
   static constexpr double kTrail_s = 30.0;
   static constexpr double kTrailPeriod_s = 0.5;
-  static constexpr double kAround_s = 5.0;    ///< Longer than any fault takes to end a mission.
-  static constexpr double kLanding_s = 10.0;  ///< A descent from two metres, and the time to begin it.
+  static constexpr double kAround_s = 5.0;  ///< Longer than any fault takes to end a mission.
 };
 
 /// Called by the FlightRecorder, whose functions have the same names. Calls come in the order of time.
@@ -61,7 +60,6 @@ class EndingRecorder {
   double airborne_s_ = 0.0;
   std::optional<simulation::Truth> last_;
   std::deque<std::pair<common::Time, Eigen::Vector3d>> trail_;
-  std::deque<std::pair<common::Time, double>> charges_;  ///< Of the last kLanding_s in the air.
   std::optional<common::Time> faulty_at_, ordered_at_;
 };
 

@@ -14,6 +14,7 @@
 namespace swiftlet::evaluation {
 namespace {
 
+using common::Message;
 using simulation::PlantKey;
 using simulation::Scenario;
 
@@ -33,19 +34,21 @@ void EnvelopeQuantity::describe(common::config::Fields& fields) {
   fields("name", name, "Name of the quantity, for people; the key if none is given.");
 }
 
-std::vector<std::string> EnvelopeQuantity::validate() const {
+std::vector<common::Problem> EnvelopeQuantity::validate() const {
   common::Validation validation;
   const auto found = simulation::plantKey(Scenario(), key);
-  if (key.empty()) return validation.require(false, "key", "is missing").problems();
-  const std::string known = common::didYouMean(key, keysWithFractions());
+  if (key.empty()) return validation.given(false, "key").problems();
   if (!found)
-    validation.require(false, "key",
-                       fmt::format("the plant has no number `{}`{}{}", key, known.empty() ? "" : ", ", known));
-  else
-    validation.require(!found->whole, "key", fmt::format("`{}` counts, and cannot be turned up by fractions", key))
-        .require(std::isnan(to) || found->bounds.contain(to), "to",
-                 fmt::format("{}, the bounds of `{}`", found->bounds.problem(to), key));
-  return validation.problems();
+    return validation
+        .require(false, "key", Message("envelope.no-number", "the plant has no number `{}`", key),
+                 common::didYouMean(key, keysWithFractions()))
+        .problems();
+  return validation
+      .require(!found->whole, "key",
+               Message("envelope.counts", "`{}` counts, and cannot be turned up by fractions", key))
+      .require(std::isnan(to) || found->bounds.contain(to), "to",
+               found->bounds.problem(to) += fmt::format(", the bounds of `{}`", key))
+      .problems();
 }
 
 void EnvelopeConfig::describe(common::config::Fields& fields) {
@@ -57,13 +60,14 @@ void EnvelopeConfig::describe(common::config::Fields& fields) {
   fields.list("quantities", quantities, "What is turned up, each alone.");
 }
 
-std::vector<std::string> EnvelopeConfig::validate() const {
+std::vector<common::Problem> EnvelopeConfig::validate() const {
   common::Validation validation;
-  validation.require(!quantities.empty(), "quantities", "are missing: there is nothing to turn up");
+  validation.require(!quantities.empty(), "quantities",
+                     Message("envelope.nothing", "are missing: there is nothing to turn up"));
   for (auto one = quantities.begin(); one != quantities.end(); ++one)
     validation.require(std::none_of(quantities.begin(), one,
                                     [&](const auto& other) { return other.key == one->key && other.to == one->to; }),
-                       "quantities", fmt::format("`{}` to {:g} is listed twice", one->key, one->to));
+                       "quantities", Message("envelope.twice", "`{}` to {:g} is listed twice", one->key, one->to));
   return validation.problems();
 }
 
@@ -88,17 +92,18 @@ Scenario pinned(const Scenario& scenario, const simulation::Nature& base) {
 
 double baseValue(const EnvelopeQuantity& quantity, const Scenario& pinned) {
   const simulation::Nature& base = *pinned.nature;
-  const auto wrong = [&](const std::string& what) {
-    return common::InputError(common::Problem{{base.name()}, quantity.key, what, ""});
+  const auto wrong = [&](Message what) {
+    return common::InputError(common::Problem{{base.name()}, quantity.key, std::move(what), ""});
   };
   const auto range = base.rangeOf(quantity.key);
   const bool is_charge = quantity.key == "battery_remaining";  // pinned() has fixed it.
   if (range && range->low < range->high && !is_charge)
-    throw wrong(fmt::format("is drawn from {:g} to {:g} by the base, and cannot be turned up from there", range->low,
-                            range->high));
+    throw wrong(Message("envelope.drawn", "is drawn from {:g} to {:g} by the base, and cannot be turned up from there",
+                        range->low, range->high));
   const double value = simulation::plantKey(base.drawn(pinned, 0), quantity.key)->value;
   if (value == quantity.to)
-    throw wrong(fmt::format("is {:g} in the base already, where it was to be turned up to", value));
+    throw wrong(
+        Message("envelope.there-already", "is {:g} in the base already, where it was to be turned up to", value));
   return value;
 }
 

@@ -24,7 +24,7 @@ struct EnvelopeQuantity {
 
   void describe(common::config::Fields& fields);
   /// Refuses keys that are not numbers of the plant, and values out of the key's bounds.
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct EnvelopeConfig {
@@ -35,7 +35,7 @@ struct EnvelopeConfig {
   std::vector<EnvelopeQuantity> quantities;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// A file such as config/envelope.yaml. A quantity without a name is named by its key. Throws common::InputError with

@@ -105,6 +105,7 @@ Figures courseRows() {
           atMost("end_distance_max_m", "distance from the take-off place at the end, m",
                  "Greatest horizontal distance from the take-off place at which the vehicle is at the end.", kAlways)),
       row("speed_max_m_s"),
+      row("floor_contact_s"),
       row("explored_area_m2"),
   };
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/quantile.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/statistics.hpp"
@@ -13,11 +14,11 @@ namespace {
 double statisticOf(TrialFigure::Statistic statistic, const std::vector<double>& values) {
   switch (statistic) {
     case TrialFigure::Statistic::kMin:
-      return quantile(values, 0.0);
+      return common::quantile(values, 0.0);
     case TrialFigure::Statistic::kMedian:
-      return quantile(values, 0.5);
+      return common::quantile(values, 0.5);
     case TrialFigure::Statistic::kMax:
-      return quantile(values, 1.0);
+      return common::quantile(values, 1.0);
     case TrialFigure::Statistic::kMean:
       return statisticsOf(values).mean;
   }

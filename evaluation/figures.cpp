@@ -58,19 +58,26 @@ const std::vector<const TrialFigure*>& trialFigures() {
   return figures;
 }
 
-const TrialFigure& trialFigure(std::string_view name) {
+const TrialFigure* findTrialFigure(std::string_view name) {
   const auto& all = trialFigures();
   const auto found = std::find_if(all.begin(), all.end(), [&](const TrialFigure* one) { return one->name == name; });
-  SWIFTLET_CHECK(found != all.end(), name);
-  return **found;
+  return found == all.end() ? nullptr : *found;
 }
 
-std::string trialFigureProblem(const std::string& name) {
+const TrialFigure& trialFigure(std::string_view name) {
+  const TrialFigure* found = findTrialFigure(name);
+  SWIFTLET_CHECK(found != nullptr, name);
+  return *found;
+}
+
+std::optional<common::Problem> trialFigureProblem(const std::string& name) {
+  if (findTrialFigure(name) != nullptr) return std::nullopt;
   std::vector<std::string> names;
   for (const TrialFigure* figure : trialFigures()) names.emplace_back(figure->name);
-  if (std::find(names.begin(), names.end(), name) != names.end()) return {};
-  return toString(common::Problem{
-      {}, "", fmt::format("`{}` is not a figure over all flights", name), common::didYouMean(name, names)});
+  return common::Problem{{},
+                         "",
+                         common::Message("trial.no-figure", "`{}` is not a figure over all flights", name),
+                         common::didYouMean(name, names)};
 }
 
 }  // namespace swiftlet::evaluation

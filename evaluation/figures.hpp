@@ -129,7 +129,9 @@ const FlightFigure& flightFigure(std::string_view name);
 const std::vector<const TrialFigure*>& trialFigures();
 /// By its name, which must exist.
 const TrialFigure& trialFigure(std::string_view name);
+/// Null without one of that name.
+const TrialFigure* findTrialFigure(std::string_view name);
 /// Why there is no figure over all flights of that name, with the most similar one; empty if there is.
-std::string trialFigureProblem(const std::string& name);
+std::optional<common::Problem> trialFigureProblem(const std::string& name);
 
 }  // namespace swiftlet::evaluation

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "common/quantile.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
-#include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -62,6 +62,7 @@ void FlightRecorder::followPath(const simulation::Truth& truth) {
 void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate,
                           const std::optional<Eigen::Vector3d>& reference_odom_m) {
   conduct_.tick(truth);
+  contact_.tick(truth);
   behaviors_.tick(truth, record_.estimate.truthInMap(truth.T_world_body), record_.T_world_map);
   tickPhases(truth, estimate, reference_odom_m);
   followPath(truth);
@@ -75,6 +76,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
   const bool home = go_to != nullptr && (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
   conduct_.intent(intent, status, home);
   ending_.intent(intent, status);
+  contact_.intent(intent);
   behaviors_.intent(intent, status);
   if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
   if (counted_intent_ == intent.id) return;
@@ -95,6 +97,7 @@ void FlightRecorder::world(const common::World& world) {
   conduct_.world(world);
   behaviors_.world(world);
   ending_.world(world);
+  contact_.world(world);
   for (PhaseRecorder& phase : phases_) phase.world(world);
   home_map_m_ = world.vehicle->home_map.position_m();
   record_.map = world.map->grid;
@@ -110,8 +113,10 @@ FlightRecord FlightRecorder::finish() const {
   record.conduct = conduct_.finish();
   record.behaviors = behaviors_.record();
   record.ending = ending_.finish();
+  record.contact = contact_.finish();
+  record.motors_off = contact_.motorsOff();
   for (const PhaseRecorder& phase : phases_) record.phases.push_back(phase.finish());
-  if (!heights_world_m_.empty()) record.cruise_height_world_m = quantile(heights_world_m_, 0.5);
+  if (!heights_world_m_.empty()) record.cruise_height_world_m = common::quantile(heights_world_m_, 0.5);
   return record;
 }
 

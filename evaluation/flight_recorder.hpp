@@ -18,6 +18,7 @@
 #include "common/vehicle_state.hpp"
 #include "evaluation/behavior_recorder.hpp"
 #include "evaluation/conduct_recorder.hpp"
+#include "evaluation/contact_recorder.hpp"
 #include "evaluation/ending_recorder.hpp"
 #include "evaluation/estimate_record.hpp"
 #include "evaluation/mission_record.hpp"
@@ -59,6 +60,8 @@ struct FlightRecord {
   ConductRecord conduct;
   BehaviorRecord behaviors;
   EndingRecord ending;
+  std::optional<ContactRecord> contact;  ///< The first that it did not mean.
+  bool motors_off = true;                ///< At the end; also while a pilot has them.
   std::vector<PhaseScore> phases;
   std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
   simulation::Truth last_truth;
@@ -86,6 +89,8 @@ class FlightRecorder {
   void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
   /// Call before tick(): the true places of the people, the person to be followed first.
   void people(std::vector<Eigen::Vector2d> people_world_m) { behaviors_.people(std::move(people_world_m)); }
+  /// Call before tick(): whether the setpoint has the motors on.
+  void motors(bool on) { contact_.motors(on); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second
   /// old. `reference_odom_m` is the reference of the controller, nullopt unless the vehicle flies.
   void tick(const simulation::Truth& truth, const common::VehicleState& estimate,
@@ -110,6 +115,7 @@ class FlightRecorder {
   ConductRecorder conduct_;
   BehaviorRecorder behaviors_;
   EndingRecorder ending_;
+  ContactRecorder contact_;
   std::vector<PhaseRecorder> phases_;
   std::optional<common::Time> first_tick_;
   common::Time next_view_;

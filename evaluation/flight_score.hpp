@@ -26,9 +26,7 @@ struct FlightScore {
   std::string verdict_reason;  ///< Reason by the truth, with figures.
 
   int collisions = 0;
-  /// Collisions that the verdict does not excuse, as it does forced ones, glass that no beam had seen, and walkers that
-  /// ran into a vehicle that stood still or moved away.
-  int avoidable_collisions = 0;
+  int avoidable_collisions = 0;     ///< Collisions that were not forced.
   int glass_contacts = 0;           ///< Collisions with glass that had never returned a beam.
   std::string collision;            ///< What was touched; empty if nothing was.
   std::string coverage_problem;     ///< Why there is no coverage: the world is not closed.
@@ -39,8 +37,7 @@ struct FlightScore {
   std::vector<OperatorAnswer> operator_answers;
   common::MachineUse machine;
 
-  /// Every criterion that was missed, with figure and bound. A collision that is excused, or that is judged over all
-  /// flights, is not among them.
+  /// Every criterion that was missed, with figure and bound. A forced collision is not among them.
   std::vector<std::string> failures;
   /// No flight passes that ended in a collision, whoever is to blame for it.
   bool passed() const { return failures.empty() && collisions == 0; }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/quantile.hpp"
 #include "evaluation/figure_measures.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
@@ -29,7 +30,7 @@ std::optional<double> worstOf(const std::vector<ReachedGoal>& goals, bool home, 
 }
 
 std::string outcomeOf(const FlightRecord& record) {
-  if (record.last_truth.crashed) return record.last_truth.crash_reason;
+  if (record.contact) return record.contact->what;
   const MissionRecord& mission = record.mission;
   if (mission.state == MissionState::kDone) return "done";
   if (mission.state == MissionState::kFailed) return "mission failed: " + mission.reason;
@@ -37,14 +38,15 @@ std::string outcomeOf(const FlightRecord& record) {
   return fmt::format("not finished after {:.0f} s", record.flight_time_s);
 }
 
-void measureCollision(const simulation::Truth& truth, FlightScore& score) {
-  score["min_clearance_m"] = truth.min_clearance_m;
-  score["min_walker_clearance_m"] = truth.min_walker_clearance_m;
-  if (!truth.crashed) return;
+void measureCollision(const FlightRecord& record, FlightScore& score) {
+  score["min_clearance_m"] = record.last_truth.min_clearance_m;
+  score["min_walker_clearance_m"] = record.last_truth.min_walker_clearance_m;
+  score["floor_contact_s"] = record.contact ? record.contact->floor_s : 0.0;
+  if (!record.contact) return;
   score.collisions = 1;
-  score.collision = truth.crash_reason;
-  score.avoidable_collisions = acceptable(score.verdict) ? 0 : 1;
-  score.glass_contacts = score.verdict == Verdict::kUnseen ? 1 : 0;
+  score.collision = record.contact->what;
+  score.avoidable_collisions = score.verdict == Verdict::kForced ? 0 : 1;
+  score.glass_contacts = record.contact->truth.unseen_glass ? 1 : 0;
 }
 
 /// The flood was stopped by its bound and not by walls, so the coverable area has no end. This is checked before the
@@ -67,6 +69,7 @@ void measureMap(const FlightRecord& record, const TrueWorld& world, FlightScore&
   query.top_m = cruise_m + half_height_m;
   query.resolution_m = record.map->resolution_m();
   query.max_area_m2 = world.reachable_area_max_m2;
+  query.closed_doors = record.last_truth.closed_doors;
   if (isOpen(*world.rays, query)) {
     score.coverage_problem = fmt::format("the world is not closed: the hull gets from the start to more than {:g} m2",
                                          world.reachable_area_max_m2);
@@ -77,11 +80,12 @@ void measureMap(const FlightRecord& record, const TrueWorld& world, FlightScore&
   }
 
   const double laser_m = cruise_m + world.laser.mount.z_m;
-  if (const auto error = wallError(*record.map, T_world_map, *world.rays, laser_m)) {
+  if (const auto error = wallError(*record.map, T_world_map, *world.rays, laser_m, query.closed_doors)) {
     score["map_wall_error_median_m"] = error->median_m;
     score["map_wall_error_p95_m"] = error->p95_m;
   }
-  if (const auto error = wallError(*record.map, common::planar(record.T_world_start), *world.rays, laser_m))
+  if (const auto error =
+          wallError(*record.map, common::planar(record.T_world_start), *world.rays, laser_m, query.closed_doors))
     score["map_wall_error_median_raw_m"] = error->median_m;
 }
 
@@ -107,7 +111,7 @@ void measureConduct(const ConductRecord& record, const TrueWorld& world, FlightS
   }
   if (record.charge_min)
     score["thrust_margin_min"] = simulation::thrustOverWeight(world.vehicle, world.quadrotor, *record.charge_min,
-                                                              simulation::Nature::kFullThrottle);
+                                                              simulation::Nature::kFullThrottle, record.lost_cells);
   score["touch_down_speed_m_s"] = record.touch_down_speed_m_s;
   score["safe_action_s"] = record.safe_action_s;
   if (record.home_energy) {
@@ -117,8 +121,8 @@ void measureConduct(const ConductRecord& record, const TrueWorld& world, FlightS
     if (needed > 0) score["home_energy_error"] = std::abs(predicted - needed) / needed;
   }
   if (!record.laser_latencies_s.empty()) {
-    score["laser_latency_median_s"] = quantile(record.laser_latencies_s, 0.5);
-    score["laser_latency_p95_s"] = quantile(record.laser_latencies_s, 0.95);
+    score["laser_latency_median_s"] = common::quantile(record.laser_latencies_s, 0.5);
+    score["laser_latency_p95_s"] = common::quantile(record.laser_latencies_s, 0.95);
   }
 }
 
@@ -158,8 +162,8 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   FlightScore score;
   score.seed = seed;
   score.outcome = outcomeOf(record);
-  score.mission_done = record.mission.state == MissionState::kDone && !record.last_truth.crashed;
   const Judgement judgement = judge(factsOf(record, world));
+  score.mission_done = judgement.verdict == Verdict::kDone;
   score.verdict = judgement.verdict;
   score.verdict_reason = judgement.reason;
   score.interruptions = record.mission.interruptions;
@@ -169,7 +173,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.machine = machine;
   measureGoals(record, score);
   measureEstimate(record.estimate, score);
-  measureCollision(record.last_truth, score);
+  measureCollision(record, score);
   measureMap(record, world, score);
   measureMap3d(record, world, score);
   if (record.visual_odometry) measureVisualOdometry(*record.visual_odometry, record.estimate.truth_map, score);

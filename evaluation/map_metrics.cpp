@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "evaluation/statistics.hpp"
+#include "common/quantile.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -20,16 +20,20 @@ double coverage(const common::OccupancyGrid& map, const common::Pose2& T_world_m
 }
 
 std::optional<WallError> wallError(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
-                                   const simulation::RayCaster& rays, double height_world_m) {
+                                   const simulation::RayCaster& rays, double height_world_m,
+                                   std::span<const simulation::Actor> closed_doors) {
   std::vector<double> distances_m;
   map.forEachCell([&](common::CellIndex cell, common::occupancy::Cell value) {
     if (common::occupancy::isUnknown(value) || !common::occupancy::isOccupied(value)) return;
     const Eigen::Vector2d center_world_m = T_world_map * map.centerOf(cell);
-    distances_m.push_back(
-        std::min(WallError::kLimit_m, distanceToSurface2d(rays, center_world_m, height_world_m, WallError::kLimit_m)));
+    double distance_m = distanceToSurface2d(rays, center_world_m, height_world_m, WallError::kLimit_m);
+    for (const simulation::Actor& door : closed_doors)
+      distance_m =
+          std::min(distance_m, gapTo_m(door, {0.0, 0.0}, {center_world_m.x(), center_world_m.y(), height_world_m}));
+    distances_m.push_back(std::min(WallError::kLimit_m, distance_m));
   });
   if (distances_m.empty()) return std::nullopt;
-  return WallError{quantile(distances_m, 0.5), quantile(distances_m, 0.95),
+  return WallError{common::quantile(distances_m, 0.5), common::quantile(distances_m, 0.95),
                    *std::max_element(distances_m.begin(), distances_m.end()), distances_m.size()};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -27,8 +28,9 @@ struct WallError {
   static constexpr double kLimit_m = 1.0;
 };
 
-/// nullopt if the map has no occupied cell.
+/// nullopt if the map has no occupied cell. Closed doors are surfaces, too.
 std::optional<WallError> wallError(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
-                                   const simulation::RayCaster& rays, double height_world_m);
+                                   const simulation::RayCaster& rays, double height_world_m,
+                                   std::span<const simulation::Actor> closed_doors = {});
 
 }  // namespace swiftlet::evaluation

@@ -13,6 +13,8 @@
 namespace swiftlet::evaluation {
 namespace {
 
+using common::Message;
+
 /// The ids of the script's commands. Those of pages count from 1.
 constexpr std::uint64_t kFirstId = std::uint64_t{1} << 62;
 
@@ -71,18 +73,21 @@ void OperatorStep::describe(common::config::Fields& fields) {
   fields("vehicle", vehicle, "Name of the vehicle that is commanded; empty for every vehicle.");
 }
 
-std::vector<std::string> OperatorStep::validate() const {
+std::vector<common::Problem> OperatorStep::validate() const {
   const bool is_goal = command == OperatorAction::kGoal;
   const bool is_zone = command == OperatorAction::kKeepOut;
+  const common::Polygon area = polygonOf(polygon_map_m);
   return common::Validation()
-      .require(!is_goal || goal_map_m.size() == 2, "goal_map_m", "is not one place x, y")
+      .require(!is_goal || goal_map_m.size() == 2, "goal_map_m", Message("config.no-place", "is not one place x, y"))
       .require((command == OperatorAction::kController) == !controller.empty(), "controller",
-               "is for the command controller, which needs it")
-      .require(is_goal || goal_map_m.empty(), "goal_map_m", "is for the command goal alone")
-      .require(!is_zone || polygon_map_m.size() % 2 == 0, "polygon_map_m", "has a corner without y")
-      .require(!is_zone || problemOf(polygonOf(polygon_map_m)).empty(), "polygon_map_m",
-               problemOf(polygonOf(polygon_map_m)))
-      .require(is_zone || polygon_map_m.empty(), "polygon_map_m", "is for the command keep_out alone")
+               Message("operator.controller", "is for the command controller, which needs it"))
+      .require(is_goal || goal_map_m.empty(), "goal_map_m",
+               Message("operator.goal-alone", "is for the command goal alone"))
+      .require(!is_zone || polygon_map_m.size() % 2 == 0, "polygon_map_m",
+               Message("operator.half-corner", "has a corner without y"))
+      .require(!is_zone || !problemOf(area), "polygon_map_m", problemOf(area).value_or(Message()))
+      .require(is_zone || polygon_map_m.empty(), "polygon_map_m",
+               Message("operator.keep-out-alone", "is for the command keep_out alone"))
       .problems();
 }
 

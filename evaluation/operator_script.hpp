@@ -38,7 +38,7 @@ struct OperatorStep {
   common::SourceLocation place = {};  ///< In its file, for messages.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// What became of one step.

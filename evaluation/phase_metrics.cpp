@@ -16,6 +16,8 @@
 
 namespace swiftlet::evaluation {
 
+using common::Message;
+using common::Problem;
 using common::Time;
 
 namespace {
@@ -42,10 +44,10 @@ void PhaseBound::describe(common::config::Fields& fields) {
   fields("max", max, {-kInfinity, kInfinity}, "Greatest value.");
 }
 
-std::vector<std::string> PhaseBound::validate() const {
+std::vector<common::Problem> PhaseBound::validate() const {
   return common::Validation()
-      .require(!figure.empty(), "figure", "is missing")
-      .require(std::isfinite(min) || std::isfinite(max), "max", "is missing, and so is min")
+      .given(!figure.empty(), "figure")
+      .require(std::isfinite(min) || std::isfinite(max), "max", Message("phase.no-bound", "is missing, and so is min"))
       .atMost("min", min, "max", max)
       .problems();
 }
@@ -65,14 +67,13 @@ void PhaseConfig::describe(common::config::Fields& fields) {
   fields.list("criteria", criteria, "Bounds of the phase's figures.");
 }
 
-std::vector<std::string> PhaseConfig::validate() const {
+std::vector<common::Problem> PhaseConfig::validate() const {
   common::Validation validation;
-  for (const PhaseBound& bound : criteria) {
-    const std::string problem = bound.figure.empty() ? "" : phaseFigureProblem(*this, bound.figure);
-    validation.require(problem.empty(), "criteria", problem);
-  }
-  return validation.require(!name.empty(), "name", "is missing")
-      .require(place_map_m.empty() || place_map_m.size() == 2, "place_map_m", "is not one place x, y")
+  for (const PhaseBound& bound : criteria)
+    if (!bound.figure.empty()) validation.refuse("criteria", phaseFigureProblem(*this, bound.figure));
+  return validation.given(!name.empty(), "name")
+      .require(place_map_m.empty() || place_map_m.size() == 2, "place_map_m",
+               Message("config.no-place", "is not one place x, y"))
       .atMost("from_s", from_s, "to_s", to_s)
       .problems();
 }
@@ -114,19 +115,21 @@ std::vector<std::string> phaseFigureNames(const PhaseConfig& config) {
   return names;
 }
 
-std::string phaseFigureProblem(const PhaseConfig& config, const std::string& name) {
+std::optional<Problem> phaseFigureProblem(const PhaseConfig& config, const std::string& name) {
   PhaseConfig with_all = config;
   with_all.place_map_m = {0.0, 0.0};
   with_all.height_map_m = 1.0;
   const std::vector<std::string> names = phaseFigureNames(with_all);
   const bool known = std::find(names.begin(), names.end(), name) != names.end() || isHeightOfALevel(name);
   if (!known)
-    return toString(
-        common::Problem{{}, "", fmt::format("`{}` is not a figure of a phase", name), common::didYouMean(name, names)});
+    return Problem{
+        {}, "", Message("phase.no-figure", "`{}` is not a figure of a phase", name), common::didYouMean(name, names)};
   const bool needs_place = name == "position_rms_m" || name == "position_max_m" || name == "position_return_s";
-  if (needs_place && config.place_map_m.empty()) return fmt::format("`{}` needs a place_map_m", name);
-  const bool needs_height = name == "height_error_max_m" && config.height_map_m <= 0.0;
-  return needs_height ? fmt::format("`{}` needs a height_map_m", name) : std::string();
+  if (needs_place && config.place_map_m.empty())
+    return Problem{{}, "", Message("phase.no-place", "`{}` needs a place_map_m", name), ""};
+  if (name == "height_error_max_m" && config.height_map_m <= 0.0)
+    return Problem{{}, "", Message("phase.no-height", "`{}` needs a height_map_m", name), ""};
+  return std::nullopt;
 }
 
 void PhaseRecorder::world(const common::World& world) {

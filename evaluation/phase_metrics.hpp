@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/error.hpp"
 #include "common/geometry.hpp"
 #include "common/level_map.hpp"
 #include "common/time.hpp"
@@ -28,7 +29,7 @@ struct PhaseBound {
   double max = std::numeric_limits<double>::infinity();
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// Why the bound is missed, in words: a figure that there is not is a miss; empty if it holds.
@@ -45,12 +46,12 @@ struct PhaseConfig {
   std::vector<PhaseBound> criteria = {};
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// Why such a phase has no figure of that name, with the most similar one; empty if it has one. It may have a height of
 /// any number of levels.
-std::string phaseFigureProblem(const PhaseConfig& config, const std::string& name);
+std::optional<common::Problem> phaseFigureProblem(const PhaseConfig& config, const std::string& name);
 
 /// By their names: position_mean_x_m, height_std_m ...
 using PhaseFigures = std::vector<std::pair<std::string, double>>;

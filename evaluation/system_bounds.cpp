@@ -14,10 +14,10 @@ void PhaseBounds::describe(common::config::Fields& fields) {
               "Bounds of the phase's figures for this system; they take the place of those for all systems.");
 }
 
-std::vector<std::string> PhaseBounds::validate() const {
+std::vector<common::Problem> PhaseBounds::validate() const {
   return common::Validation()
-      .require(!phase.empty(), "phase", "is missing")
-      .require(!criteria.empty(), "criteria", "is empty")
+      .given(!phase.empty(), "phase")
+      .require(!criteria.empty(), "criteria", common::Message("config.empty", "is empty"))
       .problems();
 }
 
@@ -27,13 +27,10 @@ void SystemBounds::describe(common::config::Fields& fields) {
   fields.list("phases", phases, "Bounds of the figures of phases, of each flight.");
 }
 
-std::vector<std::string> SystemBounds::validate() const {
+std::vector<common::Problem> SystemBounds::validate() const {
   common::Validation validation;
-  validation.require(!system.empty(), "system", "is missing");
-  for (const PhaseBound& bound : figures) {
-    const std::string problem = trialFigureProblem(bound.figure);
-    validation.require(problem.empty(), "figures", problem);
-  }
+  validation.given(!system.empty(), "system");
+  for (const PhaseBound& bound : figures) validation.refuse("figures", trialFigureProblem(bound.figure));
   return validation.problems();
 }
 

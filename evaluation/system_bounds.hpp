@@ -16,7 +16,7 @@ struct PhaseBounds {
   std::vector<PhaseBound> criteria = {};
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct SystemBounds {
@@ -25,7 +25,7 @@ struct SystemBounds {
   std::vector<PhaseBounds> phases = {};
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// The phases with those bounds: one of a figure that a phase has bounds of takes their place. Names of phases that

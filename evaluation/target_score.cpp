@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "common/config_fields.hpp"
+#include "common/quantile.hpp"
 #include "common/validation.hpp"
 #include "evaluation/figure_measures.hpp"
-#include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -22,11 +22,8 @@ void TrialTarget::describe(common::config::Fields& fields) {
   fields("name", name, "Name of the targets of its kind, as the profile has it.");
 }
 
-std::vector<std::string> TrialTarget::validate() const {
-  return common::Validation()
-      .require(!model.empty(), "model", "is missing")
-      .require(!name.empty(), "name", "is missing")
-      .problems();
+std::vector<common::Problem> TrialTarget::validate() const {
+  return common::Validation().given(!model.empty(), "model").given(!name.empty(), "name").problems();
 }
 
 void measureTargets(const std::vector<common::Target>& reported, const std::vector<TrueTarget>& truth,
@@ -54,8 +51,8 @@ void measureTargets(const std::vector<common::Target>& reported, const std::vect
   score["targets_found"] = matched / static_cast<double>(truth.size());
   score["false_targets"] = all_found - matched;
   if (errors_m.empty()) return;
-  score["target_error_max_m"] = quantile(errors_m, 1.0);
-  score["target_error_median_m"] = quantile(errors_m, 0.5);
+  score["target_error_max_m"] = common::quantile(errors_m, 1.0);
+  score["target_error_median_m"] = common::quantile(errors_m, 0.5);
 }
 
 }  // namespace swiftlet::evaluation

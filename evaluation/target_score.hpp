@@ -16,7 +16,7 @@ struct TrialTarget {
   std::string name = {};
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct TrueTarget {

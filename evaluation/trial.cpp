@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 bool isTrialFile(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
@@ -39,9 +40,8 @@ void checkVehicles(const TrialConfig& trial, common::Validation& validation) {
   for (const simulation::ScenarioVehicle& vehicle : trial.scenario.vehicles) names.push_back(vehicle.name);
   for (const OperatorStep& step : trial.operator_steps) {
     const bool flies = step.vehicle.empty() || std::find(names.begin(), names.end(), step.vehicle) != names.end();
-    const std::string message = fmt::format("there is no vehicle `{}`", step.vehicle);
-    const std::string hint = names.empty() ? "the one that flies has no name" : common::didYouMean(step.vehicle, names);
-    validation.require(flies, "operator", toString(Problem{{}, "", message, hint}));
+    validation.require(flies, "operator", Message("scenario.no-vehicle", "there is no vehicle `{}`", step.vehicle),
+                       names.empty() ? "the one that flies has no name" : common::didYouMean(step.vehicle, names));
   }
 }
 
@@ -49,22 +49,21 @@ void checkPhases(const std::vector<PhaseConfig>& phases, common::Validation& val
   std::set<std::string> names;
   for (const PhaseConfig& phase : phases)
     validation.require(names.insert(phase.name).second, "phases",
-                       fmt::format("`{}` is the name of two of them", phase.name));
+                       Message("trial.phase-twice", "`{}` is the name of two of them", phase.name));
 }
 
 /// The criteria of one system must name phases and figures that exist.
 void checkBounds(const TrialConfig& trial, const SystemBounds& of_one, common::Validation& validation) {
   validation.require(trial.flies(of_one.system), "asked_of",
-                     fmt::format("`{}` is not one of the systems", of_one.system));
+                     Message("trial.no-system", "`{}` is not one of the systems", of_one.system));
   for (const PhaseBounds& of_phase : of_one.phases) {
     const auto phase = std::find_if(trial.phases.begin(), trial.phases.end(),
                                     [&](const PhaseConfig& one) { return one.name == of_phase.phase; });
-    validation.require(phase != trial.phases.end(), "asked_of", fmt::format("there is no phase `{}`", of_phase.phase));
+    validation.require(phase != trial.phases.end(), "asked_of",
+                       Message("trial.no-phase", "there is no phase `{}`", of_phase.phase));
     if (phase == trial.phases.end()) continue;
-    for (const PhaseBound& bound : of_phase.criteria) {
-      const std::string problem = phaseFigureProblem(*phase, bound.figure);
-      validation.require(problem.empty(), "asked_of", problem);
-    }
+    for (const PhaseBound& bound : of_phase.criteria)
+      validation.refuse("asked_of", phaseFigureProblem(*phase, bound.figure));
   }
 }
 
@@ -75,9 +74,10 @@ void PaperFigure::describe(common::config::Fields& fields) {
   fields("value", value, common::config::kFinite, "Value that the paper reports.");
 }
 
-std::vector<std::string> PaperFigure::validate() const {
-  const std::string problem = figure.empty() ? "is missing" : trialFigureProblem(figure);
-  return common::Validation().require(problem.empty(), "figure", problem).problems();
+std::vector<common::Problem> PaperFigure::validate() const {
+  common::Validation validation;
+  if (figure.empty()) return validation.given(false, "figure").problems();
+  return validation.refuse("figure", trialFigureProblem(figure)).problems();
 }
 
 void TrialMap::describe(common::config::Fields& fields) {
@@ -88,9 +88,10 @@ void TrialMap::describe(common::config::Fields& fields) {
   fields.section("survey", survey, "A robot on wheels that makes the map before the first flight.");
 }
 
-std::vector<std::string> TrialMap::validate() const {
+std::vector<common::Problem> TrialMap::validate() const {
   return common::Validation()
-      .require(file.empty() || !surveyed(), "file", "is given, and a `survey` that makes another map, too")
+      .require(file.empty() || !surveyed(), "file",
+               Message("trial.two-maps", "is given, and a `survey` that makes another map, too"))
       .problems();
 }
 
@@ -127,20 +128,25 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
 
-std::vector<std::string> TrialConfig::validate() const {
+std::vector<common::Problem> TrialConfig::validate() const {
   common::Validation validation;
   for (const SystemBounds& one : asked_of) checkBounds(*this, one, validation);
   checkVehicles(*this, validation);
   checkPhases(phases, validation);
-  return validation.require(name.find('/') == std::string::npos, "name", "holds a `/`, but names folders")
-      .require(canBeSeen(name), "name", "is longer than 100 characters or holds some that cannot be seen")
-      .require(!mission.empty(), "mission", "is missing")
-      .require(!system.empty(), "system", "is missing")
-      .require(!hasEmpty(systems), "systems", "has an empty name")
-      .require(!natures.empty(), "natures", "is empty")
-      .require(!hasEmpty(natures), "natures", "has an empty name")
-      .require(!each_fault || !scenario.faults.empty(), "each_fault", "is set, but the scenario has no faults")
-      .require(!scenario.world.empty(), "scenario", "names no `world`")
+  const Message empty_name("config.empty-name", "has an empty name");
+  return validation
+      .require(name.find('/') == std::string::npos, "name",
+               Message("trial.name-of-path", "holds a `/`, but names folders"))
+      .require(canBeSeen(name), "name",
+               Message("trial.name-not-seen", "is longer than 100 characters or holds some that cannot be seen"))
+      .given(!mission.empty(), "mission")
+      .given(!system.empty(), "system")
+      .require(!hasEmpty(systems), "systems", empty_name)
+      .require(!natures.empty(), "natures", Message("config.empty", "is empty"))
+      .require(!hasEmpty(natures), "natures", empty_name)
+      .require(!each_fault || !scenario.faults.empty(), "each_fault",
+               Message("trial.no-faults", "is set, but the scenario has no faults"))
+      .require(!scenario.world.empty(), "scenario", Message("trial.no-world", "names no `world`"))
       .problems();
 }
 
@@ -256,7 +262,8 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(file_or_folder))
     if (entry.is_regular_file() && isTrialFile(entry.path())) files.push_back(entry.path());
   if (files.empty())
-    throw InputError(Problem{{file_or_folder.string()}, "", "holds no trials", "expected are files NAME.yaml"});
+    throw InputError(Problem{
+        {file_or_folder.string()}, "", Message("trial.none", "holds no trials"), "expected are files NAME.yaml"});
   std::sort(files.begin(), files.end());
 
   std::vector<TrialConfig> trials;
@@ -267,10 +274,11 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
       trials.push_back(readTrial(file));
       const auto [other, isNew] = named.emplace(trials.back().name, file);
       if (!isNew)
-        problems.push_back({{file.string()},
-                            "name",
-                            fmt::format("`{}` is the name of {} too", trials.back().name, other->second.string()),
-                            "their flights would lie in the same folders"});
+        problems.push_back(
+            {{file.string()},
+             "name",
+             Message("trial.name-twice", "`{}` is the name of {} too", trials.back().name, other->second.string()),
+             "their flights would lie in the same folders"});
     } catch (const InputError& e) {
       problems.insert(problems.end(), e.problems().begin(), e.problems().end());
     }
@@ -289,7 +297,7 @@ fs::path findArchive(const std::string& archive, const fs::path& data_sets) {
   if (fs::is_regular_file(file)) return file;
   throw InputError(Problem{{file.string()},
                            "archive",
-                           "there is no such file",
+                           Message("trial.no-archive", "there is no such file"),
                            "set SWIFTLET_DATASETS to the folder that holds `" + archive + "`"});
 }
 

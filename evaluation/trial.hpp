@@ -26,7 +26,7 @@ struct PaperFigure {
   double value = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// The map that the flights are given: a file, or one that a robot on wheels makes first.
@@ -41,7 +41,7 @@ struct TrialMap {
   bool given() const { return surveyed() || !file.empty(); }
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct TrialConfig {
@@ -71,7 +71,7 @@ struct TrialConfig {
   std::map<std::string, common::SourceLocation> places = {};  ///< Of the values in that file, by their keys.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 
   /// One trial for each of its systems, with each of them for each of its natures, in each of them for each of its
   /// batteries and, with `each_fault`, for each of these for each fault: these are then the only ones, and part of its

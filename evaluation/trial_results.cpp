@@ -45,10 +45,7 @@ std::vector<std::string> TrialResult::missed() const {
   for (const TrialFigure* figure : judgedOverFlights()) judge(*figure);
   judge(trialFigure("done_share"));
   for (const PhaseBound& bound : figure_bounds) add(evaluation::missed(bound, figure(bound.figure)));
-  if (criteria.verdicts) {
-    judge(trialFigure("needless_share"));
-    add(Criterion{"crashes_max", "crashes"}.failure(count(Verdict::kCrashed), criteria.crashes_max));
-  }
+  if (criteria.verdicts) judge(trialFigure("needless_share"));
   return failures;
 }
 

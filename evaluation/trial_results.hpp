@@ -29,10 +29,10 @@ struct TrialResult {
   int passed() const;
   /// The criteria over all flights that are missed.
   std::vector<std::string> missed() const;
-  /// At least one flew, and neither a criterion of a flight nor one over all of them is missed. A collision that is
-  /// excused, or within `crashes_max`, is no miss, although its flight has not passed.
+  /// At least one flew, and neither a criterion of a flight nor one over all of them is missed. A forced collision is
+  /// no miss, although its flight has not passed.
   bool met() const;
-  int collisions() const;  ///< All of them, the unavoidable ones included.
+  int collisions() const;  ///< All of them, the forced ones included.
   int glassContacts() const;
   /// How many flights got that verdict.
   int count(Verdict verdict) const;

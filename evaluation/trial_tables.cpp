@@ -107,8 +107,9 @@ bool isTurned(const TrialResult& trial) {
 /// The figure in the raw frame has `_raw` before its unit.
 std::vector<TableCell> rawRow(const TrialResult& trial, const std::vector<const TrialFigure*>& columns) {
   return rowBelow("  in the raw frame", columns, [&](const TrialFigure& column) -> std::optional<double> {
-    const std::string name = column.name, raw = name.substr(0, name.rfind('_')) + "_raw_m";
-    return trialFigureProblem(raw).empty() ? trialFigure(raw).of(trial.flights) : std::nullopt;
+    const std::string name = column.name;
+    const TrialFigure* raw = findTrialFigure(name.substr(0, name.rfind('_')) + "_raw_m");
+    return raw != nullptr ? raw->of(trial.flights) : std::nullopt;
   });
 }
 

@@ -1,3 +1,5 @@
+#include "evaluation/verdict_facts.hpp"
+
 // The facts about the end of a flight, from its record and the true world.
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "common/small_matrices.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/true_world.hpp"
-#include "evaluation/verdict.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 
@@ -26,14 +27,15 @@ constexpr double kStops_s = 20.0;       // Stopping, turning and landing on the 
 constexpr double kSlowest_m_s = 0.2;    // Slower flights home count as this fast.
 constexpr double kFarther = 10.0;       // Factor on the area of the flood if it filled outside of an open door first.
 
-double marginAt(double charge, const TrueWorld& world) {
-  return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle);
+double marginAt(double charge, int lost_cells, const TrueWorld& world) {
+  return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle,
+                                      lost_cells);
 }
 
 /// The least charge in steps of 1 % whose thrust margin is kLowMargin; 1 if there is no such charge.
-double leastCharge(const TrueWorld& world) {
+double leastCharge(int lost_cells, const TrueWorld& world) {
   for (int percent = 1; percent < 100; ++percent)
-    if (marginAt(0.01 * percent, world) >= kLowMargin) return 0.01 * percent;
+    if (marginAt(0.01 * percent, lost_cells, world) >= kLowMargin) return 0.01 * percent;
   return 1.0;
 }
 
@@ -94,6 +96,7 @@ simulation::FreeSpaceQuery queryOf(const FlightRecord& record, const TrueWorld& 
   query.top_m = height_m + 0.5 * world.vehicle.hull_height_m;
   query.resolution_m = kResolution_m;
   query.max_area_m2 = world.reachable_area_max_m2;
+  query.closed_doors = record.ending.then.closed_doors;
   return query;
 }
 
@@ -115,6 +118,16 @@ std::optional<double> pathHome_m(const common::TiledGrid<std::uint8_t>& reachabl
   return simulation::pathLength_m(simulation::reachableSpace(*world.rays, query), from_world_m, query.start_world_m);
 }
 
+/// As it was when the goal failed; `reachable` is what could be reached later, with the doors of `query` closed.
+bool isReachable(const Vector2d& goal_world_m, const FlightRecord& record, simulation::FreeSpaceQuery query,
+                 const common::TiledGrid<std::uint8_t>& reachable, const TrueWorld& world) {
+  const auto& doors = record.ending.doors_at_failed_goal;
+  if (doors.empty() && query.closed_doors.empty()) return reachable.at(reachable.cellAt(goal_world_m)) != 0;
+  query.closed_doors = doors;
+  const auto then = simulation::reachableSpace(*world.rays, query);
+  return then.at(then.cellAt(goal_world_m)) != 0;
+}
+
 void lookForWays(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
   const simulation::FreeSpaceQuery query = queryOf(record, world);
   const auto reachable = simulation::reachableSpace(*world.rays, query);
@@ -123,25 +136,34 @@ void lookForWays(const FlightRecord& record, const TrueWorld& world, VerdictFact
   facts.home_share = homeShare(record, pathHome_m(reachable, then_m, query, world));
   if (const auto& goal_map_m = record.ending.failed_goal_map_m) {
     const Vector3d goal_world_m = record.T_world_map * Vector3d(goal_map_m->x(), goal_map_m->y(), 0.0);
-    facts.goal_reachable = open || reachable.at(reachable.cellAt(goal_world_m.head<2>())) != 0;
+    facts.goal_reachable = open || isReachable(goal_world_m.head<2>(), record, query, reachable, world);
   }
   facts.inside = !open || isEnclosed(record.last_truth.T_world_body.position_m, world);
 }
 
-void lookAtContact(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
-  const simulation::Truth& truth = record.last_truth;
-  facts.contact = truth.crash_reason;
+/// Whether the hull fits between where the vehicle stood and the height of its take-off; true of a vehicle that was not
+/// taking off.
+bool hasRoomToTakeOff(const ContactRecord& contact, const TrueWorld& world) {
+  const double climb_m = contact.take_off_height_m - world.quadrotor.gear_height_m;
+  if (world.rays == nullptr || contact.flight != common::FlightState::kTakingOff || climb_m <= 0.0) return true;
+  const simulation::Hull hull{world.vehicle.hullRadius_m(), 0.5 * world.vehicle.hull_height_m};
+  const Vector3d low = contact.stood_world_m, high = low + climb_m * Vector3d::UnitZ();
+  return world.rays->sweep(hull, low, high, 1e-6).shape == simulation::Hit::kNothing;
+}
+
+ContactFacts contactFacts(const ContactRecord& contact, const TrueWorld& world) {
+  const simulation::Truth& truth = contact.truth;
+  ContactFacts facts;
+  facts.what = contact.what;
   facts.by_person = truth.by_walker;
   facts.yielding = truth.yielding;
+  facts.person_in_field_s = truth.walker_in_field_s;
+  facts.motors_off = contact.motors_off;
   facts.unseen_glass = truth.unseen_glass;
-  facts.contact_margin = marginAt(truth.battery_remaining, world);
-  facts.landing_margin = marginAt(record.ending.charge_before_end, world);
-  const Vector3d start = record.T_world_start.position_m, end = truth.T_world_body.position_m;
-  if (world.rays == nullptr || record.true_distance_m > world.vehicle.hull_diameter_m) return;  // It had taken off.
-  const simulation::Hull hull{world.vehicle.hullRadius_m(), 0.5 * world.vehicle.hull_height_m};
-  const Vector3d low = start + Vector3d(0, 0, world.quadrotor.gear_height_m);
-  facts.room_to_take_off = world.rays->sweep(hull, low, {low.x(), low.y(), std::max(low.z(), end.z())}, 1e-6).shape ==
-                           simulation::Hit::kNothing;
+  facts.room_to_take_off = hasRoomToTakeOff(contact, world);
+  facts.thrust_margin = marginAt(truth.battery_remaining, truth.lost_cells, world);
+  facts.thrust_margin_before = marginAt(contact.charge_before, contact.lost_cells_before, world);
+  return facts;
 }
 
 }  // namespace
@@ -150,20 +172,20 @@ VerdictFacts factsOf(const FlightRecord& record, const TrueWorld& world) {
   const EndingRecord& ending = record.ending;
   const simulation::Truth& last = record.last_truth;
   VerdictFacts facts;
-  facts.crashed = last.crashed;
   facts.mission_done = record.mission.state == common::MissionState::kDone;
   facts.flew = ending.flew;
   facts.in_the_air = last.airborne;
+  facts.motors_off = record.motors_off;
   facts.at_home = (last.T_world_body.position_m - record.T_world_start.position_m).head<2>().norm() <= kHome_m;
   facts.order = ending.order;
   facts.faulty_sensor = ending.faulty_sensor;
   facts.charge = ending.then.battery_remaining;
   facts.position_error_m = ending.position_error_m;
-  if (facts.crashed) {
-    lookAtContact(record, world, facts);
+  if (record.contact) {
+    facts.contact = contactFacts(*record.contact, world);
   } else if (!facts.mission_done && !facts.in_the_air) {
-    facts.thrust_margin = marginAt(facts.charge, world);
-    facts.least_charge = leastCharge(world);
+    facts.thrust_margin = marginAt(facts.charge, ending.then.lost_cells, world);
+    facts.least_charge = leastCharge(ending.then.lost_cells, world);
     if (world.rays == nullptr) return facts;
     lookBack(record, world, facts);
     lookForWays(record, world, facts);

@@ -50,24 +50,24 @@ void fly(behaviors::Mission mission, const std::uint8_t* bytes, std::size_t size
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const behaviors::NodeTypes kTypes = behaviors::missionNodes();
+  const behaviors::NodeTypes types = behaviors::missionNodes();
   const std::string text(reinterpret_cast<const char*>(data), size);
   tree::ParseOptions options;
   options.limits.nodes = 2'000;
   options.read_file = [&text](const std::string& path) -> std::optional<std::string> {
     return path.ends_with("self.xml") ? std::optional(text) : std::nullopt;
   };
-  const tree::ParseResult parsed = tree::parseText(text, "fuzz.xml", *kTypes, options);
+  const tree::ParseResult parsed = tree::parseText(text, "fuzz.xml", *types, options);
   SWIFTLET_CHECK(parsed.tree.has_value() == parsed.problems.empty());
   // Files of other programs are read leniently, which finds no more problems.
   tree::ParseOptions lenient = options;
   lenient.lenient = true;
-  SWIFTLET_CHECK(!parsed.tree || tree::parseText(text, "fuzz.xml", *kTypes, lenient).tree);
+  SWIFTLET_CHECK(!parsed.tree || tree::parseText(text, "fuzz.xml", *types, lenient).tree);
   for (const tree::Problem& problem : parsed.problems) SWIFTLET_CHECK(!toString(problem).empty());
   if (!parsed.tree) return 0;
   behaviors::semanticProblems(*parsed.tree, {});
   // Only without includes can the same text be read without the reader above.
   if (text.find("<include") == std::string::npos)
-    fly(behaviors::Mission::fromText(text, "fuzz.xml", kTypes), data, size);
+    fly(behaviors::Mission::fromText(text, "fuzz.xml", types), data, size);
   return 0;
 }

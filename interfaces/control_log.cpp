@@ -61,7 +61,7 @@ std::vector<ControlRow> readControlLog(const std::filesystem::path& file) {
     ControlRow row;
     row.stamp = fields.stamp(0);
     if (!rows.empty() && row.stamp <= rows.back().stamp)
-      throw fields.problemAt(0, "t", "is not later than the line before");
+      throw fields.problemAt(0, "t", common::Message("control-log.not-later", "is not later than the line before"));
     row.flying = fields.flag(1);
     row.roll_rad = number(2);
     row.pitch_rad = number(3);

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "common/error.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/files/unusable_folder.hpp"
@@ -16,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 /// Every file that a run may leave; no other file is ever removed.
@@ -62,8 +61,8 @@ bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.jso
 
 constexpr const char* kAskForAnother = "give an empty or new folder";
 
-InputError unusable(const fs::path& path, const std::string& message, const std::string& hint = kAskForAnother) {
-  return InputError(Problem{{path.string()}, "", message, hint});
+InputError unusable(const fs::path& path, Message message, const char* hint = kAskForAnother) {
+  return InputError(Problem{{path.string()}, "", std::move(message), hint});
 }
 
 /// What `use` does with the folder's files; why they cannot be used is an InputError.
@@ -77,12 +76,13 @@ void usingFolder(const fs::path& path, Use use) {
 }
 
 void requireFolder(const fs::path& path) {
-  if (fs::exists(path) && !fs::is_directory(path)) throw unusable(path, "is not a folder", "give a folder for the run");
+  if (fs::exists(path) && !fs::is_directory(path))
+    throw unusable(path, Message("folder.none", "is not a folder"), "give a folder for the run");
 }
 
 FolderLock lockOf(const fs::path& path) {
   FolderLock lock(path);
-  if (lock.refused()) throw unusable(path, "is being written by another flight");
+  if (lock.refused()) throw unusable(path, Message("run.in-use", "is being written by another flight"));
   return lock;
 }
 
@@ -91,10 +91,12 @@ std::vector<fs::path> filesOfOlderRun(const fs::path& path) {
   std::vector<fs::path> old;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
     if (!entry.is_regular_file() || !isRunFile(entry.path().filename().string()))
-      throw unusable(path, fmt::format("holds `{}`, which is no file of a run", entry.path().filename().string()));
+      throw unusable(
+          path, Message("run.other-file", "holds `{}`, which is no file of a run", entry.path().filename().string()));
     old.push_back(entry.path());
   }
-  if (!old.empty() && !holdsRun(path)) throw unusable(path, "holds no run, and what it holds would be lost");
+  if (!old.empty() && !holdsRun(path))
+    throw unusable(path, Message("run.none", "holds no run, and what it holds would be lost"));
   return old;
 }
 

@@ -28,6 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using common::Duration;
 using common::InputError;
+using common::Message;
 using common::MissionState;
 using common::Problem;
 using common::Time;
@@ -105,7 +106,7 @@ struct RunFolder::Impl {
   }
 
   void keep(const Written& written) {
-    if (!written && !failure) failure = written.error().message;
+    if (!written && !failure) failure = written.error().message.text();
   }
 
   void write(const char* name, std::string_view bytes, Durability durability = Durability::kProcess) {
@@ -224,7 +225,7 @@ RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
   if (!impl_->summary.info.vehicle_memory_yaml.empty())
     impl_->write(kMemoryReadFile, impl_->summary.info.vehicle_memory_yaml);
   impl_->writeSummary();
-  if (impl_->failure) throw InputError(Problem{{}, "", *impl_->failure, ""});
+  if (impl_->failure) throw InputError(Problem{{}, "", Message("run.not-written", "{}", *impl_->failure), ""});
 }
 
 RunFolder::~RunFolder() = default;

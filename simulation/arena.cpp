@@ -19,6 +19,9 @@ Arena::Arena(Realization&& realization, const Scenario& scenario)
   for (PlacedVehicle& placed : realization.vehicles)
     seats_.push_back({std::make_unique<VehicleModel>(std::move(placed), world_, rays_), Time(), false});
   addPeople(scenario);
+  for (const DoorConfig& door : scenario.doors)
+    doors_.emplace_back(door, seats_.front().model->placed().T_world_map.position_m.z());
+  stepDoors();
   for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].model->begin(aroundVehicle(i));
 }
 
@@ -83,7 +86,8 @@ void Arena::step() {
   stepped_ += kStep;
   ++step_;
   stepPeople();
-  for (Seat& seat : seats_) seat.model->judge(stepped_, step_, walkers_);
+  if (step_ % kStepsPerLook == 0) stepDoors();
+  for (Seat& seat : seats_) seat.model->judge(stepped_, step_, walkers_, doors_);
   if (step_ % kStepsPerLook == 0) judgeMeetings();
   for (std::size_t i = 0; i < seats_.size(); ++i)
     if (seats_[i].attended) seats_[i].model->measure(stepped_, aroundVehicle(i), rays_);
@@ -98,6 +102,13 @@ void Arena::stepPeople() {
   }
 }
 
+void Arena::stepDoors() {
+  if (doors_.empty()) return;
+  std::vector<Actor> hulls;
+  for (const Seat& seat : seats_) hulls.push_back(seat.model->hull());
+  for (Door& door : doors_) door.step(stepped_, hulls);
+}
+
 void Arena::judgeMeetings() {
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     for (std::size_t j = i + 1; j < seats_.size(); ++j) {
@@ -110,8 +121,10 @@ void Arena::judgeMeetings() {
 }
 
 const std::vector<Actor>& Arena::aroundVehicle(std::size_t index) {
-  if (seats_.size() == 1) return people_;
+  if (seats_.size() == 1 && doors_.empty()) return people_;
   around_ = people_;
+  for (const Door& door : doors_)
+    if (door.isClosed()) around_.push_back(door.actor());
   for (std::size_t i = 0; i < seats_.size(); ++i)
     if (i != index) around_.push_back(seats_[i].model->hull());
   return around_;

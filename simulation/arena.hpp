@@ -1,5 +1,5 @@
-// The arena: a world with its rays, wind, people and clock, and the vehicles in it. Time advances in fixed steps for
-// all of them together, in the same order in each step: wind, flight, people, contacts, sensors.
+// The arena: a world with its rays, wind, people, doors and clock, and the vehicles in it. Time advances in fixed steps
+// for all of them together, in the same order in each step: wind, flight, people, doors, contacts, sensors.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "common/sensor_event.hpp"
 #include "common/vehicle.hpp"
+#include "simulation/doors.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/vehicle_model.hpp"
@@ -81,7 +82,8 @@ class Arena {
   void stepPeople();
   void judgeMeetings();
   bool anyFlown() const;
-  /// What the rays of a vehicle may hit besides the world: people and other vehicles.
+  void stepDoors();
+  /// What the rays of a vehicle may hit besides the world: people, closed doors and other vehicles.
   const std::vector<Actor>& aroundVehicle(std::size_t index);
 
   WorldModel world_;
@@ -89,6 +91,7 @@ class Arena {
   Wind wind_;
   std::vector<Seat> seats_;
   std::vector<Walker> walkers_;
+  std::vector<Door> doors_;
   std::vector<std::size_t> walked_around_;  ///< For each walker, the vehicle that it crosses or follows.
   std::vector<Actor> people_;
   std::vector<Actor> around_;  ///< Kept between steps to save the allocation.

@@ -21,8 +21,8 @@ Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, dou
     : config_(config),
       full_v_(vehicle.battery_full_v),
       empty_v_(vehicle.battery_empty_v),
-      remaining_(std::clamp(remaining, 0.0, 1.0)),
-      voltage_v_(openCircuit_v()) {
+      remaining_(std::clamp(remaining, 0.0, 1.0)) {
+  voltage_v_ = openCircuit_v();  // Here all members have their values.
   if (config_.capacity_ah <= 0.0) config_.capacity_ah = vehicle.battery_capacity_ah;
 }
 
@@ -30,12 +30,22 @@ Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, dou
 double Battery::openCircuit_v() const {
   const double s = remaining_;
   const double shape = 0.62 * s + 0.18 * (1.0 - std::exp(-20.0 * s)) + 0.20 * std::exp(-8.0 * (1.0 - s));
-  return empty_v_ + (full_v_ - empty_v_) * std::min(1.0, shape);
+  return sound_share_ * (empty_v_ + (full_v_ - empty_v_) * std::min(1.0, shape));
+}
+
+void Battery::loseCells(int count) {
+  constexpr double kFullCell_v = 4.2;
+  const double cells = std::max(1.0, std::round(full_v_ / kFullCell_v));
+  sound_share_ = std::max(0.0, cells - count) / cells;
 }
 
 void Battery::draw(double power_w, double step_s) {
   // P = U I and U = U0 - R I. The root with the smaller current is stable; beyond the greatest power U drops to U0 / 2.
-  const double open_v = openCircuit_v(), r = config_.resistance_ohm;
+  const double open_v = openCircuit_v(), r = sound_share_ * config_.resistance_ohm;
+  if (open_v <= 0.0) {
+    voltage_v_ = current_a_ = 0.0;
+    return;
+  }
   const double discriminant = std::max(0.0, open_v * open_v - 4.0 * r * (power_w + config_.electronics_w));
   voltage_v_ = 0.5 * (open_v + std::sqrt(discriminant));
   current_a_ = r > 0.0 ? (open_v - voltage_v_) / r : (power_w + config_.electronics_w) / open_v;

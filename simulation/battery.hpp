@@ -23,6 +23,10 @@ class Battery {
 
   Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining);
 
+  /// From now on `count` cells are short: voltage and inner resistance are those of the others. All cells of a pack are
+  /// in series, so that its charge in Ah stays what it is. The data sheet's full voltage is 4.2 V a cell.
+  void loseCells(int count);
+
   /// Draws `power_w` for one step.
   void draw(double power_w, double step_s);
 
@@ -42,6 +46,7 @@ class Battery {
   double empty_v_;
   double remaining_;
   double voltage_v_;
+  double sound_share_ = 1.0;  ///< Of the cells.
   double current_a_ = 0.0;
 };
 

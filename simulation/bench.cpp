@@ -18,7 +18,7 @@ std::vector<BenchRow> attitudeBench(const Scenario& scenario, int axis_body, int
   const Eigen::Vector3d place_world_m(0.0, 0.0, 1.0);
   Quadrotor quadrotor(vehicle, scenario.quadrotor, {Eigen::Quaterniond::Identity(), place_world_m}, 1.0);
   Autopilot autopilot(vehicle, scenario.quadrotor, scenario.autopilot);
-  InertialUnit inertial(scenario.sensors.imu, vehicle.max_thrust_n, static_cast<std::uint64_t>(scenario.seed));
+  InertialUnit inertial(scenario.sensors.imu, vehicle, static_cast<std::uint64_t>(scenario.seed));
   std::array<double, 4> throttles{};
   std::uint64_t step = 0;
   std::vector<BenchRow> table;

@@ -1,4 +1,5 @@
-// A fault of a sensor: what goes wrong, and when: between two times, at a place, or in a phase of the flight.
+// A fault of a sensor or of the battery: what goes wrong, and when: between two times, at a place, or in a phase of the
+// flight.
 #pragma once
 
 #include <string>
@@ -22,9 +23,13 @@ enum class FaultKind {
   kWhite,      ///< Of a camera: colours are white and nothing has depth, as in the sun.
   kFlipped,    ///< Of a camera: left and right of the pictures are exchanged.
   kOtherSize,  ///< Of a camera: pictures have half the width and half the height that they should have.
+  kClockJump,  ///< The clock that stamps the measurements is off by `jump_s`.
+  kLostCell,   ///< Of the battery itself: one of its cells is short, from then on.
 };
 /// Whether it is a fault of a camera's pictures.
 bool isOfPictures(FaultKind kind);
+/// Whether it is a fault of the battery itself and not of what is measured. It never ends.
+bool isOfBattery(FaultKind kind);
 
 struct FaultConfig {
   Sensor sensor = Sensor::kLaser;
@@ -40,12 +45,13 @@ struct FaultConfig {
   double accel_bias_m_s2 = 0.0;
   double from_deg = -45.0;
   double to_deg = 45.0;
+  double jump_s = 0.0;
 
   /// Begins at a place or in a phase, and not at a time.
   bool isTriggered() const { return !place_world_m.empty() || !phase.empty(); }
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// What goes wrong and when, for tables and names of folders: "imu-silent-taking_off", "laser-nan-15s",

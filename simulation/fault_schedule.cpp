@@ -1,6 +1,7 @@
 #include "simulation/fault_schedule.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace swiftlet::simulation {
@@ -13,6 +14,8 @@ namespace {
 constexpr double kLasting_s = 1.0;
 /// Less than twice the delay of the slowest shipped nature, 0.2 s.
 constexpr double kBridged_s = 0.4;
+/// Stamps that are off by less move a scan by at most 5 cm at 0.5 m/s and 6 deg at 1 rad/s.
+constexpr double kClockOff_s = 0.1;
 /// Most of what a laser of 270 deg sees is left beside a narrower sector.
 constexpr double kNarrow_deg = 90.0;
 
@@ -21,11 +24,19 @@ bool takesAway(const FaultConfig& fault) {
   switch (fault.kind) {
     case FaultKind::kLate:  // The charge changes slowly.
       return fault.sensor != Sensor::kBattery && fault.late_s >= kBridged_s;
+    case FaultKind::kClockJump:
+      return fault.sensor != Sensor::kBattery && std::abs(fault.jump_s) >= kClockOff_s;
     case FaultKind::kBlocked:
       return fault.to_deg - fault.from_deg >= kNarrow_deg;
     default:
       return true;
   }
+}
+
+Time endOf(const FaultConfig& fault, Time begin) {
+  constexpr double kNever_s = 1e9;
+  if (isOfBattery(fault.kind)) return Time::fromSeconds(kNever_s);
+  return fault.isTriggered() ? begin + common::Duration::fromSeconds(fault.lasts_s) : Time::fromSeconds(fault.to_s);
 }
 
 }  // namespace
@@ -37,7 +48,7 @@ FaultSchedule::FaultSchedule(std::vector<FaultConfig> faults) {
       any_waits_ = true;
     } else {
       scheduled.begin = Time::fromSeconds(scheduled.config.from_s);
-      scheduled.end = Time::fromSeconds(scheduled.config.to_s);
+      scheduled.end = endOf(scheduled.config, *scheduled.begin);
     }
     faults_.push_back(std::move(scheduled));
   }
@@ -50,7 +61,7 @@ void FaultSchedule::step(Time now, const Eigen::Vector2d& position_world_m) {
     if (fault.begin) continue;
     if (isDue(fault.config, now, position_world_m)) {
       fault.begin = now;
-      fault.end = now + common::Duration::fromSeconds(fault.config.lasts_s);
+      fault.end = endOf(fault.config, now);
     } else {
       any_waits_ = true;
     }
@@ -69,12 +80,18 @@ bool FaultSchedule::isDue(const FaultConfig& fault, Time now, const Eigen::Vecto
 
 const FaultConfig* FaultSchedule::of(Sensor sensor, Time time) const {
   for (const Scheduled& fault : faults_)
-    if (fault.config.sensor == sensor && fault.activeAt(time)) return &fault.config;
+    if (fault.config.sensor == sensor && !isOfBattery(fault.config.kind) && fault.activeAt(time)) return &fault.config;
   return nullptr;
 }
 
 bool FaultSchedule::anyActive(Time time) const {
   return std::any_of(faults_.begin(), faults_.end(), [time](const Scheduled& fault) { return fault.activeAt(time); });
+}
+
+int FaultSchedule::lostCells(Time time) const {
+  return static_cast<int>(std::count_if(faults_.begin(), faults_.end(), [time](const Scheduled& fault) {
+    return isOfBattery(fault.config.kind) && fault.activeAt(time);
+  }));
 }
 
 std::optional<Sensor> FaultSchedule::failedForFlight(Time time) const {

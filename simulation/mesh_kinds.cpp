@@ -7,8 +7,6 @@
 #include <fstream>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "common/lower_case.hpp"
 
 namespace swiftlet::simulation {
@@ -64,14 +62,16 @@ const Kind* kindOf(const std::string& file) {
 
 }  // namespace
 
-std::string explainUnreadMesh(const std::string& file, const std::string& reason) {
+common::Message explainUnreadMesh(const std::string& file, const common::Message& reason) {
+  using common::Message;
   if (const Kind* kind = kindOf(file)) {
-    if (kind->read_in_part) return fmt::format("it is {} that cannot be read ({}): {}", kind->name, reason, kRemedy);
-    return fmt::format("it is {}, not a mesh: {}", kind->name, kRemedy);
+    if (kind->read_in_part)
+      return Message("mesh.kind-not-read", "it is {} that cannot be read ({}): {}", kind->name, reason.text(), kRemedy);
+    return Message("mesh.other-kind", "it is {}, not a mesh: {}", kind->name, kRemedy);
   }
   const std::string ending = common::endingOf(file);
   if (ending.empty() || Assimp::Importer().IsExtensionSupported(ending)) return reason;
-  return fmt::format("meshes are not read from files that end on `{}`: {}", ending, kRemedy);
+  return Message("mesh.other-ending", "meshes are not read from files that end on `{}`: {}", ending, kRemedy);
 }
 
 }  // namespace swiftlet::simulation

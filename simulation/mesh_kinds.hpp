@@ -3,11 +3,13 @@
 
 #include <string>
 
+#include "common/message.hpp"
+
 namespace swiftlet::simulation {
 
-/// A sentence on a file of which no mesh could be read, without the file's name: what kind of file it is, by its first
-/// bytes or its ending, and which kinds are read. `reason` is that of the mesh's reader, which stays for files that it
-/// should be able to read.
-std::string explainUnreadMesh(const std::string& file, const std::string& reason);
+/// Why no mesh could be read of a file, without the file's name: what kind of file it is, by its first bytes or its
+/// ending, and which kinds are read. `reason` is that of the mesh's reader, which stays for files that it should be
+/// able to read.
+common::Message explainUnreadMesh(const std::string& file, const common::Message& reason);
 
 }  // namespace swiftlet::simulation

@@ -11,8 +11,6 @@
 #include <limits>
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "common/read_bytes.hpp"
@@ -20,6 +18,8 @@
 
 namespace swiftlet::simulation {
 namespace {
+
+using common::Message;
 
 struct Collected {
   Mesh mesh;
@@ -112,22 +112,24 @@ std::vector<std::string> missingMaterials(std::filesystem::path file) {
 
 }  // namespace
 
-tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh) {
+tl::expected<Mesh, Message> loadMesh(const std::string& file, const std::string& submesh) {
   if (auto problem = common::problemOfFile(file)) {
     problem->location = {};  // The caller names the file.
-    return tl::unexpected(toString(*problem));
+    return tl::unexpected(messageOf(*problem));
   }
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
-  if (scene == nullptr) return tl::unexpected(explainUnreadMesh(file, importer.GetErrorString()));
+  if (scene == nullptr)
+    return tl::unexpected(explainUnreadMesh(file, Message("mesh.not-read", "{}", importer.GetErrorString())));
   Collected out;
   if (scene->mRootNode != nullptr) addNode(*scene, *scene->mRootNode, aiMatrix4x4(), submesh, submesh.empty(), out);
   if (out.mesh.triangles.indices.empty())
-    return tl::unexpected(submesh.empty() ? explainUnreadMesh(file, "it has no triangles")
-                                          : fmt::format("it has no triangles in a submesh `{}`", submesh));
+    return tl::unexpected(submesh.empty()
+                              ? explainUnreadMesh(file, Message("mesh.no-triangles", "it has no triangles"))
+                              : Message("mesh.no-submesh", "it has no triangles in a submesh `{}`", submesh));
   for (const Eigen::Vector3f& vertex : out.mesh.triangles.vertices_m)
-    if (!vertex.allFinite()) return tl::unexpected(std::string("it has a vertex that is not a number"));
+    if (!vertex.allFinite()) return tl::unexpected(Message("mesh.not-finite", "it has a vertex that is not a number"));
   out.mesh.color = out.color_sum / static_cast<float>(out.mesh.triangles.indices.size());
   if (common::endingOf(file) == ".obj") out.mesh.missing_materials = missingMaterials(file);
   return std::move(out.mesh);

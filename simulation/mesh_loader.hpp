@@ -26,7 +26,7 @@ struct Mesh {
 
 /// In metres: a COLLADA file's unit is applied. Its `<up_axis>` is not, because Gazebo, for which these files were
 /// made, uses the coordinates unchanged. `submesh` keeps only the node or mesh of that name; empty keeps all. The error
-/// is a sentence without the file's name.
-tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh = {});
+/// does not name the file.
+tl::expected<Mesh, common::Message> loadMesh(const std::string& file, const std::string& submesh = {});
 
 }  // namespace swiftlet::simulation

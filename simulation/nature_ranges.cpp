@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include "common/config.hpp"
+#include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
 #include "common/yaml_problem.hpp"
 #include "simulation/plant_keys.hpp"
 
@@ -17,16 +20,20 @@ namespace swiftlet::simulation {
 namespace {
 
 using common::InputError;
+using common::Message;
 using common::Problem;
 
+constexpr const char* kBasedOn = "based_on";
 constexpr const char* kLeastThrust = "least_thrust_over_weight";
 
 /// The keys of a nature's file: the parts of a scenario that are the plant.
 struct NatureKeys {
-  double least_thrust_over_weight = 1.05;
+  std::string based_on = {};
+  double least_thrust_over_weight = 0.0;
   Scenario scenario;
 
   void describe(common::config::Fields& fields) {
+    fields(kBasedOn, based_on, "Another nature, or a file, of which this one differs in the keys that it names.");
     fields(kLeastThrust, least_thrust_over_weight, {0, 10}, "Thrust over weight that a draw must have.");
     describePlant(scenario, fields);
   }
@@ -80,16 +87,28 @@ class NatureRanges::Reader {
     if (!problems_.empty()) throw InputError(problems_);
   }
 
+  Base base;
   std::vector<Entry> entries;
 
  private:
   void readMap(const YAML::Node& map, const std::string& prefix) {
     for (const auto& item : map) {
       const std::string key = prefix + (item.first.IsScalar() ? item.first.Scalar() : "?");
+      if (key == kBasedOn) {
+        readBase(item.second);
+        continue;
+      }
       if (item.second.IsMap()) readMap(item.second, key + ".");
       if (item.second.IsSequence()) readRange(item.second, key);
       if (item.second.IsScalar()) entries.push_back({.key = key, .value = item.second.Scalar()});
     }
+  }
+
+  void readBase(const YAML::Node& node) {
+    if (!node.IsScalar() || node.Scalar().empty())
+      return report(node, kBasedOn, Message("nature.no-name-of", "is not the name of a nature"),
+                    "give calm, real, harsh, or a file");
+    base = {node.Scalar(), {file_, node.Mark().line + 1, node.Mark().column + 1}};
   }
 
   void readRange(const YAML::Node& node, const std::string& key) {
@@ -100,20 +119,22 @@ class NatureRanges::Reader {
     entry.from = static_cast<std::size_t>(node.Mark().pos);
     const std::size_t close = closeOf(text_, entry.from);
     if (text_[entry.from] == '&')
-      return report(node, key, "is a range with an anchor", "write the range out as [low, high], without anchors");
+      return report(node, key, Message("nature.anchor", "is a range with an anchor"),
+                    "write the range out as [low, high], without anchors");
     if (node.size() != 2 || !number(node[0], entry.low) || !number(node[1], entry.high) || text_[entry.from] != '[')
-      return report(node, key, "is not a range [low, high] of two numbers", "a range is drawn from uniformly");
+      return report(node, key, Message("nature.no-range", "is not a range [low, high] of two numbers"),
+                    "a range is drawn from uniformly");
     if (entry.low > entry.high)
-      return report(node, key, fmt::format("is upside down: {} is above {}", entry.low, entry.high),
+      return report(node, key, Message("nature.upside-down", "is upside down: {} is above {}", entry.low, entry.high),
                     "the lower number stands first");
     if (entry.whole && !(isWhole(entry.low) && isWhole(entry.high)))
-      return report(node, key, "is not a range of two whole numbers", "");
+      return report(node, key, Message("nature.not-whole", "is not a range of two whole numbers"), "");
     entry.size = close + 1 - entry.from;
     entries.push_back(entry);
   }
 
-  void report(const YAML::Node& node, const std::string& key, const std::string& message, const std::string& hint) {
-    problems_.push_back({{file_, node.Mark().line + 1, node.Mark().column + 1}, key, message, hint});
+  void report(const YAML::Node& node, const std::string& key, Message message, const char* hint) {
+    problems_.push_back({{file_, node.Mark().line + 1, node.Mark().column + 1}, key, std::move(message), hint});
   }
 
   const std::string& text_;
@@ -135,22 +156,75 @@ std::string NatureRanges::Entry::drawn(const Choose& choose) const {
   return fmt::format("{}", choose(key, low, high));
 }
 
-NatureRanges::NatureRanges(const std::string& given, const std::string& file) : file_(file) {
+NatureRanges::NatureRanges(const std::string& given, const std::string& file, std::vector<std::string> chain)
+    : file_(file) {
   const std::string text = common::yamlText(given);
-  entries_ = Reader(text, file).entries;
-  // The file is read with the lower and with the upper end of each range in its place, so that every mistake is
-  // reported now, with its line, and not in some draw.
+  Reader reader(text, file);
+  chain.push_back(file);
+  if (!reader.base.name.empty()) readBase(reader.base, std::move(chain));
+  check(text, reader.entries);
+  merge(std::move(reader.entries));
+}
+
+void NatureRanges::readBase(const Base& base, std::vector<std::string> chain) {
+  std::filesystem::path file;
+  try {
+    file = fileOf(base.name, std::filesystem::path(file_).parent_path());
+  } catch (const InputError& missing) {
+    const Problem& problem = missing.problems().front();
+    throw InputError(Problem{base.place, kBasedOn, problem.message.behind(base.name + ": "), problem.hint});
+  }
+  // One file may be named in many ways, `a.yaml` and `./a.yaml`.
+  std::error_code error;
+  if (std::any_of(chain.begin(), chain.end(),
+                  [&](const std::string& above) { return std::filesystem::equivalent(above, file, error); }))
+    throw InputError(Problem{base.place, kBasedOn,
+                             Message("nature.circle", "{} is based on this nature itself", base.name),
+                             "name another one, or leave based_on out"});
+  const NatureRanges read(textOf(file), file.string(), std::move(chain));
+  entries_ = read.entries_;
+  least_thrust_over_weight_ = read.least_thrust_over_weight_;
+}
+
+/// Reads the file with the lower and with the upper end of each range in its place, over those of the base, so that
+/// every mistake is reported now, with its line, and not in some draw.
+void NatureRanges::check(const std::string& text, const std::vector<Entry>& own) {
+  NatureKeys keys;
   for (const bool low : {true, false}) {
     const auto end_of = [low](const std::string&, double a, double b) { return low ? a : b; };
     std::string with_numbers = text;
-    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)  // From behind, so that places stay.
+    for (auto entry = own.rbegin(); entry != own.rend(); ++entry)  // From behind, so that places stay.
       if (entry->isRange())
         with_numbers.replace(entry->from, entry->size, inPlaceOf(*entry, text, entry->drawn(end_of)));
-    NatureKeys keys;
-    common::config::YamlReader::fromText(with_numbers, file).read(keys);
-    least_thrust_over_weight_ = keys.least_thrust_over_weight;
+    keys = {.least_thrust_over_weight = least_thrust_over_weight_, .scenario = {}};
+    apply(keys.scenario, {}, end_of);
+    common::config::YamlReader::fromText(with_numbers, file_).read(keys);
   }
-  std::erase_if(entries_, [](const Entry& entry) { return entry.key == kLeastThrust; });
+  least_thrust_over_weight_ = keys.least_thrust_over_weight;
+}
+
+/// Its own keys replace those of the base.
+void NatureRanges::merge(std::vector<Entry> own) {
+  for (Entry& entry : own) {
+    if (entry.key == kLeastThrust) continue;
+    const auto same =
+        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& one) { return one.key == entry.key; });
+    if (same == entries_.end())
+      entries_.push_back(std::move(entry));
+    else
+      *same = std::move(entry);
+  }
+}
+
+std::filesystem::path NatureRanges::fileOf(const std::filesystem::path& name, const std::filesystem::path& folder) {
+  if (!name.has_extension())
+    return common::findData(std::filesystem::path("config/nature") / (name.string() + ".yaml"));
+  return folder.empty() ? common::findData(name) : common::findBeside(folder, name);
+}
+
+std::string NatureRanges::textOf(const std::filesystem::path& file) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  return common::readText(file.string(), kMostBytes);
 }
 
 bool NatureRanges::has(const std::string& key) const {

@@ -1,12 +1,15 @@
-// The content of a nature's file: keys of a scenario, each with a value or with a range that a seed draws from.
+// The content of a nature's file: keys of a scenario, each with a value or with a range that a seed draws from. A file
+// that is based on another nature has the keys of that one, too.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/error.hpp"
 #include "simulation/nature_range.hpp"
 #include "simulation/scenario.hpp"
 
@@ -15,10 +18,17 @@ namespace swiftlet::simulation {
 /// Const calls are safe from several threads.
 class NatureRanges {
  public:
-  /// `given` is the text; `file` stands for the file in messages. Throws common::InputError with file, line and key:
-  /// not YAML, unknown keys, keys that describe the flight and not the plant (`world`, `walkers`), ranges that are
-  /// upside down, values out of bounds.
-  NatureRanges(const std::string& given, const std::string& file);
+  /// `given` is the text; `file` stands for the file in messages, and a nature that it is based on is searched for
+  /// beside it. Throws common::InputError with file, line and key: not YAML, unknown keys, keys that describe the
+  /// flight and not the plant (`world`, `walkers`), ranges that are upside down, values out of bounds, a base that does
+  /// not exist or is based on this file.
+  NatureRanges(const std::string& given, const std::string& file) : NatureRanges(given, file, {}) {}
+
+  /// The file of a nature: config/nature/NAME.yaml, or a name with an ending, which is searched for in `folder` first.
+  /// Throws common::InputError if there is none.
+  static std::filesystem::path fileOf(const std::filesystem::path& name, const std::filesystem::path& folder);
+  /// Its text. Throws common::InputError if it cannot be read.
+  static std::string textOf(const std::filesystem::path& file);
 
   /// Nothing is drawn and nothing is set.
   bool empty() const { return entries_.empty(); }
@@ -41,7 +51,7 @@ class NatureRanges {
   /// holds a whole number gets each of low, low + 1, ... high with the same chance.
   void apply(Scenario& scenario, const std::vector<std::string>& written, const Choose& choose) const;
 
-  /// A nature's file with the same keys and, instead of the ranges, the values that the scenario has.
+  /// A nature's file with the same keys, those of its base too, and the values that the scenario has.
   std::string valuesIn(const Scenario& scenario) const;
 
  private:
@@ -57,12 +67,22 @@ class NatureRanges {
     bool isRange() const { return value.empty(); }
     std::string drawn(const Choose& choose) const;
   };
+  /// Where the file names the nature that it is based on; empty without one.
+  struct Base {
+    std::string name;
+    common::SourceLocation place;
+  };
   class Reader;
+  /// `chain` are the files that are being read, each based on the next.
+  NatureRanges(const std::string& given, const std::string& file, std::vector<std::string> chain);
+  void readBase(const Base& base, std::vector<std::string> chain);
+  void check(const std::string& text, const std::vector<Entry>& own);
+  void merge(std::vector<Entry> own);
   static std::string inPlaceOf(const Entry& entry, std::string_view text, const std::string& number);
 
   std::string file_;
   std::vector<Entry> entries_;
-  double least_thrust_over_weight_ = 0.0;
+  double least_thrust_over_weight_ = 1.05;
 };
 
 }  // namespace swiftlet::simulation

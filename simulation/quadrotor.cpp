@@ -83,9 +83,10 @@ double groundEffectAt(double rotor_radius_m, double height_m) {
 }  // namespace
 
 double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& config, double battery_remaining,
-                        double throttle) {
+                        double throttle, int lost_cells) {
   const QuadrotorConfig airframe = scaledTo(vehicle, config);
   Battery battery(vehicle, airframe.battery, battery_remaining);
+  battery.loseCells(lost_cells);
   double thrust_n = 0.0;
   for (int round = 0; round < 50; ++round) {  // Less thrust, less current, less sag: converges in a few rounds.
     double power_w = 0.0;

@@ -18,8 +18,9 @@ namespace swiftlet::simulation {
 QuadrotorConfig scaledTo(const common::VehicleConfig& vehicle, QuadrotorConfig config);
 
 /// Thrust over weight in steady state: all motors at the same throttle, at the voltage that their current leaves.
+/// `lost_cells`: as Battery::loseCells.
 double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, double battery_remaining,
-                        double throttle);
+                        double throttle, int lost_cells = 0);
 
 /// Thrusts by motor: front left, front right, rear right, rear left; front left and rear right turn clockwise.
 using MotorThrusts = std::array<double, 4>;
@@ -50,6 +51,9 @@ class Quadrotor {
 
   /// Tells where the nearest wall is, from now on: the direction to it, of any length, and the distance from the hull.
   void feelWall(const Eigen::Vector2d& towards_wall_world, double gap_m);
+
+  /// As Battery::loseCells.
+  void loseCells(int count) { battery_.loseCells(count); }
 
   /// A push at the centre of mass, spread over 0.1 s, as long as the touch of a hand.
   void push(const Eigen::Vector3d& impulse_world_n_s);

@@ -99,35 +99,6 @@ bool considerForNearest(TriangleQuery& any_query, RTCPointQueryFunctionArguments
   return true;
 }
 
-struct ActorHit {
-  double distance_m = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-};
-
-/// Distance along a ray to the side or top of an upright cylinder; 0 from inside.
-ActorHit castOnActor(const Actor& actor, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-  const Eigen::Vector2d o = origin.head<2>() - actor.position_world_m, d = direction.head<2>();
-  const double a = d.squaredNorm(), b = o.dot(d), c = o.squaredNorm() - actor.radius_m * actor.radius_m;
-  ActorHit hit;
-  if (c <= 0.0 && origin.z() >= actor.bottom_m && origin.z() <= actor.top_m) return {0.0, -direction};
-  const double discriminant = b * b - a * c;
-  if (a > 0.0 && discriminant >= 0.0) {
-    const double t = (-b - std::sqrt(discriminant)) / a;
-    const double z = origin.z() + t * direction.z();
-    if (t >= 0.0 && z >= actor.bottom_m && z <= actor.top_m) {
-      const Eigen::Vector2d normal = (o + t * d) / actor.radius_m;
-      return {t, {normal.x(), normal.y(), 0.0}};
-    }
-  }
-  for (const double height_m : {actor.top_m, actor.bottom_m}) {
-    if (direction.z() == 0.0) break;
-    const double t = (height_m - origin.z()) / direction.z();
-    if (t >= 0.0 && t < hit.distance_m && (o + t * d).squaredNorm() <= actor.radius_m * actor.radius_m)
-      hit = {t, {0.0, 0.0, direction.z() < 0.0 ? 1.0 : -1.0}};
-  }
-  return hit;
-}
-
 /// What Embree says of a hit.
 struct RawHit {
   float distance_m;

@@ -1,5 +1,5 @@
 // Rays and hull against the world. Static triangles are in an Embree scene pinned to one instruction set, so that the
-// same ray gives the same range on every machine. People are upright cylinders, tested exactly and separately.
+// same ray gives the same range on every machine. People, vehicles and doors are tested exactly and separately.
 #pragma once
 
 #include <limits>
@@ -10,18 +10,11 @@
 
 #include <Eigen/Core>
 
+#include "simulation/actor.hpp"
+
 namespace swiftlet::simulation {
 
 struct WorldModel;
-
-/// A solid upright cylinder that moves: a walking person, or the hull of another vehicle.
-struct Actor {
-  Eigen::Vector2d position_world_m = Eigen::Vector2d::Zero();
-  double radius_m = 0.25;
-  double bottom_m = 0.0;
-  double top_m = 1.75;
-  Eigen::Vector3f color{0.85F, 0.35F, 0.2F};  ///< For cameras: linear red, green, blue in [0, 1].
-};
 
 struct Ray {
   Eigen::Vector3f origin_world_m;
@@ -39,12 +32,6 @@ struct Hit {
   Eigen::Vector2f corner_shares = Eigen::Vector2f::Zero();
 
   explicit operator bool() const { return shape != kNothing; }
-};
-
-/// The vehicle's hull: a solid upright cylinder, given by its centre.
-struct Hull {
-  double radius_m = 0.275;
-  double half_height_m = 0.125;
 };
 
 /// The surface nearest to the hull. The distance is horizontal, to anything within the hull's height band.

@@ -38,6 +38,7 @@ Referee::Referee(const WorldModel& world, const RayCaster& rays, const Scenario&
     : world_(world),
       rays_(rays),
       hull_{scenario.vehicle.hullRadius_m(), 0.5 * scenario.vehicle.hull_height_m},
+      people_(scenario.laser, rays),
       gear_radius_m_(scenario.quadrotor.gear_radius_m),
       lowest_world_m_(world.bounds_world_m().min().z()),
       floor_world_m_(-std::numeric_limits<double>::infinity()) {}
@@ -83,12 +84,15 @@ void Referee::judgeTouchDown(common::Time now, const QuadrotorState& before, con
 }
 
 void Referee::judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers,
-                            const std::vector<bool>& seen, Truth& truth) {
+                            std::span<const Door> doors, const std::vector<bool>& seen, Truth& truth) {
   if (first_) last_position_world_m_ = state.T_world_body.position_m;
   first_ = false;
   judgeWorld(now, state, seen, truth);
+  people_.look(now, state.T_world_body, walkers);
   for (std::size_t i = 0; i < walkers.size(); ++i)
-    if (walkers[i].actor()) judgeWalker(now, state, *walkers[i].actor(), fmt::format("walker {}", i + 1), truth);
+    if (walkers[i].actor()) judgeWalker(now, state, *walkers[i].actor(), i, truth);
+  for (const Door& door : doors)
+    if (door.isClosed()) judgeDoor(now, state, door, truth);
   last_position_world_m_ = state.T_world_body.position_m;
 }
 
@@ -105,18 +109,30 @@ void Referee::judgeWorld(common::Time now, const QuadrotorState& state, const st
   crash(truth, now, name, touchedAt(name, clearance_.point_world_m));
 }
 
-void Referee::judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
+void Referee::judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, std::size_t number,
                           Truth& truth) const {
   const Vector3d& position = state.T_world_body.position_m;
-  if (position.z() - hull_.half_height_m > walker.top_m || position.z() + hull_.half_height_m < walker.bottom_m) return;
   const Vector2d to_walker = walker.position_world_m - position.head<2>();
-  const double distance_m = std::max(0.0, to_walker.norm() - hull_.radius_m - walker.radius_m);
+  const double distance_m = gapTo_m(walker, hull_, position);
   if (!state.standing) truth.min_walker_clearance_m = std::min(truth.min_walker_clearance_m, distance_m);
   if (distance_m > 0.0 || truth.crashed) return;
   const Vector2d velocity = state.velocity_world_m_s.head<2>();
   truth.by_walker = true;
   truth.yielding = velocity.norm() < kStill_m_s || velocity.dot(to_walker) < 0.0;
+  if (const auto& since = people_.since(number)) truth.walker_in_field_s = (now - *since).seconds();
+  const std::string name = fmt::format("walker {}", number + 1);
   crash(truth, now, name, touchedAt(name, hullPointTowards(position, to_walker)));
+}
+
+/// A closed door is a wall. The hull is wider than its way between two looks.
+void Referee::judgeDoor(common::Time now, const QuadrotorState& state, const Door& door, Truth& truth) const {
+  const Vector3d& position = state.T_world_body.position_m;
+  const double gap_m = gapTo_m(door.actor(), hull_, position);
+  if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, gap_m);
+  if (gap_m > 0.0) return;
+  const Vector2d contact = nearestWithin(door.actor(), position.head<2>());
+  const std::string name = "door " + door.name();
+  crash(truth, now, name, touchedAt(name, {contact.x(), contact.y(), position.z()}));
 }
 
 void Referee::judgeMeeting(common::Time now, const QuadrotorState& state, double gap_m, const Actor& other,

@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 
 #include "common/time.hpp"
+#include "simulation/doors.hpp"
+#include "simulation/people_in_field.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/scenario.hpp"
@@ -35,7 +37,7 @@ class Referee {
   /// Sweeps the hull from its place at the last call. Call at 100 Hz or more. `seen` is LaserScanner::seen(); empty:
   /// every shape is.
   void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers,
-                     const std::vector<bool>& seen, Truth& truth);
+                     std::span<const Door> doors, const std::vector<bool>& seen, Truth& truth);
 
   /// The surface of the world nearest to the hull at the last call of judgeContacts(), within Truth::kClearanceLimit_m.
   const Clearance& clearance() const { return clearance_; }
@@ -46,13 +48,15 @@ class Referee {
 
  private:
   void judgeWorld(common::Time now, const QuadrotorState& state, const std::vector<bool>& seen, Truth& truth);
-  void judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
+  void judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, std::size_t number,
                    Truth& truth) const;
+  void judgeDoor(common::Time now, const QuadrotorState& state, const Door& door, Truth& truth) const;
   Eigen::Vector3d hullPointTowards(const Eigen::Vector3d& position_world_m, const Eigen::Vector2d& direction) const;
 
   const WorldModel& world_;
   const RayCaster& rays_;
   Hull hull_;
+  PeopleInField people_;
   Clearance clearance_;
   double gear_radius_m_;
   double lowest_world_m_;

@@ -13,11 +13,12 @@
 namespace swiftlet::simulation {
 namespace {
 
-constexpr double kAnywhere_m = 1e4;    // Farther, single-precision rays are coarser than a millimetre.
-constexpr double kGreatestSeed = 1e9;  // A trial counts up from it.
+using common::Message;
 
-std::string noPairs(const std::vector<double>& values) {
-  return fmt::format("{} numbers are not a list of x, y pairs", values.size());
+constexpr double kAnywhere_m = 1e4;  // Farther, single-precision rays are coarser than a millimetre.
+
+Message noPairs(const std::vector<double>& values) {
+  return Message("scenario.no-pairs", "{} numbers are not a list of x, y pairs", values.size());
 }
 
 /// Whether each entry is later than the previous one.
@@ -26,22 +27,33 @@ bool inOrder(const std::vector<PilotConfig>& pilot) {
   return std::adjacent_find(pilot.begin(), pilot.end(), not_later) == pilot.end();
 }
 
-/// Problems of the list of vehicles and of the settings that refer to it.
-std::vector<std::string> vehicleProblems(const Scenario& scenario) {
-  common::Validation validation;
+/// The names of a list, which must differ.
+template <typename Named>
+std::vector<std::string> distinctNames(const char* list, const std::vector<Named>& all,
+                                       common::Validation& validation) {
   std::vector<std::string> names;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
-    validation.require(std::find(names.begin(), names.end(), vehicle.name) == names.end(), "vehicles",
-                       fmt::format("two are called `{}`", vehicle.name));
-    names.push_back(vehicle.name);
+  for (const Named& one : all) {
+    validation.require(std::find(names.begin(), names.end(), one.name) == names.end(), list,
+                       Message("config.name-twice", "two are called `{}`", one.name));
+    names.push_back(one.name);
   }
+  return names;
+}
+
+Message notInOrder() { return Message("pilot.not-in-order", "entries are not in the order of their time"); }
+
+/// Problems of the list of vehicles and of the settings that refer to it.
+std::vector<common::Problem> vehicleProblems(const Scenario& scenario) {
+  common::Validation validation;
+  const std::vector<std::string> names = distinctNames("vehicles", scenario.vehicles, validation);
   for (const WalkerConfig& walker : scenario.walkers)
-    validation.require(
-        walker.vehicle.empty() || std::find(names.begin(), names.end(), walker.vehicle) != names.end(), "walkers",
-        fmt::format("there is no vehicle `{}`{}", walker.vehicle, common::didYouMean(walker.vehicle, names)));
+    validation.require(walker.vehicle.empty() || std::find(names.begin(), names.end(), walker.vehicle) != names.end(),
+                       "walkers", Message("scenario.no-vehicle", "there is no vehicle `{}`", walker.vehicle),
+                       common::didYouMean(walker.vehicle, names));
   const auto alone = [&](const char* field, bool is_default) {
-    validation.require(scenario.vehicles.empty() || is_default, field,
-                       "is for a single vehicle; with `vehicles`, give it for each vehicle there");
+    validation.require(
+        scenario.vehicles.empty() || is_default, field,
+        Message("scenario.single-vehicle", "is for a single vehicle; with `vehicles`, give it for each vehicle there"));
   };
   alone("start", scenario.start.from_world);
   alone("battery_remaining", scenario.battery_remaining == 1.0);
@@ -70,11 +82,12 @@ void StartConfig::describe(common::config::Fields& fields) {
   fields("yaw_deg", yaw_deg, {-360, 360}, "Heading in the world's frame; not with from_world.");
 }
 
-std::vector<std::string> StartConfig::validate() const {
+std::vector<common::Problem> StartConfig::validate() const {
   common::Validation validation;
   const auto unused = [&](const char* field, double value) {
     validation.require(!from_world || value == 0.0, field,
-                       "is ignored, because the vehicle starts where the world says; add from_world: false");
+                       Message("scenario.start-ignored",
+                               "is ignored, because the vehicle starts where the world says; add from_world: false"));
   };
   unused("x_m", x_m);
   unused("y_m", y_m);
@@ -115,10 +128,10 @@ void Variation::describe(common::config::Fields& fields) {
          "Height of the body above the take-off floor where reachability is judged.");
 }
 
-std::vector<std::string> Variation::validate() const {
+std::vector<common::Problem> Variation::validate() const {
   return common::Validation()
       .require(start_area_world_m.empty() || start_area_world_m.size() == 4, "start_area_world_m",
-               fmt::format("{} numbers are not two corners x, y, x, y", start_area_world_m.size()))
+               Message("scenario.no-corners", "{} numbers are not two corners x, y, x, y", start_area_world_m.size()))
       .require(reachable_map_m.size() % 2 == 0, "reachable_map_m", noPairs(reachable_map_m))
       .problems();
 }
@@ -143,14 +156,15 @@ void WalkerConfig::describe(common::config::Fields& fields) {
   fields("vehicle", vehicle, "Name of the vehicle that the person crosses or follows; empty for the first.");
 }
 
-std::vector<std::string> WalkerConfig::validate() const {
+std::vector<common::Problem> WalkerConfig::validate() const {
   return common::Validation()
-      .require(mode != WalkerMode::kPath || path_world_m.size() >= 2, "path_world_m", "a path needs a point")
+      .require(mode != WalkerMode::kPath || path_world_m.size() >= 2, "path_world_m",
+               Message("walker.no-point", "a path needs a point"))
       .require(path_world_m.size() != 2 || (speeds_m_s.empty() && pause_s == 0.0), "path_world_m",
-               "speeds_m_s and pause_s need two points")
+               Message("walker.one-point", "speeds_m_s and pause_s need two points"))
       .require(path_world_m.size() % 2 == 0, "path_world_m", noPairs(path_world_m))
       .require((speeds_m_s.empty() && pause_s == 0.0) || at_end != WalkerEnd::kReturn, "at_end",
-               "return knows neither speeds_m_s nor pause_s")
+               Message("walker.return", "return knows neither speeds_m_s nor pause_s"))
       .problems();
 }
 
@@ -177,14 +191,14 @@ void ScenarioVehicle::describe(common::config::Fields& fields) {
   fields("battery_remaining", battery_remaining, {0.01, 1}, "Charge at the start, as a share of the full one.");
   fields.list("pushes", pushes, "Pushes of the vehicle.");
   fields.list("hands", hands, "Hands that take the vehicle, carry and turn it, and let go.");
-  fields.list("faults", faults, "Sensor faults.");
+  fields.list("faults", faults, "Faults of sensors, and of the battery.");
   fields.list("pilot", pilot, "The pilot's sticks over time; without entries there is no remote control.");
 }
 
-std::vector<std::string> ScenarioVehicle::validate() const {
+std::vector<common::Problem> ScenarioVehicle::validate() const {
   return common::Validation()
-      .require(isName(name), "name", "is not 1 to 40 letters, digits, `_` and `-`")
-      .require(inOrder(pilot), "pilot", "entries are not in the order of their time")
+      .require(isName(name), "name", Message("scenario.no-name", "is not 1 to 40 letters, digits, `_` and `-`"))
+      .require(inOrder(pilot), "pilot", notInOrder())
       .problems();
 }
 
@@ -199,9 +213,10 @@ void Scenario::describe(common::config::Fields& fields) {
   fields.section("wind", wind, "Wind.");
   fields.section("variation", variation, "What the seed varies, each uniformly up to the given value.");
   fields.list("walkers", walkers, "People; they never yield.");
+  fields.list("doors", doors, "Doors that close during the flight. People walk through them.");
   fields.list("pushes", pushes, "Pushes of the vehicle.");
   fields.list("hands", hands, "Hands that take the vehicle, carry and turn it, and let go.");
-  fields.list("faults", faults, "Sensor faults.");
+  fields.list("faults", faults, "Faults of sensors, and of the battery.");
   fields.list("pilot", pilot, "The pilot's sticks over time; without entries there is no remote control.");
   fields.section("quadrotor", quadrotor, "The airframe's physics.");
   fields.section("autopilot", autopilot, "The inner loop.");
@@ -211,10 +226,11 @@ void Scenario::describe(common::config::Fields& fields) {
               "faults and pilot.");
 }
 
-std::vector<std::string> Scenario::validate() const {
+std::vector<common::Problem> Scenario::validate() const {
   common::Validation validation;
-  validation.require(inOrder(pilot), "pilot", "entries are not in the order of their time");
-  std::vector<std::string> problems = validation.problems(), more = vehicleProblems(*this);
+  validation.require(inOrder(pilot), "pilot", notInOrder());
+  (void)distinctNames("doors", doors, validation);
+  std::vector<common::Problem> problems = validation.problems(), more = vehicleProblems(*this);
   problems.insert(problems.end(), more.begin(), more.end());
   return problems;
 }

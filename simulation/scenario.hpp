@@ -1,5 +1,5 @@
-// One scripted flight of one vehicle or several: world, starts, wind, people, pushes, hands and faults, and what a seed
-// varies. It is the `scenario` section of a trial file.
+// One scripted flight of one vehicle or several: world, starts, wind, people, doors, pushes, hands and faults, and what
+// a seed varies. It is the `scenario` section of a trial file.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include "common/config_fwd.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
+#include "simulation/doors.hpp"
 #include "simulation/fault_config.hpp"
 #include "simulation/hand.hpp"
 #include "simulation/plant_config.hpp"
@@ -20,6 +21,9 @@ namespace swiftlet::simulation {
 
 class Nature;
 
+/// Seeds are bounded, so that counting on from them does not overflow.
+inline constexpr double kGreatestSeed = 1e9;
+
 struct StartConfig {
   bool from_world = true;
   double x_m = 0.0;
@@ -28,7 +32,7 @@ struct StartConfig {
   double yaw_deg = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 enum class GustModel {
@@ -63,7 +67,7 @@ struct Variation {
   double flight_height_m = 1.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 enum class WalkerMode {
@@ -89,7 +93,7 @@ struct WalkerConfig {
   double pause_s = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct PushConfig {
@@ -125,7 +129,7 @@ struct ScenarioVehicle {
   std::vector<HandConfig> hands = {};
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct Scenario {
@@ -138,6 +142,7 @@ struct Scenario {
   WindConfig wind;
   Variation variation;
   std::vector<WalkerConfig> walkers;
+  std::vector<DoorConfig> doors = {};
   std::vector<PushConfig> pushes;
   std::vector<HandConfig> hands;
   std::vector<FaultConfig> faults;
@@ -162,7 +167,7 @@ struct Scenario {
   std::optional<common::LaserConfig> vertical_laser;    ///< Of vehicles that carry one.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 
   /// Gives every vehicle that charge at the start, as if the scenario's file had written it out; nothing varies it.
   void setCharge(double remaining);

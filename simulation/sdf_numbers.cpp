@@ -128,12 +128,13 @@ std::string wanted(Count count) {
   return count.least == count.most ? most : fmt::format("{} or {}", count.least, most);
 }
 
-std::string faultOf(const std::string& written, std::optional<std::size_t> found, Count count) {
+common::Message faultOf(const std::string& written, std::optional<std::size_t> found, Count count) {
   if (found)
-    return fmt::format("`{}` has {} numbers, expected is {}", common::printable(written), *found, wanted(count));
+    return common::Message("sdf.number-count", "`{}` has {} numbers, expected is {}", common::printable(written),
+                           *found, wanted(count));
   const auto odd = common::misleadingIn(written);
-  return fmt::format("`{}` is not {}{}", common::printable(written), wanted(count),
-                     odd ? fmt::format(": it has {}", odd->what) : "");
+  return common::Message("sdf.no-number", "`{}` is not {}{}", common::printable(written), wanted(count),
+                         odd ? fmt::format(": it has {}", odd->what) : "");
 }
 
 std::string hintFor(const std::string& written, Count count) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <sstream>
 
-#include <fmt/format.h>
 #include <sdf/Console.hh>
 #include <sdf/Error.hh>
 #include <sdf/ParserConfig.hh>
@@ -24,6 +23,7 @@ namespace swiftlet::simulation {
 namespace {
 
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 /// Captures what libsdformat prints during its lifetime. If a file fails as SDF, libsdformat also tries URDF, whose
@@ -134,7 +134,7 @@ common::SourceLocation locate(const sdf::Error& error, const std::string& file, 
 struct Sorted {
   std::vector<Problem> problems;
   std::vector<Problem> missing;
-  std::vector<std::string> warnings;
+  std::vector<Problem> warnings;
 };
 
 /// Of an unknown element or attribute without which something would be missing or stand elsewhere.
@@ -143,7 +143,12 @@ std::optional<Problem> misspelling(const sdf::Error& error, const common::Source
   if (!isUnknown(error) || names.size() < 2) return std::nullopt;
   const std::string hint = spellingHint(names[0], names[1]);
   if (hint.empty()) return std::nullopt;
-  return Problem{location, names[1], fmt::format("SDF has no `{}` in it", names[0]), hint};
+  return Problem{location, names[1], Message("sdf.no-such-part", "SDF has no `{}` in it", names[0]), hint};
+}
+
+/// As libsdformat says it.
+Problem reported(const sdf::Error& error, const std::string& file, const std::string& text) {
+  return {locate(error, file, text), "", Message("sdf.error", "{}", trimmed(error.Message())), ""};
 }
 
 Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& console, const std::string& file,
@@ -151,25 +156,26 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   Sorted sorted;
   const sdf::Error* first_echo = nullptr;
   for (const sdf::Error& error : errors) {
-    const Problem problem{locate(error, file, text), "", trimmed(error.Message()),
-                          common::misleadingHint(error.Message())};
+    Problem problem = reported(error, file, text);
+    problem.hint = common::misleadingHint(error.Message());
     if (isEcho(error))
       first_echo = first_echo == nullptr ? &error : first_echo;
     else if (auto misspelt = misspelling(error, problem.location))
       sorted.missing.push_back(*std::move(misspelt));
     else if (isWarning(error))
-      sorted.warnings.push_back(toString(problem));
+      sorted.warnings.push_back(std::move(problem));
     else
-      sorted.problems.push_back(problem);
+      sorted.problems.push_back(std::move(problem));
   }
   // These are echoes: the original message was printed, with its line.
   const bool explained = !sorted.missing.empty() || (!sorted.warnings.empty() && console.empty());
   if (sorted.problems.empty() && first_echo != nullptr && !explained) {
-    Problem problem{locate(*first_echo, file, text), "", trimmed(first_echo->Message()), ""};
+    Problem problem = reported(*first_echo, file, text);
     for (const std::string& line : console) problem.message += ": " + line;
     constexpr std::string_view kLine = "Line number=";  // Of TinyXML-2.
-    if (const auto at = problem.message.find(kLine); at != std::string::npos && problem.location.line == 0)
-      problem.location.line = std::atoi(problem.message.c_str() + at + kLine.size());
+    const std::string& said = problem.message.text();
+    if (const auto at = said.find(kLine); at != std::string::npos && problem.location.line == 0)
+      problem.location.line = std::atoi(said.c_str() + at + kLine.size());
     sorted.problems.push_back(std::move(problem));
   }
   return sorted;
@@ -182,7 +188,7 @@ sdf::Errors loadOrExplain(sdf::Root& root, const SdfSources& sources, const sdf:
   } catch (const std::exception& exception) {
     throw InputError(Problem{{sources.originalOf(sources.toRead())},
                              "",
-                             fmt::format("libsdformat gave up: {}", exception.what()),
+                             Message("sdf.gave-up", "libsdformat gave up: {}", exception.what()),
                              "leave out what was changed last, or halves of its models, to find the element"});
   }
 }
@@ -209,18 +215,18 @@ SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
   Sorted sorted = sortErrors(errors, console.lines(), sources.toRead(),
                              utf8Text(sources.toRead(), common::readText(sources.toRead())));
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
-    sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});
-  for (std::vector<Problem>* problems : {&sorted.problems, &sorted.missing})
+    sorted.problems.push_back({{file}, "sdf", Message("sdf.no-world", "it has neither a <world> nor a <model>"), ""});
+  for (std::vector<Problem>* problems : {&sorted.problems, &sorted.missing, &sorted.warnings})
     for (Problem& problem : *problems) {
       problem.location.file = sources.originalOf(problem.location.file);
-      problem.message = sources.withOriginals(problem.message);
+      problem.message = Message(problem.message.name(), "{}", sources.withOriginals(problem.message.text()));
     }
   result.missing.insert(result.missing.end(), sorted.missing.begin(), sorted.missing.end());
   if (!sorted.problems.empty()) {
     sorted.problems.insert(sorted.problems.begin(), result.missing.begin(), result.missing.end());
     throw InputError(sorted.problems);
   }
-  for (const std::string& warning : sorted.warnings) result.warnings.push_back(sources.withOriginals(warning));
+  result.warnings.insert(result.warnings.end(), sorted.warnings.begin(), sorted.warnings.end());
   if (result.root.Element()) nameOriginals(*result.root.Element(), sources);
   return result;
 }

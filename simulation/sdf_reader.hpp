@@ -14,7 +14,7 @@ namespace swiftlet::simulation {
 struct SdfFile {
   sdf::Root root;
   std::vector<common::Problem> missing;  ///< Things that it names and that were not found, and misspelt ones.
-  std::vector<std::string> warnings;
+  std::vector<common::Problem> warnings;
   bool wants_ground_plane = false;  ///< It includes the well-known ground plane, which could not be found.
 };
 

@@ -22,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 /// "Ground Plane" and "ground_plane" are the same.
@@ -131,8 +132,8 @@ std::string SdfSources::visit(const std::string& file, const common::SourceLocat
   const fs::path real = canonical(file);
   if (const auto known = done_.find(real); known != done_.end()) return known->second;
   if (std::find(open_.begin(), open_.end(), real) != open_.end())
-    throw InputError(
-        Problem{from, "include", fmt::format("files include each other: {} leads back to itself", file), ""});
+    throw InputError(Problem{
+        from, "include", Message("sdf.include-circle", "files include each other: {} leads back to itself", file), ""});
   open_.push_back(real);
   Document document{file, {}, {}, {}, {}};
   std::string result = prepare(document, common::readText(file));
@@ -144,14 +145,17 @@ std::string SdfSources::prepare(Document& document, const std::string& bytes) {
   document.text = utf8Text(document.file, bytes);
   auto tags = readTags(document.file, document.text);
   if (const std::size_t ruby = document.text.find("<%"); !tags && ruby != std::string::npos)
-    throw InputError(Problem{locationIn(document.file, document.text, ruby), "",
-                             "is a template of ERB (embedded Ruby), which is not evaluated",
-                             fmt::format("make the world of it: erb \"{}\" > world.sdf", document.file)});
+    throw InputError(
+        Problem{locationIn(document.file, document.text, ruby), "",
+                Message("sdf.erb-template", "is a template of ERB (embedded Ruby), which is not evaluated"),
+                fmt::format("make the world of it: erb \"{}\" > world.sdf", document.file)});
   if (!tags) throw InputError(tags.error());
   document.tags = *std::move(tags);
   const std::string root(document.tags.front().name);
   if (root != "sdf" && open_.size() > 1) return asItIs(document);  // libsdformat reads URDF models.
-  if (root != "sdf") throw InputError(Problem{{document.file, 1}, root, "the root element of a world is <sdf>", ""});
+  if (root != "sdf")
+    throw InputError(
+        Problem{{document.file, 1}, root, Message("sdf.other-root", "the root element of a world is <sdf>"), ""});
   checkVersion(document);
   if (!isTemplate(document))  // The numbers of one may be expressions.
     if (const auto problems = numberProblems(document.file, document.text, document.tags); !problems.empty())
@@ -169,12 +173,14 @@ void SdfSources::checkVersion(Document& document) {
   if (!minor) {
     std::string hint = common::misleadingHint(document.tags.front().attributes);
     if (hint.empty()) hint = "expected is version=\"1.9\" or another from 1.0 on";
-    throw InputError(
-        Problem{{document.file, 1}, "sdf", fmt::format("`{}` is not a version of SDF", version.value_or("")), hint});
+    throw InputError(Problem{{document.file, 1},
+                             "sdf",
+                             Message("sdf.no-version", "`{}` is not a version of SDF", version.value_or("")),
+                             hint});
   }
   if (*minor <= kNewestMinorVersion) return;
-  warnings_.push_back(toString(Problem{document.locationOf(document.tags.front()), "sdf",
-                                       fmt::format("version {} is read by the rules of 1.9", *version), ""}));
+  warnings_.push_back({document.locationOf(document.tags.front()), "sdf",
+                       Message("sdf.newer-version", "version {} is read by the rules of 1.9", *version), ""});
   const auto begin = static_cast<std::size_t>(version->data() - document.text.data());
   document.replace(begin, begin + version->size(), "1.9");
 }
@@ -193,7 +199,7 @@ bool SdfSources::isTemplate(const Document& document) {
     });
     if (!holds && among(kValues, tag.name)) continue;
     missing_.push_back({document.locationOf(tag), std::string(tag.name),
-                        "the file is a template of xacro, which is not evaluated",
+                        Message("sdf.xacro-template", "the file is a template of xacro, which is not evaluated"),
                         fmt::format("make the world of it: xacro \"{}\" > world.sdf", document.file)});
     return true;
   }
@@ -205,7 +211,8 @@ void SdfSources::followInclude(Document& document, std::size_t number) {
   const SdfTag* uri_tag = document.child(number, "uri");
   const std::string uri = uri_tag == nullptr ? "" : textOf(*uri_tag, document.text);
   if (uri.empty()) {
-    missing_.push_back({document.locationOf(include), "include", "has no <uri>", "name what is to be included"});
+    missing_.push_back({document.locationOf(include), "include", Message("sdf.include-without-uri", "has no <uri>"),
+                        "name what is to be included"});
     return document.replace(include.begin, include.end, "");
   }
   auto found = resolver_.find(uri, document.file);
@@ -275,15 +282,17 @@ void SdfSources::standIn(Document& document, std::size_t number, const std::stri
 
 void SdfSources::reportMissing(const Document& document, const SdfTag& uri_tag, const std::string& uri,
                                const std::string& hint) {
-  Problem problem{
-      {document.file, document.locationOf(uri_tag).line}, "", fmt::format("Unable to find uri[{}]", uri), ""};
+  Problem problem{{document.file, document.locationOf(uri_tag).line},
+                  "",
+                  Message("sdf.not-found", "Unable to find uri[{}]", uri),
+                  ""};
   const bool floor = plainWords(nameIn(uri)).find("ground plane") != std::string::npos;
   if (floor) {
     wants_ground_plane_ = true;
     problem.message += "; a floor at z = 0 stands in for it";
   }
   if (floor || plainWords(nameIn(uri)) == "sun") {
-    warnings_.push_back(toString(problem));
+    warnings_.push_back(std::move(problem));
   } else if (reported_.insert(uri).second) {  // Once is enough for a model that is included a hundred times.
     problem.hint = hint;
     missing_.push_back(std::move(problem));
@@ -298,13 +307,14 @@ std::string SdfSources::asItIs(const Document& document) {
 }
 
 std::string SdfSources::copy(const Document& document) {
-  const auto refuse = [](const fs::path& folder, const char* message) {
-    throw InputError(Problem{{folder.string()}, "", message, "set TMPDIR to another folder"});
+  const auto refuse = [](const fs::path& folder, Message message) {
+    throw InputError(Problem{{folder.string()}, "", std::move(message), "set TMPDIR to another folder"});
   };
   if (folder_.path.empty()) {
     std::error_code failure;
     std::string name = (fs::temp_directory_path(failure) / "swiftlet-sdf-XXXXXX").string();
-    if (failure || ::mkdtemp(name.data()) == nullptr) refuse(name, "the folder for the world's files cannot be made");
+    if (failure || ::mkdtemp(name.data()) == nullptr)
+      refuse(name, Message("sdf.no-folder", "the folder for the world's files cannot be made"));
     folder_.path = name;
   }
   std::string text;
@@ -318,7 +328,7 @@ std::string SdfSources::copy(const Document& document) {
   const std::string path = (folder_.path / fmt::format("{}.sdf", originals_.size())).string();
   std::ofstream stream(path, std::ios::binary);
   stream << text << std::flush;
-  if (!stream) refuse(folder_.path, "the copy of a world's file cannot be written there");
+  if (!stream) refuse(folder_.path, Message("sdf.no-copy", "the copy of a world's file cannot be written there"));
   originals_[path] = document.file;
   return path;
 }

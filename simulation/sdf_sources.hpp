@@ -37,7 +37,7 @@ class SdfSources {
   /// Things that the world names and that are not found, each with its place; without them it is incomplete. A
   /// model without anything stands for an include that was not found.
   const std::vector<common::Problem>& missing() const { return missing_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<common::Problem>& warnings() const { return warnings_; }
   bool wantsGroundPlane() const { return wants_ground_plane_; }
 
  private:
@@ -83,8 +83,7 @@ class SdfSources {
   std::map<std::filesystem::path, std::string> done_;  ///< What to read, by the canonical path of the file.
   std::vector<std::filesystem::path> open_;            ///< The chain of files from the world to the present one.
   std::set<std::string> reported_;
-  std::vector<common::Problem> missing_;
-  std::vector<std::string> warnings_;
+  std::vector<common::Problem> missing_, warnings_;
   bool wants_ground_plane_ = false;
 };
 

@@ -18,6 +18,8 @@
 namespace swiftlet::simulation {
 namespace {
 
+using common::Message;
+
 constexpr std::string_view kSpace = " \t\r\n";
 
 /// Whether every value of the attributes begins with a quote.
@@ -69,8 +71,10 @@ class TagReader {
 
   tl::expected<std::vector<SdfTag>, common::Problem> read() {
     while (!problem_ && (at_ = text_.find('<', at_)) != std::string_view::npos) readMarkup();
-    if (!problem_ && !open_.empty()) fail(tags_[open_.back()].begin, "<{}> is not closed", tags_[open_.back()].name);
-    if (!problem_ && tags_.empty()) fail(text_.size(), "there is no element");
+    if (!problem_ && !open_.empty())
+      fail(tags_[open_.back()].begin,
+           Message("xml.not-closed", "malformed XML: <{}> is not closed", tags_[open_.back()].name));
+    if (!problem_ && tags_.empty()) fail(text_.size(), Message("xml.no-element", "malformed XML: there is no element"));
     if (problem_) return tl::unexpected(*problem_);
     return std::move(tags_);
   }
@@ -89,7 +93,8 @@ class TagReader {
 
   void skip(std::string_view begin, std::string_view end) {
     const std::size_t found = text_.find(end, at_ + begin.size());
-    if (found == std::string_view::npos) return fail(at_, "`{}` has no `{}` behind it", begin, end);
+    if (found == std::string_view::npos)
+      return fail(at_, Message("xml.markup-open", "malformed XML: `{}` has no `{}` behind it", begin, end));
     at_ = found + end.size();
   }
 
@@ -118,18 +123,19 @@ class TagReader {
     tag.begin = at_;
     tag.name = nameAt(at_ + 1);
     const auto end = endOfTag();
-    if (!end) return fail(at_, "the tag <{}> has no `>`", tag.name);
+    if (!end) return fail(at_, Message("xml.tag-open", "malformed XML: the tag <{}> has no `>`", tag.name));
     if (common::asSeen(tag.name).find(' ') != std::string::npos) {
       const common::Misleading odd = *common::misleadingIn(tag.name);
-      return fail(at_, "behind `<{}` is {}: write {}", tag.name.substr(0, odd.offset), odd.what, odd.instead);
+      return fail(at_, Message("xml.misleading-name", "malformed XML: behind `<{}` is {}: write {}",
+                               tag.name.substr(0, odd.offset), odd.what, odd.instead));
     }
     if (tag.name.empty() || tag.name.find_first_of("<\"'&=") != std::string_view::npos)
-      return fail(at_, "`<` begins no tag; in a text it is written &lt;");
+      return fail(at_, Message("xml.no-tag", "malformed XML: `<` begins no tag; in a text it is written &lt;"));
     const bool empty = text_[*end - 2] == '/';
     const std::size_t attributes = tag.begin + 1 + tag.name.size();
     tag.attributes = text_.substr(attributes, *end - attributes - (empty ? 2 : 1));
     if (!areQuoted(tag.attributes)) {
-      fail(at_, "a value in the tag <{}> is not in quotes", tag.name);
+      fail(at_, Message("xml.no-quotes", "malformed XML: a value in the tag <{}> is not in quotes", tag.name));
       problem_->hint = common::misleadingHint(tag.attributes);
       return;
     }
@@ -143,13 +149,15 @@ class TagReader {
   void close() {
     const std::string_view name = nameAt(at_ + 2);
     const auto end = endOfTag();
-    if (!end) return fail(at_, "the tag </{}> has no `>`", name);
-    if (open_.empty()) return fail(at_, "mismatched tag: </{}> closes nothing", name);
+    if (!end) return fail(at_, Message("xml.end-tag-open", "malformed XML: the tag </{}> has no `>`", name));
+    if (open_.empty())
+      return fail(at_, Message("xml.closes-nothing", "malformed XML: mismatched tag: </{}> closes nothing", name));
     SdfTag& tag = tags_[open_.back()];
     if (tag.name != name) {
-      fail(at_, "mismatched tag: </{}> where </{}> is expected, for the <{}> of line {}", name, tag.name, tag.name,
-           locationIn(file_, text_, tag.begin).line);
-      problem_->hint = common::misleadingHint(problem_->message);
+      fail(at_, Message("xml.mismatched-tag",
+                        "malformed XML: mismatched tag: </{}> where </{}> is expected, for the <{}> of line {}", name,
+                        tag.name, tag.name, locationIn(file_, text_, tag.begin).line));
+      problem_->hint = common::misleadingHint(common::printable(problem_->message.text()));
       return;
     }
     tag.content_end = at_;
@@ -158,10 +166,8 @@ class TagReader {
     at_ = *end;
   }
 
-  template <typename... Values>
-  void fail(std::size_t offset, std::string_view format, const Values&... values) {
-    problem_ = common::Problem{locationIn(file_, text_, offset), "",
-                               common::printable("malformed XML: " + fmt::format(fmt::runtime(format), values...)), ""};
+  void fail(std::size_t offset, Message message) {
+    problem_ = common::Problem{locationIn(file_, text_, offset), "", std::move(message), ""};
   }
 
   const std::string& file_;

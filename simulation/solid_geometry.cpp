@@ -22,15 +22,16 @@
 namespace swiftlet::simulation {
 namespace {
 
-using Result = tl::expected<Triangles, std::string>;
+using common::Message;
+using Result = tl::expected<Triangles, Message>;
 
 /// The triangles, if every size is one that a thing can have.
 template <typename Make>
 Result ofSize(std::initializer_list<double> sizes_m, const Make& make) {
   for (const double size_m : sizes_m)
     if (!(size_m > 0.0 && size_m <= common::kGreatestCoordinate_m))
-      return tl::unexpected(
-          fmt::format("its size of {:g} m is not above 0 and at most {:g} m", size_m, common::kGreatestCoordinate_m));
+      return tl::unexpected(Message("geometry.size", "its size of {:g} m is not above 0 and at most {:g} m", size_m,
+                                    common::kGreatestCoordinate_m));
   return make();
 }
 
@@ -59,16 +60,18 @@ Result prismOf(sdf::Element& geometry) {
       if (++points > kMostPoints) continue;
       const auto at = point->Get<ignition::math::Vector2d>();
       outline_m.emplace_back(at.X(), at.Y());
-      if (!outline_m.back().allFinite()) return tl::unexpected(std::string("a point of it is not finite"));
+      if (!outline_m.back().allFinite())
+        return tl::unexpected(Message("geometry.not-finite", "a point of it is not finite"));
       extent_m = std::max(extent_m, outline_m.back().cwiseAbs().maxCoeff());
     }
-    if (outline_m.size() < 3) return tl::unexpected(std::string("it has an outline of less than 3 points"));
+    if (outline_m.size() < 3)
+      return tl::unexpected(Message("geometry.too-few-points", "it has an outline of less than 3 points"));
   }
   if (points > kMostPoints)
-    return tl::unexpected(
-        fmt::format("the outlines of its <polyline> have {} points, {} at most are read, leave out "
-                    "points where the outline is straight",
-                    points, kMostPoints));
+    return tl::unexpected(Message("geometry.too-many-points",
+                                  "the outlines of its <polyline> have {} points, {} at most are read, leave out "
+                                  "points where the outline is straight",
+                                  points, kMostPoints));
   return ofSize({height_m, extent_m}, [&] { return prismTriangles(outlines_m, height_m); });
 }
 
@@ -93,9 +96,9 @@ Relief thinned(int width_px, int height_px, double greatest, const Value& value)
   return relief;
 }
 
-tl::expected<Relief, std::string> readRelief(const std::string& bytes) {
+tl::expected<Relief, Message> readRelief(const std::string& bytes) {
   const auto tooSmall = [](const auto& picture) { return picture.width_px < 2 || picture.height_px < 2; };
-  const tl::unexpected<std::string> small("it has less than 2 x 2 pixels");
+  const tl::unexpected<Message> small(Message("geometry.picture-too-small", "it has less than 2 x 2 pixels"));
   if (const auto deep = common::decodeDepth(bytes)) {
     if (tooSmall(*deep)) return small;
     return thinned(deep->width_px, deep->height_px, 65535.0, [&deep](int row, int column) {
@@ -103,8 +106,8 @@ tl::expected<Relief, std::string> readRelief(const std::string& bytes) {
                                              static_cast<std::size_t>(column)]);
     });
   }
-  const auto grey = common::decodeColor(bytes);
-  if (!grey) return tl::unexpected(fmt::format("{}; heights are read from PNG and JPEG", grey.error().reason));
+  auto grey = common::decodeColor(bytes);
+  if (!grey) return tl::unexpected(grey.error().reason += "; heights are read from PNG and JPEG");
   if (tooSmall(*grey)) return small;
   return thinned(grey->width_px, grey->height_px, 255.0, [&grey](int row, int column) {
     return static_cast<double>(grey->rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(grey->width_px) +
@@ -116,11 +119,11 @@ Result terrainOf(const sdf::Heightmap& heightmap, const UriResolver& resolver) {
   const std::string used_in = heightmap.Element()->FilePath();
   const auto file = resolver.find(heightmap.Uri(), used_in);
   if (!file)
-    return tl::unexpected(
-        fmt::format("`{}` was not found, {}", heightmap.Uri(), resolver.hintFor(heightmap.Uri(), used_in)));
-  if (const auto problem = common::problemOfFile(*file)) return tl::unexpected(toString(*problem));
+    return tl::unexpected(Message("geometry.no-picture", "`{}` was not found, {}", heightmap.Uri(),
+                                  resolver.hintFor(heightmap.Uri(), used_in)));
+  if (const auto problem = common::problemOfFile(*file)) return tl::unexpected(messageOf(*problem));
   const auto relief = readRelief(common::readBytes(*file));
-  if (!relief) return tl::unexpected(fmt::format("`{}`: {}", file->string(), relief.error()));
+  if (!relief) return tl::unexpected(relief.error().behind(fmt::format("`{}`: ", file->string())));
   const Eigen::Vector3d size_m = toEigen(heightmap.Size());
   std::vector<double> heights_m;
   for (const double share : relief->shares) heights_m.push_back(share * size_m.z());
@@ -131,12 +134,13 @@ Result terrainOf(const sdf::Heightmap& heightmap, const UriResolver& resolver) {
   });
 }
 
-std::string unknownKind(const std::string& name) {
+Message unknownKind(const std::string& name) {
   static const std::vector<std::string> kKnown{"box",  "cylinder", "sphere",   "capsule",   "ellipsoid",
                                                "cone", "plane",    "polyline", "heightmap", "mesh"};
   std::string hint = common::misleadingHint(name);
   if (hint.empty()) hint = common::didYouMean(name, kKnown);
-  return fmt::format("<{}> is a geometry that the simulator does not know{}{}", name, hint.empty() ? "" : ", ", hint);
+  return Message("geometry.unknown-kind", "<{}> is a geometry that the simulator does not know{}{}", name,
+                 hint.empty() ? "" : ", ", hint);
 }
 
 /// What libsdformat 12 does not know by itself.
@@ -148,7 +152,7 @@ Result otherTriangles(const sdf::ElementPtr& geometry) {
     return ofSize({radius_m, length_m}, [&] { return coneTriangles(radius_m, length_m); });
   }
   const auto kind = geometry ? geometry->GetFirstElement() : nullptr;
-  return tl::unexpected(kind ? unknownKind(kind->GetName()) : std::string("its geometry is empty"));
+  return tl::unexpected(kind ? unknownKind(kind->GetName()) : Message("geometry.empty", "its geometry is empty"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <sdf/Geometry.hh>
 #include <tl/expected.hpp>
 
+#include "common/message.hpp"
 #include "simulation/triangulate.hpp"
 #include "simulation/uri_resolver.hpp"
 
@@ -15,9 +16,9 @@ namespace swiftlet::simulation {
 inline constexpr double kEndlessPlane_m = 200.0;
 
 /// Boxes, cylinders, spheres, capsules, ellipsoids, cones, planes with a side of `least_plane_m` or more, polylines and
-/// heightmaps. The error is a sentence about the geometry: a kind that is not known, a size that no thing has, a
-/// picture of heights that cannot be read. Pictures are searched for by `resolver`, from the file of the geometry.
-tl::expected<Triangles, std::string> solidTriangles(const sdf::Geometry& geometry, double least_plane_m,
-                                                    const UriResolver& resolver);
+/// heightmaps. The error is about the geometry: a kind that is not known, a size that no thing has, a picture of
+/// heights that cannot be read. Pictures are searched for by `resolver`, from the file of the geometry.
+tl::expected<Triangles, common::Message> solidTriangles(const sdf::Geometry& geometry, double least_plane_m,
+                                                        const UriResolver& resolver);
 
 }  // namespace swiftlet::simulation

@@ -26,9 +26,11 @@ void SurveyConfig::describe(common::config::Fields& fields) {
   fields("seed", seed, {0, 1'000'000'000}, "Seed of the drive's noise; the flights' seed changes nothing here.");
 }
 
-std::vector<std::string> SurveyConfig::validate() const {
+std::vector<common::Problem> SurveyConfig::validate() const {
   const bool pairs = path_world_m.size() % 2 == 0 && path_world_m.size() != 2;
-  return common::Validation().require(pairs, "path_world_m", "is not a list of two or more points x, y").problems();
+  return common::Validation()
+      .require(pairs, "path_world_m", common::Message("survey.no-path", "is not a list of two or more points x, y"))
+      .problems();
 }
 
 SurveyDrive::SurveyDrive(const SurveyConfig& config, const common::LaserConfig& laser, const RayCaster& rays)

@@ -26,7 +26,7 @@ struct SurveyConfig {
   int seed = 1;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct SurveyScan {

@@ -3,11 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
+#include "simulation/actor.hpp"
 
 namespace swiftlet::simulation {
 
@@ -19,8 +21,9 @@ struct Truth {
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   bool airborne = false;
   double battery_remaining = 1.0;  ///< True charge, as a share of the full one.
+  int lost_cells = 0;              ///< Of the battery.
   bool faulty = false;             ///< A fault of the scenario is active.
-  /// The IMU or the laser, if a fault of it is active: the vehicle cannot fly without them.
+  /// As FaultSchedule::failedForFlight().
   std::optional<Sensor> failed_sensor;
 
   /// Smallest horizontal distance from the hull so far, while airborne: to the static world, to a walker, and to the
@@ -37,8 +40,12 @@ struct Truth {
   bool by_walker = false;  ///< A walker was touched.
   /// The vehicle stood still (below 0.1 m/s) or moved away when the walker ran into it.
   bool yielding = false;
+  /// Time from the first moment at which that walker was in the laser's field, see PeopleInField; nullopt: it never
+  /// was.
+  std::optional<double> walker_in_field_s;
   bool glass = false;         ///< Glass was touched.
   bool unseen_glass = false;  ///< No beam of the laser had ever returned from the pane that was touched.
+  std::vector<Actor> closed_doors;
 };
 
 }  // namespace swiftlet::simulation

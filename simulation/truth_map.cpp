@@ -17,18 +17,19 @@ using Grid = common::TiledGrid<std::uint8_t>;
 Hull bandHull(const FreeSpaceQuery& query) { return {query.hull_radius_m, 0.5 * (query.top_m - query.bottom_m)}; }
 double bandMiddle_m(const FreeSpaceQuery& query) { return 0.5 * (query.bottom_m + query.top_m); }
 
-bool fits(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vector2d& point) {
-  const Eigen::Vector3d centre(point.x(), point.y(), bandMiddle_m(query));
-  return rays.sweep(bandHull(query), centre, centre, 1e-6).shape == Hit::kNothing;
-}
-
 /// Neighbours are joined only if the hull can pass from one to the other, so that the flood does not leak through thin
-/// walls.
+/// walls. A door is looked at from the end alone, since the hull is wider than a step.
 bool passes(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vector2d& from,
             const Eigen::Vector2d& to) {
-  const double height_m = bandMiddle_m(query);
-  return rays.sweep(bandHull(query), {from.x(), from.y(), height_m}, {to.x(), to.y(), height_m}, 1e-6).shape ==
-         Hit::kNothing;
+  const Hull hull = bandHull(query);
+  const Eigen::Vector3d begin(from.x(), from.y(), bandMiddle_m(query)), end(to.x(), to.y(), bandMiddle_m(query));
+  return rays.sweep(hull, begin, end, 1e-6).shape == Hit::kNothing &&
+         std::all_of(query.closed_doors.begin(), query.closed_doors.end(),
+                     [&](const Actor& door) { return gapTo_m(door, hull, end) > 0.0; });
+}
+
+bool fits(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vector2d& point) {
+  return passes(rays, query, point, point);
 }
 
 std::size_t count(const Grid& grid) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -19,6 +20,7 @@ struct FreeSpaceQuery {
   double top_m = 1.15;
   double resolution_m = 0.05;
   double max_area_m2 = 10'000.0;  ///< Area at which the flood stops if the world has no walls.
+  std::vector<Actor> closed_doors;
 };
 
 /// Grids in the world's frame; a cell is 1 for yes, 0 for no.

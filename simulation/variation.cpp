@@ -21,10 +21,9 @@ namespace {
 
 using common::InputError;
 using common::kRadPerDeg;
+using common::Message;
 using common::Problem;
 
-/// A world in which one draw in twenty is suitable is refused once in 30,000 seeds: 0.95^200.
-constexpr int kMostDraws = 200;
 constexpr double kSearchFloorFrom_m = 0.5;   // Height above the start from which the floor is searched.
 constexpr double kSearchFloorDown_m = 20.0;  // A start farther above a floor is a mistake.
 constexpr double kUnevenFloor_m =
@@ -92,11 +91,10 @@ Drawn drawOnce(const WorldModel& world, const PlacedVehicle& nominal, int draw) 
   return drawn;
 }
 
-Problem startProblem(const PlacedVehicle& drawn, const WorldModel& world, const std::string& message,
-                     const std::string& hint) {
+Problem startProblem(const PlacedVehicle& drawn, const WorldModel& world, const Message& message, const char* hint) {
   const StartConfig& start = drawn.scenario.start;
   return {world.start_source, drawn.name.empty() ? "start" : "start of `" + drawn.name + "`",
-          fmt::format("at ({:.2f}, {:.2f}, {:.2f}) {}", start.x_m, start.y_m, start.z_m, message), hint};
+          message.behind(fmt::format("at ({:.2f}, {:.2f}, {:.2f}) ", start.x_m, start.y_m, start.z_m)), hint};
 }
 
 /// "`model/part` (file:line)".
@@ -160,26 +158,30 @@ std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world,
     const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
     if (!hit)
       return startProblem(
-          drawn, world, "has no floor under it",
+          drawn, world, Message("start.no-floor", "has no floor under it"),
           "give a start over a floor, or the world one: <include><uri>model://ground_plane</uri></include>");
     lowest_m = std::min(lowest_m, from.z() - hit.distance_m);
     highest_m = std::max(highest_m, from.z() - hit.distance_m);
   }
   if (highest_m - lowest_m > kUnevenFloor_m)
-    return startProblem(drawn, world,
-                        fmt::format("stands on an edge: its feet are {:.2f} m apart in height", highest_m - lowest_m),
-                        "move the start");
+    return startProblem(
+        drawn, world,
+        Message("start.on-an-edge", "stands on an edge: its feet are {:.2f} m apart in height", highest_m - lowest_m),
+        "move the start");
   drawn.T_world_map = common::lifted({start.x_m, start.y_m, start.yaw_deg * kRadPerDeg}, highest_m);
 
   const Eigen::Vector3d body(start.x_m, start.y_m, highest_m + standingHeight_m(scenario));
   const Hull hull = hullOf(scenario);
   const Clearance clearance = rays.sweep(hull, body, body, kTouching_m);
   if (const Shape* terrain = terrainAbove(world, rays, body))
-    return startProblem(drawn, world, "is beneath the terrain " + described(*terrain), "move the start");
+    return startProblem(drawn, world,
+                        Message("start.beneath-terrain", "is beneath the terrain {}", described(*terrain)),
+                        "move the start");
   const Shape* shape = clearance.shape == Hit::kNothing ? solidAround(world, rays, body)
                                                         : &world.shapes[static_cast<std::size_t>(clearance.shape)];
   if (shape == nullptr) return std::nullopt;
-  return startProblem(drawn, world, "is inside or touches " + described(*shape), "move the start");
+  return startProblem(drawn, world, Message("start.in-obstacle", "is inside or touches {}", described(*shape)),
+                      "move the start");
 }
 
 /// A problem if the hull would touch that of another vehicle.
@@ -190,7 +192,7 @@ std::optional<Problem> touchesAnother(const PlacedVehicle& drawn, const WorldMod
     const Eigen::Vector3d apart = other.T_world_map.position_m - at;
     const common::VehicleConfig &a = drawn.scenario.vehicle, &b = other.scenario.vehicle;
     if (apart.head<2>().norm() > a.hullRadius_m() + b.hullRadius_m() || std::abs(apart.z()) > a.hull_height_m) continue;
-    return startProblem(drawn, world, fmt::format("touches the vehicle `{}`", other.name),
+    return startProblem(drawn, world, Message("start.touches-vehicle", "touches the vehicle `{}`", other.name),
                         "move one of the two starts");
   }
   return std::nullopt;
@@ -208,9 +210,9 @@ std::optional<Problem> noRoomAbove(const PlacedVehicle& drawn, const WorldModel&
     if (near.shape == Hit::kNothing) continue;
     return startProblem(
         drawn, world,
-        fmt::format("has no room for the take-off to {:g} m: {} is above it, {:.2f} m over the floor",
-                    flightHeight_m(drawn.scenario), described(world.shapes[static_cast<std::size_t>(near.shape)]),
-                    near.point_world_m.z() - floor_m.z()),
+        Message("start.no-room", "has no room for the take-off to {:g} m: {} is above it, {:.2f} m over the floor",
+                flightHeight_m(drawn.scenario), described(world.shapes[static_cast<std::size_t>(near.shape)]),
+                near.point_world_m.z() - floor_m.z()),
         "move the start, or lower variation.flight_height_m");
   }
   return std::nullopt;
@@ -299,11 +301,13 @@ std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, 
   const bool in_area = !variation.start_area_world_m.empty();
   if (!in_area && variation.start_position_m == 0.0) return std::nullopt;
   if (in_area && std::abs(drawn.T_world_map.position_m.z() - nominal.z_m) > kSameFloor_m)
-    return startProblem(drawn, drawn.world, "is not on the floor of the start that is given",
+    return startProblem(drawn, drawn.world,
+                        Message("start.other-floor", "is not on the floor of the start that is given"),
                         "choose the area elsewhere");
   if (auto problem = noRoomAbove(drawn, drawn.world, rays, kTakeOffRoom_m); problem || !in_area) return problem;
   if (reach.has({nominal.x_m, nominal.y_m})) return std::nullopt;
-  return startProblem(drawn, drawn.world, "does not lead to the start that is given", "choose the area elsewhere");
+  return startProblem(drawn, drawn.world, Message("start.cut-off", "does not lead to the start that is given"),
+                      "choose the area elsewhere");
 }
 
 std::optional<Problem> unreachableGoal(const Drawn& drawn, Reach& reach) {
@@ -312,7 +316,8 @@ std::optional<Problem> unreachableGoal(const Drawn& drawn, Reach& reach) {
     const Eigen::Vector3d goal_world = drawn.T_world_map * Eigen::Vector3d(goals[i], goals[i + 1], 0.0);
     if (!reach.has(goal_world.head<2>()))
       return Problem{drawn.world.start_source, "reachable_map_m",
-                     fmt::format("the goal ({:.2f}, {:.2f}) cannot be reached from the start", goals[i], goals[i + 1]),
+                     Message("start.goal-not-reached", "the goal ({:.2f}, {:.2f}) cannot be reached from the start",
+                             goals[i], goals[i + 1]),
                      "move the goal or the start"};
   }
   return std::nullopt;
@@ -367,8 +372,10 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
   const auto mustExist = [&](const std::vector<std::string>& names, const char* key) {
     for (const std::string& name : names)
       if (!world.hasModel(name))
-        throw InputError(
-            Problem{{world.file}, key, fmt::format("there is no model `{}`", name), common::didYouMean(name, models)});
+        throw InputError(Problem{{world.file},
+                                 key,
+                                 Message("world.no-model", "there is no model `{}`", name),
+                                 common::didYouMean(name, models)});
   };
   mustExist(scenario.variation.obstacles, "variation.obstacles");
   mustExist(scenario.variation.tinted, "variation.tinted");

@@ -40,7 +40,11 @@ Actor VehicleModel::hull() const {
   const Eigen::Vector3d& at = quadrotor_.state().T_world_body.position_m;
   const common::VehicleConfig& sheet = placed_.scenario.vehicle;
   const double middle_m = at.z() - fallen_m_, half_height_m = 0.5 * sheet.hull_height_m;
-  return {at.head<2>(), sheet.hullRadius_m(), middle_m - half_height_m, middle_m + half_height_m, kHullColor};
+  return {.position_world_m = at.head<2>(),
+          .radius_m = sheet.hullRadius_m(),
+          .bottom_m = middle_m - half_height_m,
+          .top_m = middle_m + half_height_m,
+          .color = kHullColor};
 }
 
 WalkedAround VehicleModel::asWalkedAround() const {
@@ -92,13 +96,16 @@ void VehicleModel::fall() {
   fallen_m_ = std::min(room_m, fallen_m_ + falling_m_s_ * kStep_s);
 }
 
-void VehicleModel::judge(Time now, std::uint64_t step, std::span<const Walker> walkers) {
+void VehicleModel::judge(Time now, std::uint64_t step, std::span<const Walker> walkers, std::span<const Door> doors) {
   if (stopped_) return;
   referee_.judgeTouchDown(now, before_step_, quadrotor_.state(), truth_);
   if (step % kStepsPerLook == 0) {
     referee_.lookDown(quadrotor_.state());
-    referee_.judgeContacts(now, quadrotor_.state(), walkers, sensors_.seenShapes(), truth_);
+    referee_.judgeContacts(now, quadrotor_.state(), walkers, doors, sensors_.seenShapes(), truth_);
     feelWall();
+    truth_.closed_doors.clear();
+    for (const Door& door : doors)
+      if (door.isClosed()) truth_.closed_doors.push_back(door.actor());
   }
   updateTruth(now);
 }
@@ -130,6 +137,8 @@ void VehicleModel::updateTruth(Time now) {
   faults_.step(now, state.T_world_body.position_m.head<2>());
   truth_.faulty = faults_.anyActive(now);
   truth_.failed_sensor = faults_.failedForFlight(now);
+  truth_.lost_cells = faults_.lostCells(now);
+  quadrotor_.loseCells(truth_.lost_cells);
 }
 
 double gapBetween_m(const Actor& a, const Actor& b) {

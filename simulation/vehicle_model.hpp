@@ -11,6 +11,7 @@
 #include "common/sensor_event.hpp"
 #include "common/vehicle.hpp"
 #include "simulation/autopilot.hpp"
+#include "simulation/doors.hpp"
 #include "simulation/fault_schedule.hpp"
 #include "simulation/hand.hpp"
 #include "simulation/quadrotor.hpp"
@@ -45,14 +46,14 @@ class VehicleModel {
   Actor hull() const;
   WalkedAround asWalkedAround() const;
 
-  // One step of the arena, in this order. `around` are the moving cylinders that its rays may hit besides the world.
+  // One step of the arena, in this order. `around` is what its rays may hit besides the world.
 
   /// The sensors' first measurements, before any step.
   void begin(const std::vector<Actor>& around);
   /// Step number `step`, which begins at `now`: autopilot, pushes, hands and physics.
   void fly(common::Time now, std::uint64_t step, const Eigen::Vector3d& wind_world_m_s);
   /// At the end of step number `step`, at `now`: touch-downs, and contacts when a look is due.
-  void judge(common::Time now, std::uint64_t step, std::span<const Walker> walkers);
+  void judge(common::Time now, std::uint64_t step, std::span<const Walker> walkers, std::span<const Door> doors);
   /// The gap between its hull and that of another vehicle. At 0 they touch, which ends both flights.
   void judgeMeeting(common::Time now, double gap_m, const VehicleModel& other);
   void measure(common::Time now, const std::vector<Actor>& around, const RayCaster& rays);

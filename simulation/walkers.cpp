@@ -48,7 +48,10 @@ Walker::Walker(const WalkerConfig& config, int seed, std::size_t number, double 
 }
 
 void Walker::appearAt(const Vector2d& position_world_m) {
-  actor_ = Actor{position_world_m, config_.radius_m, floor_world_m_, floor_world_m_ + config_.height_m};
+  actor_ = Actor{.position_world_m = position_world_m,
+                 .radius_m = config_.radius_m,
+                 .bottom_m = floor_world_m_,
+                 .top_m = floor_world_m_ + config_.height_m};
 }
 
 void Walker::step(common::Time now, const WalkedAround& vehicle, double step_s) {

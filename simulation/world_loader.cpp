@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,6 +35,7 @@ namespace swiftlet::simulation {
 namespace {
 
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 /// The element of ours in a material, which other readers of SDF ignore.
@@ -62,7 +64,7 @@ class Loader {
       addWorld(*world);
       for (std::uint64_t i = 1; i < file.root.WorldCount(); ++i)
         warn(file.root.WorldByIndex(i)->Element(),
-             fmt::format("the file's first world is `{}`; this one is left out", world->Name()));
+             Message("world.further", "the file's first world is `{}`; this one is left out", world->Name()));
     } else {
       const sdf::Model& model = *file.root.Model();
       addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});
@@ -74,8 +76,10 @@ class Loader {
                Color::Constant(0.6F));
     if (!problems_.empty()) throw InputError(problems_);
     if (world_.shapes.empty())
-      throw InputError(Problem{
-          {world_.file}, "", "it has no geometry at all", "give its models links with <collision> or <visual>"});
+      throw InputError(Problem{{world_.file},
+                               "",
+                               Message("world.empty", "it has no geometry at all"),
+                               "give its models links with <collision> or <visual>"});
     return std::move(world_);
   }
 
@@ -83,19 +87,22 @@ class Loader {
   void addWorld(const sdf::World& world) {
     state_ = readState(world, world_.file);
     for (const Problem& insertion : state_.insertions) addMissing(insertion);
-    for (const Problem& warning : state_.warnings) world_.warnings.push_back(toString(warning));
+    world_.warnings.insert(world_.warnings.end(), state_.warnings.begin(), state_.warnings.end());
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       if (!state_.deleted.contains(model.Name())) addModel(model, common::Pose3{}, {model.Name(), "", model.Name()});
     }
     if (moved_by_state_ > 0)
-      world_.warnings.push_back(
-          toString(Problem{state_.source, "state", "models and links stand where it says, as in Gazebo classic", ""}));
+      world_.warnings.push_back({state_.source, "state",
+                                 Message("state.used", "models and links stand where it says, as in Gazebo classic"),
+                                 ""});
     if (world.Element() && world.Element()->HasElement("population"))
       addMissing({locationOf(world.Element()->GetElement("population"), world_.file), "population",
-                  "its models, which Gazebo places by chance, are not read", "write them as <model>s"});
+                  Message("world.population", "its models, which Gazebo places by chance, are not read"),
+                  "write them as <model>s"});
     for (std::uint64_t i = 0; i < world.ActorCount(); ++i)
-      warn(world.Element(), "actors of the world's file are left out; people come from the trial's file");
+      warn(world.Element(),
+           Message("world.actor", "actors of the world's file are left out; people come from the trial's file"));
     readStart(world, common::Pose3{});
   }
 
@@ -103,7 +110,7 @@ class Loader {
   void addMissing(Problem problem) {
     if (incomplete_ == IncompleteWorld::kAllowed) {
       problem.hint = "left out";
-      world_.warnings.push_back(toString(problem));
+      world_.warnings.push_back(std::move(problem));
       return;
     }
     problem.hint += problem.hint.empty() ? "" : "; or ";
@@ -185,12 +192,19 @@ class Loader {
   std::string pictureOf(const std::string& uri, const std::filesystem::path& used_in) {
     const auto file = resolver_.find(uri, used_in);
     if (!file) return {};
-    const auto problem = common::problemOfFile(*file);
+    auto problem = common::problemOfFile(*file);
     if (!problem) return file->string();
-    const std::string warning = toString(*problem) + "; it is left out";
-    if (std::find(world_.warnings.begin(), world_.warnings.end(), warning) == world_.warnings.end())
-      world_.warnings.push_back(warning);
+    if (pictures_left_out_.insert(file->string()).second) leaveOut(*std::move(problem));
     return {};
+  }
+
+  void leaveOut(Problem problem) {
+    constexpr const char* kLeftOut = "; it is left out";
+    if (problem.hint.empty())
+      problem.message += kLeftOut;
+    else
+      problem.hint += kLeftOut;
+    world_.warnings.push_back(std::move(problem));
   }
 
   std::optional<Pattern> patternOf(const sdf::Material* material) {
@@ -202,7 +216,8 @@ class Loader {
     if (!pattern) {
       const std::string similar = common::didYouMean(word, patternWords());
       problems_.push_back(
-          {locationOf(material->Element(), world_.file), kTextureElement, fmt::format("there is no texture `{}`", word),
+          {locationOf(material->Element(), world_.file), kTextureElement,
+           Message("world.no-texture", "there is no texture `{}`", word),
            similar.empty() ? fmt::format("expected is one of {}", fmt::join(patternWords(), ", ")) : similar});
     }
     return pattern;
@@ -221,10 +236,8 @@ class Loader {
     const auto triangles = solidTriangles(*item.Geom(), least_plane_m, resolver_);
     if (!triangles) {
       const Problem problem{locationOf(item.Element(), world_.file), scope.top + "/" + scope.path + link,
-                            fmt::format("`{}`: {}", item.Name(), triangles.error()), ""};
-      if (std::is_same_v<Item, sdf::Collision>) return addMissing(problem);
-      world_.warnings.push_back(toString(problem) + "; it is left out");
-      return;
+                            triangles.error().behind(fmt::format("`{}`: ", item.Name())), ""};
+      return std::is_same_v<Item, sdf::Collision> ? addMissing(problem) : leaveOut(problem);
     }
     addShape(scope, link, locationOf(item.Element(), world_.file), T_world_item, *triangles,
              look.color.value_or(colorByName(scope.top)), look);
@@ -236,7 +249,7 @@ class Loader {
     const auto location = locationOf(sdf_mesh.Element(), world_.file);
     const auto path = resolver_.find(sdf_mesh.Uri(), location.file);
     if (!path) {
-      addMissing({location, "mesh", fmt::format("`{}` was not found", sdf_mesh.Uri()),
+      addMissing({location, "mesh", Message("world.mesh-missing", "`{}` was not found", sdf_mesh.Uri()),
                   resolver_.hintFor(sdf_mesh.Uri(), location.file)});
       return;
     }
@@ -247,7 +260,7 @@ class Loader {
       if (cached->second && !look.color) warnOfMaterials(*cached->second, key.first, location);
     }
     if (!cached->second) {
-      addMissing({location, "mesh", fmt::format("`{}`: {}", path->string(), cached->second.error()), ""});
+      addMissing({location, "mesh", cached->second.error().behind(fmt::format("`{}`: ", path->string())), ""});
       return;
     }
     Triangles triangles = cached->second->triangles;
@@ -260,9 +273,9 @@ class Loader {
 
   void warnOfMaterials(const Mesh& mesh, const std::string& file, const common::SourceLocation& location) {
     for (const std::string& missing : mesh.missing_materials)
-      world_.warnings.push_back(
-          toString(Problem{location, "mesh", fmt::format("`{}`: its materials `{}` were not found", file, missing),
-                           "they are left out"}));
+      world_.warnings.push_back({location, "mesh",
+                                 Message("mesh.no-materials", "`{}`: its materials `{}` were not found", file, missing),
+                                 "they are left out"});
   }
 
   /// A colour or an image of the world's file replaces those of the mesh.
@@ -299,9 +312,10 @@ class Loader {
              vertex.cwiseAbs().maxCoeff() <= static_cast<float>(2.0 * common::kGreatestCoordinate_m);
     };
     if (!std::all_of(shape.vertices_world_m.begin(), shape.vertices_world_m.end(), fits))
-      problems_.push_back({source, nameOf(shape),
-                           fmt::format("its size or pose is not within {:g} m", common::kGreatestCoordinate_m),
-                           "SDF's unit is the metre"});
+      problems_.push_back(
+          {source, nameOf(shape),
+           Message("world.too-large", "its size or pose is not within {:g} m", common::kGreatestCoordinate_m),
+           "SDF's unit is the metre"});
     world_.shapes.push_back(std::move(shape));
   }
 
@@ -310,12 +324,14 @@ class Loader {
     const sdf::Errors errors = semantic.Resolve(pose);
     if (errors.empty() && pose.IsFinite()) return toPose(pose);
     problems_.push_back({locationOf(element, world_.file), "pose",
-                         errors.empty() ? std::string("it is not finite") : errors.front().Message(), ""});
+                         errors.empty() ? Message("world.pose-not-finite", "it is not finite")
+                                        : Message("sdf.error", "{}", errors.front().Message()),
+                         ""});
     return std::nullopt;
   }
 
-  void warn(const sdf::ElementPtr& element, const std::string& message) {
-    world_.warnings.push_back(toString(Problem{locationOf(element, world_.file), "", message, ""}));
+  void warn(const sdf::ElementPtr& element, Message message) {
+    world_.warnings.push_back({locationOf(element, world_.file), "", std::move(message), ""});
   }
 
   UriResolver resolver_;
@@ -324,7 +340,8 @@ class Loader {
   int moved_by_state_ = 0;
   WorldModel world_;
   std::vector<Problem> problems_;
-  std::map<std::pair<std::string, std::string>, tl::expected<Mesh, std::string>> meshes_;
+  std::set<std::string> pictures_left_out_;
+  std::map<std::pair<std::string, std::string>, tl::expected<Mesh, Message>> meshes_;
 };
 
 }  // namespace

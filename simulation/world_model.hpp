@@ -58,8 +58,8 @@ struct WorldModel {
   std::optional<common::Pose3> T_world_start;
   /// The line of that frame in the file, or else of the world.
   common::SourceLocation start_source;
-  /// Elements that were skipped or replaced, each as "file:line: ...".
-  std::vector<std::string> warnings;
+  /// Elements that were skipped or replaced.
+  std::vector<common::Problem> warnings;
 
   /// Names of the top-level models, in the order of the file.
   std::vector<std::string> modelNames() const;

@@ -18,6 +18,8 @@
 namespace swiftlet::simulation {
 namespace {
 
+using common::Message;
+
 std::vector<sdf::ElementPtr> childrenOf(const sdf::ElementPtr& element, const std::string& name) {
   std::vector<sdf::ElementPtr> children;
   if (!element->HasElement(name)) return children;
@@ -103,9 +105,10 @@ class StateReader {
 
   void warn(const sdf::ElementPtr& element, std::string_view kind, const std::string& name, const std::string& scope) {
     const std::string around = scope.empty() ? "the world" : "`" + scope.substr(0, scope.size() - 2) + "`";
-    state_.warnings.push_back({locationOf(element, file_), "state",
-                               fmt::format("{} has no {} `{}`, so this has no effect", around, kind, name),
-                               hintFor(name, scope, kind == "link" ? names_.links : names_.models)});
+    state_.warnings.push_back(
+        {locationOf(element, file_), "state",
+         Message("state.nothing-of-that-name", "{} has no {} `{}`, so this has no effect", around, kind, name),
+         hintFor(name, scope, kind == "link" ? names_.links : names_.models)});
   }
 
   /// A name that is like it, or those that are there if they are few.
@@ -140,12 +143,14 @@ WorldState readState(const sdf::World& world, const std::string& file) {
   for (auto next = element->GetNextElement("state"); next; next = next->GetNextElement("state"))
     state.warnings.push_back(
         {locationOf(next, file), "state",
-         fmt::format("the first <state>, of line {}, counts; this one is left out", state.source.line), ""});
+         Message("state.further", "the first <state>, of line {}, counts; this one is left out", state.source.line),
+         ""});
   std::vector<sdf::ElementPtr> inserted;
   for (const auto& insertions : childrenOf(element, "insertions"))
     for (const auto& model : childrenOf(insertions, "model")) inserted.push_back(model);
   for (const auto& model : inserted)
-    state.insertions.push_back({locationOf(model, file), "state", "models that were inserted are not read",
+    state.insertions.push_back({locationOf(model, file), "state",
+                                Message("state.insertion", "models that were inserted are not read"),
                                 "move this <model> out of <state>, into the <world>"});
   StateReader reader(file, namesOf(world, inserted), state);
   for (const auto& model : childrenOf(element, "model")) reader.addModel(model, "");

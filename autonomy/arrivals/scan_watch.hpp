@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/sensor_event.hpp"
 
 namespace swiftlet::autonomy {
@@ -19,8 +20,11 @@ class ScanWatch {
   bool repeats(const common::LaserScan& scan);
 
  private:
+  /// A single scan given twice is a hiccup of a link and needs no event; the next one is measured later than this.
+  static constexpr double kHiccup_s = 1e-3;
+
   std::vector<float> last_ranges_m_;
-  int repeated_ = 0;  ///< Scans in a row that repeat.
+  common::Hysteresis repeats_{kHiccup_s};
   common::EventLog& log_;
 };
 

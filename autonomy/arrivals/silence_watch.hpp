@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::autonomy {
@@ -28,11 +29,10 @@ class SilenceWatch {
 
  private:
   std::string sensor_, measurement_;
-  double silent_s_;
   common::Duration silence_;
   std::optional<common::Time> since_, unusable_at_;
   std::string fault_;  ///< Of the last measurement that could not be used.
-  bool silent_ = false;
+  common::Hysteresis silent_;
   common::EventLog& log_;
 };
 

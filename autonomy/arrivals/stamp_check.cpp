@@ -23,10 +23,9 @@ bool StampCheck::accepts(const common::SensorEvent& event) {
   const common::Stamps& stamps = common::stampsOf(event);
   const double ahead_s = (stamps.measured - stamps.arrived).seconds();
   const bool refused = stampFault(stamps, std::nullopt) != nullptr;
-  if (refused && !refused_[event.index()])
-    log_.warn(stamps.arrived, "sensors", "a measurement is refused: " + std::visit(SensorName{}, event),
+  if (refused_[event.index()].update(refused, stamps.arrived) == common::Edge::kEntered)
+    log_.warn(stamps.arrived, "sensors", "measurement rejected: " + std::visit(SensorName{}, event),
               fmt::format("its stamp lies {:.3g} s in the future", ahead_s));
-  refused_[event.index()] = refused;
   return !refused;
 }
 

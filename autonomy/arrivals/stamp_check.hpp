@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/sensor_event.hpp"
 #include "common/stamps.hpp"
 #include "common/time.hpp"
@@ -19,7 +20,7 @@ inline constexpr common::Duration kFarAhead = common::Duration::fromMilliseconds
 /// Why a measurement with these stamps cannot be used, for people; null if it can. `last` is when the last usable one
 /// of its sensor was measured.
 inline const char* stampFault(const common::Stamps& stamps, const std::optional<common::Time>& last) {
-  if (stamps.measured > stamps.arrived + kFarAhead) return "its stamp is of the future";
+  if (stamps.measured > stamps.arrived + kFarAhead) return "its stamp lies in the future";
   if (last && stamps.measured <= *last) return "it was not measured after the last";
   return nullptr;
 }
@@ -33,7 +34,7 @@ class StampCheck {
   bool accepts(const common::SensorEvent& event);
 
  private:
-  std::array<bool, std::variant_size_v<common::SensorEvent>> refused_{};  ///< The last measurement of each sensor.
+  std::array<common::Hysteresis, std::variant_size_v<common::SensorEvent>> refused_;  ///< Of each sensor.
   common::EventLog& log_;
 };
 

@@ -18,10 +18,11 @@ constexpr double kJump = 0.1;
 bool BatteryCheck::accepts(const common::BatterySample& sample) {
   std::string problem = problemWith(sample);
   const bool refused = !problem.empty();
-  if (refused && !refused_)
-    log_.warn(sample.stamps.arrived, "supervisor", "the battery's last good values are kept", std::move(problem));
-  if (!refused && refused_) log_.info(sample.stamps.arrived, "supervisor", "the battery is measured again");
-  refused_ = refused;
+  const common::Edge edge = refused_.update(refused, sample.stamps.arrived);
+  if (edge == common::Edge::kEntered)
+    log_.warn(sample.stamps.arrived, "supervisor", "battery samples rejected, the last good values are kept",
+              std::move(problem));
+  if (edge == common::Edge::kLeft) log_.info(sample.stamps.arrived, "supervisor", "battery samples accepted again");
   return !refused;
 }
 

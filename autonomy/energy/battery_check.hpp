@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/sensor_event.hpp"
 
 namespace swiftlet::autonomy {
@@ -22,7 +23,7 @@ class BatteryCheck {
   std::string problemWith(const common::BatterySample& sample);
 
   std::optional<double> used_, jumped_to_;  ///< Charges, in [0, 1].
-  bool refused_ = false;                    ///< The last sample.
+  common::Hysteresis refused_;
   common::EventLog& log_;
 };
 

@@ -10,7 +10,7 @@ namespace swiftlet::autonomy {
 class ChargeCounter {
  public:
   /// The gauge stands still when it has not moved while this share of the capacity was drawn: a fault was noticed after
-  /// 54 s (docs/decisions/fail_safes.md, 079).
+  /// 54 s (docs/decisions/fail_safes.md#079).
   static constexpr double kUnmoved = 0.05;
 
   /// `capacity_as`: that of the data sheet; it is corrected by what the gauge says in flight.

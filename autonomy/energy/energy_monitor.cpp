@@ -10,7 +10,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// Slow links send the battery once a second (docs/decisions/fail_safes.md, 079).
+/// Slow links send the battery once a second (docs/decisions/fail_safes.md#079).
 constexpr double kUnheard_s = 2.5;
 /// Time constant that smooths current and power.
 constexpr double kPowerFilter_s = 20.0;
@@ -94,16 +94,16 @@ double EnergyMonitor::unheard_s(common::Time now) const {
   return age_s > kUnheard_s ? age_s : 0.0;
 }
 
-std::string EnergyMonitor::countedOn(common::Time now) const {
-  if (unheard_s(now) > 0.0) return fmt::format("no sample of the battery for {:.1f} s", kUnheard_s);
+std::string EnergyMonitor::gaugeFault(common::Time now) const {
+  if (unheard_s(now) > 0.0) return fmt::format("no battery sample for {:.1f} s", kUnheard_s);
   if (charge_.standsStill())
-    return fmt::format("its gauge has stood still while {:.0f} % of the capacity were drawn",
+    return fmt::format("the gauge has not moved while {:.0f} % of the capacity were drawn",
                        100.0 * ChargeCounter::kUnmoved);
   return {};
 }
 
 double EnergyMonitor::remaining(common::Time now) const {
-  if (countedOn(now).empty()) return last_->remaining;
+  if (gaugeFault(now).empty()) return last_->remaining;
   return charge_.counted(unheard_s(now) * current_a_);
 }
 

@@ -46,7 +46,7 @@ class EnergyMonitor {
   common::EnergyLayer layer(common::Time now, const FlightHome& home, double thrust_margin, double land_share,
                             double least_margin) const;
   /// Why the charge is not that of the gauge but extrapolated by the current; empty if it is the gauge's.
-  std::string countedOn(common::Time now) const;
+  std::string gaugeFault(common::Time now) const;
 
  private:
   double currentOf_a(const common::BatterySample& sample) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace swiftlet::autonomy {
@@ -20,46 +21,50 @@ AltitudePipeline::AltitudePipeline(const perception::MultilevelFilter::Config& c
 
 void AltitudePipeline::initialize(common::Time time, double height_m) {
   filter_.initialize(time, Eigen::Vector2d::Zero(), height_m);
+  last_scan_ = time;
   seen_.stood(Eigen::Vector2d::Zero(), hull_radius_m_, 0.0);
 }
 
 AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
-                                   const common::Pose2& T_odom_body,
-                                   const std::optional<perception::VerticalState>& vertical) {
+                                   const common::Pose2& T_odom_body, const Vertical& vertical) {
   const common::Pose2 T_map_body = T_map_odom * T_odom_body;
   AltitudeStep step;
   step.below_m = medianBelow_m(scan);
-  if (!vertical) return step;
-  if (step.below_m) step.drift = drift_.add(scan.stamp, T_odom_body.position_m(), *step.below_m, vertical->height_m);
+  if (!vertical.state || scan.stamp <= last_scan_) return step;
+  const double height_m = vertical.state->height_m;
   std::vector<perception::GroundPoint> ground;
   ground.reserve(scan.mirror.size());
   for (const auto& point : scan.mirror)
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
   for (const perception::GroundPoint& point : ground)
-    seen_.add(point.position_map_m, vertical->height_m - point.distance_below_m);
-  fan_.add(scan, T_odom_body, vertical->height_m, surface_height_m_);
-  const bool was_on_slope = ramp_.onSlope();
-  step.slope_ended_rise_m =
-      ramp_.move(T_map_odom, T_odom_body.position_m(), slopes_.gradientAt(T_map_body.position_m()));
-  step.slope_began = ramp_.onSlope() && !was_on_slope;
-  if (step.slope_ended_rise_m) slope_ended_ = scan.stamp;
-  // Over a slope the ground counts as the level that it rose from.
-  for (perception::GroundPoint& point : ground) point.distance_below_m += ramp_.rise_m();
-  perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
-  prior.covariance(0, 0) += ramp_.variance_m2();
-  const auto update = filter_.update(prior, T_map_body.position_m(), ground, ramp_.onSlope());
-  if (update.height_above_ground_m)
-    surface_height_m_ = vertical->height_m - *update.height_above_ground_m + ramp_.rise_m();
-  step.measurement = update.measurement;
-  step.doubt_m_s = doubt_.add(scan.stamp, T_odom_body.position_m(), step.measurement);
-  if (step.measurement) {
-    step.measurement->level_variance_m2 += ramp_.variance_m2();
-    // A measurement is of an earlier scan, which may still be one over the slope.
-    if (step.measurement->stamp >= slope_ended_) ramp_.measured();
+    seen_.add(point.position_map_m, height_m - point.distance_below_m);
+  fan_.add(scan, T_odom_body, height_m, surface_height_m_);
+  const auto update = filter_.update({.stamp = scan.stamp,
+                                      .position_map_m = T_map_body.position_m(),
+                                      .points = ground,
+                                      .known = *vertical.state,
+                                      .climb = vertical.climb,
+                                      .at_rest = vertical.at_rest,
+                                      .gradient_map = slopes_.gradientAt(T_map_body.position_m())});
+  last_scan_ = scan.stamp;
+  step.vertical = update.vertical;
+  if (update.vertical && update.height_above_ground_m) {
+    surface_height_m_ = update.vertical->height_m - *update.height_above_ground_m;
+    step.slope_ended_rise_m = followSlope(update.slopes, T_odom_body.position_m());
   }
   step.levels_joined = update.levels_joined;
   step.floor_regained_m = update.floor_regained_m;
   return step;
+}
+
+/// A slope is worth a word once it has been flown over for a metre.
+std::optional<double> AltitudePipeline::followSlope(bool slopes, const Eigen::Vector2d& place_odom_m) {
+  constexpr double kLong_m = 1.0;
+  if (slopes == slope_.has_value()) return std::nullopt;
+  const std::optional<SlopeBegin> ended =
+      std::exchange(slope_, slopes ? std::optional(SlopeBegin{place_odom_m, surface_height_m_}) : std::nullopt);
+  if (!ended || (place_odom_m - ended->place_odom_m).norm() < kLong_m) return std::nullopt;
+  return surface_height_m_ - ended->height_m;
 }
 
 std::shared_ptr<const common::LevelMap> AltitudePipeline::levels() {

@@ -15,11 +15,8 @@
 #include "common/time.hpp"
 #include "perception/altitude/fan_ground.hpp"
 #include "perception/altitude/ground_slopes.hpp"
-#include "perception/altitude/height_drift.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
-#include "perception/altitude/ramp_rise.hpp"
 #include "perception/altitude/seen_surfaces.hpp"
-#include "perception/altitude/slope_doubt.hpp"
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/projection/scan_projection.hpp"
 
@@ -30,14 +27,11 @@ std::optional<double> medianBelow_m(const perception::ProjectedScan& scan);
 
 /// The height information of one scan.
 struct AltitudeStep {
-  std::optional<double> below_m;                         ///< The raw measurement: medianBelow_m of the scan.
-  std::optional<perception::VirtualHeight> measurement;  ///< For the filter, with the stamp of an earlier scan.
+  std::optional<double> below_m;                      ///< The raw measurement: medianBelow_m of the scan.
+  std::optional<perception::VerticalState> vertical;  ///< For the filter; none if nothing was below.
   int levels_joined = 0;
-  std::optional<double> floor_regained_m;            ///< See perception::AltitudeUpdate.
-  bool slope_began = false;                          ///< The ground below slopes from here on.
-  std::optional<double> doubt_m_s;                   ///< See SlopeDoubt: the height may be wrong from here on.
-  std::optional<perception::HeightDriftRate> drift;  ///< See HeightDrift: the vertical speed is wrong.
-  std::optional<double> slope_ended_rise_m;          ///< A slope has ended; the ground is higher by this behind it.
+  std::optional<double> floor_regained_m;    ///< See perception::AltitudeUpdate.
+  std::optional<double> slope_ended_rise_m;  ///< A slope has ended; the ground is higher by this behind it.
 };
 
 /// One thread.
@@ -67,9 +61,17 @@ class AltitudePipeline {
   /// Makes floor hits of the beams that ended on a slope ahead.
   void removeGround(perception::ProjectedScan& scan) const { fan_.remove(scan); }
 
-  /// `vertical` is the filter's estimate at the scan's stamp; without it the scan does not change the levels.
+  /// What the filter knows of the vertical motion at the scan's stamp; without `state` the scan does not change the
+  /// levels.
+  struct Vertical {
+    std::optional<perception::VerticalState> state;
+    std::optional<perception::InertialClimb> climb;  ///< Since lastScan().
+    bool at_rest = false;
+  };
   AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
-                   const common::Pose2& T_odom_body, const std::optional<perception::VerticalState>& vertical);
+                   const common::Pose2& T_odom_body, const Vertical& vertical);
+  /// Stamp of the last scan, or of the start.
+  common::Time lastScan() const { return last_scan_; }
 
   /// Height of the surface directly below, table or floor, over the take-off floor, at the last scan that saw it; zero
   /// before the first.
@@ -80,19 +82,23 @@ class AltitudePipeline {
   std::shared_ptr<const common::LevelMap> levels();
 
  private:
+  std::optional<double> followSlope(bool slopes, const Eigen::Vector2d& place_odom_m);
+
   static constexpr double kGroundPeriod_s = 0.2;
 
   perception::MultilevelFilter filter_;
   perception::SeenSurfaces seen_;
   perception::GroundSlopes slopes_;
   perception::FanGround fan_;
-  perception::RampRise ramp_;
-  perception::SlopeDoubt doubt_;
-  perception::HeightDrift drift_;
+  struct SlopeBegin {
+    Eigen::Vector2d place_odom_m;
+    double height_m;  ///< Of the ground.
+  };
+  std::optional<SlopeBegin> slope_;
   double hull_radius_m_;
   double surface_height_m_ = 0.0;
   common::Time looked_at_ground_;
-  common::Time slope_ended_;  ///< Stamp of the scan behind the last slope.
+  common::Time last_scan_;
   std::uint64_t published_version_ = 0;
   std::shared_ptr<const common::LevelMap> published_;
 };

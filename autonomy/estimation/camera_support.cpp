@@ -6,7 +6,7 @@ namespace swiftlet::autonomy {
 namespace {
 
 /// A view that hardly constrains a direction for a second takes the deviation to 0.09 m/s, which is no reason to land;
-/// before a bare wall it grows beyond this within some four seconds (decision 073).
+/// before a bare wall it grows beyond this within some four seconds (docs/decisions/fail_safes.md#073).
 constexpr double kSupported_m_s = 0.12;
 constexpr double kSupported_m2_s2 = kSupported_m_s * kSupported_m_s;
 

@@ -8,10 +8,6 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// One good scan may be a chance match, so error is taken back only when every scan has fixed the position for this
-/// long.
-constexpr double kHeld_s = 0.5;
-
 /// What is left of a difference of covariances when no direction may shrink.
 Eigen::Matrix2d positivePart(const Eigen::Matrix2d& difference_m2) {
   const common::SymmetricEigen<2> eigen = common::symmetricEigen(difference_m2);
@@ -26,7 +22,8 @@ double greatestSigma_m(const Eigen::Matrix2d& covariance_m2) {
 
 double DriftMonitor::add(const PositionFix& fix) {
   const bool fixed = fix.matched && !fix.unobservable_direction_odom;
-  if (isHeld(fix)) {
+  held_.update(fixed, fix.stamp);
+  if (held_.active()) {
     recall(fix.known_key);
     drift_m2_ = reference_drift_m2_;
   } else if (!fixed) {
@@ -44,15 +41,6 @@ Eigen::Matrix2d DriftMonitor::grownSince(const PositionFix& fix) const {
   if (!fix.matched) return positivePart(difference_m2);
   const Eigen::Vector2d& along = *fix.unobservable_direction_odom;
   return std::max(0.0, along.dot(difference_m2 * along)) * along * along.transpose();
-}
-
-bool DriftMonitor::isHeld(const PositionFix& fix) {
-  if (!fix.matched || fix.unobservable_direction_odom) {
-    fixed_since_.reset();
-    return false;
-  }
-  if (!fixed_since_) fixed_since_ = fix.stamp;
-  return (fix.stamp - *fixed_since_).seconds() >= kHeld_s;
 }
 
 /// A scan that was matched to an earlier key scan is as uncertain as that one.

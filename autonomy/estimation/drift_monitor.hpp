@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "common/hysteresis.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::autonomy {
@@ -36,14 +37,16 @@ class DriftMonitor {
   double add(const PositionFix& fix);
 
  private:
+  /// One good scan may be a chance match, so error is taken back only when every scan has fixed the position for this
+  /// long.
+  static constexpr double kHeld_s = 0.5;
   Eigen::Matrix2d grownSince(const PositionFix& fix) const;
-  bool isHeld(const PositionFix& fix);
   void recall(int key);
 
   Eigen::Matrix2d drift_m2_ = Eigen::Matrix2d::Zero();            ///< Since the take-off, in odom.
   Eigen::Matrix2d reference_drift_m2_ = Eigen::Matrix2d::Zero();  ///< Of the scan to which scans are matched.
   Eigen::Matrix2d covariance_m2_ = Eigen::Matrix2d::Zero();       ///< The filter's, from which the growth counts.
-  std::optional<common::Time> fixed_since_;                       ///< Every scan since then fixed every direction.
+  common::Hysteresis held_{kHeld_s};                              ///< Every scan fixes every direction.
   std::vector<Eigen::Matrix2d> key_drift_m2_;                     ///< Of each key scan.
 };
 

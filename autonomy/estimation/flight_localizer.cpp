@@ -74,8 +74,8 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.places = estimate.places;
   localization_.candidates = estimate.candidates;
   if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
-    log_.warn(now, "localization", "this is not the map of this place",
-              "many of its places fit a part of what is seen, and none of them fits all of it");
+    log_.warn(now, "localization", "the given map does not match this place",
+              "many poses explain a part of the scans, and none explains all of them");
   if (!estimate.event) return;
   const bool lost = estimate.event->state == LocalizationState::kLost;
   std::string text = toString(estimate.event->state);

@@ -96,19 +96,20 @@ void FrameIntake::watchRadio(Time now) {
   while (auto frame = radio_->take(now)) {
     here_ = std::move(frame);
     through_at_ = now;
-    if (std::exchange(stuck_, false)) log_.info(now, kMapping3d, "frames come through the radio again");
+    if (stuck_.update(false, now) == common::Edge::kLeft)
+      log_.info(now, kMapping3d, "frames come through the radio again");
   }
   if (const int halvings = radio_->halvings(); halvings > most_halvings_) {
     most_halvings_ = halvings;
     log_.warn(
-        now, kMapping3d, "frames are sent smaller",
+        now, kMapping3d, "frames are downscaled for the radio",
         fmt::format(
             "whole ones take longer over the radio than {:.2f} s; the map has 1 in {} of their pixels. A camera with "
             "fewer pixels or a faster radio loses none",
             radio_oldest_s_, std::int64_t{1} << 2 * halvings));
   }
-  if (!through_at_ || stuck_ || (now - *through_at_).seconds() < kSilent_s || silence_.isDue(now)) return;
-  stuck_ = true;
+  if (!through_at_ || (now - *through_at_).seconds() < kSilent_s || silence_.isDue(now)) return;
+  if (stuck_.update(true, now) != common::Edge::kEntered) return;
   log_.warn(
       now, kMapping3d, "no frame comes through the radio",
       fmt::format("each takes longer than {:.2f} s, so there is no 3D map; use a faster radio or a camera with fewer "

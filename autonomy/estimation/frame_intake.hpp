@@ -11,6 +11,7 @@
 
 #include "autonomy/arrivals/silence_watch.hpp"
 #include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/time.hpp"
@@ -61,7 +62,7 @@ class FrameIntake {
   std::shared_ptr<const common::RgbdFrame> here_;  ///< Not taken yet; null without one.
   std::set<std::string> faults_;                   ///< Those that left an event.
   std::optional<common::Time> through_at_;         ///< When a frame last came through the radio.
-  bool stuck_ = false;                             ///< An event has said that no frame comes through the radio.
+  common::Hysteresis stuck_;                       ///< No frame comes through the radio.
   int most_halvings_ = 0;                          ///< Most halvings of frames that an event has reported.
   RgbdCounts counts_;
 };

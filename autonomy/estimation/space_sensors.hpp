@@ -64,7 +64,7 @@ class SpaceSensors {
   bool isCameraDoubted(common::Time now) const {
     return camera_doubted_ && (now - *camera_doubted_).seconds() < kCameraDoubted_s;
   }
-  /// Two windows of HeightDrift, and longer than the filter resists a correction.
+  /// Longer than it takes the camera to be matched anew.
   static constexpr double kCameraDoubted_s = 1.0;
   /// Maps what has waited long enough, at every tick.
   void map(const MapSituation& situation, common::Time now);

@@ -27,13 +27,13 @@ void TargetPipelineConfig::describe(common::config::Fields& fields) {
   fields.list("classes", classes, "Classes of targets that are looked for; without any, no frame is looked at.");
 }
 
-std::vector<std::string> TargetPipelineConfig::validate() const {
+std::vector<common::Problem> TargetPipelineConfig::validate() const {
   std::vector<std::string> sorted = names();
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   return common::Validation()
       .require(twice == sorted.end(), "classes",
-               fmt::format("two are called `{}`", twice == sorted.end() ? std::string() : *twice))
+               common::Message("config.name-twice", "two are called `{}`", twice == sorted.end() ? "" : *twice))
       .problems();
 }
 

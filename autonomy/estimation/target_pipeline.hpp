@@ -30,7 +30,7 @@ struct TargetPipelineConfig {
   perception::TargetTrackerConfig tracker;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
   std::vector<std::string> names() const;
 };
 

@@ -50,17 +50,13 @@ void MapChanges::update(common::Time now, const OccupancyGrid& flown, const Occu
 }
 
 void MapChanges::judge(common::Time now, Change change, const std::map<Square, int>& cells) {
-  std::vector<Square> to_say;
-  std::erase_if(seen_, [&](const auto& entry) {
-    return entry.first.first == change && !entry.second.said && !cells.contains(entry.first.second);
+  std::vector<Square> confirmed;
+  std::erase_if(checks_, [&](const auto& entry) {
+    return entry.first.first == change && entry.second < kChecks && !cells.contains(entry.first.second);
   });
-  for (const auto& [square, count] : cells) {
-    Evidence& evidence = seen_[{change, square}];
-    if (++evidence.checks < kChecks || evidence.said) continue;
-    evidence.said = true;
-    to_say.push_back(square);
-  }
-  if (!to_say.empty()) report(now, change, to_say);
+  for (const auto& [square, count] : cells)
+    if (++checks_[{change, square}] == kChecks) confirmed.push_back(square);
+  if (!confirmed.empty()) report(now, change, confirmed);
 }
 
 void MapChanges::report(common::Time now, Change change, const std::vector<Square>& squares) {
@@ -68,8 +64,8 @@ void MapChanges::report(common::Time now, Change change, const std::vector<Squar
   for (const Square& square : squares)
     places += fmt::format("{}({:.1f}, {:.1f})", places.empty() ? "" : ", ", square.first + 0.5, square.second + 0.5);
   log_.info(now, "localization",
-            change == Change::kNew ? "something stands here that the given map does not have"
-                                   : "something of the given map is not there at this height",
+            change == Change::kNew ? "obstacle that is not in the given map"
+                                   : "obstacle of the given map not seen at this height",
             "within half a metre of " + places + " in the given map");
 }
 

@@ -24,20 +24,16 @@ class MapChanges {
   void update(common::Time now, const common::OccupancyGrid& flown, const common::OccupancyGrid& laid,
               const common::Pose2& T_map_given);
   /// The place is lost, or the given map was replaced: changes that have not been reported are forgotten.
-  void forget() { seen_.clear(); }
+  void forget() { checks_.clear(); }
 
  private:
   enum class Change { kNew, kGone };
   using Square = std::pair<int, int>;  ///< Of one metre, in the given map.
-  struct Evidence {
-    int checks = 0;  ///< In a row.
-    bool said = false;
-  };
   void judge(common::Time now, Change change, const std::map<Square, int>& cells);
   void report(common::Time now, Change change, const std::vector<Square>& squares);
 
   std::optional<common::Time> checked_;
-  std::map<std::pair<Change, Square>, Evidence> seen_;
+  std::map<std::pair<Change, Square>, int> checks_;  ///< In a row, that found the change; it is reported at the last.
   common::EventLog& log_;
 };
 

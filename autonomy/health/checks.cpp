@@ -136,7 +136,7 @@ constexpr Check kAllChecks[] = {
     {FindingKind::kPilotSilent, 0.0, 0.0,
      [](const Condition& c, const Config&, bool) { return above(c.pilot_silent_s, kPilotSilent_s); },
      [](const Condition&, const Config&) {
-       return fmt::format("the pilot has not been heard of for {:.1f} s; it holds until Resume or Land",
+       return fmt::format("no sample from the pilot for {:.1f} s; the vehicle holds until Resume or Land",
                           kPilotSilent_s);
      },
      Concern::kPilot},
@@ -152,9 +152,9 @@ constexpr Check kAllChecks[] = {
     {FindingKind::kSensorContradicted, 0.0, 0.0,
      [](const Condition& c, const Config&, bool) { return unlessEmpty(c.sensor_lies); },
      [](const Condition& c, const Config&) { return c.sensor_lies; }, Concern::kLanding},
-    {FindingKind::kChargeCountedOn, 0.0, 0.0,
-     [](const Condition& c, const Config&, bool) { return unlessEmpty(c.charge_counted_on); },
-     [](const Condition& c, const Config&) { return c.charge_counted_on; }, Concern::kNone},
+    {FindingKind::kGaugeUnusable, 0.0, 0.0,
+     [](const Condition& c, const Config&, bool) { return unlessEmpty(c.gauge_fault); },
+     [](const Condition& c, const Config&) { return c.gauge_fault; }, Concern::kNone},
     {FindingKind::kChargeBelow30, 0.0, 0.0,
      [](const Condition& c, const Config&, bool) { return atMost(c.energy.battery_remaining, 0.3); }, minutesLeft,
      Concern::kLowBattery},
@@ -172,7 +172,7 @@ constexpr Check kAllChecks[] = {
      [](const Condition&, const Config&) { return std::string("the battery has not been measured"); }, Concern::kNone},
     {FindingKind::kHeightUnmeasured, 0.0, kKnownAgain_s, heightUnmeasured,
      [](const Condition& c, const Config&) {
-       return fmt::format("the surface below is not measured for {:.1f} s", c.vertical_age_s);
+       return fmt::format("the surface below has not been measured for {:.1f} s", c.vertical_age_s);
      },
      Concern::kPosition},
     {FindingKind::kPositionUncertain, 0.0, kKnownAgain_s,

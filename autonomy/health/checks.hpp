@@ -21,7 +21,7 @@ inline constexpr double kUnseenHold_s = 0.3;
 inline constexpr double kUnseenLand_s = 1.0;
 /// Standard deviation of the position, gathered where the laser did not fix it, at which the vehicle flies back. Half
 /// of a door's width is 0.45 m, and a map of walls that are off by more is no map to fly by
-/// (docs/decisions/fail_safes.md).
+/// (docs/decisions/fail_safes.md#029).
 inline constexpr double kDriftBack_m = 1.0;
 /// The same at which it lands; in the open it flies back up to twice as much, because the trail leads inside.
 inline constexpr double kDriftLand_m = 2.0;
@@ -30,11 +30,11 @@ inline constexpr double kDriftLand_m = 2.0;
 struct VehicleCondition {
   common::FlightState flight = common::FlightState::kPreparation;
   common::EnergyLayer energy;
-  std::string charge_counted_on;  ///< EnergyMonitor::countedOn.
-  double unseen_s = 0.0;          ///< Since a sensor saw the surroundings; 0 on the ground.
-  double pilot_silent_s = 0.0;    ///< Since a pilot who flies was heard of; 0 while the program flies.
-  double vertical_age_s = 0.0;    ///< VehicleState::verticalAge_s.
-  double drift_m = 0.0;           ///< See DriftMonitor.
+  std::string gauge_fault;      ///< EnergyMonitor::gaugeFault.
+  double unseen_s = 0.0;        ///< Since a sensor saw the surroundings; 0 on the ground.
+  double pilot_silent_s = 0.0;  ///< Since a pilot who flies was heard of; 0 while the program flies.
+  double vertical_age_s = 0.0;  ///< VehicleState::verticalAge_s.
+  double drift_m = 0.0;         ///< See DriftMonitor.
   /// Whether the map has walls around the vehicle, by which the position may be found again: not so in the open.
   bool walls_around = true;
   /// Whether the state is valid and some sensor has just measured the position and the height.

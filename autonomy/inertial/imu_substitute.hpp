@@ -15,7 +15,7 @@ namespace swiftlet::autonomy {
 /// One thread.
 class ImuSubstitute {
  public:
-  /// Lag of the thrust behind its command: motors of 25 to 60 ms (docs/decisions/control.md).
+  /// Lag of the thrust behind its command: motors of 25 to 60 ms (docs/decisions/control.md#028).
   static constexpr double kThrustLag_s = 0.05;
 
   /// The lag of the attitude behind a setpoint that the controllers assume.

@@ -15,7 +15,7 @@ constexpr double kSilent_s = 0.08;
 /// Greatest age of the newest inertial sample, by its time of measurement.
 constexpr double kLate_s = 0.1;
 /// Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones
-/// (docs/decisions/fail_safes.md, 036).
+/// (docs/decisions/fail_safes.md#036).
 constexpr double kRepeats_s = 0.06;
 /// Three coarse numbers may repeat for longer by chance than those of a whole sample.
 constexpr double kAlone = 3.0;
@@ -51,10 +51,11 @@ std::string_view ImuWatch::fault(Time now) const {
     return finite_ ? "no inertial samples" : "the inertial samples are not finite";
   if ((now - newest.measured).seconds() > kLate_s) return "the inertial samples are late";
   if (repeats()) return "the inertial samples repeat";
-  if ((newest.measured - attitude_changed_).seconds() > kRepeats_s) return "the AHRS gives the same attitude";
-  if ((newest.measured - rates_changed_).seconds() > kAlone * kRepeats_s) return "the gyroscopes give the same rates";
+  if ((newest.measured - attitude_changed_).seconds() > kRepeats_s) return "the attitude of the AHRS is frozen";
+  if ((newest.measured - rates_changed_).seconds() > kAlone * kRepeats_s)
+    return "the rates of the gyroscopes are frozen";
   if ((newest.measured - force_changed_).seconds() > kAlone * kRepeats_s)
-    return "the accelerometers give the same force";
+    return "the forces of the accelerometers are frozen";
   return {};
 }
 

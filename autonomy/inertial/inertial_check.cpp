@@ -36,10 +36,6 @@ constexpr double kVerticalWindow_s = 0.05;
 constexpr double kHorizontal_m_s2 = 2.5;
 /// More than twice the push of a hand, so that its median does not see the push.
 constexpr double kHorizontalWindow_s = 0.3;
-/// Samples are used again once nothing has contradicted them for this long.
-constexpr double kTrustedAgain_s = 1.0;
-/// A contradiction that has lasted this long ends in a landing.
-constexpr double kLandAfter_s = 1.5;
 constexpr double kPause_s = 0.1;  ///< After a pause the windows start over.
 /// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
 constexpr std::size_t kUsualSamples = 320;
@@ -73,7 +69,7 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   last_ = now;
   if (!continues || !context_.airborne) window_.clear();
   if (!context_.airborne) {
-    rates_wrong_.reset(), force_wrong_.reset(), since_.reset();
+    rates_wrong_.reset(), force_wrong_.reset();
     fault_ = Fault::kNone;
     return sample;
   }
@@ -83,10 +79,12 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
     return (now - one.sample.stamps.measured).seconds() <= longest_s + 0.02;
   });
   window_.erase(window_.begin(), kept);
-  compare(now);
+  fault_ = Fault::kNone;
+  rates_wrong_.update(ratesDiffer(), now);
+  force_wrong_.update(forcesDiffer(), now);
   ImuSample used = sample;
-  if (rates_wrong_) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
-  if (force_wrong_) {
+  if (rates_wrong_.active()) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
+  if (force_wrong_.active()) {
     // A replaced value is off by a few percent of gravity for seconds, which is worth this much noise.
     spread_m_s2_ = spread_m_s2_ > 0.0 ? -kImpliedSpread_m_s2 : kImpliedSpread_m_s2;
     used.specific_force_body_m_s2 =
@@ -123,21 +121,6 @@ Vector3d InertialCheck::ahrsRate_rad_s() const {
   return turned.angle() / span_s * turned.axis();
 }
 
-void InertialCheck::compare(Time now) {
-  fault_ = Fault::kNone;
-  compareRates(now);
-  compareForces(now);
-  const auto forgive = [&](std::optional<Time>& wrong) {
-    if (wrong && (now - *wrong).seconds() > kTrustedAgain_s) wrong.reset();
-  };
-  forgive(rates_wrong_);
-  forgive(force_wrong_);
-  if (!contradicted())
-    since_.reset();
-  else if (!since_)
-    since_ = now;
-}
-
 std::string InertialCheck::fault() const {
   if (!contradicted()) return {};
   switch (fault_) {
@@ -150,8 +133,8 @@ std::string InertialCheck::fault() const {
     case Fault::kNone:
       break;
   }
-  return rates_wrong_ ? "the gyroscopes contradicted the AHRS a moment ago"
-                      : "the accelerometer contradicted the thrust a moment ago";
+  return rates_wrong_.active() ? "the gyroscopes contradicted the AHRS a moment ago"
+                               : "the accelerometer contradicted the thrust a moment ago";
 }
 
 /// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
@@ -169,34 +152,34 @@ std::optional<double> InertialCheck::medianForce_m_s2(double span_s, int compone
   return *middle;
 }
 
-void InertialCheck::compareRates(Time now) {
+bool InertialCheck::ratesDiffer() {
   const auto mean = meanOver(window_, kRateWindow_s,
                              [](const Compared& one) { return Vector3d(one.sample.angular_velocity_body_rad_s); });
-  if (!mean) return;
+  if (!mean) return false;
   const double off_deg_s = (*mean - ahrsRate_rad_s()).norm() / common::kRadPerDeg;
-  if (off_deg_s < kRate_deg_s) return;
-  rates_wrong_ = now;
+  if (off_deg_s < kRate_deg_s) return false;
   fault_ = Fault::kRates;
   fault_size_ = off_deg_s;
+  return true;
 }
 
-void InertialCheck::compareForces(Time now) {
+bool InertialCheck::forcesDiffer() {
+  bool differ = false;
   const auto distrust = [&](double off_m_s2, Fault fault) {
-    force_wrong_ = now;
+    differ = true;
     fault_ = fault;
     fault_size_ = off_m_s2;
   };
   const auto x = medianForce_m_s2(kHorizontalWindow_s, 0), y = medianForce_m_s2(kHorizontalWindow_s, 1);
   if (x && y && std::hypot(*x, *y) > kHorizontal_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
   const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
-  if (!known) return;
+  if (!known) return differ;
   const auto along = meanOver(window_, kVerticalWindow_s, [](const Compared& one) {
     return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
   });
   // Less force than the thrust gives means a sinking vehicle, by a weak motor or battery. More force is impossible.
   if (along && *along > kVertical_m_s2) distrust(*along, Fault::kAlong);
+  return differ;
 }
-
-bool InertialCheck::mustLand(Time now) const { return since_ && (now - *since_).seconds() > kLandAfter_s; }
 
 }  // namespace swiftlet::autonomy

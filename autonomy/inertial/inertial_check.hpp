@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "common/hysteresis.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 
@@ -40,13 +41,13 @@ class InertialCheck {
   /// the thrust. A sample that is not finite is returned unchanged and left out.
   common::ImuSample checked(const common::ImuSample& sample);
   /// Samples are being replaced.
-  bool contradicted() const { return rates_wrong_ || force_wrong_; }
+  bool contradicted() const { return rates_wrong_.active() || force_wrong_.active(); }
   /// What contradicts what, with figures, for people; empty while all fits.
   std::string fault() const;
-  /// The fault has lasted for 1.5 s: the vehicle must come down while the other sensors hold it.
-  bool mustLand(common::Time now) const;
 
  private:
+  /// Samples are used again once nothing has contradicted them for this long.
+  static constexpr double kTrustedAgain_s = 1.0;
   struct Compared {
     common::ImuSample sample;
     double expected_m_s2 = 0.0;  ///< Specific force along z.
@@ -56,17 +57,16 @@ class InertialCheck {
   double impliedForce_m_s2(double expected_m_s2) const;
   Eigen::Vector3d ahrsRate_rad_s() const;
   std::optional<double> medianForce_m_s2(double span_s, int component);
-  void compare(common::Time now);
-  void compareRates(common::Time now);
-  void compareForces(common::Time now);
+  bool ratesDiffer();
+  bool forcesDiffer();
 
   InertialContext context_;
   std::vector<Compared> window_;     ///< The last samples, oldest first, at most as long as the longest window.
   std::vector<double> sorted_m_s2_;  ///< Scratch of the median.
   double thrust_over_hover_ = 1.0;
   double spread_m_s2_ = 0.0;  ///< Of the last force that was replaced.
-  std::optional<common::Time> last_, since_;
-  std::optional<common::Time> rates_wrong_, force_wrong_;  ///< When they last were wrong.
+  std::optional<common::Time> last_;
+  common::Hysteresis rates_wrong_{0.0, kTrustedAgain_s}, force_wrong_{0.0, kTrustedAgain_s};
   /// What the last sample contradicts; kNone if it is left out only because of earlier ones.
   enum class Fault { kNone, kRates, kAcross, kAlong };
   Fault fault_ = Fault::kNone;

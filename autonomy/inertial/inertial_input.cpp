@@ -5,15 +5,22 @@ namespace swiftlet::autonomy {
 using common::ImuSample;
 using common::Time;
 
+namespace {
+
+/// A contradiction that has lasted this long ends in a landing, while the other sensors hold the vehicle.
+constexpr double kLandAfter_s = 1.5;
+
+}  // namespace
+
 /// On the ground a faulty sample goes to the filter as it is, which starts only if it makes sense.
 std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
   watch_.add(sample);
   if (watch_.repeats() || (airborne_ && !watch_.fault(sample.stamps.arrived).empty())) return std::nullopt;
-  const bool before = check_.contradicted();
   const ImuSample used = check_.checked(sample);
-  const bool contradicted = check_.contradicted();
-  if (contradicted && !before) log_.warn(sample.stamps.arrived, "imu", "inertial samples are replaced", check_.fault());
-  if (!contradicted && before) log_.info(sample.stamps.arrived, "imu", "the inertial samples fit again");
+  const common::Edge edge = contradicted_.update(check_.contradicted(), sample.stamps.measured);
+  if (edge == common::Edge::kEntered)
+    log_.warn(sample.stamps.arrived, "imu", "inertial samples are replaced", check_.fault());
+  if (edge == common::Edge::kLeft) log_.info(sample.stamps.arrived, "imu", "inertial samples trusted again");
   if (used.rotation_ahrs_body.coeffs().allFinite()) substitute_.measured(used);
   return used;
 }
@@ -21,6 +28,10 @@ std::optional<ImuSample> InertialInput::take(const ImuSample& sample) {
 std::optional<ImuSample> InertialInput::predicted(Time now) {
   if (!airborne_ || !setpoints_apply_ || watch_.fault(now).empty()) return std::nullopt;
   return substitute_.next(now);
+}
+
+std::string InertialInput::mustLandFor(Time now) const {
+  return contradicted_.active_s(now) > kLandAfter_s ? check_.fault() : std::string();
 }
 
 void InertialInput::flown(const common::Setpoint& setpoint, const InertialContext& context) {

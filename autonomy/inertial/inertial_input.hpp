@@ -10,6 +10,7 @@
 #include "autonomy/inertial/imu_watch.hpp"
 #include "autonomy/inertial/inertial_check.hpp"
 #include "common/event_log.hpp"
+#include "common/hysteresis.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
 #include "common/vehicle.hpp"
@@ -33,14 +34,15 @@ class InertialInput {
   /// Why measured samples cannot be used at `now`; empty if they can. As of ImuWatch::fault.
   std::string_view fault(common::Time now) const { return watch_.fault(now); }
   /// Samples arrive, but a part of them is replaced.
-  bool contradicted() const { return check_.contradicted(); }
+  bool contradicted() const { return contradicted_.active(); }
   /// Why the vehicle must come down although samples arrive; empty if it need not.
-  std::string mustLandFor(common::Time now) const { return check_.mustLand(now) ? check_.fault() : std::string(); }
+  std::string mustLandFor(common::Time now) const;
 
  private:
   common::EventLog& log_;
   ImuWatch watch_;
   InertialCheck check_;
+  common::Hysteresis contradicted_;
   ImuSubstitute substitute_;
   bool airborne_ = false;
   bool setpoints_apply_ = true;

@@ -12,7 +12,11 @@ namespace swiftlet::autonomy {
 
 FlightLoop::FlightLoop(common::Vehicle& vehicle, Autonomy& autonomy,
                        common::LosslessQueue<common::OperatorCommand>& commands, std::vector<FlightSink*> sinks)
-    : vehicle_(vehicle), autonomy_(autonomy), commands_(commands), feed_(autonomy, std::move(sinks)) {}
+    : vehicle_(vehicle),
+      autonomy_(autonomy),
+      commands_(commands),
+      feed_(autonomy, std::move(sinks)),
+      now_(vehicle.now()) {}
 
 bool FlightLoop::step(common::Time now) {
   now_ = now;

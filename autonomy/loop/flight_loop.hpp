@@ -8,6 +8,7 @@
 //               the tick  ==> setpoint --> vehicle
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "autonomy/loop/input_feed.hpp"
@@ -36,6 +37,10 @@ class FlightLoop {
   /// Call it once, after the last step. It reports to the sinks which kinds of jobs took longer than declared.
   void finish();
 
+  /// An event of the program around the loop, for every sink.
+  void tell(common::Event event) { feed_.tell(std::move(event)); }
+
+  /// The time of the last step; before the first that of the vehicle.
   common::Time now() const { return now_; }
 
  private:

@@ -6,7 +6,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// Longest time of going nearer or aside; a path is requested meanwhile (docs/decisions/planning.md, 005).
+/// Longest time of going nearer or aside; a path is requested meanwhile (docs/decisions/planning.md#005).
 constexpr double kDetour_s = 15.0;
 
 }  // namespace
@@ -28,8 +28,8 @@ void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m) 
 
 Progress Detour::begin(const DetourPlan& plan, std::string reason, Time now, const common::VehicleState& state) {
   active_ = true;
-  const std::string what = plan.makes_room ? "goes aside to make room" : "goes nearer to look";
-  memory_.say(now, common::Severity::kInfo, what, std::move(reason));
+  const std::string what = plan.makes_room ? "moves aside to make room" : "moves closer to look";
+  memory_.log.info(now, kFlightSource, what, std::move(reason));
   flight_.offer(plan.path, now, state);
   return Progress::running("detour: " + what);
 }

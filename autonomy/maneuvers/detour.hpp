@@ -22,7 +22,7 @@ inline constexpr double kViewpointTolerance_m = 0.15;
 ///     +-------------------------------------------+
 class Detour {
  public:
-  /// Period at which a maneuver asks for its own path while a detour is flown (docs/decisions/planning.md, 005).
+  /// Period at which a maneuver asks for its own path while a detour is flown (docs/decisions/planning.md#005).
   static constexpr double kAskAgain_s = 1.0;
 
   /// `flight` is the maneuver's own flight, which the detour borrows.
@@ -33,7 +33,7 @@ class Detour {
   /// requested) long enough ago.
   bool due(common::Time stuck_since, common::Time now) const;
   void ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m);
-  /// `reason` says why there is no path. Returns the progress meanwhile: "detour: goes nearer to look".
+  /// `reason` says why there is no path. Returns the progress meanwhile: "detour: moves closer to look".
   Progress begin(const DetourPlan& plan, std::string reason, common::Time now, const common::VehicleState& state);
   /// Call it once a tick. Stops when the detour has arrived, took too long, or lost its path.
   void endWhenOver(const ManeuverInput& input);

@@ -11,6 +11,7 @@
 #include "autonomy/maneuvers/detour.hpp"
 #include "autonomy/maneuvers/path_maneuver.hpp"
 #include "autonomy/maneuvers/table.hpp"
+#include "common/hysteresis.hpp"
 #include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
@@ -25,7 +26,7 @@ constexpr double kViewpointTolerance_deg = 12.0;
 /// Least time between choices of the next viewpoint, in seconds and as a share of the flight time to the present one.
 constexpr double kExplorePeriod_s = 0.5, kExplorePeriodShare = 0.15;
 /// A person seen within this time may block what could not be reached, or may have been mapped there. Then a detour is
-/// made, but not forever (docs/decisions/planning.md, 005).
+/// made, but not forever (docs/decisions/planning.md#005).
 constexpr double kLately_s = 30.0, kLookInto_s = 30.0;
 /// The last scans may not be in the map yet. Exploring is done only after this many equal answers while the vehicle
 /// stands still.
@@ -53,10 +54,10 @@ class Explore final : public PathManeuver {
   std::string reason_;  ///< Reason of the last answer.
   std::optional<common::Time> asked_;
   std::optional<planning::Viewpoint> viewpoint_;
-  std::optional<common::Time> looks_since_;  ///< Since when it has been at the viewpoint with the right heading.
-  std::optional<common::Time> shut_in_since_;
-  int done_answers_ = 0;                    ///< Number of successive answers without an open frontier.
-  std::optional<common::Time> done_since_;  ///< Time of the first of these answers.
+  common::Hysteresis looks_{kLook_s};  ///< From the viewpoint, with the right heading.
+  common::Hysteresis shut_in_;         ///< Frontiers are open, but there is no path to any.
+  common::Hysteresis nothing_open_;    ///< The answers are without an open frontier.
+  int done_answers_ = 0;               ///< Those of them that came while the vehicle stood still.
   std::optional<Eigen::Vector2d> blocked_frontier_map_m_;
 };
 
@@ -73,15 +74,14 @@ Aim Explore::aim(const common::VehicleState& state) const {
 }
 
 Progress Explore::fly(const ManeuverInput& input) {
-  if (shut_in_since_ && (input.now - *shut_in_since_).seconds() > setup_.config.give_up_s)
-    return Progress::failed(reason_);
+  if (shut_in_.active_s(input.now) > setup_.config.give_up_s) return Progress::failed(reason_);
   const bool replan = flight_.keep(input);
   const bool looked = look(input);
   detour_.endWhenOver(input);
   const double period_s = detour_.active() ? Detour::kAskAgain_s : reconsiderAfter_s();
   const bool due = !asked_ || (input.now - *asked_).seconds() >= period_s || looked || (replan && !flight_.plan());
   if (!due || !flight_.mayAsk()) return Progress::running();
-  if (blocked_frontier_map_m_ && detour_.due(*done_since_, input.now)) {
+  if (blocked_frontier_map_m_ && detour_.due(nothing_open_.since(), input.now)) {
     detour_.ask(input, *blocked_frontier_map_m_);
   } else {
     asked_ = input.now;
@@ -105,12 +105,8 @@ bool Explore::look(const ManeuverInput& input) {
   const double turn_rad = std::abs(common::wrapAngle(pose.yaw_rad - viewpoint_->pose_map.yaw_rad));
   const bool near = (pose.position_m() - viewpoint_->pose_map.position_m()).norm() < kViewpointTolerance_m;
   const bool turned = turn_rad < kViewpointTolerance_deg * std::numbers::pi / 180.0;
-  if (!near || !turned) {
-    looks_since_.reset();
-    return false;
-  }
-  if (!looks_since_) looks_since_ = input.now;
-  if ((input.now - *looks_since_).seconds() < kLook_s) return false;
+  looks_.update(near && turned, input.now);
+  if (!looks_.active()) return false;
   setup_.memory.attempts.push_back(planning::attemptFrom(*viewpoint_));
   viewpoint_.reset();
   flight_.release();
@@ -122,14 +118,14 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
   if (!answer.exploration) return Progress::running();
   const planning::ExplorationResult& result = *answer.exploration;
   reason_ = result.reason;
-  if (result.next || result.done) shut_in_since_.reset();
+  if (result.next || result.done) shut_in_.reset();
   if (result.next) {
     goOn(answer, now, state);
   } else if (!detour_.active()) {
     viewpoint_.reset();
     flight_.abandon();
     if (result.done) return nothingOpen(result, now);
-    if (!shut_in_since_) shut_in_since_ = now;
+    shut_in_.update(true, now);
   }
   return Progress::running(reason_);
 }
@@ -137,12 +133,12 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
 void Explore::goOn(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
   const planning::ExplorationResult& result = *answer.exploration;
   done_answers_ = 0;
-  done_since_.reset();
+  nothing_open_.reset();
   blocked_frontier_map_m_.reset();
   detour_.breakOff();
   if (!result.kept_current) {
     viewpoint_ = result.next;
-    looks_since_.reset();
+    looks_.reset();
     flight_.setGoalYaw(result.next->pose_map.yaw_rad);
     flight_.release();
   }
@@ -150,7 +146,7 @@ void Explore::goOn(const PlanningAnswer& answer, Time now, const common::Vehicle
 }
 
 Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time now) {
-  if (!done_since_) done_since_ = now;
+  nothing_open_.update(true, now);
   blocked_frontier_map_m_ = blockedFrontier(result, now);
   if (blocked_frontier_map_m_)
     reason_ = "a person may block the path";
@@ -162,7 +158,7 @@ Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time no
 std::optional<Eigen::Vector2d> Explore::blockedFrontier(const planning::ExplorationResult& result, Time now) const {
   const auto& people_seen = setup_.memory.people_seen;
   const bool people = people_seen && (now - *people_seen).seconds() < kLately_s;
-  if (!people || (now - *done_since_).seconds() >= kLookInto_s) return std::nullopt;
+  if (!people || nothing_open_.active_s(now) >= kLookInto_s) return std::nullopt;
   const common::Frontier* longest = nullptr;
   for (const common::Frontier& f : result.frontiers)
     if (f.reason == common::FrontierReason::kUnreachable && (!longest || f.length_m > longest->length_m)) longest = &f;
@@ -171,8 +167,8 @@ std::optional<Eigen::Vector2d> Explore::blockedFrontier(const planning::Explorat
 
 Progress Explore::explored(const planning::ExplorationResult& result, Time now) {
   for (const common::Frontier& frontier : result.frontiers)
-    setup_.memory.say(
-        now, common::Severity::kInfo,
+    setup_.memory.log.info(
+        now, kFlightSource,
         fmt::format("frontier of {:.2f} m at {} left: {}", frontier.length_m,
                     setup_.desk.costMap()->names().of(frontier.centroid_map_m), toString(frontier.reason)),
         frontier.explanation);

@@ -3,8 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "autonomy/planning_jobs/planning_request.hpp"
@@ -19,6 +17,9 @@
 namespace swiftlet::autonomy {
 
 struct TourState;
+
+/// The source of the maneuvers' events.
+inline constexpr const char* kFlightSource = "flight";
 
 struct FlightMemory {
   explicit FlightMemory(common::EventLog& events) : log(events) {}
@@ -45,10 +46,6 @@ struct FlightMemory {
   common::Time person_watched;                    ///< When `person` was last updated.
   std::vector<std::shared_ptr<TourState>> tours;  ///< Those that have not ended, see Tour; the newest last.
   std::optional<Eigen::Vector2d> person_map_m;    ///< Last estimated place of the person who is, or was, followed.
-
-  void say(common::Time now, common::Severity severity, std::string text, std::string reason = {}) {
-    log.add({now, severity, "flight", std::move(text), std::move(reason)});
-  }
 };
 
 /// The heights now: of paths, of the controller's reference, and of the plan that leads below something.

@@ -10,6 +10,7 @@
 #include "autonomy/maneuvers/path_maneuver.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "common/geometry.hpp"
+#include "common/hysteresis.hpp"
 #include "common/segment.hpp"
 #include "perception/people/dynamic_obstacles.hpp"
 #include "perception/people/person_watch.hpp"
@@ -39,7 +40,7 @@ constexpr double kLooksAhead_s = 8.0, kLooksAround_deg_s = 25.0;
 /// The vehicle gives way to a person who comes too near within this time.
 constexpr double kGivesWay_s = 1.0;
 
-// Constant time headway. The values are measured in flights (docs/decisions/following.md, "Distance and speed").
+// Constant time headway. The values are measured in flights (docs/decisions/following.md).
 /// Behind a person who stands the distance is smaller than the wanted one by this, as the person may set off faster
 /// than the vehicle.
 constexpr double kStandsNearer_m = 0.3;
@@ -79,11 +80,11 @@ class Follow final : public PathManeuver {
   common::FollowIntent intent_;
   std::shared_ptr<perception::PersonWatch> person_;  ///< Never null after the first watch().
   std::optional<Eigen::Vector2d> target_map_m_;
-  std::optional<common::Time> since_, near_since_;
+  std::optional<common::Time> since_;
   std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for a person.
   common::Time asked_;
   bool on_trail_ = false;  ///< The plan leads along the trail.
-  bool lost_ = false;
+  common::Hysteresis lost_, near_{kNear_s};
 };
 
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
@@ -126,9 +127,9 @@ Progress Follow::fly(const ManeuverInput& input) {
 }
 
 Progress Follow::search(const ManeuverInput& input) {
-  if (intent_.until_near) return Progress::failed("nobody was followed before");
+  if (intent_.until_near) return Progress::failed("no person was followed before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
-    return Progress::failed(fmt::format("nobody walks within {:.0f} m for {:.0f} s",
+    return Progress::failed(fmt::format("no walking person within {:.0f} m for {:.0f} s",
                                         perception::DynamicObstacles::kMaxRange_m, intent_.lost_s));
   const double turned_rad = common::kRadPerDeg * kLooksAround_deg_s * ((input.now - *since_).seconds() - kLooksAhead_s);
   if (!since_yaw_rad_) since_yaw_rad_ = input.state.T_map_body_planar().yaw_rad;
@@ -137,26 +138,23 @@ Progress Follow::search(const ManeuverInput& input) {
     setup_.controller.lookAt(input.position_map_m() + perception::DynamicObstacles::kMaxRange_m *
                                                           Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
   }
-  return Progress::running("waits for somebody who walks");
+  return Progress::running("waits for a walking person");
 }
 
 Progress Follow::progress(const ManeuverInput& input) {
   const double unseen_s = person_->unseen_s(input.now);
   const double distance_m = (person_->place_map_m(input.now) - input.position_map_m()).norm();
-  if (unseen_s > kLost_s && !lost_)
-    setup_.memory.say(input.now, common::Severity::kWarning, "the person is out of sight");
-  if (unseen_s <= kLost_s && lost_) setup_.memory.say(input.now, common::Severity::kInfo, "the person is seen again");
-  lost_ = unseen_s > kLost_s;
+  const common::Edge edge = lost_.update(unseen_s > kLost_s, input.now);
+  if (edge == common::Edge::kEntered) setup_.memory.log.warn(input.now, kFlightSource, "the person is out of sight");
+  if (edge == common::Edge::kLeft) setup_.memory.log.info(input.now, kFlightSource, "the person is seen again");
   if (intent_.until_near) {
     const bool near =
         distance_m < intent_.distance_m + kPersonTolerance_m && input.state.velocity_odom_m_s.norm() < 0.2;
-    if (!near) near_since_.reset();
-    if (near && !near_since_) near_since_ = input.now;
-    if (near && (input.now - *near_since_).seconds() >= kNear_s)
-      return Progress::done(fmt::format("{:.1f} m from the person", distance_m));
+    near_.update(near, input.now);
+    if (near_.active()) return Progress::done(fmt::format("{:.1f} m from the person", distance_m));
   }
   if (unseen_s > intent_.lost_s) return Progress::failed(fmt::format("the person was not seen for {:.0f} s", unseen_s));
-  return Progress::running(lost_ ? "looking for the person" : fmt::format("following, {:.1f} m", distance_m));
+  return Progress::running(lost_.active() ? "looking for the person" : fmt::format("following, {:.1f} m", distance_m));
 }
 
 void Follow::pursue(const ManeuverInput& input) {

@@ -15,6 +15,7 @@
 #include "autonomy/maneuvers/table.hpp"
 #include "common/geometry.hpp"
 #include "common/goal.hpp"
+#include "common/hysteresis.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -80,12 +81,12 @@ class GoTo final : public PathManeuver {
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
-  std::optional<common::Time> goal_taken_since_;  ///< Since when the goal itself has not been free.
-  bool shifted_;                                  ///< Whether a free place beside the goal is accepted.
-  bool sees_heights_ = false;                     ///< Whether there is a 3D map.
-  Eigen::Vector2d place_map_m_;                   ///< The goal, or the free place that is flown to instead.
-  std::optional<Eigen::Vector2d> ahead_map_m_;    ///< Of the last path to the goal, a little ahead of the vehicle.
-  common::Time asked_;                            ///< When the path to the goal was last requested.
+  common::Hysteresis goal_taken_;               ///< The goal itself is not free.
+  bool shifted_;                                ///< Whether a free place beside the goal is accepted.
+  bool sees_heights_ = false;                   ///< Whether there is a 3D map.
+  Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
+  std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.
+  common::Time asked_;                          ///< When the path to the goal was last requested.
 };
 
 GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
@@ -136,9 +137,9 @@ Progress GoTo::fly(const ManeuverInput& input) {
 }
 
 void GoTo::shiftWhenDue(Time now) {
-  if (shifted_ || !no_path_ || !goal_taken_since_ || intent_.shift_m <= 0.0) return;
+  if (shifted_ || !no_path_ || intent_.shift_m <= 0.0) return;
   const double after_s = mayPass(no_path_->failure) ? intent_.shift_after_s : kGrowing_s;
-  shifted_ = (now - *goal_taken_since_).seconds() > after_s;
+  shifted_ = goal_taken_.active_s(now) > after_s;
 }
 
 double GoTo::patience_s() const {
@@ -152,8 +153,8 @@ void GoTo::tellLaserAlone(Time now, const planning::PlanFailure& failure) {
   using Reason = planning::PlanFailure::Reason;
   const bool may_hang = failure.reason == Reason::kUnreachable || failure.reason == Reason::kGoalUnseen;
   if (sees_heights_ || !may_hang || std::exchange(setup_.memory.told_laser_alone, true)) return;
-  setup_.memory.say(now, common::Severity::kInfo, "whether there is room below what blocks the path is not known",
-                    "no camera makes a 3D map");
+  setup_.memory.log.info(now, kFlightSource, "room below the obstacle on the path is unknown",
+                         "without a camera there is no 3D map");
 }
 
 /// The laser does not see behind the vehicle: a vehicle that waits aside with its back to the blockage
@@ -174,7 +175,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   const bool beside = (end_map_m - intent_.goal_map_m).norm() > common::kShareOfTolerance * intent_.tolerance_m;
   place_map_m_ = beside ? end_map_m : intent_.goal_map_m;
   if (!beside) {
-    goal_taken_since_.reset();
+    goal_taken_.reset();
     shifted_ = shiftsAtOnce();
   }
   flight_.offer(**answer.path, now, state);
@@ -183,16 +184,13 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
 
 Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
   if (!no_path_) {
-    setup_.memory.say(now, common::Severity::kWarning, "no path to the goal at present", failure.text);
+    setup_.memory.log.warn(now, kFlightSource, "no path to the goal at present", failure.text);
     tellLaserAlone(now, failure);
     no_path_ = NoPath{now, failure};
   }
   no_path_->failure = failure;
-  if (!isGoalTaken(failure)) {
-    if (!shifted_) goal_taken_since_.reset();  // The question was about the goal itself.
-  } else if (!goal_taken_since_) {
-    goal_taken_since_ = now;
-  }
+  // While a place beside the goal is accepted, another failure says nothing about the goal itself.
+  if (const bool taken = isGoalTaken(failure); taken || !shifted_) goal_taken_.update(taken, now);
   return Progress::running("waiting: " + failure.text);
 }
 

@@ -12,6 +12,7 @@
 #include "autonomy/maneuvers/tour.hpp"
 #include "common/geometry.hpp"
 #include "common/goal.hpp"
+#include "common/hysteresis.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -51,8 +52,7 @@ class Inspect final : public Tour {
   std::string doing(const ManeuverInput& input) const override;
 
   common::InspectIntent intent_;
-  std::optional<common::Time> faces_since_;  ///< None while it looks elsewhere.
-  bool faced_ = false;                       ///< It has turned to the point since it began, or was interrupted.
+  common::Hysteresis faces_{kFacesFor_s};  ///< The point; updated until it does, since it began or was interrupted.
 };
 
 Inspect::Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup)
@@ -84,8 +84,9 @@ void Inspect::chooseHeight(const ManeuverInput& input) {
   const double greatest_m = setup_.controller.maxHeight_m();
   setup_.memory.cruise_height_m = std::clamp(wanted_m, std::min(common::kLeastFlightHeight_m, greatest_m), greatest_m);
   if (std::abs(setup_.memory.cruise_height_m - wanted_m) > kPassesBy_m)
-    setup_.memory.say(input.now, common::Severity::kWarning, "the camera's axis passes by the point",
-                      fmt::format("it would meet it from a height of {:.2f} m, which is out of bounds", wanted_m));
+    setup_.memory.log.warn(
+        input.now, kFlightSource, "the camera's axis misses the point",
+        fmt::format("it meets the point from a height of {:.2f} m, which is out of bounds", wanted_m));
 }
 
 std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const ManeuverInput& input) {
@@ -110,22 +111,19 @@ std::string Inspect::doing(const ManeuverInput& input) const {
 }
 
 /// It has turned to the point, at the first place or where it goes on after an interruption, and left that place.
-bool Inspect::inspecting(const ManeuverInput& input) const { return faced_ && passed() > 1 && isOnCircle(input); }
+bool Inspect::inspecting(const ManeuverInput& input) const {
+  return faces_.active() && passed() > 1 && isOnCircle(input);
+}
 
 bool Inspect::isOnCircle(const ManeuverInput& input) const {
   return std::abs((input.position_map_m() - intent_.point_map_m).norm() - intent_.radius_m) < kOnCircle_m;
 }
 
 bool Inspect::ready(const ManeuverInput& input) {
-  if (passed() == 0 || faced_) return true;
+  if (passed() == 0 || faces_.active()) return true;
   const double yaw_rad = input.state.T_map_body_planar().yaw_rad;
-  const bool faces = std::abs(common::wrapAngle(headingToSee_rad(input) - yaw_rad)) < kFacesPoint_rad;
-  if (!faces)
-    faces_since_.reset();
-  else if (!faces_since_)
-    faces_since_ = input.now;
-  faced_ = faces && (input.now - *faces_since_).seconds() >= kFacesFor_s;
-  return faced_;
+  faces_.update(std::abs(common::wrapAngle(headingToSee_rad(input) - yaw_rad)) < kFacesPoint_rad, input.now);
+  return faces_.active();
 }
 
 }  // namespace

@@ -22,7 +22,6 @@ namespace swiftlet::autonomy {
 namespace {
 
 using common::FlightState;
-using common::Severity;
 using common::Time;
 
 constexpr double kStopping_s = 1.5;  ///< From the greatest speed to a hover, with what then settles.
@@ -115,8 +114,8 @@ void Land::choose(const ManeuverInput& input) {
   phase_ = Phase::kFliesThere;
   const double distance_m = (*place_map_m_ - here_map_m_).norm();
   if (distance_m > kTolerance_m)
-    setup_.memory.say(input.now, Severity::kInfo, "landing at " + input.names.of(*place_map_m_),
-                      fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
+    setup_.memory.log.info(input.now, kFlightSource, "landing at " + input.names.of(*place_map_m_),
+                           fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
 }
 
 /// A place to look from need not be reached; what is seen on the way counts, too.
@@ -142,7 +141,7 @@ Progress Land::answered(const PlanningAnswer& answer, Time now, const common::Ve
 /// Lands where the vehicle is; `reason` says why not at a better place.
 void Land::descend(Time now, const std::string& reason) {
   phase_ = Phase::kDescends;
-  if (!reason.empty()) setup_.memory.say(now, Severity::kWarning, "landing where it is", reason);
+  if (!reason.empty()) setup_.memory.log.warn(now, kFlightSource, "landing where it is", reason);
   if (setup_.controller.state() != FlightState::kLanding && setup_.controller.state() != FlightState::kEmergencyLanding)
     commanded_ = setup_.controller.command(control::Land{});
 }

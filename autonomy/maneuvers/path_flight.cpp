@@ -10,8 +10,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// A goal is reached only when the vehicle is slower than this, and has been within the tolerance for this long.
-constexpr double kArrivalSpeed_m_s = 0.15, kArrival_s = 0.25;
+constexpr double kArrivalSpeed_m_s = 0.15;  ///< A goal is reached only when the vehicle is slower.
 
 }  // namespace
 
@@ -39,7 +38,7 @@ bool PathFlight::keep(const ManeuverInput& input) {
       keeper_.check(input.now, mapsOf(*cost_map), input.position_map_m(),
                     controller_.follower().brakingDistance_m(mode_, input.state.velocity_odom_m_s.head<2>().norm()));
   if (!check.valid) {
-    memory_.say(input.now, common::Severity::kInfo, "plan given up", check.reason);
+    memory_.log.info(input.now, kFlightSource, "plan discarded", check.reason);
     abandon();
   }
   return check.replan;
@@ -52,8 +51,8 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   if (!keeper_.offer(path, now, mapsOf(*cost_map), state.T_map_body_planar().position_m())) return;
   if (path.anyLowered()) {
     if (!memory_.lowered_m)
-      memory_.say(now, common::Severity::kInfo, fmt::format("flies at {:.2f} m for a while", path.lower_height_m),
-                  fmt::format("something hangs over the path at {:.2f} m", memory_.cruise_height_m));
+      memory_.log.info(now, kFlightSource, fmt::format("flies lower, at {:.2f} m", path.lower_height_m),
+                       fmt::format("obstacle over the path at {:.2f} m", memory_.cruise_height_m));
     memory_.lowered_m = path.lower_height_m;
   }
   control::FlightPath flown;
@@ -102,12 +101,8 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
       (position_map_m.head<2>() - goal_map_m).norm() < tolerance_m &&
       std::abs(position_map_m.z() - endHeight_m() - controller_.lift_m()) < std::max(0.10, tolerance_m) &&
       input.state.velocity_odom_m_s.norm() < kArrivalSpeed_m_s;
-  if (!within) {
-    within_since_.reset();
-    return false;
-  }
-  if (!within_since_) within_since_ = input.now;
-  return (input.now - *within_since_).seconds() >= kArrival_s;
+  within_.update(within, input.now);
+  return within_.active();
 }
 
 /// A plan whose goal is free only at the lower height ends there. The height of paths may be above the greatest: the

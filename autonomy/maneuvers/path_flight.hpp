@@ -11,6 +11,7 @@
 
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "common/flight_mode.hpp"
+#include "common/hysteresis.hpp"
 #include "planning/search/plan_keeper.hpp"
 
 namespace swiftlet::autonomy {
@@ -52,6 +53,8 @@ class PathFlight {
   Aim aim() const;
 
  private:
+  /// A goal is reached only when the vehicle has been within the tolerance for this long.
+  static constexpr double kArrival_s = 0.25;
   planning::PlanMaps mapsOf(const planning::CostMap& costs) const { return {costs, desk_.heights().get()}; }
   std::vector<Eigen::Vector3d> liftedPoints(const planning::Path& path) const;
   double endHeight_m() const;
@@ -64,7 +67,7 @@ class PathFlight {
   planning::PlanKeeper keeper_;
   double pace_m_s_ = std::numeric_limits<double>::infinity();
   std::optional<double> goal_yaw_map_rad_;
-  std::optional<common::Time> within_since_;  ///< Since when the tolerances of the goal have been met.
+  common::Hysteresis within_{kArrival_s};  ///< The tolerances of the goal.
 };
 
 }  // namespace swiftlet::autonomy

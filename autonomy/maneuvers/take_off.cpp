@@ -9,6 +9,7 @@
 
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/table.hpp"
+#include "common/hysteresis.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -28,7 +29,7 @@ class TakeOff final : public Maneuver {
   control::FlightController& controller_;
   FlightMemory& memory_;
   bool begun_ = false;
-  std::optional<common::Time> waits_since_;  ///< For sensors that can carry a flight.
+  common::Hysteresis waits_;  ///< For sensors that can carry a flight.
   tl::expected<void, std::string> commanded_;
 };
 
@@ -66,12 +67,10 @@ std::optional<Progress> TakeOff::waiting(const ManeuverInput& input) {
   if (control::isAirborne(controller_.state())) return std::nullopt;
   const std::string problem = input.unready();
   if (problem.empty()) return std::nullopt;
-  if (!waits_since_) {
-    waits_since_ = input.now;
-    memory_.say(input.now, common::Severity::kWarning, "the take-off waits", problem);
-  }
-  if ((input.now - *waits_since_).seconds() > kLongest_s) return Progress::failed("take-off refused: " + problem);
-  return Progress::running("the take-off waits: " + problem);
+  if (waits_.update(true, input.now) == common::Edge::kEntered)
+    memory_.log.warn(input.now, kFlightSource, "take-off delayed", problem);
+  if (waits_.active_s(input.now) > kLongest_s) return Progress::failed("take-off refused: " + problem);
+  return Progress::running("take-off delayed: " + problem);
 }
 
 void TakeOff::begin(const ManeuverInput& input) {

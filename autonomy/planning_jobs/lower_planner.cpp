@@ -14,7 +14,7 @@ namespace {
 
 /// A little farther than a depth camera sees.
 constexpr double kLowerReach_m = 6.0;
-/// Least height of a path that leads below what the camera sees (docs/decisions/planning.md, 082).
+/// Least height of a path that leads below what the camera sees (docs/decisions/planning.md#082).
 constexpr double kLeastHeight_m = 0.5;
 /// Free height below the middle of the hull; more than what lifts the path over a surface (control.clearance.least_m).
 constexpr double kAirBelow_m = 0.45;

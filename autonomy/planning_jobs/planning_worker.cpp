@@ -12,7 +12,7 @@ namespace {
 
 /// Two cells of the shipped map. The trail passes through every cell between two points (CostMap::applyFlown).
 constexpr double kFlownSpacing_m = 0.1;
-/// Greatest detour that is flown instead of flying lower, in metres of path (docs/decisions/planning.md, 082).
+/// Greatest detour that is flown instead of flying lower, in metres of path (docs/decisions/planning.md#082).
 constexpr double kLowerDetour_m = 10.0;
 
 }  // namespace
@@ -140,8 +140,8 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
 
 std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                                  const Eigen::Vector2d& position_map_m) {
-  // Nearer, the laser has seen the blockage as well as it can: flying there shows no more (docs/decisions/planning.md,
-  // 005).
+  // Nearer, the laser has seen the blockage as well as it can: flying there shows no more
+  // (docs/decisions/planning.md#005).
   constexpr double kWorth_m = 1.5;
   const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
   // A keep-out zone stays, however near the vehicle looks at it.
@@ -165,9 +165,9 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 }
 
 /// The reachable place with the highest score among those where the laser knows the position: its path cost from here,
-/// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (docs/decisions/planning.md,
-/// 005). Beyond the length of a room a place is no better for being farther, and half a metre of width is worth 1.5 m
-/// of path.
+/// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (docs/decisions/planning.md#005).
+/// Beyond the length of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of
+/// path.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
   constexpr int kEvery = 10;  // Where the best place is not held, cells this far apart are compared.

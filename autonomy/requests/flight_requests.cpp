@@ -21,7 +21,7 @@ std::optional<common::CommandResult> FlightRequests::take(const common::Operator
   if (std::holds_alternative<common::ClearKeepOutCommand>(command.kind)) {
     const std::size_t count = keep_out_.clearOperators();
     const std::size_t stay = keep_out_.zones()->size();
-    std::string reason = count == 0 ? "there was none of the operator" : "";
+    std::string reason = count == 0 ? "there was no zone of the operator" : "";
     if (stay > 0) reason += fmt::format("{}{} of the mission stay", reason.empty() ? "" : "; ", stay);
     return common::CommandResult{command.id, true, std::move(reason)};
   }

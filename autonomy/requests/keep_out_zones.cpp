@@ -20,7 +20,7 @@ bool isSame(const common::Polygon& a, const common::Polygon& b) {
 
 std::string KeepOutZones::add(const common::Polygon& zone, Owner owner, const Eigen::Vector2d& home_map_m,
                               const common::PlaceNames& names) {
-  if (std::string problem = problemOf(zone); !problem.empty()) return problem;
+  if (const auto problem = problemOf(zone)) return problem->text();
   if (zone.signedDistance_m(home_map_m) < hull_radius_m_)
     return "the take-off place " + names.of(home_map_m) +
            " would be in it, expected one that leaves the path home free";

@@ -129,10 +129,9 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner, int re
     if (text)
       bind(port, *text);
     else if (!foundEnough())
-      report({place.document->at(*place.element),
-              "SubTree",
-              "port `" + port + "` is missing, and <TreeNodesModel> gives it no default",
-              {}},
+      report({place.document->at(*place.element), "SubTree",
+              Message("tree.subtree-port-missing", "port `{}` is missing, and <TreeNodesModel> gives it no default",
+                      port)},
              record);
   }
 }
@@ -146,9 +145,10 @@ void Builder::checkUnused(const Place& place, const Scope& inner, int record) {
     if (entry.used) continue;
     if (model != documents_.subtree_models.end() && model->second.contains(port)) continue;
     if (!candidates) candidates = namesOfNodes(inner.names);
-    report({place.document->at(*place.element, port), "SubTree", "the tree `" + id + "` has no entry {" + port + "}",
-            didYouMean(port, *candidates)},
-           record, options_.lenient);
+    report(
+        {place.document->at(*place.element, port), "SubTree",
+         Message("tree.unknown-entry", "the tree `{}` has no entry {{{}}}", id, port), didYouMean(port, *candidates)},
+        record, options_.lenient);
   }
 }
 
@@ -270,17 +270,13 @@ NodeOrigin Builder::originOf(const Place& place) const {
 bool Builder::tooLarge(const Place& place) {
   if (gave_up_) return true;
   const ParseLimits& limits = options_.limits;
-  std::string message;
-  if (place.depth >= limits.depth)
-    message = "nodes are nested deeper than " + std::to_string(limits.depth) + ", subtrees included";
-  else if (static_cast<int>(tree_->records.size()) >= limits.nodes)
-    message = "more than " + std::to_string(limits.nodes) + " nodes, subtrees included";
-  else
-    return false;
+  const bool deep = place.depth >= limits.depth;
+  if (!deep && static_cast<int>(tree_->records.size()) < limits.nodes) return false;
   gave_up_ = true;
   report({place.document->at(*place.element),
           place.element->name,
-          std::move(message),
+          deep ? Message("tree.nodes-deep", "nodes are nested deeper than {}, subtrees included", limits.depth)
+               : Message("tree.nodes-many", "more than {} nodes, subtrees included", limits.nodes),
           {},
           "/" + displayNameOf(*place.element)},
          place.parent);

@@ -4,7 +4,10 @@
 #include <array>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/conditions.hpp"
+#include "behaviors/tree/document_problems.hpp"
 #include "behaviors/tree/elements.hpp"
 #include "behaviors/tree/nodes/threshold.hpp"
 
@@ -32,9 +35,9 @@ std::vector<std::string> underscoredNames(bool subtree) {
 std::string expectedChildren(const NodeManifest& manifest) {
   const int least = manifest.minChildren(), most = manifest.maxChildren();
   if (most == 0) return "none";
-  if (least == most) return "exactly " + std::to_string(least);
-  if (least + 1 == most) return std::to_string(least) + " or " + std::to_string(most);
-  return "at least " + std::to_string(least);
+  if (least == most) return fmt::format("exactly {}", least);
+  if (least + 1 == most) return fmt::format("{} or {}", least, most);
+  return fmt::format("at least {}", least);
 }
 
 std::vector<std::string> portNames(const NodeManifest& manifest) {
@@ -44,15 +47,15 @@ std::vector<std::string> portNames(const NodeManifest& manifest) {
 }
 
 /// "`clearance_cm` is in centimetres, expected `clearance_m` in metres", if only the unit differs.
-std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
+std::optional<Message> otherUnit(std::string_view given, const NodeManifest& manifest) {
   for (const PortManifest& port : manifest.ports) {
     const auto expected = unitInWords(unitOf(port.name));
     if (expected.empty() || withoutUnit(port.name) != withoutUnit(given)) continue;
     const auto actual = unitInWords(unitOf(given));
-    return "port `" + std::string(given) + "` is " + (actual.empty() ? "without a unit" : "in " + std::string(actual)) +
-           ", expected `" + port.name + "` in " + std::string(expected);
+    return Message("tree.port-unit", "port `{}` is {}{}, expected `{}` in {}", given,
+                   actual.empty() ? "without a unit" : "in ", actual, port.name, expected);
   }
-  return {};
+  return std::nullopt;
 }
 
 /// The main tree and those that it uses, directly or not.
@@ -117,18 +120,20 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
   if (registry_.find(id) != nullptr) reportNamedAsType(document, element, id);
   if (element.children.size() != 1)
     report({document.at(element), element.name,
-            "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
+            Message("tree.root-count", "`{}` has {} children, expected 1", id, element.children.size()),
             element.children.empty() ? "" : kIntoSequence});
   if (element.text_offset) report(strayText(document, element));
   for (const XmlElement& child : element.children) checkElement(document, child);
 }
 
 void Checker::reportNamedAsType(const Document& document, const XmlElement& element, const std::string& id) {
-  Problem problem{document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type",
-                  "give the tree another ID, as `" + id + "Tree`, here and where it is used"};
-  if (!isTreeNotType(id)) return report(std::move(problem));
-  problem.message += " too, and here only that of the tree";
-  warn(std::move(problem));
+  const Location place = document.at(element, "ID");
+  const std::string hint = fmt::format("give the tree another ID, as `{}Tree`, here and where it is used", id);
+  if (!isTreeNotType(id))
+    return report({place, element.name, Message("tree.id-is-type", "`{}` is the name of a node type", id), hint});
+  warn({place, element.name,
+        Message("tree.id-hides-type", "`{}` is the name of a node type too, and here only that of the tree", id),
+        hint});
 }
 
 void Checker::checkElement(const Document& document, const XmlElement& element) {
@@ -172,7 +177,7 @@ std::string Checker::path() const {
       if (&sibling == open_[i]) before = all;
       if (displayNameOf(sibling) == name) ++all;
     }
-    if (all > 1) path += "[" + std::to_string(before + 1) + "]";
+    if (all > 1) path += fmt::format("[{}]", before + 1);
   }
   return path;
 }
@@ -180,12 +185,13 @@ std::string Checker::path() const {
 void Checker::checkSubTree(const Document& document, const XmlElement& element) {
   const std::string* id = element.attribute("ID");
   if (id == nullptr)
-    report({document.at(element), element.name, "the attribute `ID` is missing", {}});
+    report(missingAttribute(document, element, "ID"));
   else if (!documents_.trees.contains(*id))
     reportNoTree(document, element, *id);
   else
     uses_[tree_id_].try_emplace(*id, Use{&document, &element});
-  if (!element.children.empty()) report({document.at(element), element.name, "a SubTree has no children here", {}});
+  if (!element.children.empty())
+    report({document.at(element), element.name, Message("tree.subtree-children", "a SubTree has no children here")});
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, nullptr);
 }
 
@@ -195,49 +201,39 @@ void Checker::reportNoTree(const Document& document, const XmlElement& element, 
   if (hint.empty())
     hint = lenient_ ? "name the file that has it too: check --mock-leaves " + document.source.file() + " OTHER.xml"
                     : "a tree of another file needs <include path=\"OTHER.xml\"/> below <root>";
-  report({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + id + "\">", std::move(hint)});
+  report(unknownTree(document, element, "ID", std::move(hint)));
 }
 
 void Checker::checkNode(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
   if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind) {
-    Problem problem{document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
-                    std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"};
-    if (lenient_)
-      warn(std::move(problem));
-    else
-      report(std::move(problem));
+    reportForeign({document.at(element), element.name,
+                   Message("tree.wrong-kind", "`{}` is not of this kind", manifest.id),
+                   fmt::format("write <{} ID=\"{}\">", toString(manifest.kind), manifest.id)});
   }
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, &manifest);
   for (const PortManifest& port : manifest.ports)
-    if (port.required && givenTo(port, element) == nullptr) {
-      const std::string what = element.find(port.name) == nullptr ? "missing" : "empty";
-      report({document.at(element, port.name),
-              manifest.id,
-              "port `" + port.name + "` is " + what + ", expected " + expectedOf(port),
-              {}});
-    }
+    if (port.required && givenTo(port, element) == nullptr)
+      report({document.at(element, port.name), manifest.id,
+              Message("tree.port-missing", "port `{}` is {}, expected {}", port.name,
+                      element.find(port.name) == nullptr ? "missing" : "empty", expectedOf(port))});
   checkChildren(document, element, manifest);
 }
 
 void Checker::checkUnknown(const Document& document, const XmlElement& element) {
   const bool is_explicit = explicitKind(element.name).has_value();
-  if (is_explicit && element.attribute("ID") == nullptr) {
-    report({document.at(element), element.name, "the attribute `ID` is missing", {}});
-    return;
-  }
+  if (is_explicit && element.attribute("ID") == nullptr) return report(missingAttribute(document, element, "ID"));
   const std::string& id = typeNameOf(element);
-  std::string message = "unknown node `" + id + "`";
-  std::string hint = didYouMean(id, node_names_);
-  if (documents_.trees.contains(id)) {
-    hint = "a tree is used as <SubTree ID=\"" + id + "\"/>";
-  } else if (const auto* other = std::find_if(kElsewhere.begin(), kElsewhere.end(),
-                                              [&](const auto& known) { return known.first == id; });
-             other != kElsewhere.end()) {
-    message = "`" + id + "` is a node of BehaviorTree.CPP that this engine does not have";
-    hint = other->second;
-  }
-  report({is_explicit ? document.at(element, "ID") : document.at(element), element.name, std::move(message),
-          std::move(hint)});
+  const Location place = is_explicit ? document.at(element, "ID") : document.at(element);
+  const bool is_tree = documents_.trees.contains(id);
+  const auto* other =
+      std::find_if(kElsewhere.begin(), kElsewhere.end(), [&](const auto& known) { return known.first == id; });
+  if (other != kElsewhere.end() && !is_tree)
+    return report(
+        {place, element.name,
+         Message("tree.foreign-node", "`{}` is a node of BehaviorTree.CPP that this engine does not have", id),
+         std::string(other->second)});
+  report({place, element.name, Message("tree.unknown-node", "unknown node `{}`", id),
+          is_tree ? fmt::format("a tree is used as <SubTree ID=\"{}\"/>", id) : didYouMean(id, node_names_)});
 }
 
 void Checker::checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
@@ -247,8 +243,9 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
   const auto place = [&] { return document.at(element, name); };
   const auto owner = [&] { return typeNameOf(element); };
   if (isStructural(element, name)) {
-    if (name == "_autoremap" && !attribute.value.empty() && !parseValue(attribute.value, PortType::kBool, {}))
-      report({place(), owner() + "." + name, "`" + attribute.value + "` is not true or false", {}});
+    if (name == "_autoremap" && !attribute.value.empty())
+      if (auto problem = readValue({.name = name, .type = PortType::kBool}, attribute.value).problem)
+        report({place(), owner() + "." + name, *std::move(problem)});
     return;
   }
   if (const auto condition = conditionOf(name)) {
@@ -258,52 +255,47 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
   const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
   if (port != nullptr && givenTo(*port, element) == nullptr) return;
   const bool script = port != nullptr && port->type == PortType::kScript;
-  if (const auto entry = entryOf(attribute.value, name); entry && !script && !isEntryName(*entry)) {
-    report({place(), owner() + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
-    return;
-  }
+  if (const auto entry = entryOf(attribute.value, name); entry && !script && !isEntryName(*entry))
+    return reportNoEntry(document, element, attribute);
   if (port != nullptr) {
     checkPort(document, element, attribute, *port);
   } else if (name.starts_with('_')) {
-    reportUnknown(document, element, attribute);
+    reportForeign(unknownAttribute(document, element, name,
+                                   name == "__shared_blackboard"
+                                       ? "did you mean `_autoremap`?"
+                                       : didYouMean(name, underscoredNames(isSubTree(element)))));
   } else if (manifest != nullptr) {
     const auto names = portNames(*manifest);
-    std::string message = otherUnit(name, *manifest);
-    if (message.empty())
-      message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : quotedList(names));
-    report({place(), owner(), std::move(message), didYouMean(name, names)});
+    const auto unknown = Message("tree.unknown-port", "unknown port `{}`, expected {}", name,
+                                 names.empty() ? "no ports" : quotedList(names));
+    report({place(), owner(), otherUnit(name, *manifest).value_or(unknown), didYouMean(name, names)});
   }
 }
 
-void Checker::reportUnknown(const Document& document, const XmlElement& element, const XmlAttribute& attribute) {
-  const std::string& name = attribute.name;
-  Problem problem{document.at(element, name), typeNameOf(element), "unknown attribute `" + name + "`",
-                  name == "__shared_blackboard" ? "did you mean `_autoremap`?"
-                                                : didYouMean(name, underscoredNames(isSubTree(element)))};
+void Checker::reportForeign(Problem problem) {
   if (lenient_)
     warn(std::move(problem));
   else
     report(std::move(problem));
 }
 
+void Checker::reportNoEntry(const Document& document, const XmlElement& element, const XmlAttribute& attribute) {
+  report({document.at(element, attribute.name), typeNameOf(element) + "." + attribute.name,
+          Message("tree.not-an-entry", "`{}` is not an entry, expected `{{name}}`", attribute.value)});
+}
+
 void Checker::checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                         const PortManifest& port) {
-  const auto where = [&] { return typeNameOf(element) + "." + port.name; };
-  if (port.type == PortType::kScript) {
-    checkScript(document, element, attribute, port);
-    return;
-  }
+  if (port.type == PortType::kScript) return checkScript(document, element, attribute, port);
   if (entryOf(attribute.value, port.name)) return;
   if (port.direction == Direction::kOutput || port.names_entry) {
     // The key of SetBlackboard, and an entry that is watched, may be written without braces.
     if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
-    report(
-        {document.at(element, port.name), where(), "`" + attribute.value + "` is not an entry, expected `{name}`", {}});
-    return;
+    return reportNoEntry(document, element, attribute);
   }
   ReadValue read = readValue(port, attribute.value);
   if (!read.value)
-    report({document.at(element, port.name), where(), std::move(read.problem),
+    report({document.at(element, port.name), typeNameOf(element) + "." + port.name, *std::move(read.problem),
             didYouMean(attribute.value, allowedTexts(port))});
   else if (port.counts_children && !element.children.empty())
     checkCount(document, element, port, std::get<std::int64_t>(*read.value));
@@ -312,40 +304,36 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
 void Checker::checkCount(const Document& document, const XmlElement& element, const PortManifest& port,
                          std::int64_t count) {
   const std::size_t children = element.children.size();
-  if (std::string problem = tooMany(port.name, count, children); !problem.empty())
-    report({document.at(element, port.name), typeNameOf(element), std::move(problem), {}});
+  if (auto problem = tooMany(port.name, count, children))
+    report({document.at(element, port.name), typeNameOf(element), *std::move(problem)});
   else if (threshold(count, children) == 0)
-    warn({document.at(element, port.name),
-          typeNameOf(element),
-          port.name + " is " + std::to_string(count) + ", which is reached before any child has ended",
-          {}});
+    warn({document.at(element, port.name), typeNameOf(element),
+          Message("tree.count-at-once", "{} is {}, which is reached before any child has ended", port.name, count)});
 }
 
 void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                           const PortManifest& port) {
-  const auto where = [&] { return typeNameOf(element) + "." + port.name; };
-  if (const auto entry = entryOf(attribute.value, port.name)) {
-    report({document.at(element, attribute.name),
-            where(),
-            "a script stands in the file, it is not read from the entry {" + *entry + "}",
-            {}});
-    return;
-  }
+  const auto reportHere = [&](Message message, std::string hint = {}) {
+    report({document.at(element, attribute.name), typeNameOf(element) + "." + port.name, std::move(message),
+            std::move(hint)});
+  };
+  if (const auto entry = entryOf(attribute.value, port.name))
+    return reportHere(
+        Message("tree.script-in-entry", "a script stands in the file, it is not read from the entry {{{}}}", *entry));
   auto [script, problem] = scripts_.add(attribute.value);
   attribute.script = script;
-  if (script == nullptr)
-    report({document.at(element, attribute.name), where(), std::move(problem), {}});
+  if (problem)
+    reportHere(*std::move(problem));
   else if (port.asked && !script->writes().empty())
-    report({document.at(element, attribute.name), where(), "it assigns to an entry, but is only asked",
-            "use == to compare"});
+    reportHere(Message("tree.script-assigns", "it assigns to an entry, but is only asked"), "use == to compare");
 }
 
 void Checker::checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
   const auto children = static_cast<int>(element.children.size());
   if (children >= manifest.minChildren() && children <= manifest.maxChildren()) return;
   report({document.at(element), manifest.id,
-          "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " +
-              expectedChildren(manifest),
+          Message("tree.children-count", "has {} {}, expected {}", children, children == 1 ? "child" : "children",
+                  expectedChildren(manifest)),
           manifest.kind == NodeKind::kDecorator && children > 1 ? kIntoSequence : manifest.about_children});
 }
 
@@ -390,7 +378,8 @@ void Checker::checkRecursion() {
       open_.clear();
       for (const XmlElement& child : documents_.trees.find(tree_id_)->second.element->children)
         if (openUpTo(child, use.element)) break;
-      report({use.document->at(*use.element), "SubTree", "the tree contains itself: " + chain + used,
+      report({use.document->at(*use.element), "SubTree",
+              Message("tree.contains-itself", "the tree contains itself: {}{}", chain, used),
               "a <Repeat> around it runs a tree again"});
       open_.clear();
     }

@@ -43,7 +43,9 @@ class Checker {
   bool isUnused() const;
   /// There is no need to look for more.
   bool foundEnough() const;
-  void reportUnknown(const Document& document, const XmlElement& element, const XmlAttribute& attribute);
+  void reportNoEntry(const Document& document, const XmlElement& element, const XmlAttribute& attribute);
+  /// Leniently a warning.
+  void reportForeign(Problem problem);
   /// With the path of the element that is being checked.
   void report(Problem problem);
   void warn(Problem warning);

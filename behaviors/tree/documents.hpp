@@ -37,9 +37,6 @@ class Problems {
   std::vector<Problem> warnings_;
 };
 
-/// Of an element that holds text.
-Problem strayText(const Document& document, const XmlElement& element);
-
 struct TreeDefinition {
   const Document* document = nullptr;
   const XmlElement* element = nullptr;  ///< <BehaviorTree>.
@@ -69,6 +66,8 @@ class Documents {
   std::string includeFor(const Document& document, const std::string& id) const;
 
  private:
+  /// Adds the problem; false.
+  bool refuse(Problem problem);
   /// False if this file cannot contain a tree at all.
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
   /// False if a mistake prevents the addition, as in addTree().
@@ -77,7 +76,6 @@ class Documents {
   bool checkRoot(const Document& document);
   /// False for a file of another version than 4.
   bool checkFormat(const Document& document);
-  void reportVersion3(const Document& document, const std::string* format);
   void readChildren(const Document& document, const std::string& path);
   /// Of an unknown element or attribute.
   void reportForeign(Problem problem);

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/node_manifest.hpp"
 #include "behaviors/tree/xml_text.hpp"
 
@@ -53,11 +55,10 @@ class Drawing {
   std::string draw() {
     for (const NodeRecord& record : tree_.nodes()) row(record);
     const int height = 2 * kMargin + kRow * static_cast<int>(tree_.nodes().size());
-    const std::string size = std::to_string(width_) + "\" height=\"" + std::to_string(height) + "\"";
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size +
-           " font-family=\"sans-serif\" "
-           "font-size=\"13\">\n<rect width=\"" +
-           size + " fill=\"#ffffff\"/>\n" + text_ + "</svg>\n";
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" font-family=\"sans-serif\" "
+        "font-size=\"13\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n{2}</svg>\n",
+        width_, height, text_);
   }
 
  private:
@@ -71,9 +72,8 @@ class Drawing {
     const int x = xOf(depth), middle = yOf(id) + kRow / 2;
     if (record.parent >= 0) connect(xOf(depth - 1) + kSign / 2, yOf(record.parent) + kRow / 2 + kSign / 2, x, middle);
     const Look look = lookOf(record);
-    text_ += "<rect x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle - kSign / 2) + "\" width=\"" +
-             std::to_string(kSign) + "\" height=\"" + std::to_string(kSign) + "\" rx=\"4\" fill=\"" + look.color +
-             "\"/>\n";
+    text_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"4\" fill=\"{}\"/>\n", x,
+                         middle - kSign / 2, kSign, kSign, look.color);
     text(x + kSign / 2, middle, look.sign, " fill=\"#ffffff\" text-anchor=\"middle\"");
     words(record, x + kSign + kGap, middle);
   }
@@ -88,23 +88,18 @@ class Drawing {
         more += (more.empty() ? "" : "  ") + port.name + "=" +
                 (port.entry.empty() ? port.value.value_or("") : "{" + port.entry + "}");
     if (more.size() > kMostLetters) more = shortened(more);
-    text(x, middle,
-         "<tspan fill=\"#0f172a\" font-weight=\"bold\">" + escaped(name) + "</tspan>" +
-             (more.empty()
-                  ? ""
-                  : "<tspan dx=\"" + std::to_string(kGap) + "\" fill=\"#475569\">" + escaped(more) + "</tspan>"),
-         "");
+    std::string shown = fmt::format("<tspan fill=\"#0f172a\" font-weight=\"bold\">{}</tspan>", escaped(name));
+    if (!more.empty()) shown += fmt::format("<tspan dx=\"{}\" fill=\"#475569\">{}</tspan>", kGap, escaped(more));
+    text(x, middle, shown, "");
     width_ = std::max(width_, x + kLetter * static_cast<int>(name.size() + more.size()) + kGap + kMargin);
   }
 
   void connect(int from_x, int from_y, int to_x, int to_y) {
-    text_ += "<path d=\"M" + std::to_string(from_x) + " " + std::to_string(from_y) + "V" + std::to_string(to_y) + "H" +
-             std::to_string(to_x) + "\" fill=\"none\" stroke=\"#94a3b8\"/>\n";
+    text_ += fmt::format("<path d=\"M{} {}V{}H{}\" fill=\"none\" stroke=\"#94a3b8\"/>\n", from_x, from_y, to_y, to_x);
   }
 
   void text(int x, int middle, const std::string& content, const std::string& style) {
-    text_ += "<text x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(middle + 5) + "\"" + style + ">" + content +
-             "</text>\n";
+    text_ += fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", x, middle + 5, style, content);
   }
 
   const Tree& tree_;

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
@@ -58,18 +60,18 @@ class Scribe final : public Observer {
   explicit Scribe(const Tree& tree) : tree_(tree) {}
 
   void onStatus(const Node& node, Status from, Status to) override {
-    lines_.push_back(tree_.pathOf(node.id()) + ": " + toString(from) + " -> " + toString(to));
+    lines_.push_back(fmt::format("{}: {} -> {}", tree_.pathOf(node.id()), toString(from), toString(to)));
   }
   void onSwitch(const Switch& change) override {
     const std::string to = change.to->name(), from = change.from == nullptr ? "" : change.from->name();
-    const std::string what = change.kind == Switch::Kind::kLetsGo  ? from + " lets go for " + to
-                             : change.kind == Switch::Kind::kKeeps ? to + " goes on"
-                             : from.empty()                        ? to + " has the vehicle"
+    const std::string what = change.kind == Switch::Kind::kLetsGo  ? from + " yields to " + to
+                             : change.kind == Switch::Kind::kKeeps ? to + " continues"
+                             : from.empty()                        ? to + " takes control"
                                                                    : to + " takes over from " + from;
     lines_.push_back(what + (change.reason.empty() ? "" : " (" + change.reason + ")"));
   }
   void onFailure(const Node& node, std::string_view reason) override {
-    lines_.push_back(tree_.pathOf(node.id()) + " fails: " + std::string(reason));
+    lines_.push_back(fmt::format("{} fails: {}", tree_.pathOf(node.id()), reason));
   }
   std::vector<std::string> take() { return std::exchange(lines_, {}); }
 
@@ -125,9 +127,9 @@ class Casting {
       return std::find(scripted->answers.begin(), scripted->answers.end(), status) != scripted->answers.end();
     };
     if (condition && (given(Status::kRunning) || given(Status::kSkipped)))
-      problems_.add({scripted->location, scripted->leaf, "a condition is true or false", {}, path});
+      report(*scripted, Message("tree.answers-of-condition", "a condition is true or false"), {}, path);
     else if (given(Status::kSkipped) && !manifest.may_skip)
-      problems_.add({scripted->location, scripted->leaf, "`" + manifest.id + "` is never SKIPPED", {}, path});
+      report(*scripted, Message("tree.answers-skipped", "`{}` is never SKIPPED", manifest.id), {}, path);
     cast_.add(record.node->id(), {.answers = &scripted->answers, .by_tick = condition});
   }
 
@@ -143,17 +145,18 @@ class Casting {
 
   void reportUnused(const ScriptedAnswers& scripted) {
     const auto named = of_engine_.find(scripted.leaf);
-    if (named != of_engine_.end()) {
-      problems_.add({scripted.location,
-                     scripted.leaf,
-                     named->second ? "it is a node of the engine, which is ticked as it is"
-                                   : "other lines name each of these leaves better",
-                     {}});
-      return;
-    }
+    if (named != of_engine_.end())
+      return report(scripted,
+                    named->second
+                        ? Message("tree.answers-of-engine", "it is a node of the engine, which is ticked as it is")
+                        : Message("tree.answers-unused", "other lines name each of these leaves better"));
     std::vector<std::string> names;
     for (const auto& [name, of_engine] : of_engine_) names.push_back(name);
-    problems_.add({scripted.location, scripted.leaf, "the mission has no such leaf", didYouMean(scripted.leaf, names)});
+    report(scripted, Message("tree.unknown-leaf", "the mission has no such leaf"), didYouMean(scripted.leaf, names));
+  }
+
+  void report(const ScriptedAnswers& scripted, Message message, std::string hint = {}, std::string path = {}) {
+    problems_.add({scripted.location, scripted.leaf, std::move(message), std::move(hint), std::move(path)});
   }
 
   const Tree& tree_;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/elements.hpp"
 
@@ -29,7 +31,7 @@ std::string Documents::includeFor(const Document& document, const std::string& i
   if (file == nullptr) return {};
   const std::string from_here =
       fs::path(*file).lexically_relative(fs::path(document.source.file()).parent_path()).generic_string();
-  return "write <include path=\"" + (from_here.empty() ? *file : from_here) + "\"/> below <root>";
+  return fmt::format("write <include path=\"{}\"/> below <root>", from_here.empty() ? *file : from_here);
 }
 
 void Documents::readElsewhere(const Document& main_file) {
@@ -103,12 +105,12 @@ TreeFiles treeFiles(const std::vector<std::string>& paths) {
     for (const auto& [id, location] : file.trees) {
       const auto [known, is_new] = first.try_emplace(id, location);
       if (is_new || !named.contains(id)) continue;
-      together.warnings.push_back({location,
-                                   "BehaviorTree",
-                                   "`" + id + "` is defined at " + toString(Problem{known->second, {}, {}, {}}) +
-                                       " too; a SubTree takes that of its own file, else of its folder, else the first",
-                                   "give one of them another ID",
-                                   {}});
+      together.warnings.push_back({location, "BehaviorTree",
+                                   Message("tree.defined-elsewhere",
+                                           "`{}` is defined at {} too; a SubTree takes that of its own file, else of "
+                                           "its folder, else the first",
+                                           id, toString(known->second)),
+                                   "give one of them another ID"});
     }
   }
   return together;

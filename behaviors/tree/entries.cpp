@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/builder.hpp"
 
 namespace swiftlet::tree {
@@ -31,8 +33,8 @@ std::vector<std::string> namesOfSet(const TreeParts& tree) {
 std::string hintFor(const TreeParts& tree, const std::string& name) {
   const std::vector<std::string> names = namesOfSet(tree);
   if (std::find(names.begin(), names.end(), name) == names.end()) return didYouMean(name, names);
-  return "another tree has one of this name: share it by " + name + "=\"{" + name +
-         "}\" or _autoremap=\"true\" on the SubTree";
+  return fmt::format(
+      "another tree has one of this name: share it by {0}=\"{{{0}}}\" or _autoremap=\"true\" on the SubTree", name);
 }
 
 /// Where scripts only change the entry, the usual cause is `=` in the place of `:=`.
@@ -75,21 +77,23 @@ class EntryChecker {
     if (!judged_.emplace(source, read.port).second) return;
     for (const LiteralWrite& literal : tree_.flows[source].literals) {
       if (problems_.full()) return;
-      const ReadValue value = readValue(*read.port, literal.text);
-      if (!value.value)
-        problems_.add({tree_.locate(literal.origin, literal.attribute),
-                       literal.attribute,
-                       value.problem + " (read by " + nameOf(read) + " from " + nameOf(slot) + ")",
-                       {},
-                       tree_.pathOf(literal.origin.node)});
+      auto problem = readValue(*read.port, literal.text).problem;
+      if (!problem) continue;
+      problem->append(fmt::format(" (read by {} from {})", nameOf(read), nameOf(slot)));
+      problems_.add({tree_.locate(literal.origin, literal.attribute),
+                     literal.attribute,
+                     *std::move(problem),
+                     {},
+                     tree_.pathOf(literal.origin.node)});
     }
   }
 
   void reportNotSet(std::size_t slot, const EntryRead& read) {
     if (options_.user_sets_entries) return;
     const std::string& name = tree_.slots[slot].name;
-    Problem problem{tree_.locate(read.origin, read.port->name), nameOf(read), "nothing sets the entry " + nameOf(slot),
-                    hintFor(tree_, name), tree_.pathOf(read.origin.node)};
+    Problem problem{tree_.locate(read.origin, read.port->name), nameOf(read),
+                    Message("tree.entry-unset", "nothing sets the entry {}", nameOf(slot)), hintFor(tree_, name),
+                    tree_.pathOf(read.origin.node)};
     if (problem.hint.empty()) problem.hint = hintFor(tree_.flows[slot], name);
     const bool constant = options_.lenient && read.port->type == PortType::kScript && looksLikeConstant(name);
     if (!constant && !options_.host_sets_entries) {
@@ -103,12 +107,12 @@ class EntryChecker {
     problems_.warn(std::move(problem));
   }
   void reportType(std::size_t slot, const EntryRead& read, PortType written) {
-    problems_.add(
-        {tree_.locate(read.origin, read.port->name),
-         nameOf(read),
-         "the entry " + nameOf(slot) + " is written as " + toString(written) + ", expected " + expectedOf(*read.port),
-         {},
-         tree_.pathOf(read.origin.node)});
+    problems_.add({tree_.locate(read.origin, read.port->name),
+                   nameOf(read),
+                   Message("tree.entry-type", "the entry {} is written as {}, expected {}", nameOf(slot),
+                           toString(written), expectedOf(*read.port)),
+                   {},
+                   tree_.pathOf(read.origin.node)});
   }
 
   static std::string nameOf(const EntryRead& read) { return read.owner + "." + read.port->name; }

@@ -7,6 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/core.h>
+
+#include "behaviors/tree/document_problems.hpp"
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/elements.hpp"
 
@@ -31,7 +34,7 @@ Documents::Mains Documents::likelyMains(const Document& main_file) const {
 
 std::string Documents::Mains::hint() const {
   if (ids.empty()) return {};
-  std::string text = "write main_tree_to_execute=\"" + ids.front() + "\"";
+  std::string text = fmt::format("write main_tree_to_execute=\"{}\"", ids.front());
   if (unused == 1) text += " for the only tree that no other one uses";
   if (unused < 2) return text;
   constexpr std::size_t kMost = 4;
@@ -46,12 +49,14 @@ void Documents::findMain(const Document& main_file) {
   if (wanted != nullptr && wanted->empty()) wanted = nullptr;
   if ((wanted == nullptr ? mains.ids.empty() : !trees.contains(*wanted)) && lost_a_tree_) return;
   if (wanted == nullptr && mains.ids.empty()) {
-    problems_.add({main_file.at(root), "root", "there is no <BehaviorTree>", {}});
+    problems_.add({main_file.at(root), "root", Message("tree.no-tree", "there is no <BehaviorTree>")});
     return;
   }
   if (wanted == nullptr && mains.ids.size() > 1) {
-    const std::string message = "main_tree_to_execute is missing, expected where there are several trees";
-    reportForeign({main_file.at(root), "root", message, mains.hint()});
+    reportForeign(
+        {main_file.at(root), "root",
+         Message("tree.main-missing", "main_tree_to_execute is missing, expected where there are several trees"),
+         mains.hint()});
     if (!options_.lenient) return;
   }
   main_id = wanted == nullptr ? mains.ids.front() : *wanted;
@@ -59,8 +64,7 @@ void Documents::findMain(const Document& main_file) {
   if (const auto found = trees.find(main_id); found != trees.end())
     main = &found->second;
   else
-    problems_.add({main_file.at(root, "main_tree_to_execute"), "root",
-                   "there is no <BehaviorTree ID=\"" + main_id + "\">", near.empty() ? mains.hint() : near});
+    problems_.add(unknownTree(main_file, root, "main_tree_to_execute", near.empty() ? mains.hint() : near));
 }
 
 }  // namespace swiftlet::tree

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "behaviors/tree/document_problems.hpp"
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/version3.hpp"
@@ -20,10 +21,10 @@ Edit formatEdit(const Document& document) {
 
 std::optional<Problem> migrationRefusal(const Document& document) {
   const XmlElement& root = document.root;
-  if (root.name != "root") return Problem{document.at(root), root.name, "the outermost element must be <root>", {}};
+  if (root.name != "root") return notRoot(document, "");
   const std::string* format = root.attribute("BTCPP_format");
   if (format == nullptr || *format == "3" || *format == "4") return std::nullopt;
-  return Problem{document.at(root, "BTCPP_format"), "root", "BTCPP_format=\"" + *format + "\", expected \"3\"", {}};
+  return otherFormat(document, "3");
 }
 
 /// Names that version 3 allowed cannot all become attributes: two may be equal, or hold a character that XML does not
@@ -31,17 +32,17 @@ std::optional<Problem> migrationRefusal(const Document& document) {
 std::optional<Problem> whatIsBroken(const Document& document, const std::string& text) {
   const XmlResult xml = parseXml(SourceText(document.source.file(), text), ParseLimits{}.depth);
   if (xml.root) return std::nullopt;
-  return Problem{document.at(document.root), "root",
-                 "the rewritten file would not be XML (" + xml.problem->message + ")",
-                 "give its SubTrees and their remaps other names first"};
+  return Problem{
+      document.at(document.root), "root",
+      Message("tree.rewritten-malformed", "the rewritten file would not be XML ({})", xml.problem->message.text()),
+      "give its SubTrees and their remaps other names first"};
 }
 
 }  // namespace
 
 Migration migrateToVersion4(std::string text, const std::string& name) {
   constexpr ParseLimits kLimits;
-  if (text.size() > kLimits.file_bytes)
-    return {{}, {}, {{{name, 0, 0}, {}, "is larger than " + std::to_string(kLimits.file_bytes) + " bytes", {}}}};
+  if (text.size() > kLimits.file_bytes) return {{}, {}, {{{name}, {}, fileTooLarge(name, kLimits.file_bytes)}}};
   SourceText source(name, std::move(text));
   XmlResult xml = parseXml(source, kLimits.depth);
   if (!xml.root) return {{}, {}, {std::move(*xml.problem)}};
@@ -56,9 +57,10 @@ Migration migrateToVersion4(std::string text, const std::string& name) {
     return migration;
   }
   std::vector<Edit> edits = {formatEdit(document)};
-  migration.changes.push_back({document.at(document.root), "root", "BTCPP_format=\"4\" says the version", {}});
+  migration.changes.push_back(
+      {document.at(document.root), "root", Message("tree.format-written", "BTCPP_format=\"4\" says the version")});
   for (Version3Use& use : version3Uses(document)) {
-    Problem change{document.source.locate(use.offset), use.element->name, use.message, {}};
+    Problem change{document.source.locate(use.offset), use.element->name, use.message};
     if (!use.rewritable) {
       change.hint = "but a script cannot hold one of its values: name the entry with letters, digits and `_`";
       problems.add(change);

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/builder.hpp"
 
 namespace swiftlet::tree {
@@ -70,17 +72,19 @@ class NumberTexts {
  private:
   Problem warningOf(const NumberText& a, const NumberText& b) const {
     const ScriptPairing& pairing = paired_.pairing;
-    const std::string shown = "`" + nameOf(pairing.left) + " " + signOf(pairing.op) + " " + nameOf(pairing.right) + "`";
-    const std::string what = pairing.op == ScriptOp::kAdd
-                                 ? " joins texts, `" + a.text + "` and `" + b.text + "` give `" + a.text + b.text + "`"
-                                 : " compares `" + a.text + "` and `" + b.text + "` as texts, not as numbers";
+    const std::string shown = fmt::format("{} {} {}", nameOf(pairing.left), signOf(pairing.op), nameOf(pairing.right));
+    const Message what =
+        pairing.op == ScriptOp::kAdd
+            ? Message("tree.texts-joined", "`{0}` joins texts, `{1}` and `{2}` give `{1}{2}`", shown, a.text, b.text)
+            : Message("tree.texts-compared", "`{}` compares `{}` and `{}` as texts, not as numbers", shown, a.text,
+                      b.text);
     const ScriptSide& entry = pairing.left.is_entry ? pairing.left : pairing.right;
     const std::string& number = pairing.left.is_entry ? a.text : b.text;
     const std::string hint = entry.is_entry
-                                 ? "<Script code=\"" + nameOf(entry) + " := " + number + "\"/> makes it a number"
+                                 ? fmt::format("<Script code=\"{} := {}\"/> makes it a number", nameOf(entry), number)
                                  : "write them without quotes";
     const EntryRead& read = paired_.read;
-    return {tree_.locate(read.origin, read.port->name), read.owner + "." + read.port->name, shown + what, hint,
+    return {tree_.locate(read.origin, read.port->name), read.owner + "." + read.port->name, what, hint,
             tree_.pathOf(read.origin.node)};
   }
 

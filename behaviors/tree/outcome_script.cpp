@@ -66,7 +66,7 @@ class ScriptLines {
     // The last colon, because names may have some.
     const std::size_t colon = content.rfind(':');
     if (colon == std::string_view::npos || withoutBlanks(content.substr(0, colon)).empty()) {
-      script_.problems.push_back({place, {}, "expected `LEAF: ANSWER, ANSWER x3, ...`", {}});
+      script_.problems.push_back({place, {}, Message("tree.answers-line", "expected `LEAF: ANSWER, ANSWER x3, ...`")});
       return;
     }
     const std::string key(withoutBlanks(content.substr(0, colon)));
@@ -81,7 +81,7 @@ class ScriptLines {
     const auto count = countOf(value, kMostAnswers);
     if (!count)
       script_.problems.push_back(
-          {place, key, "`" + std::string(value) + "` is not a whole number from 1 to 100000", {}});
+          {place, key, Message("tree.answers-count", "`{}` is not a whole number from 1 to 100000", value)});
     else
       (key == "ticks" ? script_.ticks : script_.tick_ms) = *count;
   }
@@ -89,7 +89,8 @@ class ScriptLines {
   void readAnswers(const std::string& leaf, std::string_view value, const Location& place) {
     ScriptedAnswers scripted{leaf, {}, place};
     if (const auto [first, is_new] = lines_.try_emplace(leaf, place.line); !is_new) {
-      script_.problems.push_back({place, leaf, "is named twice, first in line " + std::to_string(first->second),
+      script_.problems.push_back({place, leaf,
+                                  Message("tree.answers-twice", "is named twice, first in line {}", first->second),
                                   "write all its answers in one line"});
       return;
     }
@@ -115,7 +116,8 @@ class ScriptLines {
       scripted.answers.insert(scripted.answers.end(), static_cast<std::size_t>(*count), *answer);
       return true;
     }
-    script_.problems.push_back({scripted.location, scripted.leaf, "`" + std::string(text) + "` is not an answer",
+    script_.problems.push_back({scripted.location, scripted.leaf,
+                                Message("tree.unknown-answer", "`{}` is not an answer", text),
                                 "expected RUNNING, SUCCESS, FAILURE, SKIPPED, true or false, as in `RUNNING x3`"});
     return false;
   }

@@ -71,9 +71,9 @@ std::optional<Edit> editOf(const SourceText& source, const XmlElement& element, 
   return Edit{name_end, name_end, " " + parameter.port->name + "=\"" + escaped(value) + "\""};
 }
 
-std::string problemWith(const Parameter& parameter, const std::string& value) {
-  if (value.empty()) return parameter.port->required ? "it is required" : "";
-  return readValue(*parameter.port, value).problem;
+std::optional<Message> problemWith(const Parameter& parameter, const std::string& value) {
+  if (!value.empty()) return readValue(*parameter.port, value).problem;
+  return parameter.port->required ? std::optional(Message("tree.parameter-required", "it is required")) : std::nullopt;
 }
 
 }  // namespace
@@ -102,8 +102,9 @@ Changed withParameters(const std::string& text, const std::string& name, const R
     const auto value = values.find(parameter.key);
     if (value == values.end()) return;
     ++used;
-    if (std::string problem = problemWith(parameter, value->second); !problem.empty())
-      changed.problems.push_back({source.locate(element.offset, parameter.port->name), parameter.key, problem, {}});
+    if (auto problem = problemWith(parameter, value->second))
+      changed.problems.push_back(
+          {source.locate(element.offset, parameter.port->name), parameter.key, *std::move(problem)});
     else if (auto edit = editOf(source, element, parameter, value->second))
       edits.push_back(std::move(*edit));
   };
@@ -111,7 +112,10 @@ Changed withParameters(const std::string& text, const std::string& name, const R
   if (used < values.size())
     for (const auto& [key, value] : values)
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        changed.problems.push_back({{name, 0, 0}, key, "the mission has no such parameter", didYouMean(key, keys)});
+        changed.problems.push_back({{name},
+                                    key,
+                                    Message("tree.unknown-parameter", "the mission has no such parameter"),
+                                    didYouMean(key, keys)});
   if (changed.problems.empty()) changed.text = edited(source.text(), std::move(edits));
   return changed;
 }

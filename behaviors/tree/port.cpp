@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include <fmt/core.h>
+
 namespace swiftlet::tree {
 namespace {
 
@@ -73,7 +75,7 @@ std::string expectedValueOf(const PortManifest& port) {
   if (!text.empty()) return text;
   if (port.names_entry) return "an entry";
   if (port.elements && *port.elements != PortType::kString)
-    return "a list with `;` between, each element a " + std::string(toString(*port.elements));
+    return fmt::format("a list with `;` between, each element a {}", toString(*port.elements));
   if (port.elements) return "a list of texts with `;` between";
   switch (port.type) {
     case PortType::kAny:
@@ -99,9 +101,9 @@ std::string expectedValueOf(const PortManifest& port) {
       text = "a time";
       break;
   }
-  if (const auto words = unitInWords(unitOf(port.name)); !words.empty()) text += " in " + std::string(words);
+  if (const auto words = unitInWords(unitOf(port.name)); !words.empty()) text += fmt::format(" in {}", words);
   if (port.minimum && port.maximum)
-    text += " from " + toString(Value(*port.minimum)) + " to " + toString(Value(*port.maximum));
+    text += fmt::format(" from {} to {}", toString(Value(*port.minimum)), toString(Value(*port.maximum)));
   else if (port.minimum)
     text += " not below " + toString(Value(*port.minimum));
   else if (port.maximum)
@@ -131,10 +133,14 @@ std::optional<std::string_view> wrongElement(std::string_view list, PortType typ
   return std::nullopt;
 }
 
+Message outOfRange(const PortManifest& port, std::string_view text) {
+  return Message("tree.value-range", "`{}` is out of range, expected {}", text, expectedOf(port));
+}
+
 /// A time whose number is right, but too large for any port.
-std::string problemOfLongTime(PortManifest port, std::string_view text) {
+Message longTime(PortManifest port, std::string_view text) {
   port.maximum = longestTime(unitOf(port.name));
-  return "`" + std::string(text) + "` is out of range, expected " + expectedOf(port);
+  return outOfRange(port, text);
 }
 
 }  // namespace
@@ -153,16 +159,16 @@ ReadValue readValue(const PortManifest& port, std::string_view text) {
   ReadValue read;
   if (const auto chosen = choiceOf(port, text)) read.value = parseValue(*chosen, port.type, unitOf(port.name));
   if (!read.value && port.type == PortType::kDuration && parseValue(text, PortType::kDouble, {})) {
-    read.problem = problemOfLongTime(port, text);
+    read.problem = longTime(port, text);
   } else if (!read.value) {
-    read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
+    read.problem = Message("tree.value-type", "`{}` is not {}", text, expectedOf(port));
   } else if (!inRange(port, *read.value)) {
     read.value.reset();
-    read.problem = "`" + std::string(text) + "` is out of range, expected " + expectedOf(port);
+    read.problem = outOfRange(port, text);
   } else if (const auto wrong = port.elements ? wrongElement(text, *port.elements) : std::nullopt) {
     read.value.reset();
     read.problem =
-        "the element `" + std::string(*wrong) + "` of `" + std::string(text) + "` is not a " + toString(*port.elements);
+        Message("tree.list-element", "the element `{}` of `{}` is not a {}", *wrong, text, toString(*port.elements));
   }
   return read;
 }
@@ -196,11 +202,12 @@ std::optional<T> Input<T>::get() const {
 template <typename T>
 std::string Input<T>::problem() const {
   if (binding_.manifest == nullptr) return "no such port";
-  const std::string port = "port " + binding_.manifest->name + ": ";
-  if (binding_.slot == nullptr) return port + "not given";
-  const std::string entry = "the entry {" + binding_.slot->name + "}";
-  if (!binding_.slot->value) return port + entry + " is not set";
-  return port + entry + " is `" + toString(*binding_.slot->value) + "`, expected " + expectedOf(*binding_.manifest);
+  const std::string& port = binding_.manifest->name;
+  const Slot* slot = binding_.slot;
+  if (slot == nullptr) return fmt::format("port {}: not given", port);
+  if (!slot->value) return fmt::format("port {}: the entry {{{}}} is not set", port, slot->name);
+  return fmt::format("port {}: the entry {{{}}} is `{}`, expected {}", port, slot->name, toString(*slot->value),
+                     expectedOf(*binding_.manifest));
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "behaviors/tree/message.hpp"
 #include "behaviors/tree/value.hpp"
 
 namespace swiftlet::tree {
@@ -49,7 +50,7 @@ std::string expectedOf(const PortManifest& port);
 /// The value of `text` for this port, or what is wrong with it.
 struct ReadValue {
   std::optional<Value> value;
-  std::string problem;
+  std::optional<Message> problem;
 };
 ReadValue readValue(const PortManifest& port, std::string_view text);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/value.hpp"
 
@@ -69,13 +71,16 @@ const std::string* nearest(std::string_view word, std::span<const std::string> c
 
 }  // namespace
 
+std::string toString(const Location& location) {
+  std::string text = location.file;
+  if (location.line > 0) text += fmt::format(":{}", location.line);
+  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
+  return text;
+}
+
 std::string toString(const Problem& problem) {
-  std::string text = problem.location.file;
-  if (problem.location.line > 0) {
-    text += ":" + std::to_string(problem.location.line);
-    if (problem.location.column > 0) text += ":" + std::to_string(problem.location.column);
-  }
-  for (const std::string* part : {&problem.element, &problem.message})
+  std::string text = toString(problem.location);
+  for (const std::string* part : {&problem.element, &problem.message.text()})
     if (!part->empty()) text += (text.empty() ? "" : ": ") + *part;
   if (!problem.hint.empty()) text += ", " + problem.hint;
   return text;
@@ -91,7 +96,7 @@ std::string didYouMean(std::string_view word, std::span<const std::string> candi
   const std::string* best = nearest(word, candidates);
   if (best == nullptr) return {};
   const std::string misleads = misleadingCharacterIn(*best);
-  return "did you mean `" + *best + "`" + (misleads.empty() ? "?" : ", which holds " + misleads + "?");
+  return fmt::format("did you mean `{}`{}{}?", *best, misleads.empty() ? "" : ", which holds ", misleads);
 }
 
 std::string quotedList(std::span<const std::string> words) {

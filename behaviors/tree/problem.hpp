@@ -1,10 +1,12 @@
-// An error in a tree file, as shown to the user.
+// A problem in a tree file, as shown to the user.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "behaviors/tree/message.hpp"
 
 namespace swiftlet::tree {
 
@@ -20,13 +22,15 @@ struct Location {
 struct Problem {
   Location location;
   std::string element;  ///< The tag, or "Tag.port".
-  std::string message;  ///< What is wrong, with the offending text, and what was expected.
-  std::string hint;     ///< "did you mean `x`?"; may be empty.
+  Message message;      ///< What is wrong, with the offending text, and what was expected.
+  std::string hint{};   ///< "did you mean `x`?"; may be empty.
   std::string path{};   ///< "Main/Sequence[2]/Land", the node in its tree; empty if it is about no node.
 
   bool operator==(const Problem&) const = default;
 };
 
+/// "file:line:column" without the parts that are unknown.
+std::string toString(const Location& location);
 /// "file:line:column: element: message, hint".
 std::string toString(const Problem& problem);
 /// One line a problem.

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/conditions.hpp"
 #include "behaviors/tree/elements.hpp"
 #include "behaviors/tree/script/lexer.hpp"
@@ -54,8 +56,6 @@ std::optional<std::string_view> lookUp(const std::array<Names, N>& names, std::s
   return found == names.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::string inBackticks(std::string_view name) { return "`" + std::string(name) + "`"; }
-
 class Version3Reader {
  public:
   explicit Version3Reader(const Document& document) : document_(document), source_(document.source) {}
@@ -82,11 +82,17 @@ class Version3Reader {
 
   Version3Use& add(const XmlElement& element, std::size_t offset, const std::string& what, const std::string& now) {
     return uses_.emplace_back(
-        Version3Use{&element, offset, what + " is of version 3, version 4 writes " + now, false, {}, true});
+        Version3Use{&element,
+                    offset,
+                    Message("tree.version-3", "{} is of version 3, version 4 writes {}", what, now),
+                    false,
+                    {},
+                    true});
   }
 
   void renameType(const XmlElement& element, const std::string& type, std::string_view name) {
-    add(element, element.offset, inBackticks(type), inBackticks(name)).edits = typeEdits(element, type, name);
+    add(element, element.offset, fmt::format("`{}`", type), fmt::format("`{}`", name)).edits =
+        typeEdits(element, type, name);
   }
 
   /// In both tags, or the attribute ID of the explicit form.
@@ -103,7 +109,8 @@ class Version3Reader {
 
   void renameAttribute(const XmlElement& element, const AttributeSpan& span, const std::string& from,
                        std::string_view to) {
-    add(element, span.name, inBackticks(from), inBackticks(to)).edits = {{span.name, span.name_end, std::string(to)}};
+    add(element, span.name, fmt::format("`{}`", from), fmt::format("`{}`", to)).edits = {
+        {span.name, span.name_end, std::string(to)}};
   }
 
   void readSubTree(const XmlElement& element, bool plus) {
@@ -125,8 +132,10 @@ class Version3Reader {
     const std::string text = escaped(attribute.value);
     uses_.push_back({&element,
                      span.name,
-                     "version 3 means the entry {" + attribute.value + "}, version 4 the text `" + attribute.value +
-                         "`, and writes {" + attribute.value + "} for the entry",
+                     Message("tree.version-3-entry",
+                             "version 3 means the entry {{{0}}}, version 4 the text `{0}`, and writes {{{0}}} for the "
+                             "entry",
+                             attribute.value),
                      true,
                      {{span.opening_quote + 1, span.closing_quote, "{" + text + "}"}},
                      true});
@@ -136,9 +145,9 @@ class Version3Reader {
   void readRemap(const XmlElement& subtree, const XmlElement& remap) {
     const std::string *inner = remap.attribute("internal"), *outer = remap.attribute("external");
     if (inner == nullptr || outer == nullptr) return;
-    const std::string attribute = *inner + "=\"{" + escaped(*outer) + "}\"";
+    const std::string attribute = fmt::format("{}=\"{{{}}}\"", *inner, escaped(*outer));
     const std::size_t name_end = subtree.offset + 1 + subtree.name.size();
-    add(remap, remap.offset, "<remap>", "`" + attribute + "` into the <SubTree>").edits = {
+    add(remap, remap.offset, "<remap>", fmt::format("`{}` into the <SubTree>", attribute)).edits = {
         {name_end, name_end, " " + attribute}, {withBlanksBefore(remap.offset), endOf(remap), {}}};
   }
 
@@ -149,8 +158,8 @@ class Version3Reader {
     const bool text = type == "BlackboardCheckString";
     const std::string script = operand(*a, text) + " == " + operand(*b, text);
     const bool writable = isOperand(*a, text) && isOperand(*b, text);
-    Version3Use& use = add(element, element.offset, inBackticks(type),
-                           "`Precondition if=\"" + script + "\"`, which asks only before its child starts");
+    Version3Use& use = add(element, element.offset, fmt::format("`{}`", type),
+                           fmt::format("`Precondition if=\"{}\"`, which asks only before its child starts", script));
     use.rewritable = writable;
     use.edits = typeEdits(element, type, "Precondition");
     const AttributeSpan first = *source_.spanOf(element.offset, "value_A");

@@ -20,7 +20,7 @@ struct Edit {
 struct Version3Use {
   const XmlElement* element = nullptr;
   std::size_t offset = 0;  ///< Of the element, or of the attribute that it is about.
-  std::string message;     ///< "`SequenceStar` is of version 3, version 4 writes `SequenceWithMemory`".
+  Message message;         ///< "`SequenceStar` is of version 3, version 4 writes `SequenceWithMemory`".
   /// Both versions can read it, with another meaning: the attribute of a <SubTree> without braces.
   bool readable = false;
   std::vector<Edit> edits;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <expat.h>
+#include <fmt/core.h>
 
 #include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/encoding.hpp"
@@ -34,14 +35,14 @@ class Reader {
 
   XmlResult read() {
     XmlResult result;
-    if (text_.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-      result.problem = Problem{{source_.file(), 0, 0}, {}, "the file is too large", {}};
+    if (constexpr std::size_t kMost = std::numeric_limits<int>::max(); text_.size() > kMost) {
+      result.problem = Problem{{source_.file()}, {}, fileTooLarge(source_.file(), kMost)};
       return result;
     }
     if (const std::string_view wide = wideEncoding(text_); !wide.empty()) {
       result.problem = Problem{{source_.file(), 1, 1},
                                {},
-                               "the file begins as " + std::string(wide) + " does, but is not in it",
+                               Message("tree.file-wide", "the file begins as {} does, but is not in it", wide),
                                "save it as UTF-8"};
       return result;
     }
@@ -69,7 +70,7 @@ class Reader {
   }
   static void onDoctype(void* self, const XML_Char* name, const XML_Char*, const XML_Char*, int) {
     if (isHtml(name)) return static_cast<Reader*>(self)->stopAtHtml();
-    static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported",
+    static_cast<Reader*>(self)->stop("<!DOCTYPE>", Message("tree.xml-doctype", "a DOCTYPE is not supported"),
                                      "take it out, and write its entities as the text they stand for");
   }
 
@@ -90,7 +91,7 @@ class Reader {
   Problem htmlPage() const {
     return {source_.locate(offset()),
             {},
-            "this is an HTML page, not a file of trees",
+            Message("tree.html-page", "this is an HTML page, not a file of trees"),
             "download the file itself, which GitHub shows by `Raw`"};
   }
 
@@ -103,7 +104,7 @@ class Reader {
     if (problem_) return;
     if (open_.empty() && isHtml(name)) return stopAtHtml();
     if (static_cast<int>(open_.size()) >= max_depth_ + kOuterLevels) {
-      stop(name, "elements are nested deeper than " + std::to_string(max_depth_), "take levels out");
+      stop(name, Message("tree.elements-deep", "elements are nested deeper than {}", max_depth_), "take levels out");
       return;
     }
     XmlElement& element = open_.empty() ? root_.emplace() : open_.back().element->children.emplace_back();
@@ -128,7 +129,7 @@ class Reader {
     if (first != std::string_view::npos) open_.back().element->text_offset = offset() + first;
   }
 
-  void stop(std::string element, std::string message, std::string hint) {
+  void stop(std::string element, Message message, std::string hint) {
     if (problem_) return;
     problem_ = Problem{source_.locate(offset()), std::move(element), std::move(message), std::move(hint)};
     XML_StopParser(parser_.get(), XML_FALSE);
@@ -143,7 +144,8 @@ class Reader {
     if (code == XML_ERROR_TAG_MISMATCH && stray_end_)
       if (auto problem = strayCommentEnd(source_, *stray_end_)) return *problem;
     return {source_.locate(offset()), open_.empty() ? std::string() : "<" + open_.back().element->name + ">",
-            std::string("malformed XML: ") + XML_ErrorString(code) + strangerAt(code), remedyFor(code)};
+            Message("tree.xml-malformed", "malformed XML: {}{}", XML_ErrorString(code), strangerAt(code)),
+            remedyFor(code)};
   }
 
   /// " at U+201C (left double quotation mark)": where expat stopped, if that is no plain sign of ASCII.
@@ -186,8 +188,8 @@ class Reader {
   }
 
   std::string closingOf(const XmlElement& element) const {
-    return "<" + element.name + "> was opened at line " + std::to_string(source_.locate(element.offset).line) +
-           ", and </" + element.name + "> closes it";
+    return fmt::format("<{0}> was opened at line {1}, and </{0}> closes it", element.name,
+                       source_.locate(element.offset).line);
   }
 
   /// By what is written where expat stopped, or just before; empty if that is no clue.
@@ -226,9 +228,11 @@ class Reader {
     const std::string declared(declaredEncoding(source_.text()));
     return {source_.locate(offset()),
             {},
-            "a byte that is not UTF-8" + (declared.empty() ? "" : ", in a file that says it is " + declared),
-            "`iconv -f WINDOWS-1252 -t UTF-8 " + source_.file() +
-                " > NEW.xml` converts a file of Western Europe; name its encoding if it is another"};
+            Message("tree.not-utf-8", "a byte that is not UTF-8{}{}",
+                    declared.empty() ? "" : ", in a file that says it is ", declared),
+            fmt::format("`iconv -f WINDOWS-1252 -t UTF-8 {} > NEW.xml` converts a file of Western Europe; name its "
+                        "encoding if it is another",
+                        source_.file())};
   }
 
   /// Of what expat reads now, in the source.
@@ -269,6 +273,10 @@ const std::string* XmlElement::attribute(std::string_view attribute_name) const 
   return found == nullptr ? nullptr : &found->value;
 }
 
+Message fileTooLarge(const std::string& file, std::size_t most_bytes) {
+  return Message("tree.file-large", "`{}` is larger than {} bytes", file, most_bytes);
+}
+
 std::optional<Problem> strayCommentEnd(const SourceText& source, std::size_t from) {
   const std::string_view text = source.text();
   const std::size_t at = text.find(kCommentEnd, from);
@@ -277,13 +285,11 @@ std::optional<Problem> strayCommentEnd(const SourceText& source, std::size_t fro
   const std::size_t before = text.substr(0, at).rfind(kCommentEnd);
   const bool ended = before != std::string_view::npos &&
                      text.substr(before, at - before).find(kCommentBegin) == std::string_view::npos;
-  return Problem{source.locate(at),
-                 "-->",
-                 ended ? "the comment before has ended at the --> in line " +
-                             std::to_string(source.locate(before).line) + " already"
-                       : "no comment begins before it",
-                 "a comment ends at its first -->, take the others and <!-- within it out",
-                 {}};
+  return Problem{source.locate(at), "-->",
+                 ended ? Message("tree.comment-ended", "the comment before has ended at the --> in line {} already",
+                                 source.locate(before).line)
+                       : Message("tree.comment-unopened", "no comment begins before it"),
+                 "a comment ends at its first -->, take the others and <!-- within it out"};
 }
 
 XmlResult parseXml(const SourceText& source, int max_depth, bool lenient) {

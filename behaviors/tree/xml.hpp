@@ -45,6 +45,8 @@ struct XmlResult {
   std::vector<std::size_t> unescaped;
 };
 
+/// Of a file that is larger than this.
+Message fileTooLarge(const std::string& file, std::size_t most_bytes);
 /// Of a `-->` in the text that begins at `from` and ends at the next tag: a comment before it has ended already.
 std::optional<Problem> strayCommentEnd(const SourceText& source, std::size_t from);
 

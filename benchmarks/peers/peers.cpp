@@ -16,6 +16,7 @@
 
 #include "benchmarks/peers/mrpt_peers.hpp"
 #include "common/error.hpp"
+#include "common/quantile.hpp"
 #include "common/table.hpp"
 #include "common/trajectory.hpp"
 #include "evaluation/relations.hpp"
@@ -109,8 +110,8 @@ Result runOnce(Peer& peer, const std::vector<LoggedScan>& log, bool odometry,
   const std::vector<Pose2> poses = peer.finish();
   Result result;
   result.total_s = processorSeconds() - begin_s;
-  result.median_ms = evaluation::quantile(milliseconds, 0.5);
-  result.p99_ms = evaluation::quantile(milliseconds, 0.99);
+  result.median_ms = common::quantile(milliseconds, 0.5);
+  result.p99_ms = common::quantile(milliseconds, 0.99);
   std::vector<common::StampedPose> track;
   for (std::size_t i = 0; i < log.size(); ++i)
     track.push_back({log[i].scan.stamps.measured, common::lifted(poses[i], 0.0)});

@@ -18,6 +18,7 @@
 #include "common/config.hpp"
 #include "common/error.hpp"
 #include "common/median_step.hpp"
+#include "common/quantile.hpp"
 #include "common/table.hpp"
 #include "evaluation/trajectory_metrics.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
@@ -151,8 +152,8 @@ std::vector<std::string> rowOf(const std::string& name, const Result& result, co
   return {name,
           fmt::format("{}", result.frames.size() - result.trajectory.size()),
           fmt::format("{:.0f}", 1e3 * offset_s),
-          fmt::format("{:.1f}", evaluation::quantile(result.milliseconds, 0.5)),
-          fmt::format("{:.1f}", evaluation::quantile(result.milliseconds, 0.99)),
+          fmt::format("{:.1f}", common::quantile(result.milliseconds, 0.5)),
+          fmt::format("{:.1f}", common::quantile(result.milliseconds, 0.99)),
           absolute ? fmt::format("{:.1f}", 1e3 * absolute->translation_m.rmse) : "-",
           known(moved, 1e3 * frame.translation_m.median, 2),
           known(moved, 1e3 * frame.translation_m.rmse, 2),

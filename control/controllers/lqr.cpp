@@ -64,12 +64,13 @@ AllGains gainsOf(const Lqr::Config& config, const VehicleModel& model) {
 
 }  // namespace
 
-std::vector<std::string> Lqr::problemsOf(const Config& config, const VehicleModel& model) {
+std::vector<common::Problem> Lqr::problemsOf(const Config& config, const VehicleModel& model) {
   const AllGains gains = gainsOf(config, model);
-  std::vector<std::string> problems;
+  std::vector<common::Problem> problems;
   const auto check = [&](const char* axes, const LqrGains& found) {
     if (!found.converged || !found.K.allFinite())
-      problems.push_back(std::string(axes) + ": the Riccati equation does not converge for these weights");
+      problems.push_back(
+          {{}, axes, common::Message("lqr.no-gains", "the Riccati equation does not converge for these weights"), ""});
   };
   check("forward and left", gains.horizontal);
   check("up", gains.up);

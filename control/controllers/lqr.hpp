@@ -34,7 +34,7 @@ class Lqr final : public Controller {
   };
 
   /// Why there are no gains for these weights and that model: "up: the reason"; empty if there are.
-  static std::vector<std::string> problemsOf(const Config& config, const VehicleModel& model);
+  static std::vector<common::Problem> problemsOf(const Config& config, const VehicleModel& model);
 
   /// `model` has all axes (VehicleModel::hasAxes), and problemsOf() finds nothing; it is read only here.
   Lqr(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel& model);

@@ -70,7 +70,7 @@ tl::expected<ThrustEm, std::string> usableThrust(const std::vector<FlightSamples
                                                  const common::VehicleConfig& vehicle) {
   auto thrust = thrustByVoltage(flights, vehicle);
   if (!thrust) return thrust;
-  if (const auto problem = problemOfRows(thrust->points, vehicle)) return tl::unexpected(problem->message);
+  if (const auto problem = problemOfRows(thrust->points, vehicle)) return tl::unexpected(problem->message.text());
   return thrust;
 }
 
@@ -90,7 +90,7 @@ Identification identify(const std::vector<FlightSamples>& flights, const common:
                         AxisModel& axis) {
     if (!fitted) return result.problems.push_back(std::string(name) + ": " + fitted.error());
     if (const auto unfit = problemsOfAxis(name, *fitted); !unfit.empty())
-      return result.problems.push_back(unfit.front() + "; no vehicle is like that");
+      return result.problems.push_back(toString(unfit.front()) + "; no vehicle is like that");
     axis = *fitted;
     if (lagIsAtBound(axis, longest_lag_s, options))
       result.doubts.push_back(

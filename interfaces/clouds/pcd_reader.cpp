@@ -17,6 +17,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 using namespace point_table;
+using common::Message;
 
 /// A field holds `count` numbers of one type, the first of which counts, except that `rgb` may be three channels.
 struct Field {
@@ -62,8 +63,8 @@ Scalar pcdScalar(const Cursor& cursor, std::string_view type, std::size_t size) 
     if (size == 4) return sign ? Scalar::kInt32 : Scalar::kUint32;
     if (size == 8) return sign ? Scalar::kInt64 : Scalar::kUint64;
   }
-  cursor.fail(
-      fmt::format("a field has the type `{}` with {} bytes", common::printable(std::string(type.substr(0, 8))), size));
+  cursor.fail(Message("pcd.no-type", "a field has the type `{}` with {} bytes",
+                      common::printable(std::string(type.substr(0, 8))), size));
 }
 
 /// The lines of the header by their first word, up to DATA.
@@ -101,8 +102,8 @@ class HeaderReader {
       else if (key == "viewpoint")
         noteViewpoint(values);
       else if (key != "version")
-        cursor_.fail(fmt::format("`{}` is not a line of a header of .pcd",
-                                 common::printable(std::string(line[0].substr(0, 40)))));
+        cursor_.fail(Message("pcd.header-line", "`{}` is not a line of a header of .pcd",
+                             common::printable(std::string(line[0].substr(0, 40)))));
     }
     header.fields = fields(header.data != "ascii");
     return header;
@@ -110,7 +111,7 @@ class HeaderReader {
 
  private:
   std::size_t one(const std::vector<std::string_view>& values) const {
-    if (values.size() != 1) cursor_.fail("a line of the header needs one number");
+    if (values.size() != 1) cursor_.fail(Message("pcd.no-number", "a line of the header needs one number"));
     return count(cursor_, values[0]);
   }
 
@@ -130,14 +131,15 @@ class HeaderReader {
   std::vector<Field> fields(bool binary) {
     const auto fits = [&](const auto& values) { return values.empty() || values.size() == names_.size(); };
     if (names_.empty() || !fits(sizes_) || !fits(types_) || !fits(counts_))
-      cursor_.fail("FIELDS, SIZE, TYPE and COUNT do not have as many words each");
+      cursor_.fail(Message("pcd.word-counts", "FIELDS, SIZE, TYPE and COUNT do not have as many words each"));
     const std::vector<Role> roles = rolesOf(cursor_, names_);
     std::vector<Field> fields;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const std::size_t bytes = sizes_.empty() ? 4 : count(cursor_, sizes_[i]);
       Field field{{roles[i], pcdScalar(cursor_, types_.empty() ? "F" : types_[i], bytes)}, 1};
       if (!counts_.empty()) field.count = count(cursor_, counts_[i]);
-      if (field.count == 0 || field.count > 65536) cursor_.fail(fmt::format("a field has {} values", field.count));
+      if (field.count == 0 || field.count > 65536)
+        cursor_.fail(Message("pcd.field-size", "a field has {} values", field.count));
       if (binary && !field.isChannels()) field.column = field.column.inBinary();
       fields.push_back(field);
     }
@@ -153,44 +155,50 @@ class HeaderReader {
 /// How many points to read, of `rows` that the file holds. Where the header contradicts itself, the file decides.
 std::size_t pointCount(const Cursor& cursor, const PcdHeader& header, std::size_t rows, Builder& builder) {
   const std::optional<std::size_t> area = header.area();
-  if (!header.points && !area) cursor.fail("the header has neither POINTS nor WIDTH and HEIGHT");
+  if (!header.points && !area)
+    cursor.fail(Message("pcd.no-points", "the header has neither POINTS nor WIDTH and HEIGHT"));
   std::size_t points = header.points ? *header.points : *area;
   if (area && *area != points) {
-    const std::string contradiction =
-        fmt::format("WIDTH {} times HEIGHT {} is not POINTS {}", *header.width, header.height.value_or(1), points);
+    const Message contradiction("pcd.contradiction", "WIDTH {} times HEIGHT {} is not POINTS {}", *header.width,
+                                header.height.value_or(1), points);
     if (rows != points && rows != *area)
       cursor.fail(contradiction, fmt::format("the file has {} points: write that into its header", rows));
-    builder.note(fmt::format("{}: the file has {}", contradiction, rows));
+    builder.note(fmt::format("{}: the file has {}", contradiction.text(), rows));
     points = rows;
   }
   builder.noteSurplus(rows - std::min(rows, points), points);
   return points;
 }
 
+Message fewerThanSaid() {
+  return Message("pcd.packed-fewer", "the compressed points are fewer than their header says");
+}
+
 /// LZF, the compression of PCL: a byte below 32 is followed by that many bytes and one more; any other holds the length
 /// of a copy, less 2, in its upper three bits (7: more in the next byte) and the upper five bits of its distance,
 /// less 1. The error is why the bytes are no such data.
-tl::expected<std::string, std::string> unpacked(std::string_view packed, std::size_t size) {
-  const auto error = [](const char* text) { return tl::unexpected(std::string("the compressed points ") + text); };
+tl::expected<std::string, Message> unpacked(std::string_view packed, std::size_t size) {
   std::string bytes;
   bytes.reserve(size);
   std::size_t at = 0;
   while (at < packed.size()) {
     const auto byte = [&](std::size_t i) -> std::size_t { return static_cast<unsigned char>(packed[at + i]); };
     const std::size_t control = byte(0), needed = control < 32 ? control + 2 : control < 7 << 5 ? 2 : 3;
-    if (packed.size() - at < needed) return error("are cut");
+    if (packed.size() - at < needed) return tl::unexpected(Message("pcd.packed-cut", "the compressed points are cut"));
     if (control < 32) {
       bytes.append(packed.substr(at + 1, control + 1));
     } else {
       const std::size_t length = 2 + (needed == 3 ? 7 + byte(1) : control >> 5);
       const std::size_t distance = ((control & 31) << 8 | byte(needed - 1)) + 1;
-      if (distance > bytes.size()) return error("refer to what is before them");
+      if (distance > bytes.size())
+        return tl::unexpected(Message("pcd.packed-reference", "the compressed points refer to what is before them"));
       for (std::size_t i = 0; i < length; ++i) bytes.push_back(bytes[bytes.size() - distance]);
     }
     at += needed;
-    if (bytes.size() > size) return error("are more than their header says");
+    if (bytes.size() > size)
+      return tl::unexpected(Message("pcd.packed-more", "the compressed points are more than their header says"));
   }
-  if (bytes.size() != size) return error("are fewer than their header says");
+  if (bytes.size() != size) return tl::unexpected(fewerThanSaid());
   return bytes;
 }
 
@@ -231,11 +239,11 @@ void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const std::size_t packed_size = size(), unpacked_size = size(), row_bytes = header.rowBytes();
   const std::size_t points = pointCount(cursor, header, unpacked_size / row_bytes, builder);
   if (unpacked_size % row_bytes != 0 || unpacked_size / row_bytes != points)
-    cursor.fail("the compressed points are not as many as the header says");
+    cursor.fail(Message("pcd.packed-count", "the compressed points are not as many as the header says"));
   const std::string_view packed = cursor.take(packed_size);
   // Three bytes stand for at most 264.
-  if (unpacked_size / 88 > packed_size) cursor.fail("the compressed points are fewer than their header says");
-  tl::expected<std::string, std::string> bytes = unpacked(packed, unpacked_size);
+  if (unpacked_size / 88 > packed_size) cursor.fail(fewerThanSaid());
+  tl::expected<std::string, Message> bytes = unpacked(packed, unpacked_size);
   // Points that do not become smaller are stored as they are by some tools, which the two sizes show alone.
   if (!bytes && packed_size == unpacked_size) bytes = std::string(packed);
   if (!bytes) cursor.fail(bytes.error());
@@ -262,8 +270,8 @@ StoredCloud parsePcd(std::string_view bytes, const std::string& name, const Clou
   else if (header.data == "binary_compressed")
     readCompressed(cursor, header, builder);
   else
-    cursor.fail(
-        fmt::format("`{}` is not a kind of data of .pcd", common::printable(std::string(header.data.substr(0, 40)))));
+    cursor.fail(Message("pcd.no-data-kind", "`{}` is not a kind of data of .pcd",
+                        common::printable(std::string(header.data.substr(0, 40)))));
   return builder.take();
 }
 

@@ -16,6 +16,12 @@ namespace swiftlet::interfaces {
 namespace {
 
 using namespace point_table;
+using common::Message;
+
+/// The beginning of a word of the file, for messages.
+std::string shownWord(std::string_view word, std::size_t most = 40) {
+  return common::printable(std::string(word.substr(0, most)));
+}
 
 enum class Encoding { kText, kLittleEndian, kBigEndian };
 
@@ -59,7 +65,7 @@ Scalar plyScalar(const Cursor& cursor, std::string_view word) {
   const auto* const found = std::find_if(kTypes.begin(), kTypes.end(),
                                          [&](const auto& type) { return type.first == common::lowerCase(word); });
   if (found == kTypes.end())
-    cursor.fail(fmt::format("`{}` is not a type of a property", common::printable(std::string(word.substr(0, 20)))));
+    cursor.fail(Message("ply.no-type", "`{}` is not a type of a property", shownWord(word, 20)));
   return found->second;
 }
 
@@ -68,19 +74,21 @@ Encoding encodingOf(const Cursor& cursor, std::string_view word) {
   if (lower == "ascii") return Encoding::kText;
   if (lower == "binary_little_endian") return Encoding::kLittleEndian;
   if (lower == "binary_big_endian") return Encoding::kBigEndian;
-  cursor.fail(fmt::format("`{}` is not a format of a .ply file", common::printable(std::string(word.substr(0, 40)))));
+  cursor.fail(Message("ply.no-format", "`{}` is not a format of a .ply file", shownWord(word)));
 }
 
 Property propertyOf(const Cursor& cursor, const std::vector<std::string_view>& line) {
   if (line.size() == 3) return {line[2], {Role::kOther, plyScalar(cursor, line[1])}, std::nullopt};
   if (line.size() == 5 && common::lowerCase(line[1]) == "list")
     return {line[4], {Role::kOther, plyScalar(cursor, line[3])}, plyScalar(cursor, line[2])};
-  cursor.fail("a property is neither `property TYPE NAME` nor `property list TYPE TYPE NAME`");
+  cursor.fail(
+      Message("ply.property-line", "a property is neither `property TYPE NAME` nor `property list TYPE TYPE NAME`"));
 }
 
 PlyHeader readHeader(Cursor& cursor, Builder& builder) {
   const std::vector<std::string_view> first = words(cursor.line());
-  if (first.size() != 1 || common::lowerCase(first[0]) != "ply") cursor.fail("the file does not begin with `ply`");
+  if (first.size() != 1 || common::lowerCase(first[0]) != "ply")
+    cursor.fail(Message("ply.other-begin", "the file does not begin with `ply`"));
   PlyHeader header;
   bool has_format = false;
   for (;;) {
@@ -99,10 +107,10 @@ PlyHeader readHeader(Cursor& cursor, Builder& builder) {
     } else if (key == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(propertyOf(cursor, line));
     } else {
-      cursor.fail(fmt::format("`{}` is not a line of a header", common::printable(std::string(line[0].substr(0, 40)))));
+      cursor.fail(Message("ply.header-line", "`{}` is not a line of a header", shownWord(line[0])));
     }
   }
-  if (!has_format) cursor.fail("the header has no line `format`");
+  if (!has_format) cursor.fail(Message("ply.format-missing", "the header has no line `format`"));
   return header;
 }
 
@@ -115,7 +123,8 @@ class ElementReader {
 
   /// Each row of an element without properties would take nothing, and the count could be anything.
   void read(const PlyElement& element, Builder* builder) {
-    if (element.properties.empty() && element.count > 0) cursor_.fail("an element has no properties");
+    if (element.properties.empty() && element.count > 0)
+      cursor_.fail(Message("ply.no-properties", "an element has no properties"));
     for (std::size_t row = 0; row < element.count; ++row) {
       if (text_) cursor_.beginRow();
       for (const Property& property : element.properties) {
@@ -123,7 +132,7 @@ class ElementReader {
         if (property.count_type) {
           const double listed = number(*property.count_type);
           if (!(listed >= 0.0 && listed <= static_cast<double>(cursor_.left())))
-            cursor_.fail(fmt::format("a list has {} values", listed));
+            cursor_.fail(Message("ply.list-size", "a list has {} values", listed));
           values = static_cast<std::size_t>(listed);
         }
         for (std::size_t i = 0; i < values; ++i) {
@@ -204,7 +213,7 @@ StoredCloud parsePly(std::string_view bytes, const std::string& name, const Clou
       return builder.take();
     }
   }
-  cursor.fail("the file has no element `vertex`");
+  cursor.fail(Message("ply.no-vertex", "the file has no element `vertex`"));
 }
 
 }  // namespace swiftlet::interfaces

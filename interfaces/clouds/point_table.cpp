@@ -21,6 +21,8 @@
 namespace swiftlet::interfaces::point_table {
 namespace {
 
+using common::Message;
+
 /// Of a header's line. Some tools write a table of their own as a comment.
 constexpr std::size_t kMostLineBytes = std::size_t{1} << 20;
 
@@ -94,9 +96,13 @@ Cursor::Cursor(std::string_view bytes, const std::string& name) : bytes_(bytes),
   if (bytes.starts_with(kByteOrderMark)) place_ = kByteOrderMark.size();
 }
 
-void Cursor::fail(const std::string& message, const std::string& hint) const {
-  if (!text_) throw common::InputError(common::Problem{{name_}, fmt::format("byte {}", place_), message, hint});
-  throw common::InputError(common::Problem{{name_, lineNumber()}, "", message, hint});
+void Cursor::fail(Message message, std::string hint) const {
+  common::Problem problem{{name_}, "", std::move(message), std::move(hint)};
+  if (text_)
+    problem.location.line = lineNumber();
+  else
+    problem.element = fmt::format("byte {}", place_);
+  throw common::InputError(std::move(problem));
 }
 
 int Cursor::lineNumber() const {
@@ -107,7 +113,8 @@ int Cursor::lineNumber() const {
 std::string_view Cursor::line() {
   word_place_ = place_;
   const std::size_t end = bytes_.find('\n', place_);
-  if (end == std::string_view::npos || end - place_ > kMostLineBytes) fail("the header does not end");
+  if (end == std::string_view::npos || end - place_ > kMostLineBytes)
+    fail(Message("cloud.header-open", "the header does not end"));
   std::string_view text = bytes_.substr(place_, end - place_);
   place_ = end + 1;
   if (text.ends_with('\r')) text.remove_suffix(1);
@@ -116,7 +123,8 @@ std::string_view Cursor::line() {
 
 std::string_view Cursor::take(std::size_t count) {
   text_ = false;
-  if (left() < count) fail(fmt::format("the file is cut: {} more bytes are needed, {} are left", count, left()));
+  if (left() < count)
+    fail(Message("cloud.cut", "the file is cut: {} more bytes are needed, {} are left", count, left()));
   place_ += count;
   return bytes_.substr(place_ - count, count);
 }
@@ -151,7 +159,8 @@ void Cursor::endRow() {
   skipBlanks();
   if (place_ == bytes_.size()) return;
   if (bytes_[place_] != '\n')
-    fail(fmt::format("`{}` is one number more than the header names", word()), "each point has a line of its own");
+    fail(Message("cloud.more-numbers", "`{}` is one number more than the header names", word()),
+         "each point has a line of its own");
   ++place_;
 }
 
@@ -159,8 +168,10 @@ double Cursor::number() {
   skipBlanks();
   const char* const begin = bytes_.data() + place_;
   const char* const end = bytes_.data() + bytes_.size();
-  if (begin == end) fail("the file is cut: a number is missing");
-  if (*begin == '\n') fail("the line has fewer numbers than the header names", "each point has a line of its own");
+  if (begin == end) fail(Message("cloud.cut-in-row", "the file is cut: a number is missing"));
+  if (*begin == '\n')
+    fail(Message("cloud.fewer-numbers", "the line has fewer numbers than the header names"),
+         "each point has a line of its own");
   double value = 0.0;
   auto [stop, error] = std::from_chars(common::withoutPlus(bytes_.substr(place_)).data(), end, value);
   if (const char* const word_end = std::find_if(stop, end, isBlank);
@@ -169,7 +180,7 @@ double Cursor::number() {
     stop = word_end;
   }
   if (error == std::errc::invalid_argument || (stop != end && !isBlank(*stop)))
-    fail(fmt::format("`{}` is not a number", word()), decimalCommaHint(word()));
+    fail(Message("text.not-a-number", "`{}` is not a number", word()), decimalCommaHint(word()));
   // Where a number is out of range, from_chars() does not say whether it is too great: infinite, or too small: 0.
   if (error == std::errc::result_out_of_range) value = std::strtod(std::string(begin, stop).c_str(), nullptr);
   place_ = static_cast<std::size_t>(stop - bytes_.data());
@@ -206,8 +217,8 @@ std::size_t count(const Cursor& cursor, std::string_view text) {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    cursor.fail(fmt::format("`{}` is not a whole number from 0 on, written in digits alone",
-                            common::printable(std::string(text.substr(0, 40)))));
+    cursor.fail(Message("cloud.no-count", "`{}` is not a whole number from 0 on, written in digits alone",
+                        common::printable(std::string(text.substr(0, 40)))));
   return value;
 }
 
@@ -226,7 +237,7 @@ std::vector<Role> rolesOf(const Cursor& cursor, const std::vector<std::string_vi
   assign(spelled);
   const auto has = [&](Role role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
   if (!has(Role::kX) || !has(Role::kY) || !has(Role::kZ))
-    cursor.fail(fmt::format("the points have no x, y and z, only {}", listOf(names)));
+    cursor.fail(Message("cloud.no-position", "the points have no x, y and z, only {}", listOf(names)));
   // One of them alone is something else, for instance the range `r`.
   if (!has(Role::kRed) || !has(Role::kGreen) || !has(Role::kBlue))
     std::replace_if(

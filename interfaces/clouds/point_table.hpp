@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/message.hpp"
 #include "interfaces/clouds/point_colors.hpp"
 #include "interfaces/clouds/stored_cloud.hpp"
 
@@ -39,7 +40,7 @@ class Cursor {
   std::size_t place() const { return place_; }
   std::size_t left() const { return bytes_.size() - place_; }
   /// Throws InputError with the file, the line in text or the byte in binary, and the reason.
-  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
+  [[noreturn]] void fail(common::Message message, std::string hint = "") const;
   /// Of what was read last, in text; from 1.
   int lineNumber() const;
   /// The next line of a header, without its end. Throws InputError at the end of the file or if it is too long.

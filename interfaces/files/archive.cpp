@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 constexpr std::int64_t kMaxUnpackedBytes = std::int64_t{4} << 30;
@@ -65,7 +66,7 @@ class Unpacking {
     for (; (result = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK; ++entries)
       unpack(reader.get(), entry);
     if (result != ARCHIVE_EOF) check(reader.get(), result, "");
-    if (entries == 0) throw fail("", "holds nothing");
+    if (entries == 0) throw fail("", Message("archive.empty", "holds nothing"));
   }
 
  private:
@@ -79,7 +80,7 @@ class Unpacking {
       fs::create_directories(target);
       return;
     }
-    if (type != AE_IFREG || link) throw fail(name, "is neither a file nor a folder");
+    if (type != AE_IFREG || link) throw fail(name, Message("archive.no-file", "is neither a file nor a folder"));
     fs::create_directories(target.parent_path());
     if (const Written written = writeAtomically(target, contentOf(reader, name)); !written)
       throw InputError(Problem{{}, "", written.error().message, ""});
@@ -87,9 +88,9 @@ class Unpacking {
 
   fs::path checkedName(const std::string& name) const {
     fs::path path(name);
-    if (name.empty() || path.is_absolute()) throw fail(name, "has no relative name");
+    if (name.empty() || path.is_absolute()) throw fail(name, Message("archive.not-relative", "has no relative name"));
     for (const fs::path& part : path)
-      if (part == "..") throw fail(name, "leads out of the folder");
+      if (part == "..") throw fail(name, Message("archive.leads-out", "leads out of the folder"));
     return path;
   }
 
@@ -99,7 +100,8 @@ class Unpacking {
     la_ssize_t count = 0;
     while ((count = archive_read_data(reader, block, sizeof block)) > 0) {
       unpacked_bytes_ += count;
-      if (unpacked_bytes_ > kMaxUnpackedBytes) throw fail(name, "makes the archive too large");
+      if (unpacked_bytes_ > kMaxUnpackedBytes)
+        throw fail(name, Message("archive.too-large", "makes the archive too large"));
       content.append(block, static_cast<std::size_t>(count));
     }
     if (count < 0) check(reader, static_cast<int>(count), name);
@@ -109,11 +111,12 @@ class Unpacking {
   void check(struct archive* reader, int result, const std::string& name) const {
     if (result == ARCHIVE_OK) return;
     const char* text = archive_error_string(reader);
-    throw fail(name, text == nullptr ? "cannot be unpacked" : fmt::format("cannot be unpacked: {}", text));
+    throw fail(name, Message("archive.not-unpacked", "cannot be unpacked{}{}", text == nullptr ? "" : ": ",
+                             text == nullptr ? "" : text));
   }
 
-  InputError fail(const std::string& entry, const std::string& message) const {
-    return InputError(Problem{{archive_.string()}, entry, message, ""});
+  InputError fail(const std::string& entry, Message message) const {
+    return InputError(Problem{{archive_.string()}, entry, std::move(message), ""});
   }
 
   fs::path archive_;
@@ -135,7 +138,8 @@ fs::path unpackInto(const fs::path& cache, const fs::path& archive) {
     fs::rename(temporary.path(), folder, failure);
     if (failure && !fs::is_directory(folder)) throw fs::filesystem_error("rename", folder, failure);
   } catch (const fs::filesystem_error& e) {
-    throw InputError(Problem{{cache.string()}, "", fmt::format("cannot be written: {}", e.code().message()), ""});
+    throw InputError(
+        Problem{{cache.string()}, "", Message("folder.not-written", "cannot be written: {}", e.code().message()), ""});
   }
   return folder;
 }

@@ -13,7 +13,7 @@ namespace {
 
 FileError errorOf(const std::filesystem::path& file, int error_number) {
   const std::error_code why(error_number, std::generic_category());
-  return {fmt::format("{}: {}", file.string(), why.message()), why};
+  return {common::Message("file.not-written", "{}: {}", file.string(), why.message()), why};
 }
 
 /// Creates a file of that name and returns its descriptor as open(2) does. An older file of that name is unlinked

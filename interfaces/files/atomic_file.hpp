@@ -11,11 +11,13 @@
 
 #include <tl/expected.hpp>
 
+#include "common/message.hpp"
+
 namespace swiftlet::interfaces {
 
-/// Why a file could not be written, for people: "out/map.pgm: No space left on device".
+/// Why a file could not be written: "out/map.pgm: No space left on device".
 struct FileError {
-  std::string message;
+  common::Message message;
   std::error_code why = {};  ///< Empty if the system is not the cause.
 };
 using Written = tl::expected<void, FileError>;

@@ -4,13 +4,14 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
 using tl::unexpected;
 
 constexpr std::size_t kFileHeaderBytes = 14;
@@ -64,22 +65,22 @@ Header headerOf(std::string_view bytes) {
   return header;
 }
 
-/// Why it cannot be read; empty if it can.
-std::string problemOf(const Header& header) {
+/// Why it cannot be read; nullopt if it can.
+std::optional<Message> problemOf(const Header& header) {
   if (header.packing == kRle8 || header.packing == kRle4)
-    return fmt::format("is compressed by run lengths (RLE{})", header.packing == kRle8 ? 8 : 4);
+    return Message("bmp.run-lengths", "is compressed by run lengths (RLE{})", header.packing == kRle8 ? 8 : 4);
   if (header.packing != kPlain && header.packing != kMasks && header.packing != kMasksWithAlpha)
-    return fmt::format("is compressed in a way (number {}) that cannot be read", header.packing);
+    return Message("bmp.other-packing", "is compressed in a way (number {}) that cannot be read", header.packing);
   if (header.bytes != kCoreHeaderBytes && header.bytes < 40)
-    return fmt::format("has a header of {} bytes, which no BMP has", header.bytes);
+    return Message("bmp.other-header", "has a header of {} bytes, which no BMP has", header.bytes);
   constexpr std::size_t kBits[] = {1, 4, 8, 16, 24, 32};
   if (std::find(std::begin(kBits), std::end(kBits), header.bits) == std::end(kBits))
-    return fmt::format("has {} bits a pixel, which no BMP has", header.bits);
+    return Message("bmp.other-depth", "has {} bits a pixel, which no BMP has", header.bits);
   if (std::min(header.width_px, header.height_px) < 1 ||
       std::max(header.width_px, header.height_px) > common::kMostGreySide_px)
-    return fmt::format("is {}x{} pixels large, 1 to {} can be read", header.width_px, header.height_px,
-                       common::kMostGreySide_px);
-  return "";
+    return Message("image.too-large", "is {}x{} pixels large, 1 to {} can be read", header.width_px, header.height_px,
+                   common::kMostGreySide_px);
+  return std::nullopt;
 }
 
 /// The bits of a mask as a number from 0 to 255.
@@ -126,16 +127,15 @@ void addRow(std::string_view row, const Header& header, const std::vector<std::u
 
 tl::expected<common::GreyImage, common::ImageFault> decodeBmp(std::string_view bytes) {
   const Header header = headerOf(bytes);
-  if (std::string problem = problemOf(header); !problem.empty())
-    return unexpected(common::ImageFault{std::move(problem)});
+  if (auto problem = problemOf(header)) return unexpected(common::ImageFault{*std::move(problem)});
   const auto width = static_cast<std::size_t>(header.width_px), height = static_cast<std::size_t>(header.height_px);
   const std::size_t begin = std::min<std::size_t>(number(bytes, 10, 4), bytes.size());
   // Each row takes whole words; some programs leave out the padding of the last.
   const std::size_t stride = (width * header.bits + 31) / 32 * 4;
   const std::size_t needed = stride * (height - 1) + (width * header.bits + 7) / 8;
   if (bytes.size() - begin < needed)
-    return unexpected(
-        common::ImageFault{fmt::format("ends after {} of {} bytes of its pixels", bytes.size() - begin, needed), true});
+    return unexpected(common::ImageFault{
+        Message("bmp.cut", "ends after {} of {} bytes of its pixels", bytes.size() - begin, needed), true});
   common::GreyImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   image.brightness.reserve(width * height);
   const std::vector<std::uint8_t> palette =

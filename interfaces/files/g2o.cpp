@@ -14,6 +14,8 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
+
 /// Other elements of g2o: landmarks, priors, calibration and raw data. They are left out with a warning.
 const std::set<std::string, std::less<>> kUnusedTags = {"VERTEX_XY",
                                                         "EDGE_SE2_XY",
@@ -78,7 +80,9 @@ class Reading {
       throw common::InputError(common::Problem{
           {lines_.name()},
           "",
-          "holds no pose graph, expected EDGE_SE2 or EDGE_SE3:QUAT of g2o, EDGE2 or EDGE3 of TORO" + leftOut(),
+          Message("g2o.no-graph",
+                  "holds no pose graph, expected EDGE_SE2 or EDGE_SE3:QUAT of g2o, EDGE2 or EDGE3 of TORO{}",
+                  leftOut()),
           ""});
     }
     file.indefinite_edges = plane_.indefiniteEdges() + space_.indefiniteEdges();
@@ -99,7 +103,8 @@ class Reading {
       known->second.in_plane ? addTo(plane_, space_.empty(), known->second, fields)
                              : addTo(space_, plane_.empty(), known->second, fields);
     } else if (tag == "FIX") {
-      if (fields.left() == 0) throw fields.problem(1, "expected the ids of the vertices that do not move");
+      if (fields.left() == 0)
+        throw fields.problem(1, Message("g2o.no-fixed", "expected the ids of the vertices that do not move"));
       while (fields.left() > 0) {
         const int column = fields.column();
         fixed_.emplace(fields.id(), common::SourceLocation{lines_.name(), line, column});
@@ -112,7 +117,8 @@ class Reading {
 
   template <typename Graph>
   void addTo(G2oCollector<Graph>& collector, bool other_is_empty, const Element& element, G2oFields& fields) {
-    if (!other_is_empty) throw fields.problem(1, "the file mixes elements of the plane (SE2) and of space (SE3)");
+    if (!other_is_empty)
+      throw fields.problem(1, Message("g2o.mixed", "the file mixes elements of the plane (SE2) and of space (SE3)"));
     if (element.is_edge)
       collector.addEdge(fields, lines_.lineNumber(), element.format);
     else
@@ -133,9 +139,10 @@ class Reading {
 
   std::string warningOf(const std::string& tag, const LeftOut& left_out) const {
     const std::string count = fmt::format("{} line{}", left_out.lines, left_out.lines == 1 ? " is" : "s are");
-    common::Problem warning{{lines_.name(), left_out.first_line}, tag, fmt::format("not used, {} left out", count), ""};
+    common::Problem warning{
+        {lines_.name(), left_out.first_line}, tag, Message("g2o.not-used", "not used, {} left out", count), ""};
     if (!kUnusedTags.contains(tag)) {
-      warning.message = fmt::format("unknown tag, {} left out", count);
+      warning.message = Message("g2o.unknown-tag", "unknown tag, {} left out", count);
       std::vector<std::string> used = {"FIX"};
       for (const auto& element : kElements) used.push_back(element.first);
       // The text after the colon defines how a motion is written: another one may be its inverse, and is no slip.

@@ -36,7 +36,9 @@ class G2oCollector {
     const int column = fields.column();
     const std::int64_t id = fields.id();
     const auto [it, is_new] = vertices_.try_emplace(id, Vertex{static_cast<int>(graph_.ids.size()), line});
-    if (!is_new) throw fields.problem(column, fmt::format("vertex {} stands in line {} already", id, it->second.line));
+    if (!is_new)
+      throw fields.problem(
+          column, common::Message("g2o.vertex-twice", "vertex {} stands in line {} already", id, it->second.line));
     graph_.ids.push_back(id);
     graph_.poses.push_back(poseIn(fields, format));
   }
@@ -45,7 +47,9 @@ class G2oCollector {
     fields.expectInformation(2 + poseNumbers(format), kInformationNumbers, informationHint(format));
     const int column = fields.column();
     const std::int64_t from = fields.id(), to = fields.id();
-    if (from == to) throw fields.problem(column, fmt::format("the edge leads from vertex {} to itself", from));
+    if (from == to)
+      throw fields.problem(column,
+                           common::Message("g2o.edge-to-itself", "the edge leads from vertex {} to itself", from));
     typename Graph::Edge edge;
     edge.T_from_to = poseIn(fields, format);
     edge.information = definite(fields, format);
@@ -61,7 +65,8 @@ class G2oCollector {
   Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed,
                const std::string& left_out) {
     if (graph_.edges.empty())
-      throw common::InputError(common::Problem{{file}, "", "holds vertices, but no edges connect them" + left_out, ""});
+      throw common::InputError(common::Problem{
+          {file}, "", common::Message("g2o.no-edges", "holds vertices, but no edges connect them{}", left_out), ""});
     if (first_problem_) throw indefiniteError();
     if (graph_.ids.empty()) takeVerticesFromEdges();
     for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -130,7 +135,10 @@ class G2oCollector {
     Information diagonal = information.diagonal().asDiagonal();
     if (options_.ignore_cross_terms && isPositiveDefinite(diagonal)) return diagonal;
     if (++refused_edges_ == 1)
-      first_problem_ = fields.problem(column, "the information is not positive definite").problems().front();
+      first_problem_ =
+          fields.problem(column, common::Message("g2o.indefinite", "the information is not positive definite"))
+              .problems()
+              .front();
     return diagonal;
   }
 
@@ -166,8 +174,8 @@ class G2oCollector {
   int indexOf(std::int64_t id, const char* element, const common::SourceLocation& location) const {
     const auto found = vertices_.find(id);
     if (found != vertices_.end()) return found->second.index;
-    throw common::InputError(
-        common::Problem{location, element, fmt::format("there is no vertex {}", id), "every vertex needs a line"});
+    throw common::InputError(common::Problem{
+        location, element, common::Message("g2o.no-vertex", "there is no vertex {}", id), "every vertex needs a line"});
   }
 
   Graph graph_;

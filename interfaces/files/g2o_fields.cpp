@@ -4,20 +4,22 @@
 #include <charconv>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace swiftlet::interfaces {
 
+using common::Message;
+
 void G2oFields::expectNumbers(std::size_t count) const {
-  if (left() != count) throw problem(words_.back().column, fmt::format("{} numbers instead of {}", left(), count));
+  if (left() != count)
+    throw problem(words_.back().column, Message("text.number-count", "{} numbers instead of {}", left(), count));
 }
 
 void G2oFields::expectInformation(std::size_t begin, std::size_t numbers, const char* hint) const {
   if (left() == begin + numbers || left() < begin) return expectNumbers(begin + numbers);
   const std::size_t given = left() - begin;
   throw problem(words_.back().column,
-                given == 0 ? fmt::format("the information matrix ({} numbers) is missing", numbers)
-                           : fmt::format("the information matrix has {} numbers instead of {}", given, numbers),
+                given == 0 ? Message("g2o.no-information", "the information matrix ({} numbers) is missing", numbers)
+                           : Message("g2o.information-count", "the information matrix has {} numbers instead of {}",
+                                     given, numbers),
                 hint);
 }
 
@@ -26,7 +28,7 @@ std::int64_t G2oFields::id() {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.text.data(), word.text.data() + word.text.size(), value);
   if (error != std::errc() || end != word.text.data() + word.text.size() || value < 0)
-    throw problem(word.column, fmt::format("`{}` is not an id, expected 0, 1, 2 ...", word.text));
+    throw problem(word.column, Message("g2o.not-an-id", "`{}` is not an id, expected 0, 1, 2 ...", word.text));
   return value;
 }
 
@@ -34,7 +36,7 @@ double G2oFields::number(const char* name) {
   const Word& word = words_[next_++];
   double value = 0.0;
   if (!parseNumber(word.text, value))
-    throw problem(word.column, fmt::format("{}: `{}` is not a finite number", name, word.text),
+    throw problem(word.column, name, Message("text.not-finite", "`{}` is not a finite number", word.text),
                   decimalCommaHint(word.text));
   return value;
 }
@@ -43,7 +45,7 @@ double G2oFields::coordinate_m(const char* name) {
   const int begin = column();
   const double value_m = number(name);
   if (std::abs(value_m) <= kFarthest_m) return value_m;
-  throw problem(begin, fmt::format("{}: is farther away than {} m", name, kFarthest_m));
+  throw problem(begin, name, Message("text.too-far", "is farther away than {} m", kFarthest_m));
 }
 
 common::Pose2 G2oFields::pose2() {
@@ -57,7 +59,7 @@ common::Pose3 G2oFields::pose3() {
   const double x = number("qx"), y = number("qy"), z = number("qz"), w = number("qw");
   const Eigen::Quaterniond rotation(w, x, y, z);
   if (!(rotation.norm() > 1e-6) || !std::isfinite(rotation.norm()))
-    throw problem(begin, fmt::format("a rotation of length {}", rotation.norm()));
+    throw problem(begin, Message("g2o.no-rotation", "a rotation of length {}", rotation.norm()));
   return {rotation.normalized(), {x_m, y_m, z_m}};
 }
 

@@ -44,11 +44,17 @@ class G2oFields {
   /// The order of TORO in the plane: xx xy yy, yaw yaw, x yaw, y yaw.
   Eigen::Matrix3d toroInformation();
 
-  common::InputError problem(int column, const std::string& message, const std::string& hint = "") const {
-    return lines_.problemAt(column, tag(), message, hint);
+  common::InputError problem(int column, common::Message message, const std::string& hint = "") const {
+    return lines_.problemAt(column, tag(), std::move(message), hint);
   }
 
  private:
+  /// Of one number of the element.
+  common::InputError problem(int column, const char* number, common::Message message,
+                             const std::string& hint = "") const {
+    return lines_.problemAt(column, tag() + ": " + number, std::move(message), hint);
+  }
+
   const LineReader& lines_;
   std::vector<Word> words_;
   std::size_t next_ = 1;

@@ -45,10 +45,12 @@ class LineFields {
   double coordinate_m(std::size_t field) const;
 
   /// A problem at that field, to throw.
-  common::InputError problemAt(std::size_t field, std::string element, std::string message,
+  common::InputError problemAt(std::size_t field, std::string element, common::Message message,
                                std::string hint = "") const;
 
  private:
+  /// The same, named as the field.
+  common::InputError problemAt(std::size_t field, common::Message message, std::string hint = "") const;
   std::string hintFor(std::string_view word) const;
 
   const LineReader& reader_;

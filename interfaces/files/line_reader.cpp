@@ -3,12 +3,11 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace swiftlet::interfaces {
 namespace {
 
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 constexpr std::size_t kReadBytes = std::size_t{1} << 16;
@@ -42,7 +41,7 @@ bool LineReader::next(std::string_view& line) {
   if (line_number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   line_cut_ = line.size() > limits_.line_bytes;
   if (line_cut_ && !limits_.cut_long_lines)
-    throw problemAt(0, "", fmt::format("a line of more than {} bytes", limits_.line_bytes));
+    throw problemAt(0, "", Message("text.line-too-long", "a line of more than {} bytes", limits_.line_bytes));
   if (line_cut_) {
     line = line.substr(0, limits_.line_bytes);
     taken_ += limits_.line_bytes;
@@ -70,14 +69,15 @@ void LineReader::readBlock() {
   buffer_.resize(before + kReadBytes);
   const BytesRead count = stream_.read(buffer_.data() + before, kReadBytes);
   buffer_.resize(before + count.value_or(0));
-  if (!count) throw problemAt(0, "", "is cut or damaged, its end cannot be read", count.error());
+  if (!count)
+    throw problemAt(0, "", Message("file.damaged", "is cut or damaged, its end cannot be read"), count.error());
   at_end_ = *count == 0;
   unpacked_bytes_ += static_cast<std::int64_t>(*count);
   if (unpacked_bytes_ > limits_.file_bytes)
-    throw problemAt(0, "", fmt::format("the file holds more than {} bytes", limits_.file_bytes));
+    throw problemAt(0, "", Message("text.too-large", "the file holds more than {} bytes", limits_.file_bytes));
 }
 
-InputError LineReader::problemAt(int column, std::string element, std::string message, std::string hint) const {
+InputError LineReader::problemAt(int column, std::string element, Message message, std::string hint) const {
   return InputError(Problem{{name(), line_number_, column}, std::move(element), std::move(message), std::move(hint)});
 }
 

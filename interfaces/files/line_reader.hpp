@@ -43,7 +43,7 @@ class LineReader {
   std::int64_t packedBytesRead() const { return stream_.packedBytesRead(); }
 
   /// A problem in the last line returned, to throw. Columns count from 1; 0 stands for the whole line.
-  common::InputError problemAt(int column, std::string element, std::string message, std::string hint = "") const;
+  common::InputError problemAt(int column, std::string element, common::Message message, std::string hint = "") const;
 
  private:
   LineReader(UnpackedStream stream, LineLimits limits) : stream_(std::move(stream)), limits_(limits) {}

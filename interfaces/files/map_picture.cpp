@@ -8,8 +8,6 @@
 #include <system_error>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "interfaces/files/bmp.hpp"
@@ -18,6 +16,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 constexpr const char* kConvert = "convert it, for instance by ImageMagick's `convert FILE map.png`";
@@ -71,12 +70,13 @@ class NetpbmWords {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
-      throw fail(element, fmt::format("`{}` is not a whole number from {} to {}", text.substr(0, 20), low, high));
+      throw fail(element,
+                 Message("netpbm.number", "`{}` is not a whole number from {} to {}", text.substr(0, 20), low, high));
     return value;
   }
 
-  InputError fail(const char* element, const std::string& message, const std::string& hint = "") const {
-    return InputError(Problem{{name_, line_}, element, message, hint});
+  InputError fail(const char* element, Message message) const {
+    return InputError(Problem{{name_, line_}, element, std::move(message), ""});
   }
 
   /// Whether no word follows.
@@ -139,7 +139,8 @@ struct NetpbmHeader {
 NetpbmHeader readHeader(NetpbmWords& words, common::GreyImage& image) {
   const std::string_view magic = words.word();
   if (!isNetpbm(magic) || magic.size() != 2)
-    throw words.fail("PGM", fmt::format("begins with `{}`, P5 or P2 was expected", magic.substr(0, 8)));
+    throw words.fail("PGM",
+                     Message("netpbm.other-begin", "begins with `{}`, P5 or P2 was expected", magic.substr(0, 8)));
   NetpbmHeader header{magic == "P2" || magic == "P3", magic == "P3" || magic == "P6" ? std::size_t{3} : 1};
   image.width_px = words.number("width", 1, common::kMostGreySide_px);
   image.height_px = words.number("height", 1, common::kMostGreySide_px);
@@ -149,8 +150,8 @@ NetpbmHeader readHeader(NetpbmWords& words, common::GreyImage& image) {
 }
 
 InputError cutOff(const NetpbmWords& words, const NetpbmHeader& header, std::size_t numbers) {
-  return words.fail("pixels", fmt::format("the file ends after {} of {} pixels", numbers / header.colors,
-                                          header.count / header.colors));
+  return words.fail("pixels", Message("netpbm.cut", "the file ends after {} of {} pixels", numbers / header.colors,
+                                      header.count / header.colors));
 }
 
 MapPicture parseNetpbm(std::string_view bytes, const std::string& name) {
@@ -183,18 +184,18 @@ MapPicture parseNetpbm(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 MapPicture parsePicture(std::string_view bytes, const std::string& name) {
-  if (bytes.empty()) throw InputError(Problem{{name}, "", "is empty, a picture was expected", kGetAgain});
-  if (isWebPage(bytes)) throw InputError(Problem{{name}, "", "is a page of the web, a picture was expected", kGetFile});
+  const auto refuse = [&](const Message& message, const char* hint) {
+    throw InputError(Problem{{name}, "", message, hint});
+  };
+  if (bytes.empty()) refuse(Message("picture.empty", "is empty, a picture was expected"), kGetAgain);
+  if (isWebPage(bytes)) refuse(Message("picture.web-page", "is a page of the web, a picture was expected"), kGetFile);
   if (isNetpbm(bytes)) return parseNetpbm(bytes, name);
   if (!isBmp(bytes) && !isPngOrJpeg(bytes))
-    throw InputError(
-        Problem{{name}, "", "is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG", kConvert});
+    refuse(Message("picture.other-kind", "is no picture of a kind that can be read: PNG, BMP, PGM, PPM, JPEG"),
+           kConvert);
   auto image = isBmp(bytes) ? decodeBmp(bytes) : common::decodeGrey(bytes);
-  if (!image) {
-    const auto& [reason, is_damaged] = image.error();
-    throw InputError(
-        Problem{{name}, "", (is_damaged ? "is damaged: " : "") + reason, is_damaged ? kGetAgain : kConvert});
-  }
+  if (!image && image.error().is_damaged) refuse(image.error().reason.behind("is damaged: "), kGetAgain);
+  if (!image) refuse(image.error().reason, kConvert);
   return {std::move(*image), bytes.starts_with(kPngMagic) ? bytesBehindPng(bytes) : 0};
 }
 

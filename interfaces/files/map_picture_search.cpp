@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::InputError;
+using common::Message;
 using common::Problem;
 
 /// The names in the folder of a file, sorted.
@@ -77,14 +78,15 @@ FoundPicture findPicture(const fs::path& yaml_file, const std::string& named, co
   if (!name.empty() && fs::is_regular_file(folder / name, ignored))
     return {folder / name,
             Problem{location, "image",
-                    fmt::format("`{}` is not there: `{}`, which lies beside the YAML, is taken", named, name),
+                    Message("map.image-beside", "`{}` is not there: `{}`, which lies beside the YAML, is taken", named,
+                            name),
                     fmt::format("write `image: {}`", name)}};
   const std::string likely = likelyPicture(yaml_file, named);
-  throw InputError(
-      Problem{location, "image",
-              fmt::format("`{}`: {}", meant.string(), failure ? failure.message() : std::string("no such file")),
-              likely.empty() ? "it is looked for there, and by its name beside the YAML"
-                             : fmt::format("`{0}` lies beside the YAML: write `image: {0}`", likely)});
+  throw InputError(Problem{
+      location, "image",
+      Message("map.no-image", "`{}`: {}", meant.string(), failure ? failure.message() : std::string("no such file")),
+      likely.empty() ? "it is looked for there, and by its name beside the YAML"
+                     : fmt::format("`{0}` lies beside the YAML: write `image: {0}`", likely)});
 }
 
 InputError pictureForYaml(const fs::path& picture) {
@@ -102,7 +104,7 @@ InputError pictureForYaml(const fs::path& picture) {
   }
   return InputError(Problem{{picture.string()},
                             "",
-                            "is the picture of a map, its YAML was expected",
+                            Message("map.is-picture", "is the picture of a map, its YAML was expected"),
                             beside.empty() ? fmt::format("write `image: {}`, `resolution: 0.05` (metres a pixel) and "
                                                          "`origin: [0, 0, 0]` into a .yaml beside it, and give that",
                                                          name)

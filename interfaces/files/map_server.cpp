@@ -24,6 +24,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 using common::CellRect;
+using common::Message;
 using common::OccupancyGrid;
 using common::Problem;
 namespace occupancy = common::occupancy;
@@ -94,14 +95,16 @@ struct MapYaml {
     return static_cast<Mode>(std::find(kModes.begin(), kModes.end(), common::lowerCase(mode_text)) - kModes.begin());
   }
 
-  std::vector<std::string> validate() const {
+  std::vector<common::Problem> validate() const {
     return common::Validation()
-        .require(!image.empty(), "image", "is missing")
-        .require(origin.size() == 3, "origin", "is not a list of three numbers: x, y, yaw")
+        .given(!image.empty(), "image")
+        .require(origin.size() == 3, "origin", Message("map.origin", "is not a list of three numbers: x, y, yaw"))
         .require(isNegated() || isOneOf(kPositive, negate_text), "negate",
-                 fmt::format("`{}` is none of 0, 1, false, true", negate_text))
-        .require(isOneOf(kModes, mode_text), "mode", fmt::format("`{}` is none of trinary, scale, raw", mode_text))
-        .require(free_thresh < occupied_thresh, "free_thresh", "is not below occupied_thresh")
+                 Message("map.negate", "`{}` is none of 0, 1, false, true", negate_text))
+        .require(isOneOf(kModes, mode_text), "mode",
+                 Message("map.mode", "`{}` is none of trinary, scale, raw", mode_text))
+        .require(free_thresh < occupied_thresh, "free_thresh",
+                 Message("map.thresholds", "is not below occupied_thresh"))
         .problems();
   }
 };
@@ -125,7 +128,7 @@ std::vector<Problem> readYaml(common::config::YamlReader& reader, MapYaml& yaml)
   } catch (const common::InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems)
-      if (const auto yaw_deg = problem.element == "origin" ? degreesIn(problem.message) : std::nullopt)
+      if (const auto yaw_deg = problem.element == "origin" ? degreesIn(problem.message.text()) : std::nullopt)
         problem.hint = fmt::format("the yaw is in radians: write `{:.6f}`", *yaw_deg * common::kRadPerDeg);
     throw common::InputError(std::move(problems));
   }
@@ -195,9 +198,10 @@ void noteRaw(const MapYaml& yaml, const common::GreyImage& image, std::vector<Pr
   if (beyond > 0)
     notes.push_back({{},
                      "mode",
-                     fmt::format("in mode raw a pixel is the percentage of being occupied, and {} {} from 101 to 254, "
-                                 "taken as unknown",
-                                 beyond, beyond == 1 ? "is" : "are"),
+                     Message("map.beyond-percent",
+                             "in mode raw a pixel is the percentage of being occupied, and {} {} from 101 to 254, "
+                             "taken as unknown",
+                             beyond, beyond == 1 ? "is" : "are"),
                      "write `mode: trinary` if black is occupied and white is free"});
 }
 
@@ -208,14 +212,15 @@ std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
   };
   std::vector<Problem> notes;
   if (const std::size_t bytes = picture.left_over_bytes; bytes > 0)
-    notes.push_back({{},
-                     "image",
-                     counted(bytes, "byte") + " after the picture's pixels are left out",
-                     "is the map shifted, or another file appended?"});
+    notes.push_back(
+        {{},
+         "image",
+         Message("map.bytes-left-over", "{} after the picture's pixels are left out", counted(bytes, "byte")),
+         "is the map shifted, or another file appended?"});
   if (const double yaw = yaml.origin[2]; std::abs(yaw) > 2 * std::numbers::pi)
     notes.push_back({{},
                      "origin",
-                     fmt::format("a yaw of {:g} rad is more than a whole turn", yaw),
+                     Message("map.yaw-beyond-turn", "a yaw of {:g} rad is more than a whole turn", yaw),
                      fmt::format("if these are degrees, write {:.6f}", yaw * common::kRadPerDeg)});
   noteRaw(yaml, picture.image, notes);
   const PixelRule rule(yaml, picture.image);
@@ -225,12 +230,13 @@ std::vector<Problem> oddities(const MapYaml& yaml, const MapPicture& picture) {
           ? 0
           : std::count_if(pixels.begin(), pixels.end(), [&](std::uint8_t pixel) { return rule.saysUnknown(pixel); });
   if (unknown > 0)
-    notes.push_back({{},
-                     yaml.mode() == Mode::kScale ? "mode" : "free_thresh",
-                     fmt::format("{} would make {} free that map_saver writes for unknown; taken as unknown",
-                                 yaml.mode() == Mode::kScale ? "scale" : fmt::format("{:g}", yaml.free_thresh),
-                                 counted(unknown, "pixel")),
-                     ""});
+    notes.push_back(
+        {{},
+         yaml.mode() == Mode::kScale ? "mode" : "free_thresh",
+         Message("map.unknown-as-free", "{} would make {} free that map_saver writes for unknown; taken as unknown",
+                 yaml.mode() == Mode::kScale ? "scale" : fmt::format("{:g}", yaml.free_thresh),
+                 counted(unknown, "pixel")),
+         ""});
   return notes;
 }
 

@@ -17,6 +17,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
 using common::VoxelBlock;
 using common::VoxelIndex;
 using common::VoxelMap;
@@ -62,13 +63,17 @@ class OctreeReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const {
-    throw common::InputError(common::Problem{{name_}, fmt::format("byte {}", place_), message, hint});
+  [[noreturn]] void fail(Message message, std::string hint = "") const {
+    throw common::InputError(
+        common::Problem{{name_}, fmt::format("byte {}", place_), std::move(message), std::move(hint)});
+  }
+  [[noreturn]] void failAtHeader() const {
+    fail(Message("octree.header-open", "the header does not end with a line `data`"));
   }
 
   std::string_view line() {
     const std::size_t end = bytes_.find('\n', place_);
-    if (end == std::string_view::npos) fail("the header does not end with a line `data`");
+    if (end == std::string_view::npos) failAtHeader();
     const std::string_view text = bytes_.substr(place_, end - place_);
     place_ = end + 1;
     return text;
@@ -78,7 +83,7 @@ class OctreeReader {
   std::string_view word() {
     const std::size_t begin = bytes_.find_first_not_of(kBlanks, place_);
     const std::size_t end = bytes_.find_first_of(kBlanks, begin);
-    if (end == std::string_view::npos) fail("the header does not end with a line `data`");
+    if (end == std::string_view::npos) failAtHeader();
     place_ = end;
     return bytes_.substr(begin, end - begin);
   }
@@ -99,7 +104,8 @@ class OctreeReader {
 
   void readHeader() {
     if (!readNumbersOnly()) readLines();
-    if (!(resolution_m_ >= 1e-3 && resolution_m_ <= 1e3)) fail("the header has no resolution between 0.001 and 1000 m");
+    if (!(resolution_m_ >= 1e-3 && resolution_m_ <= 1e3))
+      fail(Message("octree.resolution", "the header has no resolution between 0.001 and 1000 m"));
   }
 
   void readLines() {
@@ -127,8 +133,8 @@ class OctreeReader {
   }
 
   [[noreturn]] void refuseStart(std::string_view start) const {
-    if (bytes_.empty()) fail("the file is empty");
-    fail(fmt::format("begins with `{}`", shown(start)),
+    if (bytes_.empty()) fail(Message("octree.empty", "the file is empty"));
+    fail(Message("octree.other-begin", "begins with `{}`", shown(start)),
          fmt::format("an octree of OctoMap begins with `{}` or `{}`", octree::kBinaryMagic, octree::kLogOddsMagic));
   }
 
@@ -140,7 +146,7 @@ class OctreeReader {
     if (known_kind_)
       content_ = found->second;
     else if (format_ == OctreeFormat::kLogOdds)
-      fail(fmt::format("holds a tree of the kind `{}`", shown(id)),
+      fail(Message("octree.other-kind", "holds a tree of the kind `{}`", shown(id)),
            "OcTree, ColorOcTree, OcTreeStamped and CountingOcTree are read of .ot files, and any kind of .bt files, "
            "which writeBinary() of OctoMap's trees writes");
     if (format_ == OctreeFormat::kLogOdds && content_ == NodeContent::kCount)
@@ -151,7 +157,7 @@ class OctreeReader {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-      fail(fmt::format("`{}` is not a number", shown(text)));
+      fail(Message("text.not-a-number", "`{}` is not a number", shown(text)));
     return value;
   }
 
@@ -160,10 +166,11 @@ class OctreeReader {
     const std::size_t rest = bytes_.find_first_not_of(kBlanks, place_);
     const std::size_t left = rest == std::string_view::npos ? 0 : bytes_.size() - rest;
     const bool as_stated = !stated_nodes_ || *stated_nodes_ == static_cast<double>(nodes_);
-    if (left != 0 && !known_kind_) fail(fmt::format("{} bytes follow the tree, of a kind that is not known", left));
+    if (left != 0 && !known_kind_)
+      fail(Message("octree.unknown-rest", "{} bytes follow the tree, of a kind that is not known", left));
     if (left != 0 && !as_stated)
-      fail(fmt::format("{} bytes follow the tree, which has {} nodes, not {} as its header says", left, nodes_,
-                       *stated_nodes_),
+      fail(Message("octree.rest", "{} bytes follow the tree, which has {} nodes, not {} as its header says", left,
+                   nodes_, *stated_nodes_),
            "it is damaged: get the file again");
     if (left != 0) octree_.notes.push_back(fmt::format("{} bytes after the tree left out", left));
     if (!as_stated)
@@ -171,14 +178,18 @@ class OctreeReader {
   }
 
   std::string_view take(std::size_t count) {
-    if (bytes_.size() - place_ < count) fail("the file is cut within its tree");
+    if (bytes_.size() - place_ < count) fail(Message("octree.cut", "the file is cut within its tree"));
     place_ += count;
     return bytes_.substr(place_ - count, count);
   }
 
+  void requireDepth(int side) const {
+    if (side == 1) fail(Message("octree.too-deep", "the tree is deeper than {} levels", kDepth));
+  }
+
   /// The children of an inner node. The depth of the recursion is that of the tree.
   void readBinary(VoxelIndex first, int side) {
-    if (side == 1) fail(fmt::format("the tree is deeper than {} levels", kDepth));
+    requireDepth(side);
     const std::string_view two = take(2);
     const unsigned codes =
         static_cast<unsigned char>(two[0]) | static_cast<unsigned>(static_cast<unsigned char>(two[1])) << 8;
@@ -206,7 +217,7 @@ class OctreeReader {
       if (evidence > 0 && !color.empty()) octree_.colors.push_back({first, side, rgbOf(color)});
       return;
     }
-    if (side == 1) fail(fmt::format("the tree is deeper than {} levels", kDepth));
+    requireDepth(side);
     for (int child = 0; child < 8; ++child)
       if ((children >> child & 1) != 0) readNode(octree::childOf(first, side / 2, child), side / 2);
   }
@@ -217,7 +228,8 @@ class OctreeReader {
       return bytes == std::string_view("\0\0\0\0", 4) ? VoxelBlock::kUnknown : kOccupiedEvidence;
     float log_odds = 0.0F;
     std::memcpy(&log_odds, bytes.data(), sizeof log_odds);
-    if (!std::isfinite(log_odds)) fail("a node has log odds that are not a finite number");
+    if (!std::isfinite(log_odds))
+      fail(Message("octree.not-finite", "a node has log odds that are not a finite number"));
     return evidenceOf(log_odds);
   }
 
@@ -249,7 +261,7 @@ class OctreeReader {
 
   void requireRoom(double more_blocks) const {
     if (static_cast<double>(octree_.map.blockCount()) + more_blocks > static_cast<double>(most_blocks_))
-      fail(fmt::format("the tree fills more than {} blocks of 8 x 8 x 8 voxels", most_blocks_));
+      fail(Message("octree.too-large", "the tree fills more than {} blocks of 8 x 8 x 8 voxels", most_blocks_));
   }
 
   void fillWithin(VoxelBlock& block, VoxelIndex first, int side, std::int8_t evidence) const {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "common/lower_case.hpp"
@@ -14,6 +13,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
 using Rows = std::array<double, 16>;
 
 /// Files have four digits or more; only a rotation is this near to one.
@@ -34,11 +34,12 @@ class Matrix {
       if (parseNumber(words[i].text, value)) {
         // A coordinate.
         if (size_ % 4 == 3 && std::abs(value) > kFarthest_m)
-          throw reader.problemAt(words[i].column, "pose", fmt::format("is farther away than {} m", kFarthest_m));
+          throw reader.problemAt(words[i].column, "pose",
+                                 Message("text.too-far", "is farther away than {} m", kFarthest_m));
         ++finite_;
       } else if (!isNotFinite(words[i].text)) {
-        throw reader.problemAt(words[i].column, "pose", fmt::format("`{}` is not a number", words[i].text),
-                               commaHint(words));
+        throw reader.problemAt(words[i].column, "pose",
+                               Message("text.not-a-number", "`{}` is not a number", words[i].text), commaHint(words));
       }
       rows_[size_++] = value;
     }
@@ -48,24 +49,29 @@ class Matrix {
   std::optional<common::Pose3> pose(const LineReader& reader) const {
     const std::size_t upper = size_ == 16 && finite_ == 1 ? 1 : 0;  // The 1 of the last row may be there nevertheless.
     if (finite_ == upper) return std::nullopt;
-    const auto refuse = [&](const std::string& message, const std::string& hint) {
-      throw reader.problemAt(column_, "pose", message, hint);
+    const auto refuse = [&](Message message, const char* hint) {
+      throw reader.problemAt(column_, "pose", std::move(message), hint);
     };
-    if (finite_ < size_) refuse("some numbers of the matrix are not finite", "");
+    if (finite_ < size_) refuse(Message("matrix.not-finite", "some numbers of the matrix are not finite"), "");
     Eigen::Matrix<double, 3, 4> T;
     for (int i = 0; i < 12; ++i) T(i / 4, i % 4) = rows_[static_cast<std::size_t>(i)];
     if (size_ == 16) {
       const Eigen::Vector4d last(rows_[12], rows_[13], rows_[14], rows_[15]);
       const bool is_pose = (last - Eigen::Vector4d::UnitW()).cwiseAbs().maxCoeff() <= kLastRowWithin;
       if (!is_pose && areStampedPositions())
-        refuse("this looks like lines `t x y z`, without orientations", "expected `t x y z qx qy qz qw` (TUM)");
+        refuse(Message("matrix.positions", "this looks like lines `t x y z`, without orientations"),
+               "expected `t x y z qx qy qz qw` (TUM)");
       if (!is_pose)
-        refuse("the last row of the matrix is not `0 0 0 1`", "is it transposed? The position is the last column");
+        refuse(Message("matrix.last-row", "the last row of the matrix is not `0 0 0 1`"),
+               "is it transposed? The position is the last column");
     }
     const Eigen::Matrix3d R = T.leftCols<3>();
     const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-    if (!(off < kRotationWithin)) refuse("its first three columns are no rotation", "scale and shear are not poses");
-    if (R.determinant() < 0.0) refuse("its first three columns are a reflection", "turn the axis that is mirrored");
+    if (!(off < kRotationWithin))
+      refuse(Message("matrix.no-rotation", "its first three columns are no rotation"), "scale and shear are not poses");
+    if (R.determinant() < 0.0)
+      refuse(Message("matrix.reflection", "its first three columns are a reflection"),
+             "turn the axis that is mirrored");
     return common::Pose3{Eigen::Quaterniond(R).normalized(), T.col(3)};
   }
 
@@ -93,7 +99,12 @@ double frameOf(const LineReader& reader, const Word& word) {
   double number = 0.0;
   if (parseNumber(word.text, number) && number >= 0.0 && number <= kGreatestFrame && number == std::floor(number))
     return number;
-  throw reader.problemAt(word.column, "frame", fmt::format("`{}` is not the number of a frame", word.text));
+  throw reader.problemAt(word.column, "frame",
+                         Message("matrix.no-frame-number", "`{}` is not the number of a frame", word.text));
+}
+
+Message numberCount(const std::vector<Word>& words, std::size_t expected) {
+  return Message("text.number-count", "{} numbers instead of {}", words.size(), expected);
 }
 
 void addTo(RecordedPoses& found, const LineReader& reader, const Matrix& matrix, double frame) {
@@ -110,8 +121,7 @@ void readRows(LineReader& reader, std::vector<Word>& words, RecordedPoses& found
   double line = 0.0;
   do {
     if (words.size() != expected)
-      throw reader.problemAt(words.back().column, "pose",
-                             fmt::format("{} numbers instead of {}", words.size(), expected),
+      throw reader.problemAt(words.back().column, "pose", numberCount(words, expected),
                              "a line is a matrix, row after row");
     Matrix matrix;
     matrix.add(reader, words, numbered);
@@ -128,33 +138,34 @@ void readBlocks(LineReader& reader, std::vector<Word>& words, RecordedPoses& fou
   while (more) {
     if (headed) {
       if (words.size() != 3)
-        throw reader.problemAt(words.back().column, "frame", fmt::format("{} numbers instead of 3", words.size()),
+        throw reader.problemAt(words.back().column, "frame", numberCount(words, 3),
                                "before each matrix stands a line `frame frame next`");
       frame = frameOf(reader, words[0]);
       if (frameOf(reader, words[1]) != frame)
-        throw reader.problemAt(words[1].column, "frame", "is not the first number again",
+        throw reader.problemAt(words[1].column, "frame", Message("matrix.other-frame", "is not the first number again"),
                                "this is a relation between two pieces, not a pose of a trajectory");
       more = nextWords(reader, words);
     }
     Matrix matrix;
     for (; more && matrix.size() < 16; more = nextWords(reader, words)) {
       if (words.size() != 4)
-        throw reader.problemAt(words.back().column, "pose", fmt::format("{} numbers instead of 4", words.size()),
+        throw reader.problemAt(words.back().column, "pose", numberCount(words, 4),
                                "a matrix has four rows of four numbers");
       matrix.add(reader, words, 0);
       if (matrix.size() == 16) addTo(found, reader, matrix, headed ? frame : frame++);
     }
     if (matrix.size() < 16)
-      throw reader.problemAt(0, "pose", fmt::format("the matrix was cut after {} of its four rows", matrix.size() / 4));
+      throw reader.problemAt(0, "pose",
+                             Message("matrix.cut", "the matrix was cut after {} of its four rows", matrix.size() / 4));
   }
 }
 
 RecordedPoses readMatrices(LineReader reader) {
   RecordedPoses found;
   std::vector<Word> words;
-  if (!nextWords(reader, words)) throw reader.problemAt(0, "", "holds no poses");
+  if (!nextWords(reader, words)) throw reader.problemAt(0, "", Message("poses.none", "holds no poses"));
   if (!areMatrices(words))
-    throw reader.problemAt(words.back().column, "pose", fmt::format("{} numbers", words.size()),
+    throw reader.problemAt(words.back().column, "pose", Message("poses.other-count", "{} numbers", words.size()),
                            "expected a matrix: 12 or 16 numbers in a line, or four lines of 4");
   if (words.size() <= 4)
     readBlocks(reader, words, found);
@@ -179,6 +190,12 @@ RecordedPoses readPoseMatrices(const std::filesystem::path& file) { return readM
 
 RecordedPoses parsePoseMatrices(std::string_view text, const std::string& name) {
   return readMatrices(LineReader::fromBytes(text, name));
+}
+
+void requireFinitePoses(const RecordedPoses& found, const std::filesystem::path& path) {
+  if (!found.poses.empty()) return;
+  throw common::InputError(common::Problem{
+      {path.string()}, "", Message("poses.none-finite", "holds no poses: not one of its matrices is finite"), ""});
 }
 
 }  // namespace swiftlet::interfaces

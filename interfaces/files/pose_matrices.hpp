@@ -40,4 +40,7 @@ RecordedPoses readPoseMatrices(const std::filesystem::path& file);
 /// Messages use `name` as the file.
 RecordedPoses parsePoseMatrices(std::string_view text, const std::string& name);
 
+/// Throws InputError if there is no pose.
+void requireFinitePoses(const RecordedPoses& found, const std::filesystem::path& path);
+
 }  // namespace swiftlet::interfaces

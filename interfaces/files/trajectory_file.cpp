@@ -11,6 +11,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 namespace fs = std::filesystem;
+using common::Message;
 
 const LineFormat& referenceFormat() {
   static const LineFormat kFormat{"pose", {"ipc_timestamp", "scan_index", "x", "y", "theta"}};
@@ -41,29 +42,30 @@ RecordedPoses readRecordedPoses(const fs::path& path) {
   }
   LineReader reader(path);
   std::vector<Word> words;
-  if (!nextWords(reader, words)) throw reader.problemAt(0, "", "holds no poses");
+  if (!nextWords(reader, words)) throw reader.problemAt(0, "", Message("poses.none", "holds no poses"));
   if (words.size() == tumFormat().fields.size()) return {PoseOrder::kStamps, readTum(path, StampOrder::kAny), 0};
   if (words.size() == referenceFormat().fields.size())
     return {PoseOrder::kStamps, readReferencePoses(LineReader(path)), 0};
   if (!areMatrices(words)) {
     const std::string commas = commaHint(words);
     throw reader.problemAt(words.back().column, "pose",
-                           commas.empty() ? fmt::format("{} numbers", words.size()) : "no numbers between blanks",
+                           commas.empty() ? Message("poses.other-count", "{} numbers", words.size())
+                                          : Message("poses.no-blanks", "no numbers between blanks"),
                            fmt::format("expected {}, {} or a matrix of 12 or 16 numbers{}{}", toString(tumFormat()),
                                        toString(referenceFormat()), commas.empty() ? "" : "; ", commas));
   }
   RecordedPoses found = readPoseMatrices(path);
-  if (found.poses.empty())
-    throw common::InputError(
-        common::Problem{{path.string()}, "", "holds no poses: not one of its matrices is finite", ""});
+  requireFinitePoses(found, path);
   return found;
 }
 
 std::vector<common::StampedPose> readPoses(const fs::path& file) {
   RecordedPoses found = readRecordedPoses(file);
   if (found.order == PoseOrder::kStamps) return std::move(found.poses);
-  throw common::InputError(
-      common::Problem{{file.string()}, "", "has no stamps", fmt::format("expected {}", toString(tumFormat()))});
+  throw common::InputError(common::Problem{{file.string()},
+                                           "",
+                                           Message("poses.no-stamps", "has no stamps"),
+                                           fmt::format("expected {}", toString(tumFormat()))});
 }
 
 std::vector<common::StampedPose> parseReferencePoses(std::string_view text, const std::string& name) {

@@ -7,6 +7,8 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
+
 /// Nine decimals without a negative zero, because then equal poses would differ.
 std::string decimal(double value) {
   std::string text = fmt::format("{:.9f}", value);
@@ -19,8 +21,10 @@ common::StampedPose poseFrom(const LineFields& fields) {
   pose.pose.position_m = {fields.coordinate_m(1), fields.coordinate_m(2), fields.coordinate_m(3)};
   const double x = fields.number(4), y = fields.number(5), z = fields.number(6), w = fields.number(7);
   const Eigen::Quaterniond rotation(w, x, y, z);
-  if (rotation.norm() < 1e-6) throw fields.problemAt(4, "qx qy qz qw", "a rotation of length zero");
-  if (!std::isfinite(rotation.norm())) throw fields.problemAt(4, "qx qy qz qw", "a rotation of infinite length");
+  if (rotation.norm() < 1e-6)
+    throw fields.problemAt(4, "qx qy qz qw", Message("tum.rotation-zero", "a rotation of length zero"));
+  if (!std::isfinite(rotation.norm()))
+    throw fields.problemAt(4, "qx qy qz qw", Message("tum.rotation-infinite", "a rotation of infinite length"));
   pose.pose.rotation = rotation.normalized();
   return pose;
 }
@@ -33,7 +37,8 @@ std::vector<common::StampedPose> read(LineReader reader, StampOrder order) {
     const common::StampedPose pose = poseFrom(fields);
     if (order == StampOrder::kGrowing && !poses.empty() && pose.stamp <= poses.back().stamp)
       throw fields.problemAt(
-          0, "t", fmt::format("{} does not come after {}", stampText(pose.stamp), stampText(poses.back().stamp)),
+          0, "t",
+          Message("tum.not-later", "{} does not come after {}", stampText(pose.stamp), stampText(poses.back().stamp)),
           "sort the poses by time");
     poses.push_back(pose);
   }

@@ -19,6 +19,8 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
+
 constexpr std::size_t kUnpackedBytes = std::size_t{1} << 16;
 /// Limit of nested packings: a crafted file can unpack to itself forever.
 constexpr int kMostGzipLayers = 20;
@@ -27,8 +29,8 @@ ByteSource sourceOf(const std::filesystem::path& file) {
   common::requireFile(file);
   std::FILE* opened = std::fopen(file.c_str(), "rb");
   if (opened == nullptr)
-    throw common::InputError(
-        common::Problem{{file.string()}, "", fmt::format("cannot be opened: {}", std::strerror(errno)), ""});
+    throw common::InputError(common::Problem{
+        {file.string()}, "", Message("file.not-opened", "cannot be opened: {}", std::strerror(errno)), ""});
   return [held = std::shared_ptr<std::FILE>(opened, &std::fclose)](char* to, std::size_t bytes) -> BytesRead {
     const std::size_t count = std::fread(to, 1, bytes, held.get());
     if (count == 0 && std::ferror(held.get()) != 0) return tl::unexpected(std::string(std::strerror(errno)));
@@ -221,18 +223,21 @@ std::filesystem::path unpackedName(const std::filesystem::path& file) {
 
 std::string readUnpacked(const std::filesystem::path& file, std::size_t most_bytes) {
   constexpr std::size_t kChunk = std::size_t{1} << 20;
-  const auto fail = [&](const std::string& message, const std::string& hint) {
-    throw common::InputError(common::Problem{{file.string()}, "", message, hint});
+  const auto fail = [&](Message message, const char* hint) {
+    throw common::InputError(common::Problem{{file.string()}, "", std::move(message), hint});
   };
   UnpackedStream stream(file);
   std::string bytes;
   for (;;) {
     const std::size_t before = bytes.size();
     if (before > most_bytes)
-      fail(fmt::format("holds more than {} MiB", most_bytes >> 20), "thin it, or write it with a coarser resolution");
+      fail(Message("file.unpacks-too-large", "holds more than {} MiB", most_bytes >> 20),
+           "thin it, or write it with a coarser resolution");
     bytes.resize(before + kChunk);
     const BytesRead read = stream.read(bytes.data() + before, kChunk);
-    if (!read) fail(read.error(), "give the whole file, plain or packed by gzip, bzip2 or xz");
+    if (!read)
+      fail(Message("file.not-unpacked", "{}", read.error()),
+           "give the whole file, plain or packed by gzip, bzip2 or xz");
     bytes.resize(before + *read);
     if (*read == 0) return bytes;
   }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 
-#include <fmt/format.h>
 #include <linux/magic.h>
 
 #include "interfaces/files/atomic_file.hpp"
@@ -16,6 +15,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 namespace fs = std::filesystem;
+using common::Message;
 
 /// The folder itself, or the nearest one above it that is there.
 fs::path nearestThere(const fs::path& folder) {
@@ -38,34 +38,34 @@ bool isOfTheKernel(const fs::path& there) {
 
 common::Problem unusableFolder(const fs::path& folder, const std::error_code& why) {
   const fs::path there = nearestThere(folder);
-  const auto problem = [&](const std::string& message, const std::string& hint) {
-    return common::Problem{{folder.string()}, "", message, hint};
+  const auto problem = [&](Message message, const char* hint) {
+    return common::Problem{{folder.string()}, "", std::move(message), hint};
   };
   const std::string name = there.string();
   std::error_code failure;
   if (isOfTheKernel(there))
-    return problem(fmt::format("`{}` holds no files of users, but what the kernel shows", name),
+    return problem(Message("folder.of-kernel", "`{}` holds no files of users, but what the kernel shows", name),
                    "give a folder on a disk, as runs/mine");
   if (!fs::is_directory(there, failure))
     return problem(fs::is_symlink(fs::symlink_status(there, failure)) && !fs::exists(there, failure)
-                       ? fmt::format("`{}` is a link to what is not there", name)
-                       : fmt::format("`{}` is a file, and no folder can be made there", name),
+                       ? Message("folder.broken-link", "`{}` is a link to what is not there", name)
+                       : Message("folder.below-file", "`{}` is a file, and no folder can be made there", name),
                    "give the name of a folder");
   switch (why.value()) {
     case EACCES:
     case EPERM:
-      return problem(fmt::format("nothing can be written to `{}`: {}", name, why.message()),
+      return problem(Message("folder.no-right", "nothing can be written to `{}`: {}", name, why.message()),
                      "give a folder of yours, as runs/mine");
     case EROFS:
-      return problem(fmt::format("`{}` is mounted read-only", name), "give a folder on another disk");
+      return problem(Message("folder.read-only", "`{}` is mounted read-only", name), "give a folder on another disk");
     case ENOSPC:
     case EDQUOT:
-      return problem(fmt::format("the disk of `{}` is full: {}", name, why.message()),
+      return problem(Message("folder.disk-full", "the disk of `{}` is full: {}", name, why.message()),
                      "make room there, or give a folder on another disk");
     case ENAMETOOLONG:
-      return problem("the name is too long for a file system", "give a shorter one");
+      return problem(Message("folder.name-too-long", "the name is too long for a file system"), "give a shorter one");
     default:
-      return problem(fmt::format("cannot be used: {}", why.message()), "give another folder");
+      return problem(Message("folder.not-usable", "cannot be used: {}", why.message()), "give another folder");
   }
 }
 

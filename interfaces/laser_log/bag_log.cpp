@@ -22,7 +22,7 @@ class BagLog final : public CountedLog {
   BagLog(const std::filesystem::path& file, const LaserLogOptions& options)
       : file_bytes_(static_cast<double>(std::filesystem::file_size(file))),
         options_(options),
-        reader_(UnpackedStream(file), {isLaserScan, kMostScanBytes, [this](std::string message) {
+        reader_(UnpackedStream(file), {isLaserScan, kMostScanBytes, [this](common::Message message) {
                                          skipped({{reader_.name()}, "", std::move(message), ""});
                                        }}) {}
 
@@ -82,9 +82,12 @@ class BagLog final : public CountedLog {
     }
     // The first problem explains why there are no scans.
     std::string why;
-    for (const common::Problem& problem : counts().first_problems) why += problem.message + "; ";
+    for (const common::Problem& problem : counts().first_problems) why += problem.message.text() + "; ";
     return common::InputError(
-        common::Problem{{reader_.name()}, "", fmt::format("has no messages of type {}", kLaserScanType), why + topics});
+        common::Problem{{reader_.name()},
+                        "",
+                        common::Message("bag.no-scans", "has no messages of type {}", kLaserScanType),
+                        why + topics});
   }
 
   double file_bytes_;

@@ -10,6 +10,8 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
+
 constexpr std::string_view kAnyVersion = "#ROSBAG V";
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 /// Greatest sizes. Headers contain numbers, a topic and a few words; the data of a connection contain the definition of
@@ -78,8 +80,10 @@ BagReader::BagReader(UnpackedStream stream, Options options)
   try {
     if (file_.bytes(kMagic.size()) == kMagic) return;
   } catch (const StreamFailure&) {}
-  throw common::InputError(
-      common::Problem{{name()}, "", "is no bag of version 2.0", "`rosbag migrate` brings older ones up to it"});
+  throw common::InputError(common::Problem{{name()},
+                                           "",
+                                           Message("bag.other-version", "is no bag of version 2.0"),
+                                           "`rosbag migrate` brings older ones up to it"});
 }
 
 BagReader::~BagReader() = default;
@@ -134,7 +138,8 @@ BagReader::Taken BagReader::takeFromChunk(BagMessage& message) {
       return Taken::kOther;
     }
   } catch (const StreamFailure& failure) {
-    options_.onProblem(fmt::format("the chunk before byte {} is damaged: {}", file_.offset(), failure.message));
+    options_.onProblem(
+        Message("bag.chunk-damaged", "the chunk before byte {} is damaged: {}", file_.offset(), failure.message));
   }
   leaveChunk();
   return Taken::kOther;
@@ -153,8 +158,10 @@ void BagReader::leaveChunk() {
 }
 
 common::InputError BagReader::cutAt(std::uint64_t offset, const StreamFailure& failure) const {
-  return common::InputError(common::Problem{
-      {name()}, fmt::format("byte {}", offset), "is cut or damaged, its end cannot be read", failure.message});
+  return common::InputError(common::Problem{{name()},
+                                            fmt::format("byte {}", offset),
+                                            Message("file.damaged", "is cut or damaged, its end cannot be read"),
+                                            failure.message});
 }
 
 std::string BagReader::header(StreamCursor& from) {
@@ -165,8 +172,10 @@ std::string BagReader::header(StreamCursor& from) {
 
 void BagReader::readBagHeader(const std::string& header) {
   if (const auto encryptor = find(header, "encryptor"); encryptor && !encryptor->empty())
-    throw common::InputError(common::Problem{
-        {name()}, "", "is encrypted by " + shown(*encryptor), "`rosbag decrypt` gives one that can be read"});
+    throw common::InputError(common::Problem{{name()},
+                                             "",
+                                             Message("bag.encrypted", "is encrypted by {}", shown(*encryptor)),
+                                             "`rosbag decrypt` gives one that can be read"});
   // A writer fills this in at its end; until then the position of the index is zero.
   const auto index = find(header, "index_pos"), chunks = find(header, "chunk_count");
   if (index && chunks && index->find_first_not_of('\0') != std::string_view::npos)
@@ -180,8 +189,8 @@ void BagReader::openChunk(const std::string& header, std::uint32_t bytes) {
     chunk_ = std::make_unique<Chunk>(file_, bytes, packing != "none");
     return;
   }
-  options_.onProblem(
-      fmt::format("a chunk at byte {} is packed by `{}`, which is not known", file_.offset(), shown(packing)));
+  options_.onProblem(Message("bag.chunk-packing", "a chunk at byte {} is packed by `{}`, which is not known",
+                             file_.offset(), shown(packing)));
   file_.skip(bytes);
 }
 

@@ -49,7 +49,7 @@ class BagReader {
   struct Options {
     std::function<bool(const BagConnection&)> wanted;
     std::size_t most_bytes = 0;
-    std::function<void(std::string message)> onProblem;
+    std::function<void(common::Message message)> onProblem;
   };
 
   /// Throws InputError if this is not a bag of version 2.0.

@@ -5,14 +5,13 @@
 #include <numbers>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/laser_log/scan_geometry.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
 using common::Pose2;
 
 // Data of the rover: see the format's own reader.
@@ -90,21 +89,24 @@ class BreezyFormat final : public LogFormat {
   static double within(LogFields& fields, const char* name, double limit) {
     const double value = fields.finite(name);
     if (std::abs(value) <= limit) return value;
-    fields.fail(name, "is out of all bounds");
+    fields.fail(name, Message("laser-log.out-of-bounds", "is out of all bounds"));
     return 0.0;
   }
 
   void readRanges(LogFields& fields, common::LaserScan& scan) const {
     while (!fields.atEnd() && !fields.problem()) {
-      if (scan.ranges_m.size() >= kMaxBeams) return fields.fail("range", "there are more than any laser has");
+      if (scan.ranges_m.size() >= kMaxBeams)
+        return fields.fail("range", Message("laser-log.too-many-beams", "there are more than any laser has"));
       fields.ranges(1, 1e-3, scan);
     }
     const int beams = static_cast<int>(scan.ranges_m.size());
     if (!fields.problem() && (beams < 2 || (beams > kWidestFan && !options_.sensor)))
-      return fields.fail("range", beams < 2 ? "the line ends before it" : "there are more than a URG-04LX has");
+      return fields.fail("range", beams < 2
+                                      ? Message("laser-log.line-ends", "the line ends before it")
+                                      : Message("laser-log.wider-than-laser", "there are more than a URG-04LX has"));
     // A cut line would spread its beams in wrong directions.
     if (!fields.problem() && beams != beams_)
-      return fields.fail("range", fmt::format("there are {}, in most lines {}", beams, beams_));
+      return fields.fail("range", Message("laser-log.other-beams", "there are {}, in most lines {}", beams, beams_));
     scan.angle_min_rad = -0.5 * kStep_rad * (beams - 1);
     scan.angle_increment_rad = kStep_rad;
     scan.time_increment = kStepTime;

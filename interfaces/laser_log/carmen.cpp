@@ -14,6 +14,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
+using common::Message;
 using common::Pose2;
 
 /// Old lines do not give the range of their laser: SICK and others write 50, 51.x, 81.8 or 81.9 for "nothing".
@@ -28,7 +29,9 @@ void readStamps(LogFields& fields, common::LaserScan& scan) {
   scan.stamps.measured = fields.stamp("ipc_timestamp");
   (void)fields.word("ipc_hostname");
   (void)fields.number("logger_timestamp");
-  if (!fields.atEnd()) fields.fail("logger_timestamp", "the line goes on after it, is a number of readings wrong?");
+  if (!fields.atEnd())
+    fields.fail("logger_timestamp",
+                Message("laser-log.line-goes-on", "the line goes on after it, is a number of readings wrong?"));
 }
 
 /// FLASER n ranges.. laser pose, robot pose, stamp, host, logger's stamp
@@ -99,7 +102,8 @@ class CarmenFormat final : public LogFormat {
     auto read = parseCarmenLine(line);
     if (!read) return tl::unexpected(std::move(read.error()));
     if (!*read && isGarbledCarmenLine(line))
-      return tl::unexpected(RecordProblem{1, "", "is no message of CARMEN, is the log damaged?"});
+      return tl::unexpected(
+          RecordProblem{1, "", Message("laser-log.not-carmen", "is no message of CARMEN, is the log damaged?")});
     if (!*read) return std::nullopt;
     const Pose2 T_odom_laser = (*read)->T_odom_laser, T_odom_robot = (*read)->T_odom_robot;
     if (mount_.rigid && !agrees(T_odom_robot.inverse() * T_odom_laser, mount_)) ++elsewhere_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace swiftlet::interfaces {
 namespace {
 
@@ -33,7 +31,8 @@ bool isLaserScan(const BagConnection& connection) {
 
 tl::expected<LoggedScan, RecordProblem> parseLaserScan(const BagMessage& message) {
   if (message.bytes > message.data.size())
-    return tl::unexpected(RecordProblem{0, "", fmt::format("a scan of {} bytes", message.bytes)});
+    return tl::unexpected(
+        RecordProblem{0, "", common::Message("bag.scan-too-large", "a scan of {} bytes", message.bytes)});
   MessageCursor cursor(message.data);
   LoggedScan logged;
   common::LaserScan& scan = logged.scan;
@@ -49,11 +48,11 @@ tl::expected<LoggedScan, RecordProblem> parseLaserScan(const BagMessage& message
   scan.range_max_m = cursor.f32();
   const std::uint32_t beams = cursor.u32();
   if (beams > cursor.left() / sizeof(float))
-    return tl::unexpected(
-        RecordProblem{0, "", fmt::format("{} beams do not fit into its {} bytes", beams, message.bytes)});
+    return tl::unexpected(RecordProblem{
+        0, "", common::Message("bag.scan-too-short", "{} beams do not fit into its {} bytes", beams, message.bytes)});
   scan.ranges_m.reserve(beams);
   for (std::uint32_t i = 0; i < beams; ++i) scan.ranges_m.push_back(cursor.f32());
-  if (!cursor.whole()) return tl::unexpected(RecordProblem{0, "", "is cut"});
+  if (!cursor.whole()) return tl::unexpected(RecordProblem{0, "", common::Message("bag.scan-cut", "is cut")});
 
   scan.stamps.measured = seconds == 0 && nanoseconds == 0 ? message.recorded : timeOf(seconds, nanoseconds);
   scan.stamps.arrived = scan.stamps.measured;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/error.hpp"
 #include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -18,7 +19,7 @@ constexpr int kMaxBeams = 20'000;
 struct RecordProblem {
   int column = 0;  ///< Counted from 1; 0 for formats without lines.
   std::string element;
-  std::string message;
+  common::Message message;
 };
 
 /// A word of a log for messages: short, and without control characters.
@@ -42,12 +43,12 @@ class LogFields {
 
   bool atEnd();
   /// Sets the line's problem, unless it has one.
-  void fail(const char* name, std::string message) { failAt(at_, name, std::move(message)); }
+  void fail(const char* name, common::Message message) { failAt(at_, name, std::move(message)); }
   const std::optional<RecordProblem>& problem() const { return problem_; }
 
  private:
   void skipBlanks();
-  void failAt(const char* where, const char* name, std::string message);
+  void failAt(const char* where, const char* name, common::Message message);
 
   const char* begin_;
   const char* at_;

@@ -5,12 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
-
 namespace swiftlet::interfaces {
 namespace {
 
 using common::LaserScan;
+using common::Message;
 
 /// A whole turn, plus one beam that some lasers repeat.
 constexpr double kWidestFan_rad = 2.0 * std::numbers::pi + 0.1;
@@ -37,23 +36,26 @@ void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {
   if ((T_robot_laser.rotation * Eigen::Vector3d::UnitZ()).z() < 0.0) mirror(scan);
 }
 
-std::optional<std::string> geometryProblem(const LaserScan& scan) {
+std::optional<Message> geometryProblem(const LaserScan& scan) {
   const double fan_rad = scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0);
   if (!std::isfinite(scan.angle_min_rad) || std::abs(scan.angle_min_rad) > kWidestFan_rad)
-    return fmt::format("a first beam at {} rad", scan.angle_min_rad);
+    return Message("scan.first-beam", "no laser has a first beam at {} rad, give its data sheet by --sensor",
+                   scan.angle_min_rad);
   if (scan.ranges_m.size() > 1 && !(scan.angle_increment_rad > 0.0 && fan_rad <= kWidestFan_rad))
-    return fmt::format("{} beams, {} rad apart", scan.ranges_m.size(), scan.angle_increment_rad);
+    return Message("scan.spacing", "no laser has {} beams, {} rad apart, give its data sheet by --sensor",
+                   scan.ranges_m.size(), scan.angle_increment_rad);
   if (!std::isfinite(scan.range_max_m) || !(scan.range_min_m >= 0.0) || !(scan.range_max_m > scan.range_min_m))
-    return fmt::format("ranges from {} m to {} m", scan.range_min_m, scan.range_max_m);
+    return Message("scan.ranges", "no laser has ranges from {} m to {} m, give its data sheet by --sensor",
+                   scan.range_min_m, scan.range_max_m);
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::string> completeScan(const std::optional<common::LaserConfig>& sensor, LoggedScan& logged) {
+std::optional<Message> completeScan(const std::optional<common::LaserConfig>& sensor, LoggedScan& logged) {
   if (sensor) useSensor(*sensor, logged);
   LaserScan& scan = logged.scan;
-  if (auto problem = geometryProblem(scan)) return "no laser has " + *problem + ", give its data sheet by --sensor";
+  if (auto problem = geometryProblem(scan)) return problem;
   scan.range_max_m = std::min(scan.range_max_m, kGreatestRange_m);
   const auto farthest_m = static_cast<float>(scan.range_max_m);
   for (float& range_m : scan.ranges_m) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "interfaces/laser_log/counted_log.hpp"
 
 namespace swiftlet::interfaces {
@@ -21,7 +19,7 @@ class TextLog final : public CountedLog {
     std::string_view line;
     while (reader_.next(line)) {
       if (reader_.lineCut()) {
-        skip({0, "", fmt::format("a line of more than {} bytes", kLogLimits.line_bytes)});
+        skip({0, "", common::Message("text.line-too-long", "a line of more than {} bytes", kLogLimits.line_bytes)});
         continue;
       }
       auto scan = format_->parse(line);

@@ -96,12 +96,12 @@ std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair,
   }
   auto color = common::decodeColor(*color_bytes);
   if (!color) {
-    skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.color.string(), color.error().reason)};
+    skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.color.string(), color.error().reason.text())};
     return std::nullopt;
   }
   const auto depth = common::decodeDepth(*depth_bytes);
   if (!depth) {
-    skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.depth.string(), depth.error().reason)};
+    skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.depth.string(), depth.error().reason.text())};
     return std::nullopt;
   }
   const RgbdCalibration& known = listing_.calibration;

@@ -23,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using common::InputError;
+using common::Message;
 using common::Problem;
 using common::Time;
 
@@ -42,7 +43,8 @@ struct StampedFile {
 StampedFile stampedFile(const LineReader& reader, const fs::path& folder, const Word& stamp, const Word& file) {
   const std::optional<Time> time = parseStamp(stamp.text);
   if (!time)
-    throw reader.problemAt(stamp.column, "stamp", fmt::format("`{}` is not a time in seconds", stamp.text),
+    throw reader.problemAt(stamp.column, "stamp",
+                           Message("text.not-a-time", "`{}` is not a time in seconds", stamp.text),
                            stampUnitHint(stamp.text));
   return {*time, folder / fs::path(file.text)};
 }
@@ -50,7 +52,8 @@ StampedFile stampedFile(const LineReader& reader, const fs::path& folder, const 
 /// Throws unless a line has this many words.
 void requireWords(const LineReader& reader, const std::vector<Word>& words, std::size_t count, const char* line) {
   if (words.size() == count) return;
-  throw reader.problemAt(0, "", fmt::format("expected `{}`, this line has {} words", line, words.size()));
+  throw reader.problemAt(0, "",
+                         Message("rgbd.word-count", "expected `{}`, this line has {} words", line, words.size()));
 }
 
 std::vector<StampedFile> readList(const fs::path& folder, const char* name) {
@@ -164,7 +167,8 @@ void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
   std::map<std::int64_t, fs::path> colors, depths;
   std::error_code failure;
   const fs::directory_iterator entries(folder, failure);
-  if (failure) throw InputError(Problem{{folder.string()}, "", failure.message(), ""});
+  if (failure)
+    throw InputError(Problem{{folder.string()}, "", Message("file.not-reached", "{}", failure.message()), ""});
   for (const auto& entry : entries) {
     const std::string name = entry.path().filename().string();
     const std::optional<std::int64_t> number = frameNumber(name);
@@ -206,24 +210,26 @@ bool isThere(const fs::path& file) {
   std::error_code failure;
   const fs::file_status status = fs::status(file, failure);
   if (failure && status.type() != fs::file_type::not_found)
-    throw InputError(Problem{{file.string()}, "", failure.message(), ""});
+    throw InputError(Problem{{file.string()}, "", Message("file.not-reached", "{}", failure.message()), ""});
   return fs::exists(status);
 }
 
 /// Why there is not a single pair.
-std::string whyNoPair(const RgbdListing& listing, const Unpaired& unpaired) {
-  if (listing.unpaired == 0) return "lists no images";
-  const std::string none = fmt::format("holds no pair of a colour and a depth image, of {} images", listing.unpaired);
-  if (!std::isfinite(unpaired.nearest_s)) return none;
-  return none + fmt::format(": the nearest two are {:.3f} s apart, at most {:g} s are one time", unpaired.nearest_s,
-                            kPairedWithin_s);
+Message whyNoPair(const RgbdListing& listing, const Unpaired& unpaired) {
+  if (listing.unpaired == 0) return Message("rgbd.no-images", "lists no images");
+  Message none("rgbd.no-pair", "holds no pair of a colour and a depth image, of {} images", listing.unpaired);
+  if (std::isfinite(unpaired.nearest_s))
+    none += fmt::format(": the nearest two are {:.3f} s apart, at most {:g} s are one time", unpaired.nearest_s,
+                        kPairedWithin_s);
+  return none;
 }
 
 }  // namespace
 
 RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibration_file) {
   if (!isThere(folder) || !fs::is_directory(folder))
-    throw InputError(Problem{{folder.string()}, "", "is not a folder", "unpack an archive first"});
+    throw InputError(
+        Problem{{folder.string()}, "", Message("folder.none", "is not a folder"), "unpack an archive first"});
   RgbdListing listing;
   Unpaired unpaired;
   if (isThere(folder / "associations.txt")) {
@@ -243,7 +249,10 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
     listing.calibration = sevenScenesCalibration();
     listSevenScenes(folder, listing);
     if (listing.pairs.empty() && listing.unpaired == 0)
-      throw InputError(Problem{{folder.string()}, "", "holds no RGB-D frames of a known format", kKnownFormats});
+      throw InputError(Problem{{folder.string()},
+                               "",
+                               Message("rgbd.unknown-format", "holds no RGB-D frames of a known format"),
+                               kKnownFormats});
   }
   if (listing.pairs.empty())
     throw InputError(Problem{{folder.string()}, "", whyNoPair(listing, unpaired), stampStepNote(unpaired.step_s)});

@@ -224,8 +224,8 @@ class Parts {
  private:
   using Square = std::array<int, 2>;
   /// Points up to which one search tree holds the whole cloud, and the side of the squares of a larger one: a tree over
-  /// a large cloud takes as much memory as the cloud (decision 081). Other values cost time or memory and
-  /// change no result, as a part holds the neighbours beyond its square, too.
+  /// a large cloud takes as much memory as the cloud (docs/decisions/grid_map.md#081). Other values cost time or memory
+  /// and change no result, as a part holds the neighbours beyond its square, too.
   static constexpr std::size_t kWhole = 300'000;
   static constexpr float kSide_m = 5.0F;
   /// Neighbours are nearer: a point whose neighbours are not is an outlier by any measure.

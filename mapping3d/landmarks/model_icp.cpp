@@ -150,7 +150,7 @@ void ModelIcp::begin(RgbdPose& pose, Features features, const FramePyramid& pyra
   key.seen = learn({}, pose, key.features);
   addKeyFrame(pose, place, pyramid, std::move(key));
   unfit_frames_ = 0;
-  remember(pose, seed);
+  last_ = LastFrame(pose, seed, last_);
 }
 
 void ModelIcp::take(const Fit& fit, RgbdPose& pose, Features features, const FramePyramid& pyramid,
@@ -171,7 +171,7 @@ void ModelIcp::take(const Fit& fit, RgbdPose& pose, Features features, const Fra
   const bool becomes_key = keys_.needsNew(overlapping, pose.T_map_camera, pose.fit.overlap);
   if (!becomes_key) {
     learn(fit, pose, features);
-    remember(pose, seed);
+    last_ = LastFrame(pose, seed, last_);
     return;
   }
   pose.motion = motionSinceKeyFrame(features, pose.T_map_camera);
@@ -181,7 +181,7 @@ void ModelIcp::take(const Fit& fit, RgbdPose& pose, Features features, const Fra
   Adjusted key{pose.T_map_camera, pose.scan, seed, std::move(features), {}};
   key.seen = learn(fit, pose, key.features);
   addKeyFrame(pose, place, pyramid, std::move(key));
-  remember(pose, seed);
+  last_ = LastFrame(pose, seed, last_);
 }
 
 /// Against the features of the newest key frame alone, without a prior.
@@ -251,13 +251,6 @@ void ModelIcp::adjustBundle() {
   for (const auto& [number, index] : indices)
     model_.moveTo(number, bundle.landmarks_m[static_cast<std::size_t>(index)]);
   for (std::size_t i = 0; i < adjusted_.size(); ++i) adjusted_[i].T_map_key = bundle.poses[i];
-}
-
-void ModelIcp::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
-  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan, seed, {}};
-  if (last_ && pose.state == TrackState::kTracked)
-    next.motion = motionBetween(last_->T_map_camera, pose.T_map_camera, (pose.stamp - last_->stamp).seconds());
-  last_ = next;
 }
 
 }  // namespace swiftlet::mapping3d

@@ -20,7 +20,6 @@
 #include "mapping3d/landmarks/landmark_icp.hpp"
 #include "mapping3d/landmarks/landmark_model.hpp"
 #include "mapping3d/odometry/frame_odometry.hpp"
-#include "mapping3d/odometry/motion_prior.hpp"
 #include "vision/features.hpp"
 
 namespace swiftlet::mapping3d {
@@ -39,14 +38,6 @@ class ModelIcp final : public FrameOdometry {
 
  private:
   using Features = std::vector<vision::Feature>;
-  struct Last {
-    common::Time stamp;
-    common::Pose3 T_map_camera;
-    Matrix6d covariance;  ///< With the axes of the camera.
-    int scan = 0;
-    std::optional<CameraSeed> seed;
-    CameraVelocity motion;
-  };
   struct Observation {
     std::uint64_t landmark = 0;  ///< Its number.
     std::size_t feature = 0;     ///< Index into the key frame's.
@@ -75,14 +66,13 @@ class ModelIcp final : public FrameOdometry {
   std::vector<Observation> learn(const Fit& fit, const RgbdPose& pose, const Features& features);
   void addKeyFrame(RgbdPose& pose, KeyFramePlace place, const FramePyramid& pyramid, Adjusted adjusted);
   void adjustBundle();
-  void remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed);
 
   vision::FeatureConfig features_;
   KeyFrameMap keys_;
   LandmarkModel model_;
   std::deque<Adjusted> adjusted_;  ///< The newest key frames, the oldest of them first.
   std::shared_ptr<const common::KeyPoses> scans_;
-  std::optional<Last> last_;
+  std::optional<LastFrame> last_;
   int tracks_ = 0;        ///< How often the model restarted.
   int unfit_frames_ = 0;  ///< Number of consecutive ones up to the last frame; while there are any it is lost.
   std::uint64_t frames_ = 0;

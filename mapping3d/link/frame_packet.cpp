@@ -47,7 +47,7 @@ common::RgbdFrame halved(const common::RgbdFrame& frame) {
 
 tl::expected<common::RgbdFrame, std::string> unpacked(const FramePacket& packet) {
   auto color = common::decodeColor({reinterpret_cast<const char*>(packet.color.data()), packet.color.size()});
-  if (!color) return tl::unexpected("colour " + color.error().reason);
+  if (!color) return tl::unexpected("colour " + color.error().reason.text());
   if (color->width_px != packet.camera.width_px || color->height_px != packet.camera.height_px)
     return tl::unexpected(std::string("colour does not have the size of the camera"));
   auto depth = decodeDepth(packet.depth, packet.camera.width_px, packet.camera.height_px);

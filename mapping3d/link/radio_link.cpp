@@ -14,7 +14,7 @@ using common::Time;
 
 namespace {
 
-/// Quality of the colours that go over the radio; depths lose nothing (decision 045).
+/// Quality of the colours that go over the radio; depths lose nothing (docs/decisions/cameras_and_lasers.md#045).
 constexpr int kJpegQuality = 80;
 /// Narrower pictures leave too few points to align.
 constexpr int kLeastWidth_px = 160;

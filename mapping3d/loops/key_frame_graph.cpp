@@ -18,7 +18,7 @@ using common::Pose3;
 /// Errors of position and attitude of an alignment between two key frames that its points do not show, at least.
 constexpr double kEdgeSigma_m = 0.01, kEdgeSigma_rad = 0.005;
 /// Errors that alignments gather over a metre of steps and over a radian of turns; they grow with the roots of both, as
-/// a random walk does (decision 040).
+/// a random walk does (docs/decisions/mapping3d.md#040).
 constexpr double kWalk_m = 0.03, kWalk_rad = 0.05;
 /// Further differences of a loop closure from the path that are accepted: of its position, as a share of the path's
 /// length, and of its attitude, as a share of all turns along the path.

@@ -5,8 +5,8 @@
 //
 // Key frames and submaps hang on the key scans of the 2D map, so a loop closure moves them and draws nothing again.
 // After Saeedi et al., Algorithm 1. Its model of corners and its bundle adjustment are one method (ModelIcp). The usual
-// one aligns frames directly (RgbdOdometry, decision 032). With either, the poses of key frames follow those of the 2D
-// map, or a graph of their own where there is none.
+// one aligns frames directly (RgbdOdometry, docs/decisions/mapping3d.md#032). With either, the poses of key frames
+// follow those of the 2D map, or a graph of their own where there is none.
 #pragma once
 
 #include <memory>

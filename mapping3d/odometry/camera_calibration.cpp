@@ -19,7 +19,8 @@ constexpr double kClockWalk_s_rts = 0.0002;
 /// Standard deviations of the body's motion between two key frames as the other sensors measure it: of its position and
 /// of its rotation, about each axis.
 constexpr double kBodySigma_m = 0.006, kBodySigma_rad = 0.003;
-/// A component is used once its standard deviation has shrunk to this part of that of the start (decision 039).
+/// A component is used once its standard deviation has shrunk to this part of that of the start
+/// (docs/decisions/cameras_and_lasers.md#039).
 constexpr double kKnownShare = 0.5;
 
 /// From errors of the camera's pose to those of the body's, each in its own axes.

@@ -9,7 +9,8 @@ namespace {
 
 /// Fewer pairs of views are no evidence.
 constexpr int kLeastAdded = 3;
-/// With a right focal length another one leaves at least 0.95 of what it leaves, on the recordings of decision 041.
+/// With a right focal length another one leaves at least 0.95 of what it leaves, on recordings
+/// (docs/decisions/mapping3d.md#041).
 constexpr int kManyAdded = 8;
 constexpr double kClearlyBetter = 0.85;
 /// Over few pairs it may be 0.87. With 1.24 times the right one, the right one leaves about 0.5.

@@ -12,6 +12,7 @@
 #include "mapping3d/odometry/camera_seed.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
 #include "mapping3d/odometry/measured_pose.hpp"
+#include "mapping3d/odometry/motion_prior.hpp"
 
 namespace swiftlet::mapping3d {
 
@@ -47,6 +48,19 @@ struct RgbdPose {
   bool became_key_frame = false;
 
   bool isTracked() const { return state != TrackState::kLost; }
+};
+
+/// What the pose of the next frame is predicted from.
+struct LastFrame {
+  common::Time stamp;
+  common::Pose3 T_map_camera;
+  Matrix6d covariance;  ///< With the axes of the camera.
+  int scan = 0;
+  std::optional<CameraSeed> seed;
+  Exposure exposure;      ///< Of an odometry that aligns frames.
+  CameraVelocity motion;  ///< Zero unless it was tracked after the frame before it.
+
+  LastFrame(const RgbdPose& pose, const std::optional<CameraSeed>& its_seed, const std::optional<LastFrame>& before);
 };
 
 /// A function of its calls; one thread.

@@ -5,7 +5,8 @@
 namespace swiftlet::mapping3d {
 namespace {
 
-/// Wider pictures are halved until they are not: the figures of decision 032 are those of 320 x 240 pixels.
+/// Wider pictures are halved until they are not: what was measured (docs/decisions/mapping3d.md#032) is of 320 x 240
+/// pixels.
 constexpr int kGreatestWidth_px = 320;
 /// The coarsest level has at least this height.
 constexpr int kLeastHeight_px = 24;

@@ -7,7 +7,7 @@
 namespace swiftlet::mapping3d {
 namespace {
 
-/// Key frames that a frame is aligned to, at most (decision 032).
+/// Key frames that a frame is aligned to, at most (docs/decisions/mapping3d.md#032).
 constexpr int kViews = 3;
 /// A key frame is added where less than this part of the nearest one's points is in the picture.
 constexpr double kCovered = 0.6;

@@ -16,11 +16,12 @@ namespace {
 
 using common::Pose3;
 
-/// Poses are at most so late, or so early; and the resolution of the lateness (decision 052).
+/// Poses are at most so late, or so early; and the resolution of the lateness (docs/decisions/run_time.md#052).
 constexpr double kLongestLateness_s = 0.3, kLatenessStep_s = 0.01;
-/// Another lateness must lessen the difference from the track by this share, or it is not believed (decision 052).
+/// Another lateness must lessen the difference from the track by this share, or it is not believed
+/// (docs/decisions/run_time.md#052).
 constexpr double kLatenessGain = 0.1;
-/// The lateness is searched over steps of this length (decision 052).
+/// The lateness is searched over steps of this length (docs/decisions/run_time.md#052).
 constexpr double kStretch_s = 0.3;
 /// The last so many tracked frames tell how good the poses are.
 constexpr std::size_t kFrames = 300;

@@ -210,7 +210,7 @@ void RgbdOdometry::begin(RgbdPose& pose, const FramePyramid& pyramid, const std:
   pose.became_key_frame = true;
   is_lost_ = false;
   unfit_frames_ = 0;
-  remember(pose, seed);
+  last_ = LastFrame(pose, seed, last_);
 }
 
 void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid,
@@ -234,7 +234,7 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
     addKeyFrame(pose, place, pyramid);
     pose.became_key_frame = true;
   }
-  remember(pose, seed);
+  last_ = LastFrame(pose, seed, last_);
 }
 
 /// The places of several key frames follow the seeds, and with them the assumed mount. One alone does not.
@@ -274,13 +274,6 @@ void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place,
   keys_.add(makeKeyFrame(pose.stamp, pyramid, featuresOf(pyramid, config_.features), pose.fit.exposure,
                          config_.features.depth_noise),
             place);
-}
-
-void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
-  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan, seed, pose.fit.exposure, {}};
-  if (last_ && pose.state == TrackState::kTracked)
-    next.motion = motionBetween(last_->T_map_camera, pose.T_map_camera, (pose.stamp - last_->stamp).seconds());
-  last_ = next;
 }
 
 }  // namespace swiftlet::mapping3d

@@ -1,5 +1,6 @@
 // The pose of an RGB-D camera against a persistent model of what it has seen: its key frames, to which frames are
-// aligned directly (decision 032). The model is persistent as in Saeedi's Algorithm 1; features only recognize a place.
+// aligned directly (docs/decisions/mapping3d.md#032). The model is persistent as in Saeedi's Algorithm 1; features only
+// recognize a place.
 //
 //              +------------- a frame fits: tracked, the model grows
 //              v                  |
@@ -27,7 +28,6 @@
 #include "mapping3d/odometry/camera_seed.hpp"
 #include "mapping3d/odometry/frame_odometry.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
-#include "mapping3d/odometry/motion_prior.hpp"
 #include "vision/features.hpp"
 
 namespace swiftlet::mapping3d {
@@ -60,15 +60,6 @@ class RgbdOdometry final : public FrameOdometry {
   const KeyFrameMap& keyFrames() const override { return keys_; }
 
  private:
-  struct Last {
-    common::Time stamp;
-    common::Pose3 T_map_camera;
-    Matrix6d covariance;  ///< With the axes of the camera.
-    int scan = 0;
-    std::optional<CameraSeed> seed;
-    Exposure exposure;
-    CameraVelocity motion;
-  };
   struct Fit {
     Alignment alignment;
     PosePrior prior;
@@ -92,11 +83,10 @@ class RgbdOdometry final : public FrameOdometry {
   KeyFramePlace newPlace(const Fit& fit, const RgbdPose& pose, const std::optional<CameraSeed>& seed) const;
   void lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid);
-  void remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed);
 
   RgbdOdometryConfig config_;
   KeyFrameMap keys_;
-  std::optional<Last> last_;
+  std::optional<LastFrame> last_;
   std::uint64_t scans_version_ = 0;
   bool is_lost_ = false;
   int unfit_frames_ = 0;  ///< Number of consecutive ones up to the last frame.

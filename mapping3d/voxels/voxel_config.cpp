@@ -18,12 +18,13 @@ void VoxelConfig::describe(common::config::Fields& fields) {
   fields("resolution_m", resolution_m, {0.01, 1.0}, "Side of a voxel.");
 }
 
-std::vector<std::string> VoxelConfig::validate() const {
+std::vector<common::Problem> VoxelConfig::validate() const {
   return common::Validation()
       .require(range_max_m / resolution_m <= kFarthestVoxels * (1.0 + kRounding), "range_max_m",
-               fmt::format("{} is more than {} voxels of {} m, which would take too much memory; make resolution_m "
-                           "greater or the range less",
-                           range_max_m, kFarthestVoxels, resolution_m))
+               common::Message("voxels.too-many",
+                               "{} is more than {} voxels of {} m, which would take too much memory; make resolution_m "
+                               "greater or the range less",
+                               range_max_m, kFarthestVoxels, resolution_m))
       .problems();
 }
 

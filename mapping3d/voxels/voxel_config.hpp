@@ -18,7 +18,7 @@ struct VoxelConfig {
                              ///< are forgotten.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 }  // namespace swiftlet::mapping3d

@@ -2,76 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
-#include "common/square.hpp"
-
 namespace swiftlet::perception::altitude {
-
-using common::square;
-
 namespace {
 
 /// Twice the range of the laser that the shipped profiles have (UTM-30LX: 30 m). Farther is a defective value.
 constexpr double kFarthest_m = 60.0;
+/// A wider gap between the sorted distances separates two surfaces: six standard deviations of one beam (0.01 m).
+constexpr double kSurfaceGap_m = 0.06;
+/// Fewer beams that agree are outliers, unless there are no more.
+constexpr std::size_t kFewestBeams = 2;
 
 }  // namespace
 
-double beamVariance_m2(const MultilevelConfig& config, int averaged) {
-  return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
-}
-
-void GroundScan::read(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points,
-                      const LevelStore& store) {
-  beams.clear();
-  Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
+std::vector<SurfaceSight> surfacesBelow(std::span<const GroundPoint> points, const LevelStore& store) {
+  std::vector<const GroundPoint*> beams;
+  beams.reserve(points.size());
   for (const GroundPoint& point : points) {
     const bool usable = point.position_map_m.allFinite() && std::isfinite(point.distance_below_m) &&
                         point.distance_below_m > 0.0 && point.distance_below_m < kFarthest_m;
-    if (!usable) continue;
-    beams.push_back({store.cellAt(point.position_map_m), point.distance_below_m, kNoLevel});
-    sum_m += point.position_map_m;
+    if (usable) beams.push_back(&point);
   }
-  std::sort(beams.begin(), beams.end(), [](const Beam& a, const Beam& b) {
-    return std::pair(a.distance_below_m, a.cell) < std::pair(b.distance_below_m, b.cell);
-  });
-  center = store.cellAt(beams.empty() ? position_map_m : Eigen::Vector2d(sum_m / static_cast<double>(beams.size())));
-}
-
-std::size_t GroundScan::endOfSurface(std::size_t begin, double gap_m) const {
-  std::size_t end = begin + 1;
-  while (end < beams.size() && beams[end].distance_below_m - beams[end - 1].distance_below_m <= gap_m) ++end;
-  return end;
-}
-
-void GroundScan::group(const LevelStore& store) {
-  groups.clear();
-  for (const Beam& beam : beams) {
-    if (beam.level == kNoLevel) continue;
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const BeamGroup& g) { return g.level == beam.level; });
-    if (group == groups.end()) {
-      const LevelEstimate& level = store.at(beam.level);
-      groups.push_back({beam.level, 0, 0.0, level.height_m, level.variance_m2});
-      group = groups.end() - 1;
+  const auto key = [](const GroundPoint* beam) {
+    return std::tuple(beam->distance_below_m, beam->position_map_m.x(), beam->position_map_m.y());
+  };
+  std::sort(beams.begin(), beams.end(), [&](const GroundPoint* a, const GroundPoint* b) { return key(a) < key(b); });
+  std::vector<SurfaceSight> sights;
+  for (std::size_t begin = 0, end = 0; begin < beams.size(); begin = end) {
+    end = begin + 1;
+    while (end < beams.size() && beams[end]->distance_below_m - beams[end - 1]->distance_below_m <= kSurfaceGap_m)
+      ++end;
+    if (end - begin < std::min(kFewestBeams, beams.size())) continue;
+    SurfaceSight sight;
+    sight.beams = static_cast<int>(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      sight.distance_below_m += beams[i]->distance_below_m / sight.beams;
+      sight.center_map_m += beams[i]->position_map_m / sight.beams;
+      sight.cells.push_back(store.cellAt(beams[i]->position_map_m));
     }
-    ++group->beams;
-    group->distance_below_m += (beam.distance_below_m - group->distance_below_m) / group->beams;
+    sights.push_back(std::move(sight));
   }
-  std::sort(groups.begin(), groups.end(), [](const BeamGroup& a, const BeamGroup& b) { return a.level < b.level; });
+  std::stable_sort(sights.begin(), sights.end(),
+                   [](const SurfaceSight& a, const SurfaceSight& b) { return a.beams > b.beams; });
+  return sights;
 }
 
-std::optional<double> GroundScan::distanceToSurface_m(int needed_beams, double gap_m) const {
-  const std::size_t needed = std::min<std::size_t>(static_cast<std::size_t>(needed_beams), beams.size());
-  for (std::size_t i = 0; needed > 0 && i + needed <= beams.size(); ++i) {
-    const double nearest_m = beams[i].distance_below_m;
-    if (beams[i + needed - 1].distance_below_m - nearest_m > gap_m) continue;
-    double sum_m = 0.0;
-    std::size_t n = 0;
-    for (std::size_t k = i; k < beams.size() && beams[k].distance_below_m - nearest_m <= gap_m; ++k, ++n)
-      sum_m += beams[k].distance_below_m;
-    return sum_m / static_cast<double>(n);
-  }
-  return std::nullopt;
+std::optional<double> distanceToHighest_m(std::span<const SurfaceSight> sights) {
+  std::optional<double> least_m;
+  for (const SurfaceSight& sight : sights)
+    if (!least_m || sight.distance_below_m < *least_m) least_m = sight.distance_below_m;
+  return least_m;
 }
 
 }  // namespace swiftlet::perception::altitude

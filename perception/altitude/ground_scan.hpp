@@ -1,5 +1,4 @@
-// The beams of one scan that hit the ground or an object on it, and the levels they are assigned to. Private to
-// altitude.
+// The beams of one scan that hit the ground or an object on it, grouped into surfaces. Private to altitude.
 #pragma once
 
 #include <optional>
@@ -11,47 +10,22 @@
 #include "common/tiled_grid.hpp"
 #include "perception/altitude/height_measurement.hpp"
 #include "perception/altitude/level_store.hpp"
-#include "perception/altitude/multilevel_config.hpp"
 
 namespace swiftlet::perception::altitude {
 
-inline constexpr int kNoLevel = -1;
-
-struct Beam {
-  common::CellIndex cell;
-  double distance_below_m = 0.0;
-  int level = kNoLevel;
-};
-
-/// The beams of one scan that are assigned to one level.
-struct BeamGroup {
-  int level = kNoLevel;
-  int beams = 0;
+/// The beams of one scan that hit one surface.
+struct SurfaceSight {
   double distance_below_m = 0.0;  ///< Mean.
-  double height_m = 0.0;          ///< Height of the level before this scan.
-  double variance_m2 = 0.0;       ///< Variance of that height before this scan.
+  int beams = 0;
+  Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
+  std::vector<common::CellIndex> cells;  ///< Of the beams, some more than once.
 };
 
-/// Variance of the mean of `averaged` distances to one surface.
-double beamVariance_m2(const MultilevelConfig& config, int averaged);
+/// Groups the beams by gaps between the sorted distances (Grzonka 2012, Algorithm 1, line 13): the surface that most
+/// beams hit comes first. Leaves out beams without a return, and surfaces hit by too few beams, which are outliers.
+std::vector<SurfaceSight> surfacesBelow(std::span<const GroundPoint> points, const LevelStore& store);
 
-/// Reused for each scan, without heap use in the steady state.
-struct GroundScan {
-  /// Reads the beams of a scan. Leaves out beams without a return or longer than 60 m. No beam is assigned to a level
-  /// yet.
-  void read(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points, const LevelStore& store);
-  /// One past the last beam of the surface that starts with beam `begin`: successive beams without a gap wider than
-  /// `gap_m`.
-  std::size_t endOfSurface(std::size_t begin, double gap_m) const;
-  /// Fills `groups` from the present assignment of the beams to levels.
-  void group(const LevelStore& store);
-  /// Distance down to the highest surface that `needed_beams` beams agree on, or all beams if there are fewer; nullopt
-  /// if there is none.
-  std::optional<double> distanceToSurface_m(int needed_beams, double gap_m) const;
-
-  std::vector<Beam> beams;        ///< Shortest first.
-  std::vector<BeamGroup> groups;  ///< Sorted by level.
-  common::CellIndex center;  ///< Cell at the mean of the measured points; when tilted, this is not below the vehicle.
-};
+/// Distance down to the highest of them; nullopt if there is none.
+std::optional<double> distanceToHighest_m(std::span<const SurfaceSight> sights);
 
 }  // namespace swiftlet::perception::altitude

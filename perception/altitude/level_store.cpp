@@ -77,8 +77,6 @@ int LevelStore::join(int a, int b) {
   cells.reserve(i.cells.size() + j.cells.size());
   std::set_union(i.cells.begin(), i.cells.end(), j.cells.begin(), j.cells.end(), std::back_inserter(cells));
   i.cells = std::move(cells);
-  if (j.seen && (!i.seen || j.last.stamp > i.last.stamp)) i.last = j.last;
-  i.seen = i.seen || j.seen;
   j = {};
   joined_into_[static_cast<std::size_t>(younger)] = older;
   return older;

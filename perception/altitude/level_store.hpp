@@ -12,29 +12,10 @@
 
 namespace swiftlet::perception::altitude {
 
-/// The measurement of one level by the beams of one scan.
-struct LevelSight {
-  common::Time stamp;
-  double distance_below_m = 0.0;  ///< Mean over the beams.
-  int beams = 0;
-};
-
 struct LevelEstimate {
   double height_m = 0.0;
   double variance_m2 = 0.0;
   std::vector<common::CellIndex> cells;  ///< Sorted.
-  bool seen = false;
-  LevelSight last;
-  // Sums since the level was entered, to test whether the surface is flat.
-  int innovations = 0;
-  double innovation_sum_m = 0.0;
-  double innovation_variance_m2 = 0.0;
-  common::Time distrusted_until;
-
-  void forgetInnovations() {
-    innovations = 0;
-    innovation_sum_m = innovation_variance_m2 = 0.0;
-  }
 };
 
 class LevelStore {

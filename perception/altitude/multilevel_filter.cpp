@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "common/square.hpp"
+#include "common/vehicle_state.hpp"
 #include "perception/altitude/floor_return.hpp"
 #include "perception/altitude/ground_scan.hpp"
-#include "perception/altitude/height_filter.hpp"
-#include "perception/altitude/level_matching.hpp"
+#include "perception/altitude/hypothesis_bank.hpp"
 #include "perception/altitude/level_store.hpp"
-#include "perception/altitude/new_surface.hpp"
-#include "perception/altitude/prior_correction.hpp"
 
 namespace swiftlet::perception {
 
@@ -23,298 +20,136 @@ using common::Time;
 namespace {
 
 /// Side of a cell of the level map.
-constexpr double kResolution_m = 0.10;
-/// A level known within this distance may explain a beam.
-constexpr double kNeighbourhood_m = 0.80;
-/// Two levels whose cells come this close meet; at most kNeighbourhood_m.
-constexpr double kJoinDistance_m = 0.20;
-/// Error of the vertical acceleration while a surface is seen.
-constexpr double kAccelerationNoise_m_s2 = 0.04;
-/// Time for which a level is not used after it behaved like a slope (docs/decisions/altitude.md#008).
-constexpr double kHoldOff_s = 0.3;
+constexpr double kCell_m = 0.10;
+/// Two levels whose cells come this close, within kMeeting_m of the vehicle, meet.
+constexpr double kJoinDistance_m = 0.20, kMeeting_m = 0.80;
+/// Standard deviation of a level from flat: none is known better.
+constexpr double kLevelSigma_m = 0.005;
+/// Two levels are one if their heights differ by less than 3.5 standard deviations.
+constexpr double kSame2 = 12.0;
+/// A surface that was seen for this long and in so many scans becomes a level (docs/decisions/altitude.md#095).
+constexpr double kNewLevel_s = 0.3;
+constexpr int kNewLevelScans = 3;
 
 }  // namespace
 
 struct MultilevelFilter::Impl {
-  explicit Impl(const Config& c) : config(c), store(kResolution_m) {}
+  explicit Impl(const Config& c) : config(c), store(kCell_m), bank(c, store) {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   // The steps of Algorithm 1, in its order.
-  void matchBeams();
-  bool leftALevel() const;
-  bool withdrawMeasurements();
-  std::optional<VirtualHeight> takeConfirmed();
-  void distrustSlopes();
-  std::optional<VirtualHeight> updateHeight(double believed_m_s);
-  void addNewLevels(AltitudeUpdate& outcome);
-  void updateLeftLevels();
+  void learnLeftLevels();
+  void learnNewLevels(AltitudeUpdate& outcome);
   void extendLevels(AltitudeUpdate& outcome);
-  void regainFloor(int level, AltitudeUpdate& outcome);
+  void regainFloor(int level, const SurfaceSight& sight, AltitudeUpdate& outcome);
   void searchForLoopClosures(AltitudeUpdate& outcome);
-
-  Neighbourhood known() const { return {config, height, store, near, now}; }
-  double beamVariance(int averaged) const { return beamVariance_m2(config, averaged); }
-  void learnSpeed(const NewSurface& seen);
-  void enter(int id, double distance_below_m, double variance_m2);
-  void learn(LevelEstimate& level, double height_m, double variance_m2);
-  void publish();
+  const SurfaceSight& sightOf(const Surface& s) const { return sights[static_cast<std::size_t>(s.sight)]; }
 
   Config config;
-  HeightFilter height;
   LevelStore store;
-  std::vector<NewSurface> new_surfaces;
-  std::deque<VirtualHeight> pending;
-  PriorCorrection correction;
+  HypothesisBank bank;
+  struct PendingCell {
+    int serial;
+    CellIndex cell;
+  };
+  std::vector<PendingCell> pending;  ///< Of surfaces that are no level yet.
   FloorReturn floor_return;
-  HeightState state;
   bool initialized = false;
-  std::uint64_t version = 0;
-
-  // State of the present scan.
-  Time now, before;  ///< Stamps of this scan and of the last one.
-  GroundScan scan;
-  std::vector<int> near;
-  std::vector<int> present, present_before;  ///< Levels seen in this and in the last scan.
   bool changed = false;
+  std::uint64_t version = 0;
+  ScanStep step;
+  std::vector<SurfaceSight> sights;
 };
 
-/// Line 5: assigns the beams to the levels below.
-void MultilevelFilter::Impl::matchBeams() {
-  store.near(scan.center, kNeighbourhood_m, near);
-  if (config.one_floor && (near.empty() || near.front() != kFloor)) near.insert(near.begin(), kFloor);
-  altitude::matchBeams(known(), scan);
-  scan.group(store);
-}
-
-bool MultilevelFilter::Impl::leftALevel() const {
-  return std::any_of(present_before.begin(), present_before.end(), [this](int id) {
-    return std::none_of(scan.groups.begin(), scan.groups.end(), [id](const BeamGroup& g) { return g.level == id; });
-  });
-}
-
-/// The measurements that are not published yet may have been of a slope. True if a level must be entered again.
-bool MultilevelFilter::Impl::withdrawMeasurements() {
-  if (correction.regained()) return false;
-  pending.clear();
-  const bool entered = correction.entered().has_value();
-  if (entered) store.at(correction.entered()->level).seen = false;
-  correction.end();
-  return entered;
-}
-
-std::optional<VirtualHeight> MultilevelFilter::Impl::takeConfirmed() {
-  if (pending.empty() || (now - pending.front().stamp).seconds() < config.publish_delay_s) return std::nullopt;
-  const VirtualHeight oldest = pending.front();
-  pending.pop_front();
-  if (const auto& entered = correction.entered(); entered && oldest.stamp > entered->since) correction.end();
-  return oldest;
-}
-
-/// Over a flat level the innovations are noise. Over a slope they all have one sign, each within its gate, and the
-/// height would follow them. A level is therefore not used for a while after the sum of its innovations exceeds what
-/// noise explains.
-void MultilevelFilter::Impl::distrustSlopes() {
-  const double late_scans = config.publish_delay_s / (now - before).seconds();
-  std::erase_if(scan.groups, [&](const BeamGroup& g) {
-    LevelEstimate& level = store.at(g.level);
-    // The error of a correction is the same in each innovation, so the variance of their sum grows with the square of
-    // their number. The height itself follows measurements that are `publish_delay_s` late: what the prediction errs
-    // since then is shared with the innovations of that time, the less the longer ago they are.
-    const double same =
-        1.0 + (correction.underWay() ? 2.0 * level.innovations : std::min<double>(level.innovations, late_scans));
-    ++level.innovations;
-    level.innovation_sum_m += g.height_m + g.distance_below_m - height.height_m();
-    level.innovation_variance_m2 += same * height.ownVariance_m2() + beamVariance(g.beams);
-    if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
-    level.forgetInnovations();
-    withdrawMeasurements();
-    level.distrusted_until = now + common::Duration::fromSeconds(kHoldOff_s);
-    for (Beam& beam : scan.beams)
-      if (beam.level == g.level) beam.level = kNoLevel;
-    return true;
-  });
-}
-
-/// Lines 6 to 11: one virtual measurement from all levels below the vehicle.
-std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight(double believed_m_s) {
-  if (scan.groups.empty()) return std::nullopt;
-  double weights = 0.0, weighted_m = 0.0, white_weights = 0.0, surest_m2 = scan.groups.front().variance_m2;
-  int used = 0;
-  for (const BeamGroup& g : scan.groups) {
-    const double white_m2 = beamVariance(g.beams), variance_m2 = white_m2 + g.variance_m2;
-    weights += 1.0 / variance_m2;
-    weighted_m += (g.height_m + g.distance_below_m) / variance_m2;
-    white_weights += 1.0 / white_m2;
-    used += g.beams;
-    surest_m2 = std::min(surest_m2, g.variance_m2);
-  }
-  const double white_m2 = 1.0 / white_weights;
-  height.update(weighted_m / weights, white_m2);
-  height.setReferenceVariance(surest_m2 + square(config.surface_noise_m));
-  VirtualHeight measured{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used, {}};
-  if (const auto variance_m2_s2 = correction.speedVariance_m2_s2(); variance_m2_s2 && pending.empty())
-    measured.speed = {height.velocity_m_s(), *variance_m2_s2, height.velocity_m_s() - believed_m_s};
-  return measured;
-}
-
-/// Corrects height and level with one innovation, d - (z - h), each by its own variance.
-void MultilevelFilter::Impl::enter(int id, double distance_below_m, double variance_m2) {
-  LevelEstimate& level = store.at(id);
-  const double own_m = height.height_m() - distance_below_m;
-  const double own_variance_m2 = height.covariance()(0, 0) + variance_m2;
-  height.update(level.height_m + distance_below_m, level.variance_m2 + variance_m2);
-  learn(level, own_m, own_variance_m2);
-}
-
-void MultilevelFilter::Impl::learn(LevelEstimate& level, double height_m, double variance_m2) {
-  if (level.variance_m2 <= 0.0) return;  // The take-off floor defines height 0.
-  const double gain = level.variance_m2 / (level.variance_m2 + variance_m2);
-  level.height_m += gain * (height_m - level.height_m);
-  // Levels are corrected by each other, but this update treats them as independent. The variance is therefore limited
-  // by the flatness of real surfaces.
-  level.variance_m2 = std::max((1.0 - gain) * level.variance_m2, square(config.surface_noise_m));
-  changed = true;
-}
-
-/// If a flat surface seems to rise, the vehicle is sinking.
-void MultilevelFilter::Impl::learnSpeed(const NewSurface& seen) {
-  // The rate is a mean over the time the surface was seen; meanwhile the error of the speed changed by the error of the
-  // acceleration.
-  const double variance_m2_s2 = rateVariance_m2_s2(config, seen) +
-                                square(config.surface_noise_m / seen.seenFor_s(now)) +
-                                square(0.5 * kAccelerationNoise_m_s2 * seen.seenFor_s(now));
-  height.updateVelocity(height.velocity_m_s() - seen.rate_m_s(), variance_m2_s2);
-}
-
-/// Line 14: turns new surfaces that are flat into levels, or enters a known level.
-void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
-  const bool alone = scan.groups.empty();
-  const double height_before_m = height.height_m(), velocity_before_m_s = height.velocity_m_s();
-  for (NewSurface& surface : new_surfaces) {
-    // The present height on the line through all observations of the surface. At its ends, a line is as certain as the
-    // mean of a quarter of its points.
-    const double below_m = height_before_m - surface.heightAt_m(now);
-    // Nothing else measures the height: the vehicle may climb without knowing it, over a level that is known.
-    const int explained_by = alone ? likeliestLevel(known(), below_m, surface.last.beams, false) : kNoLevel;
-    if (!isFlat(config, surface, now, height.covariance()(1, 1), explained_by)) continue;
-    const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
-    const bool first = alone && !correction.underWay();
-    if (first) {
-      height.dropReference();
-      learnSpeed(surface);
-    }
-    int id = likeliestLevel(known(), below_m, surface.last.beams, false);
-    if (id != kNoLevel) {
-      enter(id, below_m, below_variance_m2);
-    } else {
-      id = store.add(height.height_m() - below_m, height.covariance()(0, 0) + below_variance_m2);
-      near.push_back(id);
-      ++outcome.levels_added;
-      if (first) height.takeReference(below_variance_m2);
-    }
-    if (first) {
-      correction.begin(EnteredLevel{id, now, height.height_m() - height_before_m,
-                                    height.velocity_m_s() - velocity_before_m_s, height.covariance(),
-                                    surface.seenFor_s(now) >= kConfirmMoving_s});
-    }
-    for (const CellIndex& cell : surface.cells) store.extend(id, cell);
-    LevelEstimate& level = store.at(id);
-    level.seen = true;
-    level.last = surface.last;
-    level.forgetInnovations();
-    present.push_back(id);
+/// Line 15: a level that is left gets the height that was estimated together with that of the vehicle.
+void MultilevelFilter::Impl::learnLeftLevels() {
+  for (int i = 0; i < kSurfaces; ++i) {
+    const Surface& s = bank.best().surfaces[static_cast<std::size_t>(i)];
+    if (!s.isSeen(step.before) || s.level == kNoLevel) continue;
+    LevelEstimate& level = store.at(s.level);
+    if (level.variance_m2 <= 0.0) continue;  // The take-off floor defines height 0.
+    level.height_m = bank.best().height_m(i);
+    level.variance_m2 = std::max(bank.best().variance_m2(i), square(kLevelSigma_m));
     changed = true;
-    surface.seen = false;
   }
-  // A surface that rises or falls is not a level. It is dropped, but may flatten out later.
-  std::erase_if(new_surfaces, [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= kLongestSight_s; });
 }
 
-/// Line 15, for levels that are left: a level that was below in the last scan and no longer is gets one more
-/// measurement, relative to the levels below now. Only those are independent of it.
-void MultilevelFilter::Impl::updateLeftLevels() {
-  for (const int left : present_before) {
-    if (std::find(present.begin(), present.end(), left) != present.end()) continue;
-    LevelEstimate& level = store.at(left);
-    double weights = 0.0, weighted_m = 0.0;
-    for (const BeamGroup& g : scan.groups) {
-      const double variance_m2 = g.variance_m2 + beamVariance(g.beams);
-      weights += 1.0 / variance_m2;
-      weighted_m += (g.height_m + g.distance_below_m) / variance_m2;
-    }
-    if (weights <= 0.0) continue;
-    const double climbed_m = height.velocity_m_s() * (now - level.last.stamp).seconds();
-    learn(level, weighted_m / weights - climbed_m - level.last.distance_below_m,
-          1.0 / weights + beamVariance(level.last.beams));
+/// Line 14: a surface that no level explains becomes one, unless it slopes.
+void MultilevelFilter::Impl::learnNewLevels(AltitudeUpdate& outcome) {
+  const GroundHypothesis best = bank.best();
+  std::erase_if(pending, [&](const PendingCell& cell) {
+    return std::none_of(best.surfaces.begin(), best.surfaces.end(),
+                        [&](const Surface& s) { return s.serial == cell.serial; });
+  });
+  for (int i = 0; i < kSurfaces; ++i) {
+    const Surface& s = best.surfaces[static_cast<std::size_t>(i)];
+    if (!s.isSeen(step.now) || s.level != kNoLevel) continue;
+    for (const CellIndex& cell : sightOf(s).cells) pending.push_back({s.serial, cell});
+    const bool confirmed = s.scans >= kNewLevelScans && (step.now - s.first).seconds() >= kNewLevel_s;
+    if (s.slopes || !confirmed || !bank.isSure()) continue;
+    const int id = store.add(best.height_m(i), std::max(best.variance_m2(i), square(kLevelSigma_m)));
+    for (const PendingCell& cell : pending)
+      if (cell.serial == s.serial) store.extend(id, cell.cell);
+    bank.nameLevel(s.serial, id);
+    ++outcome.levels_added;
+    changed = true;
   }
 }
 
 /// Line 16: extends the levels by the cells where they were measured.
 void MultilevelFilter::Impl::extendLevels(AltitudeUpdate& outcome) {
-  int floor = kNoLevel;
-  for (const BeamGroup& g : scan.groups)
-    if (g.level == kFloor) floor_return.reset();
-  for (const Beam& beam : scan.beams) {
-    if (beam.level == kNoLevel || !store.extend(beam.level, beam.cell)) continue;
-    changed = true;
-    if (config.one_floor && !store.isSame(beam.level, kFloor) && store.coversAround(kFloor, beam.cell) &&
-        floor_return.sawLevelOverFloor(beam.level, store.centerOf(beam.cell)))
-      floor = beam.level;
+  if (!bank.isSure()) return;
+  std::optional<Surface> floor;
+  for (const Surface& s : bank.best().surfaces) {
+    if (!s.isSeen(step.now) || s.level == kNoLevel) continue;
+    const bool is_floor = store.isSame(s.level, kFloor);
+    if (is_floor) floor_return.reset();
+    for (const CellIndex& cell : sightOf(s).cells) {
+      if (!store.extend(s.level, cell)) continue;
+      changed = true;
+      if (config.one_floor && !is_floor && store.coversAround(kFloor, cell) &&
+          floor_return.sawLevelOverFloor(s.level, store.centerOf(cell)))
+        floor = s;
+    }
   }
-  if (floor != kNoLevel) regainFloor(floor, outcome);
+  if (floor) regainFloor(floor->level, sightOf(*floor), outcome);
 }
 
 /// The level is the floor: the height is the distance down to it.
-void MultilevelFilter::Impl::regainFloor(int level, AltitudeUpdate& outcome) {
-  const auto group =
-      std::find_if(scan.groups.begin(), scan.groups.end(), [&](const BeamGroup& g) { return g.level == level; });
-  if (group == scan.groups.end()) return;
-  const double before_m = height.height_m();
-  Eigen::Matrix2d covariance = height.covariance();
-  covariance << beamVariance(group->beams), 0.0, 0.0, covariance(1, 1);
-  height.dropReference();
-  height.assume({now, group->distance_below_m, height.velocity_m_s(), covariance});
-  outcome.floor_regained_m = height.height_m() - before_m;
-  pending.clear();
-  correction.begin(RegainedFloor{now, covariance});
+void MultilevelFilter::Impl::regainFloor(int level, const SurfaceSight& sight, AltitudeUpdate& outcome) {
+  VerticalState state = bank.best().vertical();
+  outcome.floor_regained_m = sight.distance_below_m - state.height_m;
+  state.height_m = sight.distance_below_m;
+  state.covariance.row(0).setZero();
+  state.covariance.col(0).setZero();
+  state.covariance(0, 0) = square(config.beam_noise_m) + square(kLevelSigma_m);
+  bank.start(state, step.now);
   (void)store.join(kFloor, level);
-  store.at(kFloor).forgetInnovations();
-  group->level = kFloor;
-  std::replace(present.begin(), present.end(), level, kFloor);
-  std::erase(near, level);
+  std::erase(bank.near(), level);
   floor_return.reset();
+  changed = true;
 }
 
 /// Line 17: merges levels that meet here and agree.
 void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
-  if (!changed) return;
+  std::vector<int>& near = bank.near();
   for (std::size_t i = 0; i < near.size(); ++i)
     for (std::size_t j = i + 1; j < near.size();) {
       const LevelEstimate& a = store.at(near[i]);
       const LevelEstimate& b = store.at(near[j]);
-      const double sigma2 = a.variance_m2 + b.variance_m2 + 2.0 * square(config.surface_noise_m);
-      const bool agree = square(a.height_m - b.height_m) <= square(config.gate_sigma) * sigma2 &&
-                         likelierThanUnknown(near[i], a.height_m - b.height_m, sigma2);
-      if (!agree || !store.meet(near[i], near[j], scan.center, kNeighbourhood_m, kJoinDistance_m)) {
+      const double variance_m2 = a.variance_m2 + b.variance_m2 + 2.0 * square(kLevelSigma_m);
+      if (square(a.height_m - b.height_m) > kSame2 * variance_m2 ||
+          !store.meet(near[i], near[j], bank.center(), kMeeting_m, kJoinDistance_m)) {
         ++j;
         continue;
       }
-      const int gone = near[j];
       near[i] = store.join(near[i], near[j]);
-      std::replace(present.begin(), present.end(), gone, near[i]);
       near.erase(near.begin() + static_cast<std::ptrdiff_t>(j));
       ++outcome.levels_joined;
+      changed = true;
       j = i + 1;
     }
-  std::sort(present.begin(), present.end());
-  present.erase(std::unique(present.begin(), present.end()), present.end());
-}
-
-void MultilevelFilter::Impl::publish() {
-  state.stamp = height.stamp();
-  state.height_m = height.height_m();
-  state.velocity_m_s = height.velocity_m_s();
-  state.covariance = height.covariance();
-  if (changed) ++version;
 }
 
 MultilevelFilter::MultilevelFilter(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -324,69 +159,53 @@ MultilevelFilter& MultilevelFilter::operator=(MultilevelFilter&&) noexcept = def
 
 void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map_m, double height_m) {
   Impl& f = *impl_;
-  f.height.start(time, height_m, square(common::kStandingHeightSigma_m));
   f.store.clear();
-  f.new_surfaces.clear();
   f.pending.clear();
-  f.correction.end();
   f.floor_return.reset();
-  f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
-  const int around = static_cast<int>(std::lround(kJoinDistance_m / kResolution_m));
+  const int around = static_cast<int>(std::lround(kJoinDistance_m / kCell_m));
   for (int y = -around; y <= around; ++y)
     for (int x = -around; x <= around; ++x) f.store.extend(floor, {here.x + x, here.y + y});
-  f.store.at(floor).seen = true;
-  f.store.at(floor).last = {time, height_m, f.config.min_cluster_beams};
+  VerticalState standing{height_m, 0.0, 0.0, {}};
+  constexpr double kAtRest_m_s = 0.01, kBias_m_s2 = 0.2;
+  standing.covariance =
+      Eigen::Vector3d(common::kStandingHeightSigma_m, kAtRest_m_s, kBias_m_s2).cwiseAbs2().asDiagonal();
+  f.bank.start(standing, time);
+  f.step = {time, time, position_map_m, position_map_m};
   f.initialized = true;
-  f.changed = true;
-  f.publish();
+  ++f.version;
 }
 
 bool MultilevelFilter::initialized() const { return impl_->initialized; }
 
-AltitudeUpdate MultilevelFilter::update(const HeightState& prior, const Eigen::Vector2d& position_map_m,
-                                        std::span<const GroundPoint> points, bool over_slope) {
+AltitudeUpdate MultilevelFilter::update(const GroundSight& sight) {
   Impl& f = *impl_;
-  const Time time = prior.stamp;
   AltitudeUpdate outcome;
-  if (!f.initialized || time <= f.height.stamp() || !position_map_m.allFinite()) return outcome;
-  f.before = f.height.stamp();
-  f.now = time;
+  if (!f.initialized || sight.stamp <= f.step.now || !sight.position_map_m.allFinite()) return outcome;
+  f.step = {f.step.now, sight.stamp, f.step.to_map_m, sight.position_map_m};
   f.changed = false;
-  std::swap(f.present, f.present_before);
-  f.present.clear();
 
-  // Stage 1: update the height estimate.
-  f.height.assume(f.correction.applied(prior, f.height));
-  f.scan.read(position_map_m, points, f.store);
-  f.matchBeams();
-  // The last measurements of a level that was left may have been the beginning of a slope.
-  if (f.leftALevel() && !f.correction.isConfirmed() && f.withdrawMeasurements()) f.matchBeams();
-  f.distrustSlopes();
-  if (const auto measured = f.updateHeight(prior.velocity_m_s)) f.pending.push_back(*measured);
-  outcome.measurement = f.takeConfirmed();
+  // Stage 1: the height.
+  f.bank.predict(f.step, sight.climb, sight.known, sight.at_rest, sight.gradient_map);
+  f.sights = surfacesBelow(sight.points, f.store);
+  f.bank.weigh(f.sights);
+  if (f.sights.empty()) return outcome;
 
-  // Stage 2: update the map of levels.
-  for (const BeamGroup& g : f.scan.groups) f.present.push_back(g.level);
-  seeNewSurfaces(f.new_surfaces, f.config, f.scan.beams, f.height.height_m(), time);
-  f.addNewLevels(outcome);
-  f.updateLeftLevels();
-  if (over_slope) f.floor_return.reset();
+  // Stage 2: the map of levels.
+  f.learnLeftLevels();
+  f.learnNewLevels(outcome);
   f.extendLevels(outcome);
-  for (const BeamGroup& g : f.scan.groups) {
-    LevelEstimate& level = f.store.at(g.level);
-    level.seen = true;
-    level.last = {time, g.distance_below_m, g.beams};
-  }
   f.searchForLoopClosures(outcome);
-
-  outcome.height_above_ground_m = f.scan.distanceToSurface_m(f.config.min_cluster_beams, f.config.cluster_gap_m);
-  f.publish();
+  outcome.vertical = f.bank.state();
+  outcome.slopes = f.bank.best().slopingSurface() >= 0;
+  outcome.height_above_ground_m = distanceToHighest_m(f.sights);
+  if (f.changed) ++f.version;
   return outcome;
 }
 
-const HeightState& MultilevelFilter::state() const { return impl_->state; }
+VerticalState MultilevelFilter::state() const { return impl_->bank.state(); }
+std::size_t MultilevelFilter::hypotheses() const { return impl_->bank.size(); }
 common::LevelMap MultilevelFilter::levels() const { return impl_->store.snapshot(); }
 std::uint64_t MultilevelFilter::levelsVersion() const { return impl_->version; }
 

@@ -213,7 +213,11 @@ FusionEstimate ErrorStateFilter::estimate() const {
 
 std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const { return impl_->history.poseAt(time); }
 
-std::optional<VerticalState> ErrorStateFilter::verticalAt(Time time) const { return impl_->history.verticalAt(time); }
+std::optional<VerticalMotion> ErrorStateFilter::verticalAt(Time time, std::optional<Time> since) const {
+  const auto state = impl_->history.verticalAt(time);
+  if (!state) return std::nullopt;
+  return VerticalMotion{*state, since ? impl_->history.climb(*since, time) : std::nullopt};
+}
 
 PoseHistory ErrorStateFilter::motion(Time from, Time to) const { return impl_->history.motion(from, to); }
 

@@ -87,7 +87,8 @@ class ErrorStateFilter {
   std::optional<common::Pose3> poseAt(common::Time time) const;
   /// Height and vertical speed of the body origin along z of odom; nullopt where poseAt() has no pose. The height is
   /// interpolated; the speed and the covariance are those of the last IMU sample at or before `time`.
-  std::optional<VerticalState> verticalAt(common::Time time) const;
+  /// With what the accelerometer alone says of the motion since an earlier time, by the attitudes of the filter.
+  std::optional<VerticalMotion> verticalAt(common::Time time, std::optional<common::Time> since = {}) const;
   /// The poses that cover [from, to], as far as the history goes, for many queries, as when a scan is deskewed. The
   /// positions follow from the last one by the velocity: a correction of the position in between is no motion, and
   /// where the position is unknown to a metre the drag alone corrects it by centimetres.

@@ -13,8 +13,6 @@ using common::Time;
 
 namespace {
 
-/// Noise density of a specific force that the thrust predicts: 5 % of gravity for a second.
-constexpr double kPredictedForceNoise_m_s2_rthz = 0.5;
 /// Noise density of a rate of rotation that the setpoints predict: 2 deg after a tenth of a second.
 constexpr double kPredictedRateNoise_rad_s_rthz = 0.1;
 /// Standard deviation of a roll or pitch that the setpoints predict, each time that attitudes are used.
@@ -127,11 +125,8 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
   ImuValue at = now.imu;
   at.stamp = before.imu.stamp;
   ImuNoise noise = noise_;
-  noise.accelerometer_m_s2_rthz = std::max(noise.accelerometer_m_s2_rthz, now.accelerometer_noise_m_s2_rthz);
-  if (now.predicted) {
-    noise.accelerometer_m_s2_rthz = kPredictedForceNoise_m_s2_rthz;
-    noise.gyroscope_rad_s_rthz = kPredictedRateNoise_rad_s_rthz;
-  }
+  noise.accelerometer_m_s2_rthz = accelerometerNoise_m_s2_rthz(now);
+  if (now.predicted) noise.gyroscope_rad_s_rthz = kPredictedRateNoise_rad_s_rthz;
   const auto advanceTo = [&](Time time) {
     if (time <= at.stamp) return;
     ImuValue next = now.imu;
@@ -151,6 +146,12 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
   watch(state);
 }
 
+double FilterStep::accelerometerNoise_m_s2_rthz(const Slot& slot) const {
+  constexpr double kPredicted_m_s2_rthz = 0.5;  // Of the force that the thrust predicts: 5 % of gravity for a second.
+  return slot.predicted ? kPredicted_m_s2_rthz
+                        : std::max(noise_.accelerometer_m_s2_rthz, slot.accelerometer_noise_m_s2_rthz);
+}
+
 void FilterStep::apply(FilterState& state, const Measurement& m) const {
   switch (m.kind) {
     case MeasurementKind::kClone:
@@ -160,8 +161,9 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       state.height_common_variance_m2 = m.common_variance_m2;
       gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)), kRecovery_s, widenHeight);
       return;
-    case MeasurementKind::kVerticalSpeed:
-      update(state, verticalSpeed(state, m.value, m.covariance(0, 0)));
+    case MeasurementKind::kVertical:
+      state.height_common_variance_m2 = 0.0;
+      if (replaceVertical(state, m.vertical, m.covariance)) state.height_gate.last_accepted = state.stamp;
       return;
     case MeasurementKind::kAbsolutePose:
       update(state, absolutePose(state, m.pose, m.covariance));

@@ -36,6 +36,10 @@ class FilterStep {
   /// Outliers are gated; state.diverged says whether the filter has diverged.
   void advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const;
 
+  /// Noise density of the specific force of a sample.
+  double accelerometerNoise_m_s2_rthz(const Slot& slot) const;
+  double gravity_m_s2() const { return config_.gravity_m_s2; }
+
  private:
   void apply(FilterState& state, const Measurement& measurement) const;
   void applySlot(FilterState& state, const Slot& slot) const;

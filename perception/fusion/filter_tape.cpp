@@ -39,6 +39,13 @@ std::string lineOfPose(const Measurement& m) {
                      m.unobservable_direction.has_value(), unobservable.x(), unobservable.y());
 }
 
+std::string lineOfVertical(const Measurement& m) {
+  const Eigen::Vector3d& v = m.vertical;
+  const Eigen::Matrix3d& c = m.covariance;
+  return fmt::format("vertical {} {} {} {} {} {} {} {} {} {}\n", m.stamp.nanoseconds(), v.x(), v.y(), v.z(), c(0, 0),
+                     c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2));
+}
+
 std::string lineOfPose3(const Measurement& m) {
   const Eigen::Quaterniond& q = m.pose3.rotation;
   const Eigen::Vector3d& p = m.pose3.position_m;
@@ -65,8 +72,8 @@ struct Print {
     switch (m.kind) {
       case MeasurementKind::kHeight:
         return fmt::format("height {} {} {} {}\n", time, m.value, m.covariance(0, 0), m.common_variance_m2);
-      case MeasurementKind::kVerticalSpeed:
-        return fmt::format("climb {} {} {}\n", time, m.value, m.covariance(0, 0));
+      case MeasurementKind::kVertical:
+        return lineOfVertical(m);
       case MeasurementKind::kRelativePose:
         return lineOfPose(m);
       case MeasurementKind::kRelativePose3:
@@ -114,15 +121,30 @@ common::ImuSample imuOf(Numbers& n) {
   return sample;
 }
 
+Eigen::Matrix3d covarianceOf(Numbers& n) {
+  Eigen::Matrix3d covariance;
+  for (int row = 0; row < 3; ++row)
+    for (int column = row; column < 3; ++column) covariance(row, column) = covariance(column, row) = n.number();
+  return covariance;
+}
+
+Measurement verticalOf(Numbers& n) {
+  const Time time = n.time();
+  VerticalState state;
+  state.height_m = n.number();
+  state.velocity_m_s = n.number();
+  state.bias_m_s2 = n.number();
+  state.covariance = covarianceOf(n);
+  return knownVertical(time, state);
+}
+
 Measurement poseOf(Numbers& n) {
   const Time from = n.time(), to = n.time();
   common::Pose2 T_from_to;
   T_from_to.x_m = n.number();
   T_from_to.y_m = n.number();
   T_from_to.yaw_rad = n.number();
-  Eigen::Matrix3d covariance;
-  for (int row = 0; row < 3; ++row)
-    for (int column = row; column < 3; ++column) covariance(row, column) = covariance(column, row) = n.number();
+  const Eigen::Matrix3d covariance = covarianceOf(n);
   const bool unobservable = n.number() != 0.0;
   const double x = n.number(), y = n.number();
   return measuredRelativePose(from, to, T_from_to, covariance,
@@ -148,7 +170,6 @@ FilterInput shortOf(std::string_view name, Numbers& n) {
   if (name == "clone") return poseClone(n.time());
   const Time time = n.time();
   const double value = n.number(), variance = n.number();
-  if (name == "climb") return measuredVerticalSpeed(time, value, variance);
   return measuredHeight(time, value, variance, n.number());
 }
 
@@ -166,15 +187,16 @@ std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& wo
     std::size_t numbers;
   };
   constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1},   {"predicted", 1}, {"clone", 1},
-                             {"pose", 14}, {"pose3", 30}, {"height", 4}, {"climb", 3}};
+                             {"pose", 14}, {"pose3", 30}, {"height", 4}, {"vertical", 10}};
   if (words.empty()) return std::nullopt;
   Numbers numbers(words);
   for (const Form& form : kForms) {
     if (words[0] != form.name || !numbers.are(form.numbers)) continue;
-    FilterInput input = form.name == "imu"     ? FilterInput(imuOf(numbers))
-                        : form.name == "pose"  ? FilterInput(poseOf(numbers))
-                        : form.name == "pose3" ? FilterInput(pose3Of(numbers))
-                                               : shortOf(form.name, numbers);
+    FilterInput input = form.name == "imu"        ? FilterInput(imuOf(numbers))
+                        : form.name == "pose"     ? FilterInput(poseOf(numbers))
+                        : form.name == "pose3"    ? FilterInput(pose3Of(numbers))
+                        : form.name == "vertical" ? FilterInput(verticalOf(numbers))
+                                                  : shortOf(form.name, numbers);
     if (numbers.good()) return input;
   }
   return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -58,10 +59,27 @@ struct FusionEstimate {
   Eigen::Matrix<double, 15, 15> covariance = Eigen::Matrix<double, 15, 15>::Zero();
 };
 
+/// The vertical part of the vehicle's state, in odom.
 struct VerticalState {
   double height_m = 0.0;
   double velocity_m_s = 0.0;
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< Of (height_m, velocity_m_s).
+  double bias_m_s2 = 0.0;  ///< Of the accelerometer, along the body's z axis.
+  /// Of (height_m, velocity_m_s, bias_m_s2).
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  Eigen::Vector3d mean() const { return {height_m, velocity_m_s, bias_m_s2}; }
+};
+
+/// What the accelerometer says of the vertical motion over a time, with its bias in it, for a vehicle that was at rest
+/// at its beginning.
+struct InertialClimb {
+  double height_m = 0.0;
+  double velocity_m_s = 0.0;
+  double noise_m_s2_rthz = 0.0;  ///< Noise density of the samples.
+};
+
+struct VerticalMotion : VerticalState {
+  std::optional<InertialClimb> climb;  ///< nullopt: not asked for, or outside of the history.
 };
 
 }  // namespace swiftlet::perception

@@ -67,8 +67,11 @@ Measurement measuredHeight(Time time, double height_m, double variance_m2, doubl
   return m;
 }
 
-Measurement measuredVerticalSpeed(Time time, double speed_m_s, double variance_m2_s2) {
-  return verticalOf(MeasurementKind::kVerticalSpeed, time, speed_m_s, variance_m2_s2);
+Measurement knownVertical(Time time, const VerticalState& state) {
+  Measurement m = measurementOf(MeasurementKind::kVertical, time);
+  m.vertical = state.mean();
+  m.covariance = state.covariance;
+  return m;
 }
 
 Measurement measuredAbsolutePose(Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance) {
@@ -81,9 +84,10 @@ Measurement measuredAbsolutePose(Time time, const common::Pose2& T_odom_body, co
 bool isValid(const Measurement& m) {
   switch (m.kind) {
     case MeasurementKind::kHeight:
-    case MeasurementKind::kVerticalSpeed:
       return std::isfinite(m.value) && std::isfinite(m.covariance(0, 0)) && m.covariance(0, 0) > 0.0 &&
              std::isfinite(m.common_variance_m2) && m.common_variance_m2 >= 0.0;
+    case MeasurementKind::kVertical:
+      return m.vertical.allFinite() && isCovariance(m.covariance);
     case MeasurementKind::kRelativePose:
       return isFinite(m.pose) && m.stamp > m.from && isCovariance(m.covariance) &&
              (!m.unobservable_direction || isDirection(*m.unobservable_direction));

@@ -8,18 +8,12 @@
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
+#include "perception/fusion/fusion_types.hpp"
 
 namespace swiftlet::perception {
 
 /// At equal times, measurements are applied in the order of their kinds: a pose is cloned after all measurements of it.
-enum class MeasurementKind : std::uint8_t {
-  kHeight,
-  kVerticalSpeed,
-  kRelativePose,
-  kRelativePose3,
-  kAbsolutePose,
-  kClone
-};
+enum class MeasurementKind : std::uint8_t { kHeight, kVertical, kRelativePose, kRelativePose3, kAbsolutePose, kClone };
 
 struct Measurement {
   common::Time stamp;
@@ -27,10 +21,11 @@ struct Measurement {
   common::Time from;                                      ///< Of a relative pose: time of the cloned reference.
   common::Pose2 pose;                                     ///< kRelativePose, kAbsolutePose.
   std::optional<Eigen::Vector2d> unobservable_direction;  ///< kRelativePose: in the level frame at `from`.
-  double value = 0;                                       ///< kHeight: m; kVerticalSpeed: m/s.
+  double value = 0;                                       ///< kHeight: m.
   double common_variance_m2 = 0.0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight, kVerticalSpeed: only (0, 0).
-  common::Pose3 pose3;                                   ///< kRelativePose3.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();                           ///< kHeight: only (0, 0).
+  Eigen::Vector3d vertical = Eigen::Vector3d::Zero();                             ///< kVertical: m, m/s, m/s^2.
+  common::Pose3 pose3;                                                            ///< kRelativePose3.
   Eigen::Matrix<double, 6, 6> covariance6 = Eigen::Matrix<double, 6, 6>::Zero();  ///< kRelativePose3.
 };
 
@@ -51,8 +46,9 @@ Measurement measuredRelativePose3(common::Time from, common::Time to, const comm
 /// Height of the body origin above the take-off floor. `common_variance_m2` is the variance of the part of the error
 /// that does not change from one measurement to the next (that of the level below); it is not averaged out.
 Measurement measuredHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
-/// Speed of the body origin along z of odom.
-Measurement measuredVerticalSpeed(common::Time time, double speed_m_s, double variance_m2_s2);
+/// The height, vertical speed and accelerometer bias of an estimator that has used the same inertial samples: what the
+/// filter knows of the three is replaced, and what is correlated with them follows.
+Measurement knownVertical(common::Time time, const VerticalState& state);
 /// A pose in odom, such as one from a landmark at a known place. It moves the estimate in odom. SLAM's corrections do
 /// not belong here; they are in T_map_odom.
 Measurement measuredAbsolutePose(common::Time time, const common::Pose2& T_odom_body,

@@ -111,8 +111,31 @@ Linearized<1> height(const FilterState& state, double height_m, double variance_
   return direct(kPosition + 2, height_m - state.position_odom_m.z(), variance_m2);
 }
 
-Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2) {
-  return direct(kVelocity + 2, speed_m_s - state.velocity_odom_m_s.z(), variance_m2_s2);
+bool replaceVertical(FilterState& state, const Eigen::Vector3d& vertical, const Eigen::Matrix3d& covariance) {
+  constexpr int kVertical[] = {kPosition + 2, kVelocity + 2, kAccelerometerBias + 2};
+  const int n = state.dimension();
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxDimension, 3> cross(n, 3);
+  Eigen::Matrix<double, 3, kLaserSize> by_laser;
+  Eigen::Matrix3d present;
+  for (int i = 0; i < 3; ++i) {
+    cross.col(i) = state.covariance.col(kVertical[i]);
+    by_laser.row(i) = state.by_laser.row(kVertical[i]);
+    for (int k = 0; k < 3; ++k) present(k, i) = state.covariance(kVertical[k], kVertical[i]);
+  }
+  const Eigen::LLT<Eigen::Matrix3d> factor(present);
+  if (factor.info() != Eigen::Success) return false;
+  // The regression of all errors on the three; its rows of the three themselves are the identity.
+  CrossCovariance<3> slope(n, 3);
+  slope = factor.solve(cross.transpose()).transpose();
+  const Eigen::Vector3d error(vertical.x() - state.position_odom_m.z(), vertical.y() - state.velocity_odom_m_s.z(),
+                              vertical.z() - state.accelerometer_bias_m_s2.z());
+  ErrorVector all(n);
+  all.noalias() = slope.lazyProduct(error);
+  const CrossCovariance<3> less = slope.lazyProduct((present - covariance).eval());
+  state.covariance.noalias() -= less.lazyProduct(slope.transpose());
+  state.by_laser.noalias() -= slope.lazyProduct(by_laser);
+  state.inject(all);
+  return true;
 }
 
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,

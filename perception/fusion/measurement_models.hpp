@@ -32,7 +32,6 @@ Linearized<2> relativePoseAcross(const FilterState& state, int clone, const comm
 Linearized<6> relativePose3(const FilterState& state, int clone, const common::Pose3& T_clone_body,
                             const Eigen::Matrix<double, 6, 6>& covariance);
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2);
-Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2);
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,
                            const Eigen::Matrix3d& covariance);
 /// Roll and pitch from the direction of "up" in the body frame; yaw is not measured.
@@ -48,6 +47,11 @@ Linearized<3> zeroRotation(const FilterState& state, const Eigen::Vector3d& angu
 /// along z, and gravity is not measured (Martin and Salaun 2010; Leishman et al. 2014). Uses the means over the state's
 /// drag_stretch, which must not be empty.
 Linearized<2> drag(const FilterState& state, double variance_m2_s4);
+
+/// Gives height, vertical speed and vertical accelerometer bias this mean and covariance. What the rest of the state
+/// says given these three stays as it is (Jeffrey's rule, for Gaussians). Returns false and changes nothing if the
+/// present covariance of the three is not positive definite.
+bool replaceVertical(FilterState& state, const Eigen::Vector3d& vertical, const Eigen::Matrix3d& covariance);
 
 /// Derivative of the yaw by the attitude error (in odom).
 Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation);

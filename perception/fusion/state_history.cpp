@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/check.hpp"
+#include "common/square.hpp"
 #include "perception/fusion/pose_history.hpp"
 
 namespace swiftlet::perception::fusion {
@@ -156,11 +157,35 @@ std::optional<VerticalState> StateHistory::verticalAt(Time time) {
   std::size_t at = count_ - 1;
   while (at > 0 && slot(at).imu.stamp > time) --at;
   const FilterState& state = slot(at).state;
-  constexpr int kZ = kPosition + 2, kVz = kVelocity + 2;
-  VerticalState vertical{pose->position_m.z(), state.velocity_odom_m_s.z(), Eigen::Matrix2d::Zero()};
-  vertical.covariance << state.covariance(kZ, kZ) + state.height_common_variance_m2, state.covariance(kZ, kVz),
-      state.covariance(kVz, kZ), state.covariance(kVz, kVz);
+  VerticalState vertical{pose->position_m.z(), state.velocity_odom_m_s.z(), state.accelerometer_bias_m_s2.z(), {}};
+  constexpr int kVertical[] = {kPosition + 2, kVelocity + 2, kAccelerometerBias + 2};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) vertical.covariance(i, k) = state.covariance(kVertical[i], kVertical[k]);
+  vertical.covariance(0, 0) += state.height_common_variance_m2;
   return vertical;
+}
+
+std::optional<InertialClimb> StateHistory::climb(Time from, Time to) {
+  if (count_ == 0 || from < slot(0).imu.stamp || (to - newestStamp()).seconds() > kMaxExtrapolation_s)
+    return std::nullopt;
+  replay(count_);
+  InertialClimb climb;
+  double noise2 = 0.0;
+  Time begin = from;
+  for (std::size_t i = 1; i <= count_ && begin < to; ++i) {
+    const Slot& s = slot(std::min(i, count_ - 1));  // Beyond the newest sample it is taken to go on.
+    const Time end = i < count_ ? std::min(s.imu.stamp, to) : to;
+    if (end <= begin) continue;
+    const double dt_s = (end - begin).seconds();
+    const Eigen::Vector3d up_body = s.state.rotation_odom_body.conjugate() * Eigen::Vector3d::UnitZ();
+    const double up_m_s2 = up_body.dot(s.imu.specific_force_body_m_s2) - step_.gravity_m_s2();
+    climb.height_m += dt_s * (climb.velocity_m_s + 0.5 * dt_s * up_m_s2);
+    climb.velocity_m_s += dt_s * up_m_s2;
+    noise2 += dt_s * common::square(step_.accelerometerNoise_m_s2_rthz(s));
+    begin = end;
+  }
+  if (to > from) climb.noise_m_s2_rthz = std::sqrt(noise2 / (to - from).seconds());
+  return climb;
 }
 
 PoseHistory StateHistory::motion(Time from, Time to) {

@@ -38,6 +38,7 @@ class StateHistory {
   // As in ErrorStateFilter.
   std::optional<common::Pose3> poseAt(common::Time time);
   std::optional<VerticalState> verticalAt(common::Time time);
+  std::optional<InertialClimb> climb(common::Time from, common::Time to);
   PoseHistory motion(common::Time from, common::Time to);
 
   /// Whether any state computed since start() has diverged.

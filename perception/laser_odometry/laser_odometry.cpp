@@ -93,7 +93,7 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
          "After this many scans without a match the odometry starts anew from the present one.");
 }
 
-std::vector<std::string> LaserOdometryConfig::validate() const {
+std::vector<common::Problem> LaserOdometryConfig::validate() const {
   return common::Validation()
       .atMost("guess_error_m", guess_error_m, "max_window_m", max_window_m)
       .atMost("guess_error_deg", kGuessError_deg, "max_window_deg", max_window_deg)

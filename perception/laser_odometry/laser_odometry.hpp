@@ -54,7 +54,7 @@ struct LaserOdometryConfig {
   int max_failures = 20;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct LaserOdometryCounts {

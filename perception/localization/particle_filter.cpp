@@ -46,7 +46,7 @@ void ParticleFilterConfig::describe(common::config::Fields& fields) {
   fields("max_particles", max_particles, {10, 1'000'000}, "Greatest number of particles (5,000: Grzonka 2009, VI-A).");
 }
 
-std::vector<std::string> ParticleFilterConfig::validate() const {
+std::vector<common::Problem> ParticleFilterConfig::validate() const {
   return common::Validation().atMost("min_particles", kMinParticles, "max_particles", max_particles).problems();
 }
 

@@ -29,7 +29,7 @@ struct ParticleFilterConfig {
                              ///< wrong about the map together.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 /// A possible pose of the vehicle.

@@ -31,10 +31,10 @@ constexpr double kMaxSpeed_m_s = 2.5;
 constexpr double kSmoothing_s = 0.15;
 /// An obstacle is moving that has come this far in this time; if it has not, it is standing. It must have been followed
 /// for kFollowed_s and seen in this share of the scans: furniture under a tilting laser comes and goes (measured:
-/// docs/decisions/grid_map.md, 007).
+/// docs/decisions/grid_map.md#007).
 constexpr double kMoved_m = 0.25, kMovedWithin_s = 1.0, kFollowed_s = 0.15, kFollowedShare = 0.5;
 /// An obstacle that was never seen this high above the body while it is kept does not count as moving: a dipping laser
-/// meets the top of a table now nearer, now farther (measured: docs/decisions/grid_map.md, 072).
+/// meets the top of a table now nearer, now farther (measured: docs/decisions/grid_map.md#072).
 constexpr double kReaches_m = -0.02;
 
 /// Whether a point lies in space that the background knows as free, with nothing occupied or unknown within `cells`.

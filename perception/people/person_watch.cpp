@@ -37,8 +37,7 @@ constexpr double kFresh_s = 0.3;
 constexpr double kGate_m = 0.6;
 /// Least probability that a hidden person is near a track that is taken for the person's; the greater one while the
 /// vehicle sees something new where the person probably stands. Without them a track in plain sight was given up, and
-/// the next person who passed was followed (measured: docs/decisions/following.md, "Giving way, and who is the
-/// person").
+/// the next person who passed was followed (measured: docs/decisions/following.md).
 constexpr double kLeastPersonShare = 0.03, kLeastPersonShareInSight = 0.3;
 /// Distance that a person who was followed earlier may have walked meanwhile.
 constexpr double kRememberedGate_m = 3.0;

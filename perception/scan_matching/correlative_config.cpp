@@ -25,12 +25,12 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
          "covariance; 0 for none.");
 }
 
-std::vector<std::string> CorrelativeMatcherConfig::validate() const {
+std::vector<common::Problem> CorrelativeMatcherConfig::validate() const {
   const double kernel_m = LikelihoodField::kMaxKernelCells * resolution_m;
   return common::Validation()
-      .require(
-          sigma_m >= 0.5 * resolution_m && sigma_m <= kernel_m / 3.0 + 1e-9, "sigma_m",
-          fmt::format("{} is not within {} and {} at this resolution_m", sigma_m, 0.5 * resolution_m, kernel_m / 3.0))
+      .require(sigma_m >= 0.5 * resolution_m && sigma_m <= kernel_m / 3.0 + 1e-9, "sigma_m",
+               common::Message("matcher.sigma", "{} is not within {} and {} at this resolution_m", sigma_m,
+                               0.5 * resolution_m, kernel_m / 3.0))
       .problems();
 }
 

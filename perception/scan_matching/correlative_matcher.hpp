@@ -42,7 +42,7 @@ struct CorrelativeMatcherConfig {
       0.01;  ///< A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 class CorrelativeMatcher final : public ScanMatcher {

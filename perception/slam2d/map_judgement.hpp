@@ -1,6 +1,6 @@
 // Judges a finished map by itself: stretches of the track that saw the same place at different times must agree in what
 // is free. Walls that are drawn twice, or a place that is laid onto another, contradict each other even where every
-// single match was good. Decision 026.
+// single match was good (docs/decisions/slam.md#026).
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ void LoopClosureConfig::describe(common::config::Fields& fields) {
   fields("min_fine_quality", min_fine_quality, {0, 1}, "Least quality of the fine match.");
 }
 
-std::vector<std::string> LoopClosureConfig::validate() const {
+std::vector<common::Problem> LoopClosureConfig::validate() const {
   return common::Validation()
       .atMost("min_window_m", min_window_m, "max_sigma_m", max_sigma_m)
       .atMost("min_window_deg", min_window_deg, "max_window_deg", max_window_deg)

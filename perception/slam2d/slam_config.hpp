@@ -25,7 +25,7 @@ struct LoopClosureConfig {
                                            ///< docs/decisions/slam.md#024).
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct Slam2dConfig {

@@ -17,8 +17,8 @@ void TargetClassConfig::describe(common::config::Fields& fields) {
   fields("diameter_m", diameter_m, {0, 5}, "Diameter of these targets; 0 if it is not known.");
 }
 
-std::vector<std::string> TargetClassConfig::validate() const {
-  return common::Validation().require(!name.empty(), "name", "is missing").problems();
+std::vector<common::Problem> TargetClassConfig::validate() const {
+  return common::Validation().given(!name.empty(), "name").problems();
 }
 
 }  // namespace swiftlet::perception

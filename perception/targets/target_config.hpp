@@ -18,7 +18,7 @@ struct TargetClassConfig {
   double diameter_m = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct TargetTrackerConfig {

@@ -250,7 +250,8 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
 /// The turn that brings the nearest threat and the course of the retreat into the laser's field of view. Outside it, a
 /// person is soon lost by the tracker, and an obstacle on the course is not seen.
 double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
-  // Decision 009: losing sight of the danger costs more than losing sight of the course, and each more than turning.
+  // Losing sight of the danger costs more than losing sight of the course, and each more than turning
+  // (docs/decisions/avoidance.md#009).
   constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kCourse = 2.0, kLeast_m_s = 0.1;
   const Threat* nearest = nullptr;
   for (const Threat& threat : threats) {

@@ -1,8 +1,7 @@
 #include "planning/avoidance/avoidance_config.hpp"
 
-#include <fmt/format.h>
-
 #include "common/config_fields.hpp"
+#include "common/validation.hpp"
 
 namespace swiftlet::planning {
 
@@ -19,19 +18,19 @@ void AvoidanceConfig::describe(common::config::Fields& fields) {
                 "How the course of a retreat is chosen.");
 }
 
-std::vector<std::string> AvoidanceConfig::validateAgainst(double clearance_m, double keep_out_m) const {
-  std::vector<std::string> problems;
-  if (margin_m >= clearance_m)
-    problems.push_back(
-        fmt::format("margin_m: {:.2f} m forbids the clearance of {:.2f} m that the planner may use; it must be smaller",
-                    margin_m, clearance_m));
-  if (retreat_distance_m * release_factor > clearance_m + keep_out_m)
-    problems.push_back(
-        fmt::format("retreat_distance_m: {:.2f} m (times {:.2f} to be released) forbids passing unmapped things at "
-                    "{:.2f} m, as the "
-                    "planner may; it must be smaller",
-                    retreat_distance_m, release_factor, clearance_m + keep_out_m));
-  return problems;
+std::vector<common::Problem> AvoidanceConfig::validateAgainst(double clearance_m, double keep_out_m) const {
+  using common::Message;
+  return common::Validation()
+      .require(margin_m < clearance_m, "margin_m",
+               Message("avoidance.margin",
+                       "{:.2f} m forbids the clearance of {:.2f} m that the planner may use; it must be smaller",
+                       margin_m, clearance_m))
+      .require(retreat_distance_m * release_factor <= clearance_m + keep_out_m, "retreat_distance_m",
+               Message("avoidance.retreat-distance",
+                       "{:.2f} m (times {:.2f} to be released) forbids passing unmapped things at {:.2f} m, as the "
+                       "planner may; it must be smaller",
+                       retreat_distance_m, release_factor, clearance_m + keep_out_m))
+      .problems();
 }
 
 }  // namespace swiftlet::planning

@@ -32,11 +32,11 @@ struct AvoidanceConfig {
 
   /// Sectors into which the field of view is divided: of 5 deg, as those of Saeedi, section III-G, with 270 deg.
   static constexpr int bins = 54;
-  /// Speed limit on a course that the laser does not see (decision 009).
+  /// Speed limit on a course that the laser does not see (docs/decisions/avoidance.md#009).
   static constexpr double blind_speed_m_s = 0.3;
   /// Something moving that passes nearer than this to the hull counts as arriving.
   static constexpr double contact_gap_m = 0.20;
-  /// Greatest speed of a retreat (decision 009).
+  /// Greatest speed of a retreat (docs/decisions/avoidance.md#009).
   static constexpr double retreat_speed_m_s = 0.7;
   /// Distance between hull and obstacle when a retreat has ended.
   static constexpr double retreat_margin_m = 0.15;
@@ -46,7 +46,7 @@ struct AvoidanceConfig {
   void describe(common::config::Fields& fields);
   /// Conflicts between these distances and the clearance that the planner may use: a distance is refused if it would
   /// stop the vehicle, or make it retreat, on a path that the planner may take. Empty without conflicts.
-  std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
+  std::vector<common::Problem> validateAgainst(double clearance_m, double keep_out_m) const;
 };
 
 }  // namespace swiftlet::planning

@@ -19,7 +19,7 @@ constexpr int kSteps = 20;
 /// Motion of people is extrapolated for at most this time. A contact sooner than `kTooSoon_s` cannot be changed any
 /// more.
 constexpr double kForesight_s = 1.5, kTooSoon_s = 0.3;
-/// The courses of decision 004.
+/// The courses of a retreat (docs/decisions/avoidance.md#004).
 constexpr int kDirections = 36;
 constexpr std::array<double, 3> kShareOfSpeed{0.25, 0.5, 1.0};
 constexpr std::array<double, 3> kGoing_s{0.2, 0.5, 0.9};

@@ -33,7 +33,7 @@ void CostMap::closeBorder() {
 }
 
 void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
-  // Decision 010. A longer step is a correction of the map and not a flight.
+  // A longer step is a correction of the map and not a flight (docs/decisions/planning.md#010).
   constexpr double kWithin_m = 0.075, kJump_m = 1.0;
   const Eigen::Vector2d step = to_map_m - from_map_m;
   if (!step.allFinite() || step.norm() > kJump_m) return;

@@ -24,10 +24,10 @@ constexpr double kStep_m = 0.06;
 /// A raised surface is chosen only if the floor is farther away by this path length.
 constexpr double kUpperCost_m = 1.5;
 /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen to both sides of the hull
-/// is farther away by this path length (decision 090).
+/// is farther away by this path length (docs/decisions/fail_safes.md#090).
 constexpr double kUnseenCost_m = 1.0;
 /// A place whose margin holds only if no edge runs askew is chosen only if a clearer one is farther away by this
-/// (decision 090).
+/// (docs/decisions/fail_safes.md#090).
 constexpr double kAskewCost_m = 1.0;
 /// Beyond the hull and its margin, cells within this distance must show that the surface continues.
 constexpr double kBeyond_m = 0.2;

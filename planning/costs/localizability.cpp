@@ -9,11 +9,11 @@ namespace swiftlet::planning {
 namespace {
 
 /// A place around which a smaller share of the directions ends at walls is not explored, as outside an open door. One
-/// endless wall, which fixes one direction only, is half of them (measured: decision 029).
+/// endless wall, which fixes one direction only, is half of them (measured: docs/decisions/fail_safes.md#029).
 constexpr double kLeastWallShare = 0.55;
 /// Range within which walls count for it.
 constexpr double kWallRange_m = 25.0;
-/// A direction that is free as far as this without a wall counts as open (measured: decision 088).
+/// A direction that is free as far as this without a wall counts as open (measured: docs/decisions/planning.md#088).
 constexpr double kOpen_m = 5.0;
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kDirections = 32;  ///< Every 11 degrees: 0.4 m apart at 2 m.
 /// Loss per metre of path, in metres of distance to the walls: an estimate that is no longer measured drifts by 0.1 m/s
-/// (decision 062), which is about this share of a path flown at 0.3 m/s.
+/// (docs/decisions/fusion.md#062), which is about this share of a path flown at 0.3 m/s.
 constexpr double kLossPerMetre = 0.25;
 
 }  // namespace

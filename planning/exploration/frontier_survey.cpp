@@ -20,11 +20,12 @@ using Point = Eigen::Vector2d;
 constexpr double kMinFrontier_m = 0.30;
 /// Longer frontiers are cut into pieces of at most this length.
 constexpr double kSegment_m = 1.5;
-/// Frontiers this near to a target during whose approach the position became uncertain are not explored (decision 029).
+/// Frontiers this near to a target during whose approach the position became uncertain are not explored
+/// (docs/decisions/fail_safes.md#029).
 constexpr double kLostRadius_m = 4.0;
-/// A frontier that remains after this many views is not tried again (decision 012).
+/// A frontier that remains after this many views is not tried again (docs/decisions/planning.md#012).
 constexpr int kMaxAttempts = 3;
-/// Views from this near to a frontier count as attempts at it (decision 012).
+/// Views from this near to a frontier count as attempts at it (docs/decisions/planning.md#012).
 constexpr double kAttemptRadius_m = 0.35;
 
 const CostMap& mapOf(const ExplorationInput& input) {

@@ -6,7 +6,8 @@
 namespace swiftlet::planning {
 namespace {
 
-/// Longest stretch of a path without walls around it; a viewpoint behind a longer one is not chosen (decision 088).
+/// Longest stretch of a path without walls around it; a viewpoint behind a longer one is not chosen
+/// (docs/decisions/planning.md#088).
 constexpr double kMaxUnheld_m = 4.0;
 constexpr int kRays = 36;  ///< Every 10 degrees: a wall of a metre is met within 5 m.
 /// Places along the path that are judged. The walls around change little within it.

@@ -14,7 +14,7 @@
 namespace swiftlet::planning {
 
 /// A distance that is smaller or larger than the wanted one by more than this is wrong. With 0.35 m the vehicle gave
-/// way where it had only stopped 5 cm too late (measured: docs/decisions/following.md, "Giving way").
+/// way where it had only stopped 5 cm too late (measured: docs/decisions/following.md).
 inline constexpr double kPursuitNearer_m = 0.5, kPursuitFarther_m = 0.7;
 
 /// References are read during the call only.

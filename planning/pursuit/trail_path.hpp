@@ -12,7 +12,7 @@
 namespace swiftlet::planning {
 
 /// Distance from the person at which the path ends. It is farther ahead than the vehicle needs to brake, so that it
-/// does not end at rest while the person walks (docs/decisions/following.md, 067).
+/// does not end at rest while the person walks (docs/decisions/following.md#067).
 inline constexpr double kTrailEndsAt_m = 1.0;
 
 /// From a place to the one nearest to the person that can be reached; one point: to stay there. It leaves the lethal

@@ -87,7 +87,8 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   constexpr double kNearness = 4.0, kUnknown = 20.0, kOccupied = 50.0;
   if (!map.rect().contains(start)) return std::nullopt;
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
-  // Where the planners may start, the hull keeps half of its clearance, as it may on its trail (decision 010).
+  // Where the planners may start, the hull keeps half of its clearance, as it may on its trail
+  // (docs/decisions/planning.md#010).
   const bool lethal = map.costAt(start) == CostMap::kLethal;
   const double least_m = lethal ? 0.0 : map.footprint().hull_radius_m + 0.5 * map.footprint().clearance_m;
   // A keep-out zone over the vehicle may be as large as the room; farther away only its cells count as open.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/gravity.hpp"
 #include "common/random.hpp"
 
 namespace swiftlet::simulation {
@@ -19,10 +20,28 @@ Vector3d gaussians(RandomStream& random, double standard_deviation) {
   return {x, y, random.gaussian(standard_deviation)};
 }
 
+/// Rectification goes with the power of the vibration, which goes with the square of the thrust. It is strongest along
+/// the axis of the motors, with either sign.
+Vector3d rectification_m_s2_n2(const ImuConfig& config, const common::VehicleConfig& sheet, std::uint64_t seed) {
+  RandomStream random(seed, "rectification");
+  const double z = random.chance(0.5) ? 1.0 : -1.0;
+  const double x = random.uniform(-0.5, 0.5), y = random.uniform(-0.5, 0.5);
+  const double hover_n = sheet.mass_kg * common::kGravity_m_s2;
+  return config.rectification_m_s2 / (hover_n * hover_n) * Vector3d(x, y, z);
+}
+
+double thrustOf_n(const QuadrotorState& state) {
+  const MotorThrusts& f = state.thrusts_n;
+  return f[0] + f[1] + f[2] + f[3];
+}
+
 }  // namespace
 
-InertialUnit::InertialUnit(const ImuConfig& config, double max_thrust_n, std::uint64_t seed)
-    : config_(config), max_thrust_n_(max_thrust_n), seed_(seed) {
+InertialUnit::InertialUnit(const ImuConfig& config, const common::VehicleConfig& sheet, std::uint64_t seed)
+    : config_(config),
+      max_thrust_n_(sheet.max_thrust_n),
+      seed_(seed),
+      rectification_m_s2_n2_(rectification_m_s2_n2(config, sheet, seed)) {
   RandomStream random(seed, "inertial unit");
   gyro_bias_rad_s_ = gaussians(random, config.gyro_bias_rad_s);
   accel_bias_m_s2_ = gaussians(random, config.accel_bias_m_s2);
@@ -74,21 +93,22 @@ AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorSt
 }
 
 /// The propellers shake the sensor with a force that goes with the square of their speed, as the thrust does.
-double InertialUnit::accelNoise_m_s2(const QuadrotorState& state) const {
+double InertialUnit::accelNoise_m_s2(double thrust_n) const {
   if (config_.vibration_m_s2 <= 0.0) return config_.accel_noise_m_s2;
-  const MotorThrusts& f = state.thrusts_n;
-  const double thrust_share = (f[0] + f[1] + f[2] + f[3]) / max_thrust_n_;
+  const double thrust_share = thrust_n / max_thrust_n_;
   return std::hypot(config_.accel_noise_m_s2, config_.vibration_m_s2 * thrust_share);
 }
 
 common::ImuSample InertialUnit::sample(std::uint64_t frame, const QuadrotorState& state) {
   RandomStream random(seed_, "imu", frame);
   const double share = sum_count_ > 0 ? 1.0 / sum_count_ : 0.0;
+  const double thrust_n = thrustOf_n(state);
   common::ImuSample sample;
   sample.angular_velocity_body_rad_s =
       share * rate_sum_rad_s_ + gyro_bias_rad_s_ + gaussians(random, config_.gyro_noise_rad_s);
   sample.specific_force_body_m_s2 =
-      (share * specific_force_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, accelNoise_m_s2(state)))
+      (share * specific_force_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, accelNoise_m_s2(thrust_n)) +
+       thrust_n * thrust_n * rectification_m_s2_n2_)
           .cwiseMax(-kGreatestSpecificForce_m_s2)
           .cwiseMin(kGreatestSpecificForce_m_s2);
   sample.rotation_ahrs_body = withErrors(state, gaussians(random, config_.tilt_noise_deg * kRadPerDeg));

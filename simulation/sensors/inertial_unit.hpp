@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "common/sensor_event.hpp"
+#include "common/vehicle_config.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/sensors/sensor_config.hpp"
 
@@ -22,8 +23,8 @@ struct AttitudeMeasurement {
 
 class InertialUnit {
  public:
-  /// `max_thrust_n`: of all motors together, for the vibration.
-  InertialUnit(const ImuConfig& config, double max_thrust_n, std::uint64_t seed);
+  /// `sheet`: of the vehicle that shakes it.
+  InertialUnit(const ImuConfig& config, const common::VehicleConfig& sheet, std::uint64_t seed);
 
   /// Call it after each physics step. It averages the measurements between two samples.
   void feel(const QuadrotorState& state);
@@ -37,13 +38,14 @@ class InertialUnit {
  private:
   Eigen::Quaterniond withErrors(const QuadrotorState& state, const Eigen::Vector3d& noise_rad) const;
 
-  double accelNoise_m_s2(const QuadrotorState& state) const;
+  double accelNoise_m_s2(double thrust_n) const;
 
   ImuConfig config_;
   double max_thrust_n_;
   std::uint64_t seed_;
   Eigen::Vector3d gyro_bias_rad_s_;
   Eigen::Vector3d accel_bias_m_s2_;
+  Eigen::Vector3d rectification_m_s2_n2_;  ///< Mean shift of the accelerometer per squared thrust.
   Eigen::Vector2d slow_tilt_rad_;
   Eigen::Vector2d lean_rad_ = Eigen::Vector2d::Zero();
   double yaw_rad_;

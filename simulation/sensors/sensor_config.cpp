@@ -61,11 +61,16 @@ void ImuConfig::describe(common::config::Fields& fields) {
   fields("yaw_walk_deg", yaw_walk_deg, {0, 20}, "Growth of yaw's standard deviation in one second.");
   fields("vibration_m_s2", vibration_m_s2, {0, 50},
          "Further standard deviation of an accelerometer sample at full thrust; it goes with the thrust.");
+  fields(
+      "rectification_m_s2", rectification_m_s2, {0, 5},
+      "Mean shift of the vertical accelerometer at the thrust that carries the data sheet's mass, up or down by seed; "
+      "it goes with the squared thrust. The other two axes have up to half of it.");
 }
 
-std::vector<std::string> ImuConfig::validate() const {
+std::vector<common::Problem> ImuConfig::validate() const {
   return common::Validation()
-      .require(std::fmod(1000.0, rate_hz) == 0.0, "rate_hz", "1000 is not a multiple of it")
+      .require(std::fmod(1000.0, rate_hz) == 0.0, "rate_hz",
+               common::Message("imu.rate", "1000 is not a multiple of it"))
       .problems();
 }
 

@@ -43,9 +43,10 @@ struct ImuConfig {
   double yaw_drift_deg_s = 0.05;
   double yaw_walk_deg = 0.05;
   double vibration_m_s2 = 0.0;
+  double rectification_m_s2 = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
+  std::vector<common::Problem> validate() const;
 };
 
 struct CameraConfig {

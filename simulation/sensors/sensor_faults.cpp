@@ -111,6 +111,9 @@ std::optional<SensorEvent> withFault(const FaultConfig& fault, const SensorEvent
     case FaultKind::kLate:
       stamps.arrived += common::Duration::fromSeconds(fault.late_s);
       return restamped(event, stamps);
+    case FaultKind::kClockJump:
+      stamps.measured += common::Duration::fromSeconds(fault.jump_s);
+      return restamped(event, stamps);
     case FaultKind::kStuck:
       return withStuckAttitude(std::get<common::ImuSample>(event), last_good);
     case FaultKind::kBias:
@@ -127,6 +130,8 @@ std::optional<SensorEvent> withFault(const FaultConfig& fault, const SensorEvent
     case FaultKind::kFlipped:
     case FaultKind::kOtherSize:
       return withPictureFault(fault.kind, event);
+    case FaultKind::kLostCell:  // Of the battery itself.
+      return event;
   }
   return event;
 }

@@ -11,7 +11,7 @@ SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, 
                          const WorldModel& world)
     : scenario_(scenario),
       seed_(seed),
-      inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
+      inertial_(scenario.sensors.imu, scenario.vehicle, seed),
       laser_(Sensor::kLaser, scenario.laser.rate_hz,
              LaserScanner(scenario.laser, scenario.sensors.laser_errors, world, seed)),
       camera_(scenario.sensors.camera, world, seed),

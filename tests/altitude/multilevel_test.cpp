@@ -218,7 +218,7 @@ TEST(MultilevelFilter, ReturnsToTheFloorBehindClutter) {
     flight.flyTo({2.5, 0.0}, 0.7);
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
     flight.flyTo({end_m + 1.5, 0.0}, 0.7);
-    unmeasured += flight.last.measurement ? 0 : 1;
+    unmeasured += flight.last.vertical ? 0 : 1;
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < kAltitudeAtRest_m ? 0 : 1;
   }
   std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", unmeasured,
@@ -273,7 +273,7 @@ TEST(MultilevelFilter, PredictsWithoutReturnsAndReportsThatNothingWasMeasured) {
   flight.dropout_rate = 1.0;
   const double before = flight.filter.state().covariance(0, 0);
   for (int i = 0; i < 20; ++i) flight.scan(0.0);
-  EXPECT_FALSE(flight.last.measurement);
+  EXPECT_FALSE(flight.last.vertical);
   EXPECT_FALSE(flight.last.height_above_ground_m);
   EXPECT_GT(flight.filter.state().covariance(0, 0), 2.0 * before);
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 4.0 * std::sqrt(flight.filter.state().covariance(0, 0)));
@@ -292,8 +292,7 @@ TEST(MultilevelFilter, ATableEdgeSplitsTheBeamsBetweenBothLevels) {
   flight.flyTo({0.0, 0.5});
   flight.flyTo({0.0, 0.0});  // Half of the beams on either side.
   for (int i = 0; i < 80; ++i) flight.scan(0.0);
-  ASSERT_TRUE(flight.last.measurement);
-  EXPECT_EQ(flight.last.measurement->beams, 10);
+  ASSERT_TRUE(flight.last.vertical);
   EXPECT_NEAR(*flight.last.height_above_ground_m, flight.z_m - 0.75, kAltitudeAtRest_m) << "over the highest below";
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
 }
@@ -355,25 +354,26 @@ TEST(MultilevelFilter, MergesLevelsByTheFormulaOfThePaper) {
 }
 
 TEST(MultilevelFilter, IgnoresInvalidInput) {
-  MultilevelFilter::Config config;
-  config.publish_delay_s = 0.0;
-  MultilevelFilter filter(config);
+  MultilevelFilter filter{MultilevelFilter::Config{}};
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<GroundPoint> points(10, GroundPoint{{0, 0}, 1.0});
-  const auto priorAt = [](double time_s) {
-    return HeightState{common::Time::fromSeconds(time_s), 1.0, 0.0, 1e-4 * Eigen::Matrix2d::Identity()};
+  const auto sightAt = [&](double time_s, const Eigen::Vector2d& place_map_m) {
+    return GroundSight{.stamp = common::Time::fromSeconds(time_s),
+                       .position_map_m = place_map_m,
+                       .points = points,
+                       .known = {1.0, 0.0, 0.0, 1e-4 * Eigen::Matrix3d::Identity()},
+                       .climb = InertialClimb{0.0, 0.0, 0.02}};
   };
-  EXPECT_FALSE(filter.update(priorAt(1.0), {0, 0}, points).measurement);
+  EXPECT_FALSE(filter.update(sightAt(1.0, {0, 0})).vertical);
   filter.initialize(common::Time::fromSeconds(1.0), {0, 0}, 1.0);
-  EXPECT_FALSE(filter.update(priorAt(0.5), {0, 0}, points).measurement);
-  EXPECT_FALSE(filter.update(priorAt(1.1), {nan, 0}, points).measurement);
+  EXPECT_FALSE(filter.update(sightAt(0.5, {0, 0})).vertical);
+  EXPECT_FALSE(filter.update(sightAt(1.1, {nan, 0})).vertical);
   points[0].position_map_m.x() = nan;
   points[1].distance_below_m = std::numeric_limits<double>::infinity();
   points[2].distance_below_m = -1.0;
-  const auto update = filter.update(priorAt(1.2), {0, 0}, points);
-  ASSERT_TRUE(update.measurement);
-  EXPECT_EQ(update.measurement->beams, 7);
-  EXPECT_FALSE(filter.update(priorAt(1.3), {0, 0}, {}).measurement);
+  EXPECT_TRUE(filter.update(sightAt(1.2, {0, 0})).vertical);
+  points.clear();
+  EXPECT_FALSE(filter.update(sightAt(1.3, {0, 0})).vertical);
   EXPECT_TRUE(std::isfinite(filter.state().height_m));
 }
 

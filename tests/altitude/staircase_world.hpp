@@ -8,8 +8,6 @@
 
 #include "common/random.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
-#include "perception/altitude/ramp_rise.hpp"
-#include "perception/altitude/slope_doubt.hpp"
 
 namespace swiftlet::perception {
 
@@ -19,61 +17,6 @@ struct Box {
   double heightAt(double x) const {
     return height_at_x1_m < 0.0 ? height_m : height_m + (height_at_x1_m - height_m) * (x - x0) / (x1 - x0);
   }
-};
-
-/// Stands for the fusion filter in flight: a Kalman filter over height, vertical speed and the error of the
-/// acceleration. It accepts late measurements by replaying all scans since.
-class LateFilter {
- public:
-  void start(common::Time time, double height_m) {
-    steps_ = {{time, {height_m, 0.0, 0.0}, Eigen::Vector3d(4e-4, 1e-4, 4e-3).asDiagonal(), 0.0}};
-  }
-  HeightState predict(common::Time time, double acceleration_m_s2) {
-    Step next = steps_.back();
-    advance(next, time, acceleration_m_s2);
-    steps_.push_back(next);
-    return {time, next.state[0], next.state[1], next.covariance.topLeftCorner<2, 2>()};
-  }
-  void add(const VirtualHeight& measured) {
-    std::size_t i = 0;
-    while (i + 1 < steps_.size() && steps_[i].stamp < measured.stamp) ++i;
-    update(steps_[i], {1.0, 0.0, 0.0}, measured.height_m, measured.variance_m2);
-    if (measured.speed) update(steps_[i], {0.0, 1.0, 0.0}, measured.speed->up_m_s, measured.speed->variance_m2_s2);
-    for (++i; i < steps_.size(); ++i) {
-      Step again = steps_[i - 1];
-      advance(again, steps_[i].stamp, steps_[i].acceleration_m_s2);
-      steps_[i] = again;
-    }
-    if (steps_.size() > 40) steps_.erase(steps_.begin());
-  }
-
- private:
-  struct Step {
-    common::Time stamp;
-    Eigen::Vector3d state;
-    Eigen::Matrix3d covariance;
-    double acceleration_m_s2;  ///< The acceleration since the state before.
-  };
-  static void advance(Step& step, common::Time time, double acceleration_m_s2) {
-    constexpr double kNoise_m_s2_rthz = 0.03, kWalk_m_s3_rthz = 0.01;
-    const double dt_s = (time - step.stamp).seconds();
-    Eigen::Matrix3d a;
-    a << 1.0, dt_s, -0.5 * dt_s * dt_s, 0.0, 1.0, -dt_s, 0.0, 0.0, 1.0;
-    const Eigen::Vector3d effect(0.5 * dt_s * dt_s, dt_s, 0.0);
-    step.stamp = time;
-    step.state = a * step.state + effect * acceleration_m_s2;
-    step.covariance =
-        a * step.covariance * a.transpose() + kNoise_m_s2_rthz * kNoise_m_s2_rthz / dt_s * effect * effect.transpose();
-    step.covariance(2, 2) += kWalk_m_s3_rthz * kWalk_m_s3_rthz * dt_s;
-    step.acceleration_m_s2 = acceleration_m_s2;
-  }
-  static void update(Step& step, const Eigen::RowVector3d& row, double value, double variance) {
-    const Eigen::Vector3d cross = step.covariance * row.transpose();
-    const double innovation_variance = row * cross + variance;
-    step.state += cross / innovation_variance * (value - row * step.state);
-    step.covariance -= cross * cross.transpose() / innovation_variance;
-  }
-  std::vector<Step> steps_;
 };
 
 struct Overflight {
@@ -89,18 +32,15 @@ struct Overflight {
   double acceleration_bias_m_s2 = 0.0;
   double outlier_rate = 0.0, dropout_rate = 0.0;
   double height_offset_m = 0.0;  ///< Offset of all beams: a wrong mirror mount.
-  LateFilter fusion;
-  bool sees_slopes = false;     ///< A camera told the gradients of the ground.
-  double gradient_error = 0.0;  ///< Of all of them, along x.
-  RampRise ramp;
-  SlopeDoubt doubt;
-  int doubts = 0;
+  bool sees_slopes = false;      ///< A camera told the gradients of the ground.
+  double gradient_error = 0.0;   ///< Of all of them, along x.
 
   common::Time now;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   double z_m = 0.15, vz_m_s = 0.0;
   double worst_error_m = 0.0, squares_m2 = 0.0;
   int scans = 0, added = 0, joined = 0, without_measurement = 0;
+  double estimated_m = 0.15;
   AltitudeUpdate last;
   std::optional<double> regained_m;  ///< The last correction by the floor.
 
@@ -129,22 +69,20 @@ struct Overflight {
     return {std::abs(along) < 0.05 || std::abs(along) > 0.5 ? 0.0 : along + gradient_error, 0.0};
   }
 
-  void start() {
-    filter.initialize(now, position_m, z_m);
-    fusion.start(now, z_m);
-  }
+  void start() { filter.initialize(now, position_m, z_m); }
 
   /// One scan after 1 / scan_hz of constant acceleration.
   void scan(double acceleration_m_s2) {
     const int steps = static_cast<int>(std::lround(200.0 / scan_hz));
-    double felt_m_s2 = 0.0;
+    InertialClimb climb{0.0, 0.0, acceleration_sigma_m_s2 * std::sqrt(0.005)};
     for (int i = 0; i < steps; ++i) {
       now += common::Duration::fromMilliseconds(5);
       z_m += vz_m_s * 0.005 + 0.5 * acceleration_m_s2 * 0.005 * 0.005;
       vz_m_s += acceleration_m_s2 * 0.005;
-      felt_m_s2 += (acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2)) / steps;
+      const double felt_m_s2 = acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2);
+      climb.height_m += climb.velocity_m_s * 0.005 + 0.5 * felt_m_s2 * 0.005 * 0.005;
+      climb.velocity_m_s += felt_m_s2 * 0.005;
     }
-    HeightState prior = fusion.predict(now, felt_m_s2);
     std::vector<GroundPoint> points;
     for (int i = 0; i < beams; ++i) {
       const double angle = beams > 1 ? spread_rad * (static_cast<double>(i) / (beams - 1) - 0.5) : 0.0;
@@ -154,20 +92,18 @@ struct Overflight {
       if (random.chance(outlier_rate)) below_m = random.uniform(0.1, 6.0);
       points.push_back({at, below_m});
     }
-    if (sees_slopes) {
-      ramp.move({}, position_m, gradient());
-      for (GroundPoint& point : points) point.distance_below_m += ramp.rise_m();
-      prior.covariance(0, 0) += ramp.variance_m2();
-    }
-    last = filter.update(prior, position_m, points, sees_slopes && ramp.onSlope());
+    last = filter.update({.stamp = now,
+                          .position_map_m = position_m,
+                          .points = points,
+                          .known = filter.state(),
+                          .climb = climb,
+                          .gradient_map = sees_slopes ? std::optional(gradient()) : std::nullopt});
     if (last.floor_regained_m) regained_m = last.floor_regained_m;
-    doubts += doubt.add(now, position_m, last.measurement) ? 1 : 0;
-    if (last.measurement) ramp.measured();
-    if (last.measurement) fusion.add(*last.measurement);
     added += last.levels_added;
     joined += last.levels_joined;
-    without_measurement += last.measurement ? 0 : 1;
-    const double error_m = prior.height_m - z_m;
+    without_measurement += last.vertical ? 0 : 1;
+    estimated_m = filter.state().height_m;
+    const double error_m = estimated_m - z_m;
     worst_error_m = std::max(worst_error_m, std::abs(error_m));
     squares_m2 += error_m * error_m;
     ++scans;

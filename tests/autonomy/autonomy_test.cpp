@@ -189,7 +189,7 @@ TEST(Autonomy, HomeAfterAStopIsFlownWhateverMissionWasStopped) {
     EXPECT_EQ(home.reason, "the vehicle holds there until a mission is started");
     ASSERT_TRUE(story.fly(1.0));
     EXPECT_NE(story.autonomy().missionStatus().phase, "wait for a mission");
-    EXPECT_EQ(story.autonomy().missionStatus().reason, "the operator wants it home");
+    EXPECT_EQ(story.autonomy().missionStatus().reason, "the operator sent it home");
     ASSERT_TRUE(story.until([&] { return story.event("supervisor", "home reached") != story.events.end(); }, 40.0));
     EXPECT_LT(fromHome_m(), 0.1);
     ASSERT_TRUE(story.fly(1.0));
@@ -223,12 +223,12 @@ TEST(Autonomy, TheFirstScanThatComesTooLateIsAnEventAndAllAreCounted) {
     return true;
   };
   ASSERT_TRUE(story.until([&] { return late == 3; }, 1.0));
-  ASSERT_TRUE(story.until([&] { return story.event("laser", "a scan came too late") != story.events.end(); }, 0.5));
+  ASSERT_TRUE(story.until([&] { return story.event("laser", "late scan rejected") != story.events.end(); }, 0.5));
   EXPECT_EQ(story.autonomy().counts().late_scans, 3u);
   EXPECT_EQ(std::count_if(story.events.begin(), story.events.end(),
-                          [](const auto& e) { return e.text.starts_with("a scan came too late"); }),
+                          [](const auto& e) { return e.text.starts_with("late scan rejected"); }),
             1);
-  const std::string& reason = story.event("laser", "a scan came too late")->reason;
+  const std::string& reason = story.event("laser", "late scan rejected")->reason;
   EXPECT_NE(reason.find(" ms after it was measured"), std::string::npos) << reason;
 }
 
@@ -321,7 +321,7 @@ TEST(Autonomy, AStoppedAhrsBeginsAnEmergencyDescentWithinHalfASecond) {
         }
         return true;
       },
-      "the AHRS gives the same attitude");
+      "the attitude of the AHRS is frozen");
 }
 
 TEST(Autonomy, ALaserThatRepeatsItsScanIsASilentOne) {

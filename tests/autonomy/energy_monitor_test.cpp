@@ -97,10 +97,10 @@ TEST_F(EnergyStory, AWornBatteryIsNoticedByItsFuelGauge) {
 
 TEST_F(EnergyStory, ABatteryThatIsSilentIsCountedOnByItsCurrent) {
   draw(100.0, 18.0);
-  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_ + 1.0)), "");
+  EXPECT_EQ(monitor_.gaugeFault(common::Time::fromSeconds(now_s_ + 1.0)), "");
   now_s_ += 200.0;
   remaining_ -= 200.0 * 18.0 / (3600.0 * kCapacity_ah);
-  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)), "no sample of the battery for 2.5 s");
+  EXPECT_EQ(monitor_.gaugeFault(common::Time::fromSeconds(now_s_)), "no battery sample for 2.5 s");
   EXPECT_NEAR(layer(20.0).battery_remaining, remaining_, 0.01);
   now_s_ += 1e4;
   EXPECT_EQ(layer().battery_remaining, 0.0);
@@ -135,14 +135,14 @@ TEST_F(EnergyStory, AGaugeThatStandsStillIsCountedOnByTheCurrent) {
   draw(50.0, 18.0);
   stands_still_ = remaining_;
   draw(40.0, 18.0);
-  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)), "") << "coarse gauges rest too";
+  EXPECT_EQ(monitor_.gaugeFault(common::Time::fromSeconds(now_s_)), "") << "coarse gauges rest too";
   draw(200.0, 18.0);
-  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)),
-            "its gauge has stood still while 5 % of the capacity were drawn");
+  EXPECT_EQ(monitor_.gaugeFault(common::Time::fromSeconds(now_s_)),
+            "the gauge has not moved while 5 % of the capacity were drawn");
   EXPECT_NEAR(layer().battery_remaining, remaining_, 0.01);
   stands_still_.reset();
   draw(1.0, 18.0);
-  EXPECT_EQ(monitor_.countedOn(common::Time::fromSeconds(now_s_)), "");
+  EXPECT_EQ(monitor_.gaugeFault(common::Time::fromSeconds(now_s_)), "");
   EXPECT_DOUBLE_EQ(layer().battery_remaining, remaining_);
 }
 

@@ -94,7 +94,7 @@ std::map<FindingKind, Hand> faults() {
       {FindingKind::kChargeBelow20, charge(0.18)},
       {FindingKind::kBatteryUnmeasured,
        [](SensorEvent& event) { return !std::holds_alternative<common::BatterySample>(event); }},
-      {FindingKind::kChargeCountedOn,
+      {FindingKind::kGaugeUnusable,
        [](SensorEvent& event) { return !std::holds_alternative<common::BatterySample>(event); }},
       {FindingKind::kPilotSilent, silentPilot()},
   };
@@ -124,7 +124,7 @@ bool canBe(FindingKind finding, FlightPhase phase) {
       return finding != FindingKind::kHeightLost && finding != FindingKind::kEstimateDiverged;
     case FlightPhase::kLanding:
       return finding != FindingKind::kHeightLost && finding != FindingKind::kEstimateDiverged &&
-             finding != FindingKind::kChargeCountedOn;
+             finding != FindingKind::kGaugeUnusable;
   }
   return false;
 }
@@ -149,7 +149,7 @@ bool responded(const AutonomyStory& story, const Cell& cell) {
     case Response::kRefuseTakeOff:
       return story.autonomy().missionStatus().state == MissionState::kFailed && flight != FlightState::kTakingOff;
     case Response::kWarn:
-      return says("supervisor", cell.finding == FindingKind::kChargeCountedOn ? "the charge is counted on"
+      return says("supervisor", cell.finding == FindingKind::kGaugeUnusable   ? "the charge is estimated"
                                 : cell.finding == FindingKind::kChargeBelow30 ? "25 %"
                                                                               : "18 %");
     case Response::kFlyHome:
@@ -160,7 +160,7 @@ bool responded(const AutonomyStory& story, const Cell& cell) {
       return flight == FlightState::kEmergencyLanding;
     case Response::kHold:
       return std::any_of(story.events.begin(), story.events.end(), [&](const common::Event& event) {
-        const char* why = cell.finding == FindingKind::kPilotSilent ? "the pilot has not been heard" : "no scan";
+        const char* why = cell.finding == FindingKind::kPilotSilent ? "no sample from the pilot" : "no scan";
         return event.text == "hold" && event.reason.starts_with(why);
       });
     default:

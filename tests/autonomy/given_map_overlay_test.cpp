@@ -230,7 +230,7 @@ TEST_F(GivenMapOverlayStory, SaysWhatHasChanged) {
   for (int i = 0; i < 4; ++i) step(T_map_given, 2.1);
   const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "something stands here that the given map does not have");
+  EXPECT_EQ(events[0].text, "obstacle that is not in the given map");
 }
 
 TEST(GivenMapOverlay, WithoutAMapTheGridStaysTheSame) {

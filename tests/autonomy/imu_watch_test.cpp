@@ -68,11 +68,11 @@ TEST_F(ImuWatchStory, GyroscopesOrAccelerometersThatRepeatAloneAreNoticedInAHove
   feed(0.15);
   EXPECT_EQ(fault(), "") << "coarse gyroscopes";
   feed(0.05);
-  EXPECT_EQ(fault(), "the gyroscopes give the same rates");
+  EXPECT_EQ(fault(), "the rates of the gyroscopes are frozen");
   rates_stopped_ = false;
   force_stopped_ = true;
   feed(0.2);
-  EXPECT_EQ(fault(), "the accelerometers give the same force");
+  EXPECT_EQ(fault(), "the forces of the accelerometers are frozen");
   force_stopped_ = false;
   feed(0.01);
   EXPECT_EQ(fault(), "");
@@ -104,7 +104,7 @@ TEST_F(ImuWatchStory, AnAttitudeWithoutItsNoiseIsThatOfAStoppedAhrsInAHoverToo) 
   feed(0.04, false, true);
   EXPECT_EQ(fault(), "") << "an AHRS that is slower than the gyroscopes";
   feed(0.05, false, true);
-  EXPECT_EQ(fault(), "the AHRS gives the same attitude");
+  EXPECT_EQ(fault(), "the attitude of the AHRS is frozen");
   feed(0.01);
   EXPECT_EQ(fault(), "");
 }

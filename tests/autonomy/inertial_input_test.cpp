@@ -19,12 +19,12 @@ using common::Time;
 class InertialInputStory : public testing::Test {
  protected:
   /// Measured samples every 5 ms, level; each number differs from one to the next.
-  void measure(double seconds) {
+  void measure(double seconds, double force_off_m_s2 = 0.0) {
     for (const double end_s = now_s_ + seconds; now_s_ < end_s - 1e-9;) {
       now_s_ += 0.005;
       ImuSample sample;
       sample.angular_velocity_body_rad_s = {1e-4 * std::sin(900.0 * now_s_), 0, 0};
-      sample.specific_force_body_m_s2 = {0, 1e-3 * std::sin(700.0 * now_s_), 9.81};
+      sample.specific_force_body_m_s2 = {0, 1e-3 * std::sin(700.0 * now_s_), 9.81 + force_off_m_s2};
       sample.rotation_ahrs_body = common::quaternionFrom({1e-3 * std::sin(now_s_), 0, 0});
       sample.stamps = {Time::fromSeconds(now_s_ - 0.002), Time::fromSeconds(now_s_)};
       taken_ += input_.take(sample) ? 1 : 0;
@@ -82,6 +82,24 @@ TEST_F(InertialInputStory, InSilenceTheSetpointsPredictTheAttitude) {
   EXPECT_NEAR(last.angular_velocity_body_rad_s.norm(), 0.2, 0.01);
   EXPECT_NEAR(last.specific_force_body_m_s2.z(), 1.1 * 9.81, 0.01);
   EXPECT_EQ(last.specific_force_body_m_s2.head<2>().norm(), 0.0);
+}
+
+TEST_F(InertialInputStory, AContradictionThatLastsEndsInALanding) {
+  const auto mustLandFor = [&] { return input_.mustLandFor(Time::fromSeconds(now_s_)); };
+  fly();
+  measure(1.0);
+  measure(1.0, 6.0);
+  EXPECT_TRUE(input_.contradicted());
+  EXPECT_EQ(mustLandFor(), "");
+  measure(1.0, 6.0);
+  EXPECT_EQ(mustLandFor(), "the accelerometer contradicts the thrust by 6.0 m/s^2 along its axis");
+  EXPECT_EQ(log_.take().size(), 1U);
+  measure(0.9);
+  EXPECT_TRUE(input_.contradicted()) << "trusted again only after a while";
+  measure(0.2);
+  EXPECT_FALSE(input_.contradicted());
+  EXPECT_EQ(mustLandFor(), "");
+  EXPECT_EQ(log_.take().back().text, "inertial samples trusted again");
 }
 
 TEST_F(InertialInputStory, OnTheGroundNothingIsPredicted) {

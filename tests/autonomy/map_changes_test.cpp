@@ -55,7 +55,7 @@ TEST_F(MapChangesStory, ANewBoxIsSaidOnceWithItsPlaceInTheGivenMap) {
   EXPECT_THAT(checks(2), IsEmpty()) << "somebody may walk by";
   const auto events = checks(1);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "something stands here that the given map does not have");
+  EXPECT_EQ(events[0].text, "obstacle that is not in the given map");
   EXPECT_EQ(events[0].reason, "within half a metre of (2.5, 2.5) in the given map");
   EXPECT_THAT(checks(10), IsEmpty());
 }
@@ -64,7 +64,7 @@ TEST_F(MapChangesStory, WhatIsGoneIsSaidToo) {
   fill(laid_, 1.0, 1.4, 1.0, 1.4, 100);
   const auto events = checks(3);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "something of the given map is not there at this height");
+  EXPECT_EQ(events[0].text, "obstacle of the given map not seen at this height");
   EXPECT_THAT(events[0].reason, HasSubstr("(1.5, 1.5)"));
 }
 

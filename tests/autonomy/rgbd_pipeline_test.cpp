@@ -95,7 +95,7 @@ TEST_F(RgbdStory, ARadioThatCarriesNoFrameInTimeIsReportedWithTheRemedy) {
     for (common::Event& event : log_.take()) events.push_back(std::move(event));
   }
   ASSERT_EQ(events.size(), 2u);
-  EXPECT_EQ(events[0].text, "frames are sent smaller");
+  EXPECT_EQ(events[0].text, "frames are downscaled for the radio");
   EXPECT_THAT(events[0].reason, testing::HasSubstr("the map has 1 in 4 of their pixels"));
   EXPECT_EQ(events[1].text, "no frame comes through the radio");
   EXPECT_THAT(events[1].reason, testing::HasSubstr("use a faster radio or a camera with fewer pixels"));
@@ -111,7 +111,7 @@ TEST_F(RgbdStory, HowMuchSmallerFramesAreSentIsTold) {
   pipeline.watch(keys_, Time::fromSeconds(1.0));
   const std::vector<common::Event> events = log_.take();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "frames are sent smaller");
+  EXPECT_EQ(events[0].text, "frames are downscaled for the radio");
   EXPECT_THAT(events[0].reason, testing::HasSubstr("the map has 1 in 64 of their pixels")) << "halved three times";
 }
 
@@ -203,8 +203,7 @@ TEST_F(RgbdStory, ACameraThatSendsNothingUsableIsReported) {
   const auto events = log_.take();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].text, "camera sends nothing usable");
-  EXPECT_EQ(events[0].reason,
-            "no frame that can be used for 1.0 s; of the last one: it was not measured after the last");
+  EXPECT_EQ(events[0].reason, "no usable frame for 1.0 s; the last one: it was not measured after the last");
   EXPECT_LT(events[0].stamp.seconds(), 21.15);
   watchUntil(23.2, 0.0);
   EXPECT_THAT(texts(), testing::ElementsAre("camera sends again"));

@@ -25,7 +25,7 @@ TEST(StampCheck, RefusesAStampOfTheFutureAndSaysSoOnce) {
   EXPECT_TRUE(check.accepts(batteryAt(1.6, 1.62)));
   const auto events = log.take();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "a measurement is refused: battery");
+  EXPECT_EQ(events[0].text, "measurement rejected: battery");
   EXPECT_EQ(events[0].reason, "its stamp lies 1e+03 s in the future");
 }
 

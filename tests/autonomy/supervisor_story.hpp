@@ -23,7 +23,7 @@ class SupervisorStory : public testing::Test {
     VehicleCondition condition;
     condition.flight = flight;
     condition.energy = energy_;
-    condition.charge_counted_on = charge_counted_on_;
+    condition.gauge_fault = gauge_fault_;
     condition.vertical_age_s = vertical_age_s_;
     condition.drift_m = drift_m_;
     condition.walls_around = walls_around_;
@@ -37,7 +37,7 @@ class SupervisorStory : public testing::Test {
   common::EventLog log_;
   Supervisor supervisor_{SupervisorConfig{}, log_};
   common::EnergyLayer energy_;
-  std::string charge_counted_on_;
+  std::string gauge_fault_;
   double vertical_age_s_ = 0.0;
   double drift_m_ = 0.0;
   bool walls_around_ = true;

@@ -59,23 +59,23 @@ TEST_F(SupervisorStory, APilotWhoIsSilentNoLongerFliesAndTheVehicleHolds) {
   EXPECT_TRUE(at(2.1).hold);
   EXPECT_FALSE(supervisor_.pilotFlies());
   EXPECT_EQ(at(2.1).hold_reason, "the operator holds") << "the mission does not go on by itself";
-  EXPECT_THAT(log_.take().back().reason, HasSubstr("the pilot has not been heard of for 1.0 s"));
+  EXPECT_THAT(log_.take().back().reason, HasSubstr("no sample from the pilot for 1.0 s"));
   ASSERT_TRUE(supervisor_.take({1, common::ResumeCommand{}}, Time::fromSeconds(5))->accepted);
   EXPECT_FALSE(at(5.0).hold);
 }
 
 TEST_F(SupervisorStory, SaysThatTheChargeIsCountedOn) {
   at(1.0);
-  charge_counted_on_ = "no sample of the battery for 2.5 s";
+  gauge_fault_ = "no battery sample for 2.5 s";
   at(2.0);
   at(3.0);
-  charge_counted_on_.clear();
+  gauge_fault_.clear();
   at(4.0);
   const auto events = log_.take();
   ASSERT_EQ(events.size(), 2u);
-  EXPECT_EQ(events[0].text, "the charge is counted on by the current");
-  EXPECT_EQ(events[0].reason, "no sample of the battery for 2.5 s");
-  EXPECT_EQ(events[1].text, "the battery's gauge is believed again");
+  EXPECT_EQ(events[0].text, "the charge is estimated by the current drawn");
+  EXPECT_EQ(events[0].reason, "no battery sample for 2.5 s");
+  EXPECT_EQ(events[1].text, "battery gauge trusted again");
 }
 
 TEST_F(SupervisorStory, LeavesGoalsToTheMission) {
@@ -125,7 +125,7 @@ TEST_F(SupervisorStory, WithoutAMissionItWaitsAtHomeAndHoldsNothing) {
   EXPECT_EQ(supervisor_.goHome({1, common::HomeCommand{}}, AtHome::kWaitForMission).reason,
             "the vehicle holds there until a mission is started");
   EXPECT_EQ(at(1.1).home, 1u);
-  EXPECT_EQ(supervisor_.holdReason(), "the operator wants it home") << "for a mission that is started meanwhile";
+  EXPECT_EQ(supervisor_.holdReason(), "the operator sent it home") << "for a mission that is started meanwhile";
   supervisor_.homeEnded(Time::fromSeconds(9), true, {});
   EXPECT_FALSE(at(9.1).hold) << "a mission that is started is flown without Resume";
   EXPECT_EQ(log_.take().back().reason, "the vehicle holds until a mission is started, or it lands");
@@ -203,7 +203,7 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   EXPECT_FALSE(supervisor_.take({1, common::ResumeCommand{}}, Time::fromSeconds(3))->accepted);
   supervisor_.homeEnded(Time::fromSeconds(30), true, {});
   EXPECT_TRUE(at(30.0).land);
-  EXPECT_THAT(at(30.0).land_reason, HasSubstr("home again, turned back"));
+  EXPECT_THAT(at(30.0).land_reason, HasSubstr("home reached, turned back"));
 }
 
 TEST_F(SupervisorStory, HoldStopsAFlightHomeForTheChargeUntilResume) {

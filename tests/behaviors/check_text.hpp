@@ -5,12 +5,24 @@
 #include <vector>
 
 #include "behaviors/mission_check.hpp"
+#include "tests/tree/problem_matcher.hpp"
 
 namespace swiftlet::behaviors::testing {
 
-inline std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
-                                                     const MissionLimits& limits = {}) {
-  return toCommon(judgeMissionText(text, name, limits).problems);
+using tree::testing::At;
+
+/// Of a mission whose tree M holds this; it begins at line 3, column 1.
+inline MissionVerdict verdictOn(const std::string& inside, const MissionLimits& limits = {}) {
+  return judgeMissionText("<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">\n<BehaviorTree ID=\"M\">\n" + inside +
+                              "\n</BehaviorTree></root>",
+                          "m.xml", limits);
+}
+inline std::vector<tree::Problem> problemsOf(const std::string& inside, const MissionLimits& limits = {}) {
+  return verdictOn(inside, limits).problems;
+}
+/// Of a Sequence of these nodes.
+inline std::vector<tree::Problem> problemsInside(const std::string& sequence, const MissionLimits& limits = {}) {
+  return problemsOf("<Sequence>" + sequence + "</Sequence>", limits);
 }
 
 }  // namespace swiftlet::behaviors::testing

@@ -5,15 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "behaviors/mission.hpp"
+#include "behaviors/mission_check.hpp"
 #include "behaviors/tree/registry.hpp"
-#include "tests/behaviors/check_text.hpp"
 #include "tests/tree/story.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
-
-using testing::checkMissionText;
 
 using Row = std::vector<std::string>;
 
@@ -66,7 +63,8 @@ std::vector<Example> examples() {
 
 std::string problemsOf(const std::string& xml) {
   std::string text;
-  for (const common::Problem& problem : checkMissionText(xml, "mission.xml")) text += toString(problem) + "\n";
+  for (const common::Problem& problem : toCommon(judgeMissionText(xml, "mission.xml").problems))
+    text += toString(problem) + "\n";
   return text;
 }
 

@@ -155,7 +155,7 @@ TEST(GivenMap, AGoalOfTheOperatorFollowsTheMapAndIsGivenUpWithItsPlace) {
   });
   EXPECT_EQ(flight.tick(), "RUNNING 5 hold");
   EXPECT_THAT(flight.events(),
-              ElementsAre("goal (3.00, -1.00) in the given map given up (its place in the given map is "
+              ElementsAre("goal (3.00, -1.00) in the given map cancelled (its place in the given map is "
                           "not known)"));
 }
 
@@ -188,15 +188,6 @@ TEST(LoadMap, FailsWithTheReason) {
   EXPECT_EQ(flight.cause(), "LoadMap: the map `office.yaml` was not read");
 }
 
-std::vector<std::string> problemsWithMaps(const std::string& inside, const MissionLimits& limits) {
-  std::vector<std::string> texts;
-  for (const auto& problem : checkMissionText(
-           "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence>" + inside + "</Sequence></BehaviorTree></root>",
-           "m.xml", limits))
-    texts.push_back(toString(problem));
-  return texts;
-}
-
 TEST(LoadMap, IsCheckedBeforeTheFlight) {
   MissionLimits limits;
   limits.has_map = false;
@@ -205,13 +196,14 @@ TEST(LoadMap, IsCheckedBeforeTheFlight) {
     if (map == "dull.yaml") return common::Problem{{"d.pgm", 3}, "width", "is 0", "1 would fit"};
     return common::Problem{{}, "", map + " of " + mission + " does not exist", ""};
   };
-  EXPECT_THAT(problemsWithMaps(R"(<LoadMap file="bad.yaml"/><TakeOff/><Localize/><Land/>)", limits),
-              ElementsAre(HasSubstr("LoadMap.file: bad.yaml of m.xml does not exist")));
-  EXPECT_THAT(problemsWithMaps(R"(<LoadMap file="dull.yaml"/><TakeOff/><Localize/><Land/>)", limits),
-              ElementsAre(HasSubstr("LoadMap.file: `dull.yaml`: d.pgm:3: width: is 0, 1 would fit")));
-  EXPECT_THAT(problemsWithMaps(R"(<LoadMap file="good.yaml"/><TakeOff/><Relocalize/><Land/>)", limits), IsEmpty());
-  EXPECT_THAT(problemsWithMaps(R"(<TakeOff/><Relocalize/><Land/>)", limits),
-              ElementsAre(HasSubstr("Relocalize: needs a map of the place, and the flight has none")));
+  EXPECT_THAT(problemsInside(R"(<LoadMap file="bad.yaml"/><TakeOff/><Localize/><Land/>)", limits),
+              ElementsAre(At("3:20 LoadMap.file", "mission.map-unusable", "bad.yaml of m.xml")));
+  EXPECT_THAT(
+      problemsInside(R"(<LoadMap file="dull.yaml"/><TakeOff/><Localize/><Land/>)", limits),
+      ElementsAre(At("3:20 LoadMap.file", "mission.map-unusable", "`dull.yaml`: d.pgm:3: width: is 0", "1 would fit")));
+  EXPECT_THAT(problemsInside(R"(<LoadMap file="good.yaml"/><TakeOff/><Relocalize/><Land/>)", limits), IsEmpty());
+  EXPECT_THAT(problemsInside(R"(<TakeOff/><Relocalize/><Land/>)", limits),
+              ElementsAre(At("3:21 Relocalize", "mission.no-map")));
 }
 
 TEST(LoadMap, OfAMissionAreNamedOnce) {
@@ -288,7 +280,7 @@ TEST(Relocalize, FailsWithoutAMapOrInThatOfAnotherPlace) {
   forgets(other).tick();
   other.runs().change([](auto& layers) { layers.map.localization->refuted = true; });
   EXPECT_EQ(other.tick(), "FAILED");
-  EXPECT_EQ(other.cause(), "Relocalize: the given map is not that of this place");
+  EXPECT_EQ(other.cause(), "Relocalize: the given map does not match this place");
 }
 
 }  // namespace

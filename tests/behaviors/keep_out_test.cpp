@@ -8,7 +8,7 @@
 namespace swiftlet::behaviors::testing {
 namespace {
 
-using ::testing::HasSubstr;
+using ::testing::ElementsAre;
 
 TEST(KeepOut, AsksOnceAndWaitsForTheAnswer) {
   Flight flight(R"(<KeepOut polygon="1;0 | 3;0 | 3;2;9"/>)");
@@ -34,17 +34,14 @@ TEST(KeepOut, FailsWithTheReasonOfTheRefusal) {
 }
 
 TEST(KeepOut, TheCheckRefusesWhatIsNoAreaAndOneThatHoldsHome) {
-  const auto problem = [](const std::string& polygon) {
-    const auto problems =
-        checkMissionText(R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence><KeepOut polygon=")" + polygon +
-                             R"("/><TakeOff/><Land/></Sequence></BehaviorTree></root>)",
-                         "m.xml");
-    return problems.empty() ? std::string() : toString(problems.front());
+  const auto problems = [](const std::string& polygon) {
+    return problemsInside("<KeepOut polygon=\"" + polygon + "\"/><TakeOff/><Land/>");
   };
-  EXPECT_EQ(problem("1;0 | 3;0 | 3;2"), "") << "also before the take-off";
-  EXPECT_THAT(problem("1;0 | 3;0"), HasSubstr("KeepOut.polygon: a polygon has at least 3 corners, not 2"));
-  EXPECT_THAT(problem("1;0 | 3;2 | 3;0 | 1;2"), HasSubstr("edges of the polygon cross"));
-  EXPECT_THAT(problem("-1;-1 | 3;-1 | 0;3"), HasSubstr("holds the take-off place 0;0"));
+  const auto refused = [](const char* name) { return ElementsAre(At("3:20 KeepOut.polygon", name)); };
+  EXPECT_THAT(problems("1;0 | 3;0 | 3;2"), ElementsAre()) << "also before the take-off";
+  EXPECT_THAT(problems("1;0 | 3;0"), refused("mission.polygon"));
+  EXPECT_THAT(problems("1;0 | 3;2 | 3;0 | 1;2"), refused("mission.polygon"));
+  EXPECT_THAT(problems("-1;-1 | 3;-1 | 0;3"), refused("mission.home-kept-out"));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(Localize, FailsInTheMapOfAnotherPlace) {
   flight.localization(common::LocalizationState::kGlobal).tick();
   flight.runs().change([](auto& layers) { layers.map.localization->refuted = true; });
   EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_EQ(flight.cause(), "Localize: the given map is not that of this place");
+  EXPECT_EQ(flight.cause(), "Localize: the given map does not match this place");
 }
 
 TEST(MoveToGoal, ItsGoalIsInTheMapThatWasGiven) {
@@ -172,7 +172,7 @@ TEST(Hold, TakesOverOnlyWhenTheVehicleHasStopped) {
   EXPECT_EQ(flight.view(),
             "Priority RUNNING, AvoidObstacle SKIPPED, Hold RUNNING, Sequence SUSPENDED, TakeOff SUCCESS, "
             "Explore SUSPENDED, Land IDLE");
-  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)",
+  EXPECT_THAT(flight.events(), ElementsAre("Explore yields to Hold (the operator holds)",
                                            "Hold takes over from Explore (the operator holds)"));
   flight.holds(false);
   EXPECT_EQ(flight.stops().tick(), "RUNNING 5 explore") << "resumed in the same tick, as a new intent";
@@ -184,7 +184,7 @@ TEST(Hold, ReleasedEarlyTheInterruptedBehaviourContinues) {
   flight.holds(true).tick();
   EXPECT_EQ(flight.runs().holds(false).tick(), "RUNNING 4 explore");
   EXPECT_THAT(flight.events(),
-              ElementsAre("Explore lets go for Hold (the operator holds)", "Explore goes on (Hold no longer asks)"));
+              ElementsAre("Explore yields to Hold (the operator holds)", "Explore continues (Hold no longer asks)"));
 }
 
 TEST(Hold, TheInterruptedIntentIsNamedByTheOneThatGoesOnWithIt) {
@@ -240,7 +240,7 @@ TEST(AvoidObstacle, ControlsTheVehicleWhileTheReactiveLayerRetreats) {
   EXPECT_EQ(flight.runs().tick(), "RUNNING 4 avoid obstacle")
       << "the layer moves it already: nothing has to stop first";
   EXPECT_EQ(flight.runs().tick(), "RUNNING 4 avoid obstacle");
-  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for AvoidObstacle (0.31 m ahead, closing)",
+  EXPECT_THAT(flight.events(), ElementsAre("Explore yields to AvoidObstacle (0.31 m ahead, closing)",
                                            "AvoidObstacle takes over from Explore (0.31 m ahead, closing)"));
   EXPECT_EQ(flight.retreats(false).tick(), "RUNNING 5 explore");
   EXPECT_THAT(flight.events(), ElementsAre("Explore resumes (AvoidObstacle ended with SUCCESS)"));
@@ -282,7 +282,7 @@ TEST(Mission, HaltsAndStartsFromTheBeginningAgain) {
   EXPECT_EQ(toString(*flight.context.intent), "hold");
   EXPECT_FALSE(flight.runs().mission.letGo(flight.context));
   EXPECT_TRUE(flight.stops().mission.letGo(flight.context));
-  EXPECT_THAT(flight.events(), ElementsAre("Explore is given up"));
+  EXPECT_THAT(flight.events(), ElementsAre("Explore is cancelled"));
   EXPECT_EQ(flight.view(),
             "Priority IDLE, AvoidObstacle IDLE, Hold IDLE, Sequence IDLE, TakeOff IDLE, Explore IDLE, Land IDLE");
   EXPECT_EQ(flight.tick().substr(10), "take off to 1.00 m") << "it stands at its beginning";
@@ -301,7 +301,7 @@ TEST(Mission, ATimeoutStopsTheVehicleBeforeItFails) {
   flight.runs().tick();
   EXPECT_EQ(flight.runs().tick(), "RUNNING 2 hold") << "300 ms have passed";
   EXPECT_EQ(flight.stops().tick(), "RUNNING 3 land");
-  EXPECT_THAT(flight.events(), ElementsAre("Explore starts", "Explore is given up",
+  EXPECT_THAT(flight.events(), ElementsAre("Explore starts", "Explore is cancelled",
                                            "Timeout failed (timed out after 0.25 s)", "Land starts"));
 }
 

@@ -13,11 +13,11 @@ TEST(Narrator, ReportsWhichBehaviourControlsTheVehicleAndWhy) {
   Flight flight("<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Explore/><Land/></Sequence></Priority>");
   flight.tick();
   EXPECT_THAT(flight.events(),
-              ElementsAre("TakeOff has the vehicle (nothing above it asks for the vehicle)", "TakeOff starts"));
+              ElementsAre("TakeOff takes control (nothing above it asks for the vehicle)", "TakeOff starts"));
   flight.succeeds().tick();
   flight.events();
   flight.retreats(true, "a person 0.6 m ahead closing").runs().tick();
-  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for AvoidObstacle (a person 0.6 m ahead closing)",
+  EXPECT_THAT(flight.events(), ElementsAre("Explore yields to AvoidObstacle (a person 0.6 m ahead closing)",
                                            "AvoidObstacle takes over from Explore (a person 0.6 m ahead closing)"));
 }
 
@@ -27,7 +27,7 @@ TEST(Narrator, NamesTheBehaviourBelowANode) {
   flight.succeeds().tick();
   flight.events();
   flight.runs().holds(true, "the operator holds").tick();
-  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)"));
+  EXPECT_THAT(flight.events(), ElementsAre("Explore yields to Hold (the operator holds)"));
 }
 
 TEST(Narrator, NamesTheCausesOfAFailureInOrder) {

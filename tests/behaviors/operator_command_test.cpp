@@ -38,7 +38,7 @@ TEST(OperatorCommand, ANewGoalReplacesTheOldOne) {
   Flight flight = waiting();
   flight.goal(1.0, 2.0).tick();
   EXPECT_EQ(flight.runs().goal(-1.0, 0.0).tick(), "RUNNING 4 go to (-1.00, 0.00)");
-  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) given up (replaced by goal (-1.00, 0.00))"));
+  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) cancelled (replaced by goal (-1.00, 0.00))"));
   EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "answers to intent 3 do not matter";
 }
 

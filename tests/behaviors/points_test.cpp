@@ -87,7 +87,7 @@ TEST(Patrol, LeavesOutAPointThatCannotBeReached) {
   Flight flight(R"(<Patrol points="1;0 | 2;0" pause_s="0"/>)");
   flight.tick();
   EXPECT_THAT(flight.fails("no path").tick(), HasSubstr("hold"));
-  EXPECT_THAT(flight.events(), ::testing::Contains("Patrol leaves out a point (point 1: no path)"));
+  EXPECT_THAT(flight.events(), ::testing::Contains("Patrol skips a point (point 1: no path)"));
   EXPECT_THAT(flight.stops().tick(), HasSubstr("go to (2.00, 0.00)"));
   flight.succeeds().tick();
   EXPECT_THAT(flight.stops().tick(), HasSubstr("go to (1.00, 0.00)"));
@@ -121,28 +121,20 @@ TEST(LogEvent, WritesItsText) {
 
 TEST(Check, LooksIntoEveryChildOfEveryNode) {
   for (const std::string node :
-       {"Sequence", "AsyncSequence", "SequenceWithMemory", "IfThenElse", "WhileDoElse", "TryCatch", "ParallelAll"}) {
-    const std::string early = "<" + node + "><AlwaysSuccess/><MoveToGoal goal=\"1;0\"/></" + node + ">";
-    const std::string text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence>" + early +
-                             "<TakeOff/><Land/></Sequence></BehaviorTree></root>";
-    std::string all;
-    for (const common::Problem& problem : checkMissionText(text, "m.xml", {})) all += toString(problem) + "\n";
-    EXPECT_THAT(all, HasSubstr("MoveToGoal: the vehicle stands on the floor here")) << node;
-  }
+       {"Sequence", "AsyncSequence", "SequenceWithMemory", "IfThenElse", "WhileDoElse", "TryCatch", "ParallelAll"})
+    EXPECT_THAT(
+        problemsInside("<" + node + "><AlwaysSuccess/>\n<MoveToGoal goal=\"1;0\"/></" + node + "><TakeOff/><Land/>"),
+        ElementsAre(At("4:1 MoveToGoal", "mission.on-the-floor")))
+        << node;
 }
 
 TEST(Check, ChoicesAndPointsAreCheckedBeforeTheFlight) {
-  const auto problems = [](const std::string& leaf) {
-    const std::string text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><TakeOff/>" + leaf +
-                             "<Land/></Sequence></BehaviorTree></root>";
-    std::string all;
-    for (const common::Problem& problem : checkMissionText(text, "m.xml", {})) all += toString(problem) + "\n";
-    return all;
-  };
-  EXPECT_EQ(problems(R"(<FollowPath points="1;0 | 2;0"/>)"), "");
-  EXPECT_THAT(problems(R"(<FollowPath points="1;0 | 2"/>)"), HasSubstr("`1;0 | 2` is not points `x;y | x;y;z | ...`"));
+  const auto problems = [](const std::string& leaf) { return problemsInside("<TakeOff/>\n" + leaf + "<Land/>"); };
+  EXPECT_THAT(problems(R"(<FollowPath points="1;0 | 2;0"/>)"), ElementsAre());
+  EXPECT_THAT(problems(R"(<FollowPath points="1;0 | 2"/>)"),
+              ElementsAre(At("4:13 FollowPath.points", "tree.value-type", "`1;0 | 2`")));
   EXPECT_THAT(problems(R"(<MoveToGoal goal="1;0" mode="fsat"/>)"),
-              HasSubstr("`fsat` is not fast or careful or accurate or brisk"));
+              ElementsAre(At("4:24 MoveToGoal.mode", "tree.value-type", "`fast`?")));
 }
 
 }  // namespace

@@ -7,16 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "behaviors/mission.hpp"
+#include "behaviors/mission_check.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/drawing.hpp"
 #include "behaviors/tree/parser.hpp"
-#include "tests/behaviors/check_text.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
-
-using testing::checkMissionText;
 
 namespace fs = std::filesystem;
 
@@ -81,7 +78,7 @@ TEST(Palette, IsValidInsideAMission) {
   const std::string mission =
       "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><TakeOff/><Land/></Sequence></BehaviorTree>" +
       palette.substr(begin, end - begin) + "</root>";
-  EXPECT_TRUE(checkMissionText(mission, "m.xml").empty());
+  EXPECT_TRUE(judgeMissionText(mission, "m.xml").problems.empty());
 }
 
 /// 0: valid by the schema, anything else: not.
@@ -115,7 +112,7 @@ TEST(Schema, AgreesWithTheParser) {
                           "<Inverter><Land/><Land/></Inverter>", "<Land><Land/></Land>", "<Tumble/>",
                           "<Repeat num_cycles='1.5'><Land/></Repeat>", "<SubTree/>", "<Land/><Land/>"}) {
     EXPECT_NE(xmllint(mission(bad)), 0) << bad;
-    EXPECT_FALSE(checkMissionText(mission(bad), "m.xml").empty()) << bad;
+    EXPECT_FALSE(judgeMissionText(mission(bad), "m.xml").problems.empty()) << bad;
   }
 }
 

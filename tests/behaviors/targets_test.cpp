@@ -43,13 +43,8 @@ Eigen::Vector2d bearingOf(const common::GoToIntent& go_to, const Eigen::Vector2d
   return (go_to.goal_map_m - place).normalized();
 }
 
-std::vector<std::string> problemsInFlight(const std::string& inside, const MissionLimits& limits) {
-  std::vector<std::string> texts;
-  for (const auto& problem : checkMissionText(R"(<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence><TakeOff/>)" +
-                                                  inside + "<Land/></Sequence></BehaviorTree></root>",
-                                              "m.xml", limits))
-    texts.push_back(toString(problem));
-  return texts;
+std::vector<tree::Problem> problemsInFlight(const std::string& inside, const MissionLimits& limits) {
+  return problemsInside("<TakeOff/>" + inside + "<Land/>", limits);
 }
 
 TEST(IsTargetFound, CountsThoseOfTheNameThatAreFound) {
@@ -225,14 +220,14 @@ TEST(Targets, TheCheckRefusesAVehicleWithoutCameraAndNamesThatTheProfileLacks) {
   EXPECT_THAT(problemsInFlight(mission, limits), IsEmpty());
   limits.target_names = std::vector<std::string>{"reed", "blue"};
   EXPECT_THAT(problemsInFlight(R"(<LocateTarget target="red"/>)", limits),
-              ElementsAre(HasSubstr("LocateTarget: the profile looks for no `red`, only for `reed`, `blue`")));
+              ElementsAre(At("3:21 LocateTarget", "mission.unknown-target", "`red`", "`reed`", "`blue`")));
   EXPECT_THAT(problemsInFlight("<LocateTarget/>", limits), IsEmpty());
   limits.target_names->clear();
-  EXPECT_THAT(problemsInFlight("<LocateTarget/>", limits), ElementsAre(HasSubstr("the profile names none")));
+  EXPECT_THAT(problemsInFlight("<LocateTarget/>", limits), ElementsAre(At("3:21 LocateTarget", "mission.no-targets")));
   limits.has_camera = false;
   EXPECT_THAT(problemsInFlight(mission, limits),
-              ElementsAre(HasSubstr("ExploreUntilFound: needs an RGB-D camera, and the vehicle has none"),
-                          HasSubstr("LocateTarget: needs"), HasSubstr("IsTargetFound: needs")));
+              ElementsAre(At("3:21 ExploreUntilFound", "mission.no-camera"),
+                          At("3:54 LocateTarget", "mission.no-camera"), At("3:82 IsTargetFound", "mission.no-camera")));
 }
 
 }  // namespace

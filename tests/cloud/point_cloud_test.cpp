@@ -17,6 +17,7 @@
 #include <rapidcheck.h>
 
 #include "common/error.hpp"
+#include "tests/support/problem_matchers.hpp"
 #include "tests/support/scratch.hpp"
 
 namespace swiftlet::interfaces {
@@ -213,62 +214,57 @@ TEST(PointCloudTest, PackedColoursKeepTheirBits) {
     }
 }
 
-/// The text is part of the message, which names the line in text and the byte in binary.
-void expectRefused(const std::string& bytes, CloudFormat format, const std::string& text) {
-  try {
-    parseCloud(bytes, "broken", format);
-    ADD_FAILURE() << text;
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(std::string(error.what()), HasSubstr(text));
-    EXPECT_THAT(std::string(error.what()), testing::ContainsRegex("broken:( byte )?[0-9]+: "));
-  }
+/// By a problem that names the line in text and the byte in binary.
+void expectRefused(const std::string& bytes, CloudFormat format, const std::string& name,
+                   const std::string& place = "") {
+  const auto problems = test_support::problemsOf([&] { parseCloud(bytes, "broken", format); });
+  ASSERT_THAT(problems, testing::ElementsAre(test_support::ProblemIs(name, place))) << bytes.substr(0, 100);
+  EXPECT_THAT(test_support::placeOf(problems[0]), testing::ContainsRegex("^broken:( byte )?[0-9]+$"));
 }
 
 TEST(PointCloudTest, SaysWhatIsWrong) {
-  const auto ply = [](const std::string& bytes, const std::string& text) {
-    expectRefused(bytes, CloudFormat::kPly, text);
+  const auto ply = [](const std::string& bytes, const std::string& name, const std::string& place = "") {
+    expectRefused(bytes, CloudFormat::kPly, name, place);
   };
-  const auto pcd = [](const std::string& bytes, const std::string& text) {
-    expectRefused(bytes, CloudFormat::kPcd, text);
+  const auto pcd = [](const std::string& bytes, const std::string& name) {
+    expectRefused(bytes, CloudFormat::kPcd, name);
   };
-  ply("", "the header does not end");
-  ply("hello\n", "does not begin with `ply`");
-  ply("ply\nend_header\n", "no line `format`");
-  ply("ply\nformat ascii 1.0\nend_header\n", "no element `vertex`");
-  ply("ply\nformat morse 1.0\n", "`morse` is not a format");
-  ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "no x, y and z");
+  ply("", "cloud.header-open");
+  ply("hello\n", "ply.other-begin");
+  ply("ply\nend_header\n", "ply.format-missing");
+  ply("ply\nformat ascii 1.0\nend_header\n", "ply.no-vertex");
+  ply("ply\nformat morse 1.0\n", "ply.no-format");
+  ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "cloud.no-position");
   for (const std::string count : {"-1", "abc", "1e3", "+4", "4.0", "99999999999999999999"})
-    ply("ply\nformat ascii 1.0\nelement vertex " + count + "\n",
-        "broken:3: `" + count + "` is not a whole number from 0 on, written in digits alone");
-  ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "`half` is not a type");
-  ply("ply\nformat ascii 1.0\nproperty float x\n", "`property` is not a line");
+    ply("ply\nformat ascii 1.0\nelement vertex " + count + "\n", "cloud.no-count", "broken:3");
+  ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "ply.no-type");
+  ply("ply\nformat ascii 1.0\nproperty float x\n", "ply.header-line");
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
-  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3\n4 5", "broken:9: the file is cut");
-  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 three\n4 5 6\n", "broken:8: `three` is not a number");
-  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3,5\n4 5 6\n",
-      "broken:8: `3,5` is not a number, write decimals with a point");
-  ply("ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\n" + xyz + "1234", "the file is cut");
-  ply("ply\nformat ascii 1.0\nelement nothing 99999999999999\nelement vertex 1\n" + xyz, "no properties");
+  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3\n4 5", "cloud.cut-in-row", "broken:9");
+  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 three\n4 5 6\n", "text.not-a-number", "broken:8");
+  ply("ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3,5\n4 5 6\n", "text.not-a-number", "broken:8");
+  ply("ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\n" + xyz + "1234", "cloud.cut");
+  ply("ply\nformat ascii 1.0\nelement nothing 99999999999999\nelement vertex 1\n" + xyz, "ply.no-properties");
   ply("ply\nformat ascii 1.0\nelement list 1\nproperty list int int a\nelement vertex 1\n" + xyz + "-3\n",
-      "a list has -3");
+      "ply.list-size");
   const std::string head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
-  pcd("", "the header does not end");
-  pcd("P6\n", "`P6` is not a line");
-  pcd("FIELDS x y z\nSIZE 4 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "do not have as many words");
-  pcd("FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n", "no x, y and z");
-  pcd("FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "the type `F` with 3 bytes");
-  pcd(head + "DATA ascii\n", "neither POINTS nor WIDTH");
-  pcd(head + "WIDTH 9999999999999\nHEIGHT 9999999999999\nDATA ascii\n", "neither POINTS nor WIDTH");
-  pcd(head + "WIDTH 2\nHEIGHT 3\nPOINTS 2\nDATA ascii\n", "WIDTH 2 times HEIGHT 3 is not POINTS 2");
-  pcd(head + "POINTS 1\nDATA zip\n", "`zip` is not a kind of data");
-  pcd(head + "POINTS 9999999999\nDATA binary\n0123456789", "the file is cut");
-  pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\3\0\0\0\14\0\0\0abc", 11), "the compressed points");
+  pcd("", "cloud.header-open");
+  pcd("P6\n", "pcd.header-line");
+  pcd("FIELDS x y z\nSIZE 4 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "pcd.word-counts");
+  pcd("FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n", "cloud.no-position");
+  pcd("FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "pcd.no-type");
+  pcd(head + "DATA ascii\n", "pcd.no-points");
+  pcd(head + "WIDTH 9999999999999\nHEIGHT 9999999999999\nDATA ascii\n", "pcd.no-points");
+  pcd(head + "WIDTH 2\nHEIGHT 3\nPOINTS 2\nDATA ascii\n", "pcd.contradiction");
+  pcd(head + "POINTS 1\nDATA zip\n", "pcd.no-data-kind");
+  pcd(head + "POINTS 9999999999\nDATA binary\n0123456789", "cloud.cut");
+  pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\3\0\0\0\14\0\0\0abc", 11), "pcd.packed-reference");
   pcd(head + "POINTS 357913941\nDATA binary_compressed\n" + std::string("\3\0\0\0\374\377\377\377abc", 11),
-      "points are fewer than their header");
-  pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\2\0\0\0\14\0\0\0\xff\x01", 10), "compressed points");
+      "pcd.packed-fewer");
+  pcd(head + "POINTS 1\nDATA binary_compressed\n" + std::string("\2\0\0\0\14\0\0\0\xff\x01", 10), "pcd.packed-cut");
   // So many rows of 12 bytes are 12 bytes in arithmetic of 64 bits.
   pcd(head + "POINTS 4611686018427387905\nDATA binary_compressed\n" + std::string("\14\0\0\0\14\0\0\0abcdefghijkl", 20),
-      "not as many as the header says");
+      "pcd.packed-count");
 }
 
 /// Read as one stream of numbers, such rows would become points at wrong places.
@@ -278,8 +274,8 @@ TEST(PointCloudTest, RowsOfTextHaveAsManyNumbersAsTheHeaderNames) {
   const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\n";
   for (const auto& [head, format, first] :
        {std::tuple{ply, CloudFormat::kPly, 8}, std::tuple{pcd, CloudFormat::kPcd, 6}}) {
-    expectRefused(head + "1 2 3\n4 5 6 7\n", format, fmt::format("broken:{}: `7` is one number more", first + 1));
-    expectRefused(head + "1 2\n3 4\n5 6\n", format, fmt::format("broken:{}: the line has fewer numbers", first));
+    expectRefused(head + "1 2 3\n4 5 6 7\n", format, "cloud.more-numbers", fmt::format("broken:{}", first + 1));
+    expectRefused(head + "1 2\n3 4\n5 6\n", format, "cloud.fewer-numbers", fmt::format("broken:{}", first));
     EXPECT_EQ(parseCloud(head + "\n1 2 3 \r\n\n 4\t5 6", "blanks", format).points.size(), 2U);
   }
 }

@@ -32,6 +32,7 @@ TEST_F(CheckMission, WarnsWithThePathAndStillPasses) {
   EXPECT_TRUE(json["problems"].empty());
   EXPECT_EQ(json["warnings"][0]["path"], "Main/Sequence");
   EXPECT_EQ(json["warnings"][0]["line"], 3);
+  EXPECT_EQ(json["warnings"][0]["code"], "mission.no-landing");
 }
 
 TEST_F(CheckMission, ProblemsHaveThePathToo) {

@@ -75,7 +75,7 @@ TEST_F(FlightSensors, WhereTheLaserReachesNothingTheTakeOffIsRefused) {
   EXPECT_EQ(outcome.at("outcome"), "failed");
   EXPECT_THAT(std::string(outcome.at("reason")), HasSubstr("take-off refused: no beams of the laser"));
   const std::string events = readText(path("run/events.jsonl"));
-  EXPECT_THAT(events, HasSubstr("the take-off waits"));
+  EXPECT_THAT(events, HasSubstr("take-off delayed"));
   EXPECT_THAT(events, Not(HasSubstr("taking off"))) << "its motors stay off";
   EXPECT_LT(double(outcome.at("distance_m")), 0.1);
 }

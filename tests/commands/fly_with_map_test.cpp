@@ -72,7 +72,7 @@ TEST_F(FlyWithMap, TheMapOfOneFlightIsThatOfTheNext) {
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const std::string events = readText(path("out/second-012/events.jsonl"));
   EXPECT_THAT(events, HasSubstr("localized at ("));
-  EXPECT_THAT(events, HasSubstr("something stands here that the given map does not have")) << events;
+  EXPECT_THAT(events, HasSubstr("obstacle that is not in the given map")) << events;
   EXPECT_THAT(events, HasSubstr("in the given map"));
 }
 
@@ -89,7 +89,7 @@ TEST_F(FlyWithMap, AMissionLoadsItsMapAndLooksAroundForItsPlace) {
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const std::string events = readText(path("second/events.jsonl"));
   EXPECT_THAT(events, HasSubstr("map first/map.yaml is the given one"));
-  EXPECT_THAT(events, HasSubstr("the place in the given map is looked for anew"));
+  EXPECT_THAT(events, HasSubstr("localization in the given map starts again"));
   std::size_t found = 0;
   for (std::size_t at = events.find("localized at ("); at != std::string::npos;
        at = events.find("localized at (", at + 1))

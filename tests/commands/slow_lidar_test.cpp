@@ -181,7 +181,8 @@ TEST_F(SlowLidar, AnUnknownTimeOfTheSweepIsSaid) {
 TEST_F(SlowLidar, RecordedSweepsAreUndone) {
   const auto folder = test_support::dataSet("10-field-cases/log_slow_lidar");
   if (!folder) return;
-  // Where the robot drives through the flat, the first pose is off by 0.2 deg: 4 cm at the other end (decision 107).
+  // Where the robot drives through the flat, the first pose is off by 0.2 deg: 4 cm at the other end
+  // (docs/decisions/logs.md#107).
   struct Log {
     std::string name;
     double position_m = 0.03;

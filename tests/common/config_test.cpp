@@ -55,7 +55,7 @@ struct Branch {
     fields.section("leaf", leaf, "One leaf.");
     fields.list("leaves", leaves, "Many leaves.");
   }
-  std::vector<std::string> validate() const {
+  std::vector<common::Problem> validate() const {
     return Validation()
         .atMost("near_m", near_m, "far_m", far_m)
         .require(leaf.share < 0.9 || leaf.count > 1, "leaf.share", "is too much for one")

@@ -16,10 +16,12 @@ TEST(Hysteresis, EntersAndLeavesAfterItsTimes) {
   EXPECT_EQ(at(1.9, true), Edge::kNone);
   EXPECT_EQ(at(2.0, true), Edge::kEntered);
   EXPECT_EQ(state.since(), Time::fromSeconds(1.0));
+  EXPECT_EQ(state.active_s(Time::fromSeconds(2.5)), 1.5);
   EXPECT_EQ(at(3.0, false), Edge::kNone);
   EXPECT_TRUE(state.active());
   EXPECT_EQ(at(5.0, false), Edge::kLeft);
   EXPECT_FALSE(state.active());
+  EXPECT_EQ(state.active_s(Time::fromSeconds(6.0)), 0.0);
 }
 
 TEST(Hysteresis, WithoutTimesItIsTheCondition) {

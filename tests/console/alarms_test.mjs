@@ -179,7 +179,7 @@ const tests = {
     await page.locator('#intent').getByText('turned back with 28 %').waitFor();
     await page.locator('#flown-by').getByText('supervisor').waitFor();
     assert.equal(await pressed('hold'), 'false');
-    flown = { flown_by: 'operator', phase: 'fly home', reason: 'the operator wants it home' };
+    flown = { flown_by: 'operator', phase: 'fly home', reason: 'the operator sent it home' };
     await page.locator('#flown-by').getByText('operator').waitFor();
     assert.deepEqual([await pressed('hold'), await pressed('home')], ['false', 'true']);
     flown = { flown_by: 'operator', phase: 'hold', reason: 'the operator holds' };

@@ -10,12 +10,13 @@
 #include "common/gravity.hpp"
 #include "control/control_errors.hpp"
 #include "tests/control/controller_fixtures.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::control {
 namespace {
 
+using test_support::ProblemIs;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// A vehicle that rests at the origin, 1 m up, on a full battery.
@@ -135,7 +136,7 @@ TEST(Lqr, WithoutGainsThereIsNoController) {
   choice.lqr.vertical_integral_m_s = 0.0;
   choice.lqr.vertical_position_m = 1e5;  // A mode of minutes.
   choice.lqr.vertical_speed_m_s = 0.0;
-  EXPECT_THAT(Lqr::problemsOf(choice.lqr, model), ElementsAre(HasSubstr("up: the Riccati equation does not converge")));
+  EXPECT_THAT(Lqr::problemsOf(choice.lqr, model), ElementsAre(ProblemIs("lqr.no-gains", "up")));
   EXPECT_EQ(makeController(ControllerKind::kLqr, choice, {}, {}, &model), nullptr);
 }
 
@@ -303,35 +304,29 @@ TEST(ControlErrors, UseOnlyWhatMayBeUsed) {
   EXPECT_EQ(errorsOf(input).velocity_odom_m_s.z(), 1.0);
 }
 
-/// "key: message, hint" of each reason.
-std::vector<std::string> unfit(const VehicleModel& model) {
-  std::vector<std::string> texts;
-  for (const common::Problem& problem : model.problemsFor({})) texts.push_back(toString(problem));
-  return texts;
-}
+std::vector<common::Problem> unfit(const VehicleModel& model) { return model.problemsFor({}); }
 
 TEST(VehicleModel, SaysWhyItDoesNotFit) {
   VehicleModel model = sheetModel();
   EXPECT_THAT(unfit(model), IsEmpty());
   model.vehicle = "pelican";
-  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("vehicle: the model is of `pelican`, but `cobra` flies")));
+  EXPECT_THAT(unfit(model), ElementsAre(ProblemIs("vehicle-model.other-vehicle", "vehicle", "`pelican`")));
   model = sheetModel();
   model.thrust = {{11.0, 0.7, 10.0}, {12.0, 0.6, 10.0}};
   EXPECT_THAT(unfit(model), IsEmpty());
   model.battery_full_v = 16.8;
-  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("a battery of 16.8 V, but that of `cobra` has 12.6 V")));
+  EXPECT_THAT(unfit(model), ElementsAre(ProblemIs("vehicle-model.other-battery", "battery_full_v", "16.8 V")));
   model.thrust = {{12.0, 0.6, 10.0}, {11.0, 0.5, 10.0}};
-  EXPECT_THAT(common::config::problemsOf(model), ElementsAre(HasSubstr("voltages must rise")));
+  EXPECT_THAT(common::config::problemsOf(model), ElementsAre(ProblemIs("thrust.voltage-falls", "thrust")));
 }
 
 TEST(VehicleModel, TheRowsOfItsThrustAreOfTheVehicle) {
   VehicleModel model = sheetModel();
   model.thrust = {{12.0, 0.6, 10.0}, {21.0, 0.5, 10.0}};
-  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[1].voltage_v: 21 V is of another battery: that of `cobra` "
-                                                  "has 9.18 to 12.60 V in flight")));
+  EXPECT_THAT(unfit(model), ElementsAre(ProblemIs("thrust.other-battery", "thrust[1].voltage_v", "9.18 to 12.60 V")));
   model.thrust = {{11.0, 5.0, 10.0}, {12.0, 5.0, 10.0}};
-  EXPECT_THAT(unfit(model), ElementsAre(HasSubstr("thrust[0].hover_command: 5 at 11 V is too far from the 0.736 of the "
-                                                  "data sheet of `cobra`: 0.294 to 1.177 would fit")));
+  EXPECT_THAT(unfit(model),
+              ElementsAre(ProblemIs("thrust.too-far-from-sheet", "thrust[0].hover_command", "0.294 to 1.177")));
 }
 
 TEST(VehicleModel, AnAxisIsOneThatAMultirotorCanHave) {
@@ -342,16 +337,22 @@ TEST(VehicleModel, AnAxisIsOneThatAMultirotorCanHave) {
   };
   EXPECT_THAT(common::config::problemsOf(sheetModel()), IsEmpty());
   const auto gain = &AxisModel::gain, offset = &AxisModel::offset;
-  EXPECT_THAT(problems(&VehicleModel::forward, gain, -8.41), ElementsAre("forward.gain: -8.41 is not within 3 and 30"));
-  EXPECT_THAT(problems(&VehicleModel::forward, offset, 1e6), ElementsAre(HasSubstr("forward.offset: 1e+06 is not")));
-  EXPECT_THAT(problems(&VehicleModel::left, gain, 9.0), ElementsAre("left.gain: 9 is not within -30 and -3"));
-  EXPECT_THAT(problems(&VehicleModel::up, gain, -9.8), ElementsAre(HasSubstr("up.gain: -9.8 is not within")));
-  EXPECT_THAT(problems(&VehicleModel::up, gain, 1e-300), ElementsAre(HasSubstr("up.gain: 1e-300 is not within")));
-  EXPECT_THAT(problems(&VehicleModel::up, gain, 1e300), ElementsAre(HasSubstr("up.gain: 1e+300 is not within")));
-  EXPECT_THAT(problems(&VehicleModel::up, offset, -20.0), ElementsAre(HasSubstr("is not about the negative gain")));
-  EXPECT_THAT(problems(&VehicleModel::yaw, gain, -1.0), ElementsAre(HasSubstr("yaw.gain: -1 is not within 0.2 and 5")));
+  EXPECT_THAT(problems(&VehicleModel::forward, gain, -8.41),
+              ElementsAre(ProblemIs("config.not-within", "forward.gain", "-8.41 is not within 3 and 30")));
+  EXPECT_THAT(problems(&VehicleModel::forward, offset, 1e6),
+              ElementsAre(ProblemIs("config.not-within", "forward.offset")));
+  EXPECT_THAT(problems(&VehicleModel::left, gain, 9.0),
+              ElementsAre(ProblemIs("config.not-within", "left.gain", "-30 and -3")));
+  EXPECT_THAT(problems(&VehicleModel::up, gain, -9.8), ElementsAre(ProblemIs("config.not-within", "up.gain", "-9.8")));
+  EXPECT_THAT(problems(&VehicleModel::up, gain, 1e-300),
+              ElementsAre(ProblemIs("config.not-within", "up.gain", "1e-300")));
+  EXPECT_THAT(problems(&VehicleModel::up, gain, 1e300),
+              ElementsAre(ProblemIs("config.not-within", "up.gain", "1e+300")));
+  EXPECT_THAT(problems(&VehicleModel::up, offset, -20.0), ElementsAre(ProblemIs("axis.offset", "up.offset")));
+  EXPECT_THAT(problems(&VehicleModel::yaw, gain, -1.0),
+              ElementsAre(ProblemIs("config.not-within", "yaw.gain", "0.2 and 5")));
   EXPECT_THAT(problems(&VehicleModel::left, &AxisModel::gain_interval, 10.0),
-              ElementsAre(HasSubstr("left.gain_interval: 10 leaves nothing of the gain, -9.8")));
+              ElementsAre(ProblemIs("axis.interval", "left.gain_interval")));
   EXPECT_THAT(problems(&VehicleModel::left, gain, 0.0), IsEmpty()) << "one that was not identified";
 }
 
@@ -362,16 +363,15 @@ TEST(VehicleModel, TheRowsOfABenchAreAMappingOfAngles) {
     return common::config::problemsOf(model);
   };
   EXPECT_THAT(problems({{-20, -19}, {0, 0.5}, {20, 21}}), IsEmpty());
-  EXPECT_THAT(problems({{0, 0}, {10, 9}, {20, 8}}), ElementsAre(HasSubstr("must rise from row to row")));
-  EXPECT_THAT(problems({{0, 0}}), ElementsAre(HasSubstr("bench_roll: one row is no mapping")));
+  EXPECT_THAT(problems({{0, 0}, {10, 9}, {20, 8}}), ElementsAre(ProblemIs("bench.falls", "bench_roll[2]")));
+  EXPECT_THAT(problems({{0, 0}}), ElementsAre(ProblemIs("bench.one-row", "bench_roll")));
   EXPECT_THAT(problems({{-180, 59}, {180, 60}}),
-              ElementsAre(HasSubstr("bench_roll[1].angle_deg: changes by 0.0028 deg for each deg of command")));
-  EXPECT_THAT(problems({{5, 5}, {20, 20}}), ElementsAre(HasSubstr("must reach from below 0 to above 0")));
-  EXPECT_THAT(problems({{-20, 0}, {20, 40}}), ElementsAre(HasSubstr("the command 0 gives 20.0 deg, at most 10")));
+              ElementsAre(ProblemIs("bench.slope", "bench_roll[1].angle_deg", "0.0028 deg")));
+  EXPECT_THAT(problems({{5, 5}, {20, 20}}), ElementsAre(ProblemIs("bench.one-side", "bench_roll")));
+  EXPECT_THAT(problems({{-20, 0}, {20, 40}}), ElementsAre(ProblemIs("bench.not-level", "bench_roll", "20.0 deg")));
   VehicleModel narrow = sheetModel();
   narrow.bench_pitch = {{-5, -5}, {20, 20}};
-  EXPECT_THAT(unfit(narrow), ElementsAre(HasSubstr("bench_pitch: the commands reach from -5 to 20 deg, but the vehicle "
-                                                   "tilts by up to 20 deg")));
+  EXPECT_THAT(unfit(narrow), ElementsAre(ProblemIs("bench.too-short", "bench_pitch", "-5 to 20 deg")));
 }
 
 }  // namespace

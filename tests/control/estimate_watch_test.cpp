@@ -8,7 +8,7 @@
 namespace swiftlet::control {
 namespace {
 
-using Change = EstimateWatch::Change;
+using common::Edge;
 using common::Time;
 
 Time at(double seconds) { return Time::fromSeconds(seconds); }
@@ -20,9 +20,10 @@ std::string followsAt(double seconds, const EstimateWatch& watch) {
 }
 
 TEST(EstimateWatch, ALostHeightBeginsTheEmergencyDescentAfterThreeTenths) {
-  EstimateWatch watch;
-  EXPECT_EQ(watch.observe(at(1.0), true, ""), Change::kNone);
-  EXPECT_EQ(watch.observe(at(1.1), false, ""), Change::kNone) << "the change is that of the inertial samples";
+  common::EventLog log;
+  EstimateWatch watch(log);
+  watch.observe(at(1.0), true, "");
+  watch.observe(at(1.1), false, "");
   EXPECT_EQ(followsAt(1.39, watch), "");
   EXPECT_EQ(followsAt(1.4, watch), "descend: no valid height for 0.3 s");
   watch.observe(at(1.41), true, "");
@@ -30,25 +31,31 @@ TEST(EstimateWatch, ALostHeightBeginsTheEmergencyDescentAfterThreeTenths) {
 }
 
 TEST(EstimateWatch, InertialSamplesThatCannotBeUsedAreNamed) {
-  EstimateWatch watch;
-  EXPECT_EQ(watch.observe(at(1.0), true, "the samples repeat"), Change::kLost);
-  EXPECT_EQ(watch.observe(at(1.1), true, "no samples"), Change::kNone);
+  common::EventLog log;
+  EstimateWatch watch(log);
+  watch.observe(at(1.0), true, "the samples repeat");
+  watch.observe(at(1.1), true, "no samples");
+  const auto events = log.take();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].reason, "the samples repeat");
   EXPECT_EQ(watch.inertialFault(), "no samples");
   EXPECT_EQ(followsAt(1.19, watch), "");
   EXPECT_EQ(followsAt(1.2, watch), "descend: no samples for 0.2 s");
-  EXPECT_EQ(watch.observe(at(1.3), true, ""), Change::kBack);
+  watch.observe(at(1.3), true, "");
+  EXPECT_EQ(log.take().size(), 1U) << "they are good again";
   EXPECT_EQ(followsAt(9.0, watch), "");
   EXPECT_EQ(watch.inertialFault(), "");
 }
 
 TEST(EstimateWatch, ALostPositionLandsAfterASecond) {
-  EstimateWatch watch;
-  EXPECT_EQ(watch.observeHorizontal(at(1.0), true), Change::kNone);
-  EXPECT_EQ(watch.observeHorizontal(at(2.0), false), Change::kLost);
-  EXPECT_EQ(watch.observeHorizontal(at(2.9), false), Change::kNone);
+  common::EventLog log;
+  EstimateWatch watch(log);
+  EXPECT_EQ(watch.observeHorizontal(at(1.0), true), Edge::kNone);
+  EXPECT_EQ(watch.observeHorizontal(at(2.0), false), Edge::kEntered);
+  EXPECT_EQ(watch.observeHorizontal(at(2.9), false), Edge::kNone);
   EXPECT_EQ(followsAt(2.9, watch), "");
   EXPECT_EQ(followsAt(3.0, watch), "land: no horizontal estimate for 1.0 s");
-  EXPECT_EQ(watch.observeHorizontal(at(3.1), true), Change::kBack);
+  EXPECT_EQ(watch.observeHorizontal(at(3.1), true), Edge::kLeft);
   EXPECT_EQ(followsAt(9.0, watch), "");
 }
 

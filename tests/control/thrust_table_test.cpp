@@ -11,6 +11,7 @@
 #include "common/random.hpp"
 #include "control/margin_limits.hpp"
 #include "control/thrust_model.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::control {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using common::VehicleConfig;
 
 const VehicleConfig kSheet;
-using testing::HasSubstr;
+using test_support::HasProblem;
 
 constexpr double kStep_s = 0.01;
 
@@ -117,8 +118,9 @@ TEST(ThrustTable, RecallsFewRowsByTheLawOfTheSheet) {
 
 TEST(ThrustTable, NamesWhatIsWrongWithRows) {
   EXPECT_TRUE(problemsOf({{10.0, 0.9, 0}, {11.0, 0.9, 0}, {12.0, 0.7, 0}}).empty());
-  EXPECT_THAT(problemsOf({{10.0, 0.9, 0}, {10.0, 0.8, 0}}).at(0), HasSubstr("must rise, but 10 follows 10"));
-  EXPECT_THAT(problemsOf({{10.0, 0.8, 0}, {11.0, 0.9, 0}}).at(0), HasSubstr("0.8 at 10 V and 0.9 at 11 V"));
+  EXPECT_THAT(problemsOf({{10.0, 0.9, 0}, {10.0, 0.8, 0}}), HasProblem("thrust.voltage-falls"));
+  EXPECT_THAT(problemsOf({{10.0, 0.8, 0}, {11.0, 0.9, 0}}),
+              HasProblem("thrust.command-rises", "", "0.8 at 10 V and 0.9 at 11 V"));
 }
 
 TEST(ThrustModel, MarginIsTheGreatestCommandOverThatOfTheHover) {

@@ -114,7 +114,7 @@ TEST_F(VerticalFlightStory, LandsOnGlassAfterALongerTime) {
   const Time before = clock_.now();
   const auto landed = stand(5.0, 0.5 * thrust_.hoverCommand());
   ASSERT_TRUE(landed);
-  EXPECT_THAT(*landed, HasSubstr("1.00 m over the ground that the beams see"));
+  EXPECT_THAT(*landed, HasSubstr("1.00 m over the ground that the beams measure"));
   EXPECT_NEAR((clock_.now() - before).seconds(), 3.0, 0.02);
 }
 

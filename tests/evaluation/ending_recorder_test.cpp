@@ -59,7 +59,6 @@ TEST_F(Ending, IsJudgedAtTheLastTickInTheMission) {
   EXPECT_NEAR(record.airborne_until_then_s, 9.5, 1e-9);
   EXPECT_NEAR(record.position_error_m, 0.1, 1e-9) << "what grows on the way down is no reason to land";
   EXPECT_EQ(record.trail_world_m.size(), 20u);
-  EXPECT_NEAR(record.charge_before_end, 0.8 - 0.30 + 0.2, 0.02) << "10 s before the end";
 }
 
 TEST_F(Ending, OfAVehicleThatNeverFliesIsItsLastTick) {

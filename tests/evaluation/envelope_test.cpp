@@ -12,12 +12,14 @@
 
 #include "common/error.hpp"
 #include "simulation/plant_keys.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ContainsRegex;
+using test_support::HasProblem;
+using test_support::problemsOf;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -168,35 +170,33 @@ TEST(EnvelopeFlightTest, IsAsAcceptableAsItsWorstVehicle) {
 class EnvelopeFile : public testing::Test {
  protected:
   void TearDown() override { fs::remove(file_); }
-  std::string problemOf(const std::string& text) {
+  std::vector<common::Problem> problemOf(const std::string& text) {
     std::ofstream(file_) << text;
-    try {
-      (void)readEnvelope(file_);
-    } catch (const common::InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return problemsOf([&] { readEnvelope(file_); });
   }
   fs::path file_ = fs::temp_directory_path() / ("swiftlet-envelope-" + std::to_string(::getpid()) + ".yaml");
 };
 
 TEST_F(EnvelopeFile, SaysWhereAMistakeStands) {
   const std::string list = "seeds: 2\nquantities:\n";
-  EXPECT_EQ(problemOf(list + "  - {key: battery_remaining, to: 0.2}\n"), "none");
-  for (const auto& [text, pattern] :
-       {std::pair<std::string, std::string>{
-            list + "  - {key: quadrotor.motor_lag, to: 0.1}\n",
-            ":3:11: .*key: the plant has no number `quadrotor.motor_lag`, did you mean `quadrotor.motor_lag_s`"},
-        {list + "  - {key: walkers, to: 0.1}\n", ":3:11: .*key: the plant has no number `walkers`"},
-        {list + "  - {key: quadrotor.weak_motor, to: 4}\n", ":3:11: .*key: .* counts"},
-        {list + "  - {key: quadrotor.motor_lag_s, to: 5}\n",
-         ":3:38: .*to: 5 is not within 0.005 and 0.5, the bounds of `quadrotor.motor_lag_s`"},
-        {list + "  - {key: quadrotor.motor_lag_s}\n", ":3:5: .*to: is missing"},
-        {list + "  - {to: 5}\n", ":3:5: .*key: is missing"},
-        {list + "  - {key: battery_remaining, to: 0.2}\n  - {key: battery_remaining, to: 0.2}\n", "is listed twice"},
-        {"seeds: 2\n", ":1:1: quantities: are missing"},
-        {"seeds: 0\nquantities: [{key: battery_remaining, to: 0.2}]\n", ":1:8: seeds: 0 is not within"}})
-    EXPECT_THAT(problemOf(text), ContainsRegex(pattern)) << text;
+  EXPECT_THAT(problemOf(list + "  - {key: battery_remaining, to: 0.2}\n"), IsEmpty());
+  struct Mistake {
+    std::string text, name, place, says;
+  };
+  for (const Mistake& mistake : std::vector<Mistake>{
+           {list + "  - {key: quadrotor.motor_lag, to: 0.1}\n", "envelope.no-number", "3:11: quantities[0].key",
+            "`quadrotor.motor_lag_s`"},
+           {list + "  - {key: walkers, to: 0.1}\n", "envelope.no-number", "3:11: quantities[0].key", "`walkers`"},
+           {list + "  - {key: quadrotor.weak_motor, to: 4}\n", "envelope.counts", "3:11: quantities[0].key", ""},
+           {list + "  - {key: quadrotor.motor_lag_s, to: 5}\n", "config.not-within", "3:38: quantities[0].to",
+            "0.005 and 0.5, the bounds of `quadrotor.motor_lag_s`"},
+           {list + "  - {key: quadrotor.motor_lag_s}\n", "config.missing", "3:5: quantities[0].to", ""},
+           {list + "  - {to: 5}\n", "config.missing", "3:5: quantities[0].key", ""},
+           {list + "  - {key: battery_remaining, to: 0.2}\n  - {key: battery_remaining, to: 0.2}\n", "envelope.twice",
+            "quantities", ""},
+           {"seeds: 2\n", "envelope.nothing", "1:1: quantities", ""},
+           {"seeds: 0\nquantities: [{key: battery_remaining, to: 0.2}]\n", "config.not-within", "1:8: seeds", ""}})
+    EXPECT_THAT(problemOf(mistake.text), HasProblem(mistake.name, mistake.place, mistake.says)) << mistake.text;
 }
 
 simulation::Nature nominal() { return simulation::Nature::load(SWIFTLET_SOURCE_DIR "/config/nature/nominal.yaml"); }

@@ -29,8 +29,8 @@ TEST(FigureTable, HasEachNameOnce) {
       EXPECT_TRUE(key.empty() || keys.insert(key).second) << key;
     }
   }
-  EXPECT_THAT(trialFigureProblem("goal_error_max_m"), IsEmpty());
-  EXPECT_THAT(trialFigureProblem("goal_eror_max_m"), testing::HasSubstr("goal_error_max_m"));
+  EXPECT_FALSE(trialFigureProblem("goal_error_max_m"));
+  EXPECT_THAT(trialFigureProblem("goal_eror_max_m")->hint, testing::HasSubstr("goal_error_max_m"));
 }
 
 /// A figure of the flight that misses a bound of 1, and one that holds it.

@@ -176,28 +176,32 @@ TEST_F(FlightScoring, AVehicleThatComesHomeUndoneMustHaveFlownFarEnough) {
 
 TEST_F(FlightScoring, AnAvoidableCollisionFails) {
   FlightRecord record = goodRecord();
-  record.last_truth.crashed = true;
-  record.last_truth.crash_reason = "touched `north_wall`";
+  record.contact.emplace().what = "touched `north_wall`";
   const FlightScore result = score(record);
   EXPECT_EQ(result.collisions, 1);
   EXPECT_EQ(result.avoidable_collisions, 1);
   EXPECT_FALSE(result.mission_done);
-  EXPECT_THAT(result.failures, ElementsAre("mission: touched `north_wall`", "collision: touched `north_wall`"));
+  EXPECT_THAT(result.failures,
+              ElementsAre("mission: touched `north_wall`", "collision (crashed): touched `north_wall`"));
 }
 
-TEST_F(FlightScoring, AWalkerIsBlamedForHittingAVehicleAtRest) {
+TEST_F(FlightScoring, AWalkerIsBlamedForHittingAVehicleThatCouldNotEvade) {
   FlightRecord record = goodRecord();
-  record.last_truth.crashed = record.last_truth.by_walker = record.last_truth.yielding = true;
-  record.last_truth.crash_reason = "touched `walker_0`";
+  record.contact.emplace().what = "touched `walker_0`";
+  record.contact->truth.by_walker = record.contact->truth.yielding = true;
   const FlightScore result = score(record);
   EXPECT_EQ(result.collisions, 1) << "it is reported all the same";
   EXPECT_EQ(result.avoidable_collisions, 0);
-  EXPECT_EQ(result.verdict, Verdict::kStruck);
+  EXPECT_EQ(result.verdict, Verdict::kForced);
   Criteria criteria;
   criteria.mission_done = false;
   EXPECT_THAT(score(record, criteria).failures, IsEmpty()) << "it is not the vehicle's collision";
-  record.last_truth.yielding = false;
+  record.contact->truth.yielding = false;
   EXPECT_EQ(score(record).avoidable_collisions, 1);
+  record.contact->truth.yielding = true;
+  record.contact->truth.walker_in_field_s = 2.0;
+  EXPECT_EQ(score(record).verdict, Verdict::kStruck);
+  EXPECT_THAT(score(record, criteria).failures, ElementsAre("collision (struck): touched `walker_0`"));
 }
 
 TEST_F(FlightScoring, AFlightThatNeverTookOffFails) {

@@ -6,13 +6,13 @@
 #include "common/config_check.hpp"
 #include "evaluation/trial.hpp"
 #include "evaluation/trial_results.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
 
-using testing::Contains;
+using test_support::HasProblem;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 TrialConfig twoSystems() {
@@ -70,12 +70,11 @@ TEST(SystemBounds, OfWhatThereIsNotAreRefused) {
   trial.asked_of[0].figures[0].figure = "estimate_rms_m";
   TrialConfig other = twoSystems();
   other.asked_of[0].phases[0].criteria[0].figure = "position_rsm_m";
-  EXPECT_THAT(common::config::problemsOf(other),
-              Contains(HasSubstr("`position_rsm_m` is not a figure of a phase, did you mean `position_rms_m`?")));
+  EXPECT_THAT(common::config::problemsOf(other), HasProblem("phase.no-figure", "asked_of", "`position_rms_m`"));
   const auto problems = common::config::problemsOf(trial);
-  EXPECT_THAT(problems, Contains(HasSubstr("`dlr` is not one of the systems")));
-  EXPECT_THAT(problems, Contains(HasSubstr("there is no phase `landing`")));
-  EXPECT_THAT(problems, Contains(HasSubstr("`estimate_rms_m` is not a figure over all flights")));
+  EXPECT_THAT(problems, HasProblem("trial.no-system", "asked_of", "`dlr`"));
+  EXPECT_THAT(problems, HasProblem("trial.no-phase", "asked_of", "`landing`"));
+  EXPECT_THAT(problems, HasProblem("trial.no-figure", "asked_of[0].figures", "`estimate_rms_m`"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 #include <Eigen/Eigenvalues>
 
+#include "common/quantile.hpp"
 #include "interfaces/files/tum.hpp"
 #include "tests/evaluation/random_poses.hpp"
 #include "tests/support/datasets.hpp"
@@ -41,8 +42,8 @@ TEST(Statistics, EqualTheResultByHand) {
   EXPECT_EQ(s.min, 1);
   EXPECT_EQ(s.max, 4);
   EXPECT_EQ(statisticsOf({}).count, 0u);
-  EXPECT_DOUBLE_EQ(quantile({10, 0}, 0.95), 9.5);
-  EXPECT_DOUBLE_EQ(quantile({7}, 0.3), 7);
+  EXPECT_DOUBLE_EQ(common::quantile({10, 0}, 0.95), 9.5);
+  EXPECT_DOUBLE_EQ(common::quantile({7}, 0.3), 7);
 }
 
 TEST(Associate, PairsTheNearestStampsAndUsesEachPoseOnce) {

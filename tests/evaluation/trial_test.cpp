@@ -11,13 +11,16 @@
 
 #include "common/error.hpp"
 #include "evaluation/trial_results.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::HasSubstr;
+using test_support::HasProblem;
+using test_support::problemsOf;
+using testing::IsEmpty;
 
 class Trials : public testing::Test {
  protected:
@@ -32,13 +35,8 @@ class Trials : public testing::Test {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  static std::string problemOf(const fs::path& path) {
-    try {
-      readTrials(path);
-    } catch (const common::InputError& e) {
-      return e.what();
-    }
-    return "";
+  static std::vector<common::Problem> problemOf(const fs::path& path) {
+    return problemsOf([&] { readTrials(path); });
   }
   fs::path folder_;
 };
@@ -72,22 +70,21 @@ TEST_F(Trials, AreReadFromAFolderInOrder) {
 TEST_F(Trials, OfTheSameNameAreRefused) {
   put("lab.yaml", kSmallest);
   put("papers/lab.yaml", kSmallest);
-  EXPECT_THAT(problemOf(folder_), HasSubstr("name: `lab` is the name of "));
+  EXPECT_THAT(problemOf(folder_), HasProblem("trial.name-twice", "name", "`lab`"));
 }
 
 TEST_F(Trials, NamesThatAreNotFolderNamesAreRefused) {
   put("a.yaml", std::string(kSmallest) + "name: \"a\\0b\"\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("cannot be seen"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("trial.name-not-seen", "a.yaml:3:7: name"));
 }
 
 TEST_F(Trials, MistakesInAllFilesAreReportedTogether) {
   put("a.yaml", "mission: m.xml\nscenario: {wrold: w.sdf}\n");
   put("b.yaml", "scenario: {world: w.sdf}\ncriteria: {coverage_min: 99}\n");
-  const std::string problem = problemOf(folder_);
-  EXPECT_THAT(problem, HasSubstr("a.yaml:2:12: scenario: unknown key `wrold`, did you mean `world`?"));
-  EXPECT_THAT(problem, HasSubstr("b.yaml"));
-  EXPECT_THAT(problem, HasSubstr("mission: is missing"));
-  EXPECT_THAT(problem, HasSubstr("coverage_min: 99 is not within"));
+  const auto problem = problemOf(folder_);
+  EXPECT_THAT(problem, HasProblem("config.unknown-key", "a.yaml:2:12: scenario", "`world`"));
+  EXPECT_THAT(problem, HasProblem("config.missing", "b.yaml:1:1: mission"));
+  EXPECT_THAT(problem, HasProblem("config.not-within", "b.yaml:2:26: criteria.coverage_min", "99"));
 }
 
 TEST_F(Trials, EachOfSeveralVehiclesMayHaveItsOwnMission) {
@@ -114,7 +111,7 @@ TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
   put("house.yaml", kSmallest);
   EXPECT_THAT(readTrials(folder_).at(0).natures, testing::ElementsAre("real"));
   put("house.yaml", std::string(kSmallest) + "natures: []\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("natures: is empty"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("config.empty", "natures"));
 }
 
 TEST_F(Trials, WithSeveralSystemsAreOneTrialForEachInEachNature) {
@@ -129,9 +126,9 @@ TEST_F(Trials, WithSeveralSystemsAreOneTrialForEachInEachNature) {
   EXPECT_EQ(readTrials(folder_).at(0).byCondition().at(0).name, "hover");
   EXPECT_EQ(readTrials(folder_).at(0).byCondition().at(0).system, "dlr");
   put("hover.yaml", std::string(kSmallest) + "systems: [dlr, '']\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("systems: has an empty name"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("config.empty-name", "systems"));
   put("hover.yaml", std::string(kSmallest) + "natures: ['']\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("natures: has an empty name"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("config.empty-name", "natures"));
 }
 
 TEST_F(Trials, FaultsWithTheSameNameAreNumbered) {
@@ -147,26 +144,27 @@ TEST_F(Trials, FaultsWithTheSameNameAreNumbered) {
 
 TEST_F(Trials, StepsOfVehiclesThatDoNotFlyAreRefused) {
   const std::string two = "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: beta}]}\n";
-  EXPECT_EQ(problemOf(put("two.yaml", two + "operator: [{command: hold, vehicle: beta}]\n")), "");
+  EXPECT_THAT(problemOf(put("two.yaml", two + "operator: [{command: hold, vehicle: beta}]\n")), IsEmpty());
   EXPECT_THAT(problemOf(put("two.yaml", two + "operator: [{command: hold, vehicle: betta}]\n")),
-              HasSubstr("operator: there is no vehicle `betta`, did you mean `beta`?"));
+              HasProblem("scenario.no-vehicle", "operator", "`beta`"));
   EXPECT_THAT(problemOf(put("two.yaml", std::string(kSmallest) + "operator: [{command: hold, vehicle: alpha}]\n")),
-              HasSubstr("operator: there is no vehicle `alpha`, the one that flies has no name"));
+              HasProblem("scenario.no-vehicle", "operator", "the one that flies has no name"));
 }
 
 TEST_F(Trials, FiguresThatThereAreNotAreRefused) {
   const auto problem = [&](const std::string& more) { return problemOf(put("t.yaml", kSmallest + more)); };
   EXPECT_THAT(problem("paper: [{figure: goal_eror_max_m, value: 1}]\n"),
-              HasSubstr("`goal_eror_max_m` is not a figure over all flights, did you mean `goal_error_max_m`?"));
+              HasProblem("trial.no-figure", "t.yaml:3:18: paper[0].figure", "`goal_error_max_m`"));
   EXPECT_THAT(problem("phases: [{name: a, criteria: [{figure: position_sdt_m, max: 1}]}]\n"),
-              HasSubstr("`position_sdt_m` is not a figure of a phase, did you mean `position_std_m`?"));
+              HasProblem("phase.no-figure", "t.yaml:3:30: phases[0].criteria", "`position_std_m`"));
   EXPECT_THAT(problem("phases: [{name: a, criteria: [{figure: position_rms_m, max: 1}]}]\n"),
-              HasSubstr("`position_rms_m` needs a place_map_m"));
+              HasProblem("phase.no-place", "phases[0].criteria", "`position_rms_m`"));
   EXPECT_THAT(problem("phases: [{name: a, criteria: [{figure: level_x_height_m, max: 1}]}]\n"),
-              HasSubstr("`level_x_height_m` is not a figure of a phase"));
-  EXPECT_EQ(problem("phases: [{name: a, criteria: [{figure: level_12_height_m, max: 1}, {figure: levels, min: 1}]}]\n"),
-            "");
-  EXPECT_THAT(problem("phases: [{name: a}, {name: a}]\n"), HasSubstr("phases: `a` is the name of two of them"));
+              HasProblem("phase.no-figure", "phases[0].criteria", "`level_x_height_m`"));
+  EXPECT_THAT(
+      problem("phases: [{name: a, criteria: [{figure: level_12_height_m, max: 1}, {figure: levels, min: 1}]}]\n"),
+      IsEmpty());
+  EXPECT_THAT(problem("phases: [{name: a}, {name: a}]\n"), HasProblem("trial.phase-twice", "phases"));
 }
 
 TEST_F(Trials, WithEachFaultAreOneTrialForEach) {
@@ -187,7 +185,7 @@ TEST_F(Trials, WithEachFaultAreOneTrialForEach) {
   ASSERT_EQ(together.size(), 1u);
   EXPECT_EQ(together[0].scenario.faults.size(), 2u);
   put("bad.yaml", std::string(kSmallest) + "each_fault: true\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("each_fault: is set, but the scenario has no faults"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("trial.no-faults", "each_fault"));
 }
 
 TEST_F(Trials, TheKeysOfTheScenarioThatAreWrittenOutAreKnown) {
@@ -198,9 +196,9 @@ TEST_F(Trials, TheKeysOfTheScenarioThatAreWrittenOutAreKnown) {
 
 TEST_F(Trials, VehiclesWithTheSameNameOrASlashInItAreRefused) {
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: alpha}]}\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("vehicles: two are called `alpha`"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("config.name-twice", "a.yaml:2:36: scenario.vehicles", "`alpha`"));
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: up/down}]}\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("name: is not 1 to 40 letters, digits, `_` and `-`"));
+  EXPECT_THAT(problemOf(folder_), HasProblem("scenario.no-name", "a.yaml:2:44: scenario.vehicles[0].name"));
 }
 
 TEST(TrialOfTwo, PassesWhenBothVehiclesPass) {
@@ -226,8 +224,8 @@ TEST(TrialOfTwo, PassesWhenBothVehiclesPass) {
 }
 
 TEST_F(Trials, MissingTrialsAreReported) {
-  EXPECT_THAT(problemOf(folder_ / "papers"), HasSubstr("holds no trials"));
-  EXPECT_THAT(problemOf(folder_ / "none.yaml"), HasSubstr("none.yaml: cannot be opened"));
+  EXPECT_THAT(problemOf(folder_ / "papers"), HasProblem("trial.none", "papers"));
+  EXPECT_THAT(problemOf(folder_ / "none.yaml"), HasProblem("file.not-opened", "none.yaml"));
 }
 
 TEST_F(Trials, PathsAreFoundInTheArchiveOrInTheSoftware) {
@@ -260,12 +258,8 @@ TEST_F(Trials, ArchivesAreFoundOrReportedMissing) {
   ::unsetenv("SWIFTLET_DATASETS");
   EXPECT_EQ(dataSetsFolder("/software"), "/software/../shared/datasets");
   EXPECT_EQ(findArchive("papers/w.tar.xz", folder_), folder_ / "papers/w.tar.xz");
-  try {
-    findArchive("none.tar.xz", folder_);
-    FAIL();
-  } catch (const common::InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("none.tar.xz: archive: there is no such file, set SWIFTLET_DATASETS"));
-  }
+  EXPECT_THAT(problemsOf([&] { findArchive("none.tar.xz", folder_); }),
+              HasProblem("trial.no-archive", "none.tar.xz: archive", "SWIFTLET_DATASETS"));
   ::setenv("SWIFTLET_DATASETS", (folder_ / "papers").c_str(), 1);
   EXPECT_EQ(findArchive("w.tar.xz", dataSetsFolder("/nowhere")), folder_ / "papers/w.tar.xz");
   ::unsetenv("SWIFTLET_DATASETS");
@@ -289,7 +283,7 @@ TEST_F(Trials, AMapIsEitherAFileOrASurvey) {
   EXPECT_FALSE(readTrial(put("b.yaml", kSmallest)).map.given());
   EXPECT_THAT(
       problemOf(put("c.yaml", std::string(kSmallest) + "map: {file: m.yaml, survey: {path_world_m: [0, 0, 1, 0]}}\n")),
-      HasSubstr("makes another map"));
+      HasProblem("trial.two-maps", "c.yaml:3:13: map.file"));
 }
 
 }  // namespace

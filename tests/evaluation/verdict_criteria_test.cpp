@@ -16,9 +16,9 @@ FlightScore flight(Verdict verdict) {
   FlightScore score;
   score.verdict = verdict;
   score.mission_done = verdict == Verdict::kDone;
-  score.collisions = verdict == Verdict::kCrashed || verdict == Verdict::kForced || verdict == Verdict::kUnseen ? 1 : 0;
-  score.avoidable_collisions = verdict == Verdict::kCrashed ? 1 : 0;
-  score.glass_contacts = verdict == Verdict::kUnseen ? 1 : 0;
+  const bool avoidable = verdict == Verdict::kCrashed || verdict == Verdict::kStruck;
+  score.collisions = avoidable || verdict == Verdict::kForced ? 1 : 0;
+  score.avoidable_collisions = avoidable ? 1 : 0;
   if (score.mission_done) score["goal_error_m"] = 0.02;
   return score;
 }
@@ -47,8 +47,7 @@ TrialResult trial(int done, std::vector<Verdict> others, const Criteria& criteri
 }
 
 TEST(VerdictCriteria, AFlightThatEndedWithAReasonPassesWithoutTheFiguresOfItsMission) {
-  for (const Verdict good :
-       {Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced, Verdict::kStruck, Verdict::kUnseen})
+  for (const Verdict good : {Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced})
     EXPECT_THAT(missed(flight(good), byVerdict()), IsEmpty()) << toString(good);
   FlightScore hard = flight(Verdict::kLanded);
   hard["touch_down_speed_m_s"] = 0.8;
@@ -78,19 +77,17 @@ TEST(VerdictCriteria, OneNeedlessLandingOfTwentyIsAllowed) {
   EXPECT_FALSE(trial(9, {Verdict::kNeedless}).met());
 }
 
-TEST(VerdictCriteria, NoCrashIsAllowedUnlessAsked) {
-  EXPECT_THAT(trial(19, {Verdict::kCrashed}).missed(), ElementsAre("crashes: 1.000, at most 0 was asked for"));
-  Criteria criteria = byVerdict();
-  criteria.crashes_max = 1;
-  EXPECT_TRUE(trial(19, {Verdict::kCrashed}, criteria).met());
-  EXPECT_TRUE(trial(18, {Verdict::kForced, Verdict::kUnseen}).met());
-  EXPECT_EQ(trial(18, {Verdict::kForced, Verdict::kUnseen}).glassContacts(), 1);
+TEST(VerdictCriteria, AContactThatWasNotForcedFailsItsTrial) {
+  for (const Verdict verdict : {Verdict::kCrashed, Verdict::kStruck}) {
+    EXPECT_FALSE(trial(19, {verdict}).met()) << toString(verdict);
+    EXPECT_FALSE(trial(19, {verdict}, {}).met()) << "whether verdicts are asked for or not";
+  }
+  EXPECT_TRUE(trial(18, {Verdict::kForced, Verdict::kForced}).met());
 }
 
 TEST(VerdictCriteria, NoFlightThatCrashedHasPassed) {
-  for (const Verdict crash : {Verdict::kCrashed, Verdict::kForced, Verdict::kStruck, Verdict::kUnseen}) {
-    TrialResult result = trial(9, {crash});
-    result.flights[0].collisions = 1;
+  for (const Verdict crash : {Verdict::kCrashed, Verdict::kForced, Verdict::kStruck}) {
+    const TrialResult result = trial(9, {crash});
     EXPECT_EQ(result.passed(), 9) << toString(crash);
     const auto written = nlohmann::json::parse(toJson({{result}})).at("trials").at(0);
     EXPECT_EQ(written.at("passed"), 9) << toString(crash);
@@ -125,11 +122,10 @@ TEST(VerdictCriteria, TheShareThatMustBeDoneCounts) {
 }
 
 TEST(VerdictCriteria, ResultsAndTablesCountTheVerdicts) {
-  const TrialResults results{{trial(2, {Verdict::kHome, Verdict::kUnseen})}};
+  const TrialResults results{{trial(2, {Verdict::kHome, Verdict::kForced})}};
   const auto results_json = nlohmann::json::parse(toJson(results)).at("trials").at(0);
-  EXPECT_EQ(results_json.at("verdicts"), (nlohmann::json{{"done", 2}, {"home", 1}, {"unseen", 1}}));
+  EXPECT_EQ(results_json.at("verdicts"), (nlohmann::json{{"done", 2}, {"home", 1}, {"forced", 1}}));
   EXPECT_EQ(results_json.at("done_share"), 0.5);
-  EXPECT_EQ(results_json.at("glass_contacts"), 1);
   EXPECT_EQ(results_json.at("flights").at(0).at("verdict"), "home");
   EXPECT_THAT(toText(summaryTable(results)), HasSubstr("needless"));
   EXPECT_THAT(toText(flightTable(results.trials[0])), HasSubstr("verdict"));

@@ -1,9 +1,16 @@
-// The judge of flights that did not do their mission: from facts to a verdict, and from records to facts.
+// The judge of flights: from facts to a verdict, and from records to facts.
 #include "evaluation/verdict.hpp"
+
+#include "evaluation/verdict_facts.hpp"
 #include "evaluation/true_world.hpp"
+
+#include <filesystem>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
+#include "common/read_bytes.hpp"
+#include "evaluation/excuses.hpp"
 #include "evaluation/flight_score.hpp"
 #include "small_world.hpp"
 
@@ -18,8 +25,8 @@ TEST(Verdicts, OfADoneMissionIsDoneWhateverIsLeft) {
   facts.mission_done = facts.flew = true;
   facts.charge = 0.05;
   EXPECT_EQ(judge(facts).verdict, Verdict::kDone);
-  facts.crashed = true;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "a crash after the end is one all the same";
+  facts.contact = ContactFacts{.what = "touched `wall`"};
+  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "a contact is one all the same";
 }
 
 /// A vehicle that stands away from home with no reason for it.
@@ -64,6 +71,14 @@ TEST(Verdicts, DependOnWhereAVehicleWithAReasonStands) {
   EXPECT_EQ(judge(facts).verdict, Verdict::kUnfinished);
 }
 
+TEST(Verdicts, OfALandingNeedMotorsThatAreOff) {
+  VerdictFacts facts = landed();
+  facts.order = "land";
+  EXPECT_EQ(judge(facts).verdict, Verdict::kLanded);
+  facts.motors_off = false;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kUnfinished);
+}
+
 TEST(Verdicts, OfARefusedTakeOffNeedItsFigureToo) {
   VerdictFacts facts = landed();
   facts.flew = false;
@@ -78,33 +93,68 @@ TEST(Verdicts, AVehicleThatNeverFlewHasNotLeftTheBuilding) {
   EXPECT_EQ(judge(facts).verdict, Verdict::kRefused);
 }
 
-TEST(Verdicts, OnCrashesSayWhetherPhysicsForcedThem) {
+/// The verdict on a contact, in a flight that would otherwise have landed with every reason to.
+Judgement judgeContact(const ContactFacts& contact) {
   VerdictFacts facts = landed();
-  facts.crashed = true;
-  facts.contact = "touched `wall`";
-  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed);
-  facts.contact_margin = 0.97;
-  facts.landing_margin = 1.05;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "it flew on with too little to climb with";
-  facts.landing_margin = 1.2;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kForced);
-  facts.unseen_glass = true;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kUnseen);
-  facts.by_person = facts.yielding = true;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kStruck);
-  facts = landed();
-  facts.crashed = facts.by_person = true;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "it flew into the person";
-  facts.room_to_take_off = false;
-  EXPECT_EQ(judge(facts).verdict, Verdict::kForced);
+  facts.order = "land";
+  facts.faulty_sensor = "imu";
+  facts.contact = contact;
+  return judge(facts);
+}
+
+TEST(VerdictsOnContacts, NoFaultAndNoOrderExcusesOne) {
+  EXPECT_EQ(judgeContact({.what = "stood on the floor"}).verdict, Verdict::kCrashed);
+  EXPECT_EQ(judgeContact({.what = "stood on the floor"}).reason, "stood on the floor");
+}
+
+TEST(VerdictsOnContacts, LostThrustForcesThem) {
+  ContactFacts contact{.what = "touched `wall`", .thrust_margin = 0.97, .thrust_margin_before = 1.05};
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kCrashed) << "it flew on with too little to climb with";
+  contact.thrust_margin_before = 1.2;
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced);
+  EXPECT_THAT(judgeContact(contact).reason, HasSubstr("fell to 0.97 times the weight, from 1.20"));
+}
+
+TEST(VerdictsOnContacts, GlassAndATakeOffWithoutRoomForceThem) {
+  EXPECT_EQ(judgeContact({.what = "touched `pane`", .unseen_glass = true}).verdict, Verdict::kForced);
+  EXPECT_EQ(judgeContact({.what = "touched `shelf`", .room_to_take_off = false}).verdict, Verdict::kForced);
+}
+
+TEST(VerdictsOnContacts, APersonIsToBlameWhoComesTooSuddenlyToEvade) {
+  ContactFacts contact{.what = "touched `walker 1`", .by_person = true, .person_in_field_s = 0.3};
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kCrashed) << "it flew into the person";
+  contact.yielding = true;
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced);
+  contact.person_in_field_s = 0.7;
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kStruck);
+  contact.motors_off = true;
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced);
+  contact.motors_off = false;
+  contact.person_in_field_s.reset();
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced) << "the person came from where it cannot see";
 }
 
 TEST(Verdicts, AreAcceptableWhenNothingBetterCouldBeDone) {
-  for (const Verdict good : {Verdict::kDone, Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced,
-                             Verdict::kStruck, Verdict::kUnseen})
+  for (const Verdict good : {Verdict::kDone, Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced})
     EXPECT_TRUE(acceptable(good)) << toString(good);
-  for (const Verdict bad : {Verdict::kNeedless, Verdict::kCrashed, Verdict::kOutside, Verdict::kUnfinished})
+  for (const Verdict bad :
+       {Verdict::kStruck, Verdict::kNeedless, Verdict::kCrashed, Verdict::kOutside, Verdict::kUnfinished})
     EXPECT_FALSE(acceptable(bad)) << toString(bad);
+}
+
+/// With single spaces for every gap, so that line breaks do not matter.
+std::string joined(const std::string& text) {
+  std::istringstream words(text);
+  std::string result;
+  for (std::string word; words >> word;) result += word + ' ';
+  return result;
+}
+
+TEST(Verdicts, HaveTheirExcusesInTheTutorial) {
+  const std::filesystem::path page = std::filesystem::path(SWIFTLET_SOURCE_DIR) / "docs/tutorials/trials.md";
+  const std::string text = joined(common::readText(page));
+  for (const auto& excuse : contactExcuses()) EXPECT_THAT(text, HasSubstr(joined(excuse.why)));
+  for (const auto& excuse : endingExcuses()) EXPECT_THAT(text, HasSubstr(joined(excuse.why)));
 }
 
 /// A flight of a minute in the small room that took off at (1, 1), used a tenth of its battery and stands at (1, 2).
@@ -122,7 +172,7 @@ class VerdictsOfRecords : public testing::Test {
     ending.then = record_.last_truth;
     ending.then.airborne = true;
     ending.then.T_world_body.position_m.z() = 1.0;
-    ending.then.battery_remaining = ending.charge_before_end = 0.8;
+    ending.then.battery_remaining = 0.8;
     ending.charge_at_take_off = 0.9;
     ending.airborne_until_then_s = 60.0;
     ending.trail_world_m.assign(20, {1, 2, 1});
@@ -169,6 +219,19 @@ TEST_F(VerdictsOfRecords, AWallRoundTheGoalIsAReason) {
   EXPECT_EQ(judged(smallWorld(0.0F)).verdict, Verdict::kLanded);
 }
 
+TEST_F(VerdictsOfRecords, ADoorThatWasClosedWhenTheGoalFailedIsAReason) {
+  record_.ending.failed_goal_map_m = {2, 0};
+  simulation::Actor door;  // In the gap of the wall before the goal.
+  door.position_world_m = {2, 1.5};
+  door.radius_m = 0.0;
+  door.half_size_m = {0.05, 1.5};
+  record_.ending.doors_at_failed_goal = {door};
+  EXPECT_EQ(judged().verdict, Verdict::kLanded) << "though it is open again";
+  record_.ending.then.closed_doors = {door};
+  record_.ending.doors_at_failed_goal.clear();
+  EXPECT_EQ(judged().verdict, Verdict::kNeedless) << "it was open then";
+}
+
 TEST_F(VerdictsOfRecords, OutsideIsWhereNothingEncloses) {
   simulation::WorldModel open = smallWorld(1.0F);
   std::erase_if(open.shapes, [](const simulation::Shape& shape) { return shape.model == "north"; });
@@ -200,6 +263,13 @@ TEST_F(VerdictsOfRecords, StillInTheAirIsUnfinished) {
   EXPECT_EQ(judged().verdict, Verdict::kUnfinished);
 }
 
+TEST_F(VerdictsOfRecords, MotorsThatAreOnAtTheEndAreUnfinished) {
+  record_.ending.order = "land";
+  EXPECT_EQ(judged().verdict, Verdict::kLanded);
+  record_.motors_off = false;
+  EXPECT_EQ(judged().verdict, Verdict::kUnfinished);
+}
+
 TEST_F(VerdictsOfRecords, ATakeOffThatPhysicsForbidsIsRefused) {
   record_.ending = {};
   record_.ending.then.battery_remaining = 0.9;
@@ -208,27 +278,50 @@ TEST_F(VerdictsOfRecords, ATakeOffThatPhysicsForbidsIsRefused) {
   EXPECT_EQ(judged().verdict, Verdict::kRefused);
 }
 
-TEST_F(VerdictsOfRecords, AWallAboveTheTakeOffForcesTheCrash) {
-  record_.last_truth.crashed = true;
-  record_.last_truth.crash_reason = "touched `shelf`";
-  record_.last_truth.T_world_body.position_m = {1, 1, 0.8};
-  record_.true_distance_m = 0.1;
-  EXPECT_EQ(judged().verdict, Verdict::kCrashed);
+/// A contact 0.8 m above (1, 1), where the vehicle had stood.
+ContactRecord contactAt(common::FlightState flight) {
+  ContactRecord contact;
+  contact.what = contact.truth.crash_reason = "touched `shelf`";
+  contact.truth.T_world_body.position_m = {1, 1, 0.8};
+  contact.flight = flight;
+  contact.stood_world_m = {1, 1, 0.15};
+  contact.take_off_height_m = 1.2;
+  return contact;
+}
+
+TEST_F(VerdictsOfRecords, AWallWithinTheHeightOfTheTakeOffForcesTheContact) {
   simulation::WorldModel model = smallWorld(1.0F);
   model.shapes.push_back(wall("shelf", 0.5, 1.2F, 1.5, 1.2F));
+  record_.contact = contactAt(common::FlightState::kTakingOff);
   EXPECT_EQ(judged(model).verdict, Verdict::kForced);
-  record_.true_distance_m = 5.0;
+  EXPECT_EQ(judged().verdict, Verdict::kCrashed) << "there is room";
+  record_.contact->flight = common::FlightState::kFlying;
   EXPECT_EQ(judged(model).verdict, Verdict::kCrashed) << "it had taken off beside it";
 }
 
-TEST_F(VerdictsOfRecords, ABatteryThatBreaksDownForcesTheCrash) {
-  record_.last_truth.crashed = true;
-  record_.last_truth.battery_remaining = 0.0;
+TEST_F(VerdictsOfRecords, ARunawayClimbIntoTheCeilingIsNotForced) {
+  simulation::WorldModel model = smallWorld(1.0F);
+  simulation::Shape& ceiling = model.shapes.emplace_back(model.shapes.back());
+  for (auto& vertex : ceiling.vertices_world_m) vertex.z() = 2.5F;
+  record_.contact = contactAt(common::FlightState::kTakingOff);
+  record_.contact->truth.T_world_body.position_m.z() = 2.4;
+  record_.ending.faulty_sensor = "imu";
+  EXPECT_EQ(judged(model).verdict, Verdict::kCrashed);
+}
+
+TEST_F(VerdictsOfRecords, ABatteryThatBreaksDownForcesTheContact) {
+  record_.contact = contactAt(common::FlightState::kFlying);
+  record_.contact->truth.battery_remaining = 0.0;
   mass_share_ = 1.05;
-  record_.ending.charge_before_end = 0.8;
+  record_.contact->charge_before = 0.8;
   EXPECT_EQ(judged().verdict, Verdict::kForced);
-  record_.ending.charge_before_end = 0.01;
+  record_.contact->charge_before = 0.01;
   EXPECT_EQ(judged().verdict, Verdict::kCrashed) << "it was empty long before";
+  record_.contact->truth.battery_remaining = record_.contact->charge_before = 0.8;
+  record_.contact->truth.lost_cells = 1;
+  EXPECT_EQ(judged().verdict, Verdict::kForced) << "a cell was lost";
+  record_.contact->lost_cells_before = 1;
+  EXPECT_EQ(judged().verdict, Verdict::kCrashed) << "it was lost long before";
 }
 
 }  // namespace

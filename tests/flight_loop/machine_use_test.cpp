@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/memory_watch.hpp"
-#include "apps/timed_jobs.hpp"
+#include "flight/memory_watch.hpp"
+#include "flight/timed_jobs.hpp"
 
-namespace swiftlet::apps {
+namespace swiftlet::flight {
 namespace {
 
 using common::Duration;
@@ -76,4 +76,4 @@ TEST(MemoryWatch, KnowsTheMostThatWasResident) {
 }
 
 }  // namespace
-}  // namespace swiftlet::apps
+}  // namespace swiftlet::flight

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/system.hpp"
 #include "autonomy/loop/flight_loop.hpp"
 #include "common/mailbox.hpp"
 #include "evaluation/map_metrics.hpp"
+#include "flight/system.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 
 namespace swiftlet::autonomy {
@@ -30,7 +30,7 @@ struct Flown {
 };
 
 Flown fly(const std::string& name, int seed = 11) {
-  const apps::SystemConfig profile = apps::loadSystem(name).config;
+  const flight::SystemConfig profile = flight::loadSystem(name).config;
   EXPECT_EQ(profile.vehicle, "cobra");
   EXPECT_EQ(profile.laser, "utm_30lx");
   const auto vehicle = makeVehicle(seed);

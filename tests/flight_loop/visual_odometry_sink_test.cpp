@@ -1,5 +1,5 @@
 // The map and the track that the RGB-D camera alone makes of a flight, beside the vehicle's own estimate.
-#include "apps/visual_odometry_sink.hpp"
+#include "simulated_flight/visual_odometry_sink.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "evaluation/flight_score.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 
-namespace swiftlet::apps {
+namespace swiftlet::simulated_flight {
 namespace {
 
 using common::Time;
@@ -79,4 +79,4 @@ TEST(VisualOdometryOfTornFrames, CountsThemAsLost) {
 }
 
 }  // namespace
-}  // namespace swiftlet::apps
+}  // namespace swiftlet::simulated_flight

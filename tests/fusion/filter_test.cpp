@@ -232,9 +232,9 @@ TEST(ErrorStateFilter, ItsReasonGivesTheAgeOfTheNewestMeasurementOfLaserAndCamer
   EXPECT_THAT(withoutSensors(true).reason, testing::StartsWith("no usable height for 1."));
 }
 
-/// After half a second without a height and with a wrong acceleration, a late measurement of the speed corrects the
-/// height too.
-TEST(ErrorStateFilter, AVerticalSpeedAlsoCorrectsTheHeight) {
+/// Another estimator has weighed the same samples: what the filter knows of the three is replaced, and what is
+/// correlated with them follows, as if the difference had been measured.
+TEST(ErrorStateFilter, AKnownVerticalStateReplacesItsOwn) {
   SyntheticFlight flight(13, 6.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -245,17 +245,33 @@ TEST(ErrorStateFilter, AVerticalSpeedAlsoCorrectsTheHeight) {
   const Time at = Time::fromSeconds(5.8);
   const auto before = alone.verticalAt(at);
   ASSERT_TRUE(before);
-  EXPECT_GT(before->covariance(0, 1), 0.0);
-  const double higher_m_s = before->velocity_m_s + 0.05;
-  deliveries.push_back({Time::fromSeconds(5.95), 5,
-                        [=](ErrorStateFilter& f) { (void)f.add(measuredVerticalSpeed(at, higher_m_s, 1e-6)); }});
+  VerticalState known{before->height_m + 0.2, before->velocity_m_s - 0.1, before->bias_m_s2 + 0.05, {}};
+  known.covariance = Eigen::Vector3d(1e-4, 4e-4, 9e-4).asDiagonal();
+  deliveries.push_back(
+      {Time::fromSeconds(5.95), 5, [=](ErrorStateFilter& f) { (void)f.add(knownVertical(at, known)); }});
   feed(told, imu, deliveries, flight.restUntil());
   const auto after = told.verticalAt(at);
   ASSERT_TRUE(after);
-  EXPECT_NEAR(after->velocity_m_s, higher_m_s, 0.005);
-  EXPECT_NEAR(after->height_m - before->height_m, 0.05 * before->covariance(0, 1) / before->covariance(1, 1), 0.005);
-  EXPECT_LT(after->covariance(0, 0), before->covariance(0, 0));
+  EXPECT_NEAR(after->height_m, known.height_m, 0.005);
+  EXPECT_NEAR(after->velocity_m_s, known.velocity_m_s, 0.005);
+  EXPECT_NEAR(after->bias_m_s2, known.bias_m_s2, 0.001);
+  EXPECT_LT((after->covariance - known.covariance).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_FALSE(told.verticalAt(at + Duration::fromSeconds(2.0)));
+}
+
+TEST(ErrorStateFilter, TheClimbBetweenTwoTimesIsThatOfTheAccelerometerAlone) {
+  SyntheticFlight flight(13, 6.0);
+  ErrorStateFilter filter(withoutDrag());
+  feed(filter, flight.imuSamples(), flight.deliveries(), flight.restUntil());
+  const Time from = Time::fromSeconds(5.3), to = Time::fromSeconds(5.7);
+  const auto before = filter.verticalAt(from), after = filter.verticalAt(to, from);
+  ASSERT_TRUE(before && after && after->climb);
+  const auto& climb = after->climb;
+  const double time_s = (to - from).seconds();
+  EXPECT_NEAR(before->velocity_m_s + climb->velocity_m_s - before->bias_m_s2 * time_s, after->velocity_m_s, 0.03);
+  EXPECT_NEAR(before->height_m + before->velocity_m_s * time_s + climb->height_m, after->height_m, 0.02);
+  EXPECT_GT(climb->noise_m_s2_rthz, 0.0);
+  EXPECT_FALSE(filter.verticalAt(to, from - Duration::fromSeconds(3.0))->climb);
 }
 
 TEST(ErrorStateFilter, InvalidInputIsCountedAndIgnored) {
@@ -280,8 +296,8 @@ TEST(ErrorStateFilter, InvalidInputIsCountedAndIgnored) {
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
     EXPECT_EQ(dirty.add(measuredHeight(now, nan, 1.0)), Insertion::kInvalid);
     EXPECT_EQ(dirty.add(measuredHeight(now, 1.0, -1.0)), Insertion::kInvalid);
-    EXPECT_EQ(dirty.add(measuredVerticalSpeed(now, nan, 1.0)), Insertion::kInvalid);
-    EXPECT_EQ(dirty.add(measuredVerticalSpeed(now, 0.0, 0.0)), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(knownVertical(now, {nan, 0.0, 0.0, identity})), Insertion::kInvalid);
+    EXPECT_EQ(dirty.add(knownVertical(now, {})), Insertion::kInvalid);
     EXPECT_EQ(dirty.add(measuredRelativePose(now, now, {}, identity)), Insertion::kInvalid);
     EXPECT_EQ(dirty.add(measuredRelativePose(now - Duration::fromMilliseconds(7), now, {}, identity)),
               Insertion::kUnknownReference);

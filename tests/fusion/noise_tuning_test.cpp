@@ -79,7 +79,7 @@ TEST(FilterTape, EveryInputReadsBackAsItWas) {
   TapedFlight flight = tapedFlight(1, {}, 3.0);
   flight.inputs.push_back(TapedRest{true});
   flight.inputs.push_back(TapedPredicted{true});
-  flight.inputs.push_back(measuredVerticalSpeed(Time::fromSeconds(1.5), -0.25, 0.01));
+  flight.inputs.push_back(knownVertical(Time::fromSeconds(1.5), {1.0, -0.25, 0.02, Eigen::Matrix3d::Identity()}));
   flight.inputs.push_back(measuredRelativePose(Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3},
                                                Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)));
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();

@@ -8,11 +8,12 @@
 #include "interfaces/laser_log/open_laser_log.hpp"
 #include "tests/interfaces/support.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
-using testing::HasSubstr;
+using test_support::ProblemIs;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -59,9 +60,9 @@ TEST(Breezy, SkipsBadRecordsAndReportsTheirPlace) {
   while (log->next()) ++scans;
   EXPECT_EQ(scans, 2);
   EXPECT_EQ(log->counts().skipped_records, 6U);
-  EXPECT_THAT(toString(log->counts().first_problems.at(1)), HasSubstr("a:4:"));
-  EXPECT_THAT(toString(log->counts().first_problems.at(1)), HasSubstr("range: `x` is not a number, skipped"));
-  EXPECT_THAT(toString(log->counts().first_problems.at(3)), HasSubstr("more than a URG-04LX has"));
+  EXPECT_EQ(log->counts().first_problems.at(1).location.line, 4);
+  EXPECT_THAT(log->counts().first_problems.at(1), ProblemIs("text.not-a-number", "range"));
+  EXPECT_THAT(log->counts().first_problems.at(3), ProblemIs("laser-log.wider-than-laser"));
 }
 
 TEST(Breezy, SkipsLinesWithAnUnusualNumberOfRanges) {
@@ -72,8 +73,7 @@ TEST(Breezy, SkipsLinesWithAnUnusualNumberOfRanges) {
     const auto log = openLaserLog(folder / "a");
     while (const auto logged = log->next()) EXPECT_EQ(logged->scan.ranges_m.size(), 4U);
     EXPECT_EQ(log->counts().skipped_records, 1U) << text;
-    EXPECT_THAT(toString(log->counts().first_problems.at(0)),
-                HasSubstr("range: there are 2, in most lines 4, skipped"));
+    EXPECT_THAT(log->counts().first_problems.at(0), ProblemIs("laser-log.other-beams", "range"));
   }
 }
 

@@ -6,20 +6,19 @@
 
 #include "common/error.hpp"
 #include "interfaces/control_log.hpp"
+#include "tests/support/problem_matchers.hpp"
 #include "tests/support/scratch.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
+using test_support::HasProblem;
+using testing::IsEmpty;
+
 class ControlLog : public test_support::Scratch {
  protected:
-  std::string problemOf(const std::string& text) const {
-    try {
-      (void)readControlLog(write("control.tsv", text));
-    } catch (const common::InputError& e) {
-      return e.what();
-    }
-    return "";
+  std::vector<common::Problem> refusalOf(const std::string& text) const {
+    return test_support::problemsOf([&] { (void)readControlLog(write("control.tsv", text)); });
   }
 };
 
@@ -51,15 +50,15 @@ TEST_F(ControlLog, ReadsBackAsItWasWritten) {
 
 TEST_F(ControlLog, TellsWhereItIsDamaged) {
   const std::string good = toLine(rowAt(1));
-  EXPECT_THAT(problemOf(good + "0.02 1 nonsense\n"), testing::HasSubstr("control.tsv:2"));
-  EXPECT_THAT(problemOf(good + good), testing::HasSubstr("is not later than the line before"));
+  EXPECT_THAT(refusalOf(good + "0.02 1 nonsense\n"), HasProblem("text.number-count", "control.tsv:2:8: tick"));
+  EXPECT_THAT(refusalOf(good + good), HasProblem("control-log.not-later", "control.tsv:2:1: t"));
   std::string nan = good;
   nan.replace(nan.find("0.010000"), 8, "nan");
-  EXPECT_THAT(problemOf(nan), testing::HasSubstr("control.tsv:1"));
+  EXPECT_THAT(refusalOf(nan), HasProblem("text.not-a-time", "control.tsv:1:1: t"));
   std::string absurd = good;
   absurd.replace(absurd.find(" 0.010000 "), 10, " 1e300 ");
-  EXPECT_THAT(problemOf(absurd), testing::HasSubstr("pitch: `1e300` is not from -1000000 to 1000000"));
-  EXPECT_EQ(problemOf("# nothing\n"), "");
+  EXPECT_THAT(refusalOf(absurd), HasProblem("text.out-of-bounds", "pitch"));
+  EXPECT_THAT(refusalOf("# nothing\n"), IsEmpty());
 }
 
 TEST_F(ControlLog, EachColumnHasBounds) {
@@ -67,14 +66,14 @@ TEST_F(ControlLog, EachColumnHasBounds) {
     std::istringstream words(toLine(rowAt(1)));
     std::string line, next;
     for (std::size_t i = 0; words >> next; ++i) line += (i == column ? word : next) + " ";
-    return problemOf(line + "\n");
+    return refusalOf(line + "\n");
   };
-  EXPECT_EQ(with(1, "1"), "");
-  EXPECT_THAT(with(1, "2"), testing::HasSubstr("control.tsv:1:13: flying: `2` is neither 0 nor 1"));
-  EXPECT_THAT(with(5, "1.5"), testing::HasSubstr("thrust: `1.5` is not from 0 to 1"));
-  EXPECT_THAT(with(6, "1e5"), testing::HasSubstr("tilt_cos: `1e5` is not from -1 to 1"));
-  EXPECT_THAT(with(14, "-3"), testing::HasSubstr("battery: `-3` is not from 0 to 100"));
-  EXPECT_THAT(with(15, "7"), testing::HasSubstr("truth: `7` is neither 0 nor 1"));
+  EXPECT_THAT(with(1, "1"), IsEmpty());
+  EXPECT_THAT(with(1, "2"), HasProblem("text.no-flag", "control.tsv:1:13: flying"));
+  EXPECT_THAT(with(5, "1.5"), HasProblem("text.out-of-bounds", "thrust"));
+  EXPECT_THAT(with(6, "1e5"), HasProblem("text.out-of-bounds", "tilt_cos"));
+  EXPECT_THAT(with(14, "-3"), HasProblem("text.out-of-bounds", "battery"));
+  EXPECT_THAT(with(15, "7"), HasProblem("text.no-flag", "truth"));
 }
 
 }  // namespace

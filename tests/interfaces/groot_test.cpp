@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "interfaces/links/groot/groot_server.hpp"
 #include "interfaces/links/groot/groot_xml.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 #ifdef SWIFTLET_WITH_ZMQ
 #include <zmq.h>
@@ -228,12 +229,8 @@ TEST(GrootServerTest, AnswersAClientOverTheSocket) {
 
 TEST(GrootServerTest, SaysWhenThePortIsTaken) {
   const GrootServer first("127.0.0.1", 0);
-  try {
-    const GrootServer second("127.0.0.1", first.port());
-    FAIL();
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cannot listen on tcp://127.0.0.1:"));
-  }
+  EXPECT_THAT(test_support::problemsOf([&] { const GrootServer second("127.0.0.1", first.port()); }),
+              testing::ElementsAre(test_support::ProblemIs("server.cannot-listen", "--groot")));
 }
 
 #else

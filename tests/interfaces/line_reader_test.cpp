@@ -8,13 +8,15 @@
 #include <zlib.h>
 
 #include "support.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
-using testing::ContainsRegex;
+using test_support::HasProblem;
+using test_support::problemsOf;
 using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::IsEmpty;
 
 std::vector<std::string> linesOf(LineReader reader) {
   std::vector<std::string> lines;
@@ -108,17 +110,14 @@ TEST(LineReader, ACompressedPointerOfGitLfsIsKnownAsOne) {
   for (const char* tool : {"gzip", "bzip2", "xz"}) {
     const fs::path packed = folder / (std::string("p.") + tool);
     if (!outputOf(std::string(tool) + " -c " + (folder / "p").string() + " > " + packed.string())) continue;
-    EXPECT_THAT(
-        problemOf([&] { UnpackedStream{packed}; }),
-        HasSubstr("this is a pointer of Git LFS, not the file, run `git lfs pull` in its repository, then pack"))
-        << tool;
+    EXPECT_THAT(problemsOf([&] { UnpackedStream{packed}; }), HasProblem("file.pointer", "", "`git lfs pull`")) << tool;
   }
 }
 
 /// Reads to the end or to a problem, which it returns; `lines` counts those that were returned before.
-std::string readUntilProblem(const fs::path& file, int& lines) {
+std::vector<common::Problem> readUntilProblem(const fs::path& file, int& lines) {
   lines = 0;
-  return problemOf([&] {
+  return problemsOf([&] {
     LineReader reader(file);
     for (std::string_view line; reader.next(line);) lines = reader.lineNumber();
   });
@@ -133,13 +132,13 @@ TEST(LineReader, ReportsTruncatedAndDamagedFiles) {
     if (!packed) GTEST_SKIP() << "NOT TESTED: there is no " << tool;
     for (const std::size_t missing : {std::size_t{1}, packed->size() / 4, packed->size() - 20}) {
       put(folder / "cut", packed->substr(0, packed->size() - missing));
-      EXPECT_THAT(readUntilProblem(folder / "cut", lines), ContainsRegex("cut(:[0-9]+)?: is cut or damaged"))
+      EXPECT_THAT(readUntilProblem(folder / "cut", lines), HasProblem("file.damaged"))
           << tool << " without its last " << missing << " bytes";
     }
     std::string damaged = *packed;
     damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
     put(folder / "damaged", damaged);
-    EXPECT_THAT(readUntilProblem(folder / "damaged", lines), HasSubstr("is cut or damaged")) << tool;
+    EXPECT_THAT(readUntilProblem(folder / "damaged", lines), HasProblem("file.damaged")) << tool;
   }
 }
 
@@ -163,15 +162,14 @@ TEST(LineReader, ChecksChecksumAndLengthOfGzip) {
   const std::string packed = storedByGzip("the first line\nthe second line\n");
   int lines = 0;
   put(folder / "x", packed);
-  EXPECT_EQ(readUntilProblem(folder / "x", lines), "");
+  EXPECT_THAT(readUntilProblem(folder / "x", lines), IsEmpty());
   EXPECT_EQ(lines, 2);
   for (const auto& [back, why] :
        {std::pair{16, "data check"}, {10, "data check"}, {8, "data check"}, {1, "length check"}}) {
     std::string damaged = packed;
     damaged[damaged.size() - back] ^= 1;
     put(folder / "x", damaged);
-    EXPECT_THAT(readUntilProblem(folder / "x", lines),
-                ContainsRegex(std::string("x:2: is cut or damaged, its end cannot be read, gzip: incorrect ") + why));
+    EXPECT_THAT(readUntilProblem(folder / "x", lines), HasProblem("file.damaged", "x:2", why));
     EXPECT_EQ(lines, 2) << "what came before the checksum is given";
   }
 }
@@ -186,13 +184,13 @@ TEST(LineReader, ReadsSeveralGzipMembersAndAllowsOnlyZerosAfterThem) {
   for (const std::string& behind : {std::string("trash"), zeros + two, std::string(1, '\x1f')}) {
     put(folder / "x", one + behind);
     int lines = 0;
-    EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("x:1: is cut or damaged"));
+    EXPECT_THAT(readUntilProblem(folder / "x", lines), HasProblem("file.damaged", "x:1"));
   }
   std::string layers = "end\n";
   for (int i = 0; i < 30; ++i) layers = storedByGzip(layers);
   put(folder / "x", layers);
   int lines = 0;
-  EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("packed more than 20 times"));
+  EXPECT_THAT(readUntilProblem(folder / "x", lines), HasProblem("file.damaged"));
 }
 
 TEST(LineReader, ReportsDataAfterBzip2) {
@@ -204,7 +202,7 @@ TEST(LineReader, ReportsDataAfterBzip2) {
   EXPECT_THAT(linesOf(LineReader(folder / "x")), ElementsAre("one", "two", "one", "two"));
   put(folder / "x", *packed + std::string(500, 't'));
   int lines = 0;
-  EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("x:2: is cut or damaged"));
+  EXPECT_THAT(readUntilProblem(folder / "x", lines), HasProblem("file.damaged", "x:2"));
   EXPECT_EQ(lines, 2);
 }
 
@@ -226,31 +224,31 @@ TEST(LineReader, ReturnsTheLinesBeforeATruncation) {
   if (!packed) GTEST_SKIP() << "NOT TESTED: there is no gzip";
   put(folder / "cut", packed->substr(0, packed->size() - packed->size() / 4));
   int lines = 0;
-  const std::string problem = readUntilProblem(folder / "cut", lines);
-  EXPECT_THAT(problem, HasSubstr("cut:" + std::to_string(lines) + ": is cut"));
+  const auto problems = readUntilProblem(folder / "cut", lines);
+  EXPECT_THAT(problems, HasProblem("file.damaged", "cut:" + std::to_string(lines)));
   EXPECT_GT(lines, 30'000);
 }
 
 TEST(LineReader, RefusesLongLinesAndLongFiles) {
   const std::string text = "short\n" + std::string(100, 'x') + "\n" + std::string(101, 'y') + "\nnever";
   const auto read = [&](LineLimits limits) {
-    return problemOf([&] { linesOf(LineReader::fromBytes(text, "file", limits)); });
+    return problemsOf([&] { linesOf(LineReader::fromBytes(text, "file", limits)); });
   };
-  EXPECT_EQ(read({101}), "");
-  EXPECT_THAT(read({100}), HasSubstr("file:3: a line of more than 100 bytes"));
-  EXPECT_THAT(read({1000, 64}), HasSubstr("the file holds more than 64 bytes"));
+  EXPECT_THAT(read({101}), IsEmpty());
+  EXPECT_THAT(read({100}), HasProblem("text.line-too-long", "file:3"));
+  EXPECT_THAT(read({1000, 64}), HasProblem("text.too-large"));
   std::string endless;
   endless.resize(10'000'000, 'z');
-  EXPECT_THAT(problemOf([&] { linesOf(LineReader::fromBytes(endless, "file")); }), HasSubstr("file:1: a line of more"));
+  EXPECT_THAT(problemsOf([&] { linesOf(LineReader::fromBytes(endless, "file")); }),
+              HasProblem("text.line-too-long", "file:1"));
 }
 
 TEST(LineReader, RefusesAnythingButFiles) {
   const ScratchFolder folder;
-  EXPECT_THAT(problemOf([&] { LineReader reader(folder / "none"); }),
-              HasSubstr("none: cannot be opened: No such file"));
-  EXPECT_THAT(problemOf([&] { LineReader reader(folder.path()); }), HasSubstr("is a folder"));
+  EXPECT_THAT(problemsOf([&] { LineReader reader(folder / "none"); }), HasProblem("file.not-opened", "none"));
+  EXPECT_THAT(problemsOf([&] { LineReader reader(folder.path()); }), HasProblem("file.is-folder"));
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(problemOf([&] { LineReader reader(folder / "pipe"); }), HasSubstr("is a pipe"));
+  EXPECT_THAT(problemsOf([&] { LineReader reader(folder / "pipe"); }), HasProblem("file.is-pipe"));
 }
 
 TEST(LineReader, ReportsThePlaceOfProblems) {
@@ -258,7 +256,8 @@ TEST(LineReader, ReportsThePlaceOfProblems) {
   std::string_view line;
   reader.next(line);
   reader.next(line);
-  EXPECT_STREQ(reader.problemAt(3, "word", "is wrong", "hint").what(), "x.txt:2:3: word: is wrong, hint");
+  const common::InputError error = reader.problemAt(3, "word", common::Message("test.wrong", "is wrong"), "hint");
+  EXPECT_STREQ(error.what(), "x.txt:2:3: word: is wrong, hint");
 }
 
 RC_GTEST_PROP(LineReader, TruncatesLongLinesInBoundedMemory, ()) {

@@ -13,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "tests/interfaces/octomap_reader.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -20,6 +21,9 @@ namespace {
 using common::VoxelBlock;
 using common::VoxelIndex;
 using common::VoxelMap;
+using test_support::ProblemIs;
+using test_support::problemsOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// Cubes of one value, so that something can be pruned, and single voxels, on all sides of the origin.
@@ -118,40 +122,32 @@ TEST_P(OctreeFile, ThatIsCutIsRefusedWithItsPlace) {
   const std::string bytes = toOctree(randomMap(1), GetParam());
   const std::size_t tree = bytes.find("\ndata\n") + 6;
   for (const std::size_t length : {std::size_t{0}, std::size_t{20}, tree, bytes.size() / 2, bytes.size() - 1}) {
-    try {
-      (void)parseOctree(bytes.substr(0, length), "cut.bt");
-      ADD_FAILURE() << length;
-    } catch (const common::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("cut.bt: byte "));
-    }
+    const auto problems = problemsOf([&] { (void)parseOctree(bytes.substr(0, length), "cut.bt"); });
+    ASSERT_EQ(problems.size(), 1U) << length;
+    EXPECT_TRUE(test_support::placeOf(problems[0]).starts_with("cut.bt: byte ")) << length;
   }
 }
 
-/// Where the message of the error for those bytes has this text.
-void expectRefused(const std::string& bytes, const std::string& text) {
-  try {
-    (void)parseOctree(bytes, "bad.bt", 1000);
-    ADD_FAILURE() << text;
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(text));
-  }
+void expectRefused(const std::string& bytes, const std::string& name, const std::string& says = "") {
+  EXPECT_THAT(problemsOf([&] { (void)parseOctree(bytes, "bad.bt", 1000); }), ElementsAre(ProblemIs(name, "", says)));
 }
 
 TEST(BadOctree, NamesWhatIsWrong) {
   const std::string header = "# Octomap OcTree binary file\nid OcTree\nsize 1\nres 0.05\ndata\n";
-  expectRefused("ply\n", "begins with `ply`");
-  expectRefused("# Octomap OcTree file\nid SemanticOcTree\nres 0.05\ndata\n", "a tree of the kind `SemanticOcTree`");
-  expectRefused("# Octomap OcTree file\nid SemanticOcTree\nres 0.05\ndata\n", "OcTree, ColorOcTree, OcTreeStamped");
-  expectRefused("# Octomap OcTree binary file\nid OcTree\nres zero\ndata\n", "`zero` is not a number");
-  expectRefused("# Octomap OcTree binary file\nid OcTree\nsize 1\ndata\n", "no resolution");
-  expectRefused(header + std::string(100'000, '\xff'), "deeper than 16 levels");
-  expectRefused(header + std::string("\x02\x00", 2), "fills more than 1000 blocks");
-  expectRefused(header + std::string("\x03\x00\x00\x00\xff", 5), "1 bytes follow the tree, which has 2 nodes, not 1");
+  expectRefused("ply\n", "octree.other-begin", "`ply`");
+  expectRefused("# Octomap OcTree file\nid SemanticOcTree\nres 0.05\ndata\n", "octree.other-kind", "`SemanticOcTree`");
+  expectRefused("# Octomap OcTree file\nid SemanticOcTree\nres 0.05\ndata\n", "octree.other-kind",
+                "OcTree, ColorOcTree, OcTreeStamped");
+  expectRefused("# Octomap OcTree binary file\nid OcTree\nres zero\ndata\n", "text.not-a-number", "`zero`");
+  expectRefused("# Octomap OcTree binary file\nid OcTree\nsize 1\ndata\n", "octree.resolution");
+  expectRefused(header + std::string(100'000, '\xff'), "octree.too-deep");
+  expectRefused(header + std::string("\x02\x00", 2), "octree.too-large");
+  expectRefused(header + std::string("\x03\x00\x00\x00\xff", 5), "octree.rest");
   // Of leaves that are smaller than a block, each may be in a block of its own.
   common::VoxelMap scattered(0.05);
   for (int i = 0; i < 1001; ++i) scattered.set({common::VoxelBlock::kSide * i, 0, 0}, 10);
   for (const OctreeFormat format : {OctreeFormat::kBinary, OctreeFormat::kLogOdds})
-    expectRefused(toOctree(scattered, format), "fills more than 1000 blocks");
+    expectRefused(toOctree(scattered, format), "octree.too-large");
 }
 
 TEST(OctreeFiles, OfOthersKeepTheirLeaves) {

@@ -8,11 +8,13 @@
 #include "interfaces/files/trajectory_file.hpp"
 #include "support.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
-using testing::HasSubstr;
+using test_support::HasProblem;
+using test_support::problemsOf;
 
 /// At the origin; then at (1, 2, 3), turned by 90 deg to the left.
 constexpr const char* kFirst = "1 0 0 0 0 1 0 0 0 0 1 0";
@@ -50,36 +52,36 @@ TEST(PoseMatrices, WithoutAFiniteNumberAreCountedAndLeftOut) {
 }
 
 TEST(PoseMatrices, ReportThePlaceOfMistakes) {
-  const auto problem = [](const std::string& text) { return problemOf([&] { parsePoseMatrices(text, "x"); }); };
+  const auto problem = [](const std::string& text) { return problemsOf([&] { parsePoseMatrices(text, "x"); }); };
   const std::string good = std::string(kFirst) + "\n";
-  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 0 0 0 1\n"), HasSubstr("x:2:21: pose: 11 numbers instead of 12"));
-  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 zero 0 0 1 0\n"), HasSubstr("x:2:15: pose: `zero` is not a number"));
-  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 nan 0 0 1 0\n"), HasSubstr("x:2:1: pose: some numbers of the matrix are"));
-  EXPECT_THAT(problem(good + "1 0 0 1e9 0 1 0 0 0 0 1 0\n"), HasSubstr("x:2:7: pose: is farther away than"));
-  EXPECT_THAT(problem("2 0 0 0 0 2 0 0 0 0 2 0\n"), HasSubstr("x:1:1: pose: its first three columns are no rotation"));
-  EXPECT_THAT(problem("-1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("are a reflection"));
-  EXPECT_THAT(problem("1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1\n"), HasSubstr("the last row of the matrix is not `0 0 0 1`"));
-  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n9 2 3 1\n"), HasSubstr("is it transposed?"));
+  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 0 0 0 1\n"), HasProblem("text.number-count", "x:2:21: pose"));
+  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 zero 0 0 1 0\n"), HasProblem("text.not-a-number", "x:2:15: pose"));
+  EXPECT_THAT(problem(good + "1 0 0 0 0 1 0 nan 0 0 1 0\n"), HasProblem("matrix.not-finite", "x:2:1: pose"));
+  EXPECT_THAT(problem(good + "1 0 0 1e9 0 1 0 0 0 0 1 0\n"), HasProblem("text.too-far", "x:2:7: pose"));
+  EXPECT_THAT(problem("2 0 0 0 0 2 0 0 0 0 2 0\n"), HasProblem("matrix.no-rotation", "x:1:1: pose"));
+  EXPECT_THAT(problem("-1 0 0 0 0 1 0 0 0 0 1 0\n"), HasProblem("matrix.reflection"));
+  EXPECT_THAT(problem("1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1\n"), HasProblem("matrix.last-row"));
+  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n9 2 3 1\n"), HasProblem("matrix.last-row"));
   for (const double first_s : {0.0, 1.5e9}) {
     std::string stamped;
     for (int i = 0; i < 5; ++i) stamped += std::to_string(first_s + 0.1 * i) + " 1.5 0.1 0\n";
-    EXPECT_THAT(problem(stamped), HasSubstr("x:4: pose: this looks like lines `t x y z`, without orientations, "
-                                            "expected `t x y z qx qy qz qw`"));
+    EXPECT_THAT(problem(stamped), HasProblem("matrix.positions", "x:4: pose", "`t x y z qx qy qz qw`"));
   }
-  EXPECT_THAT(problem("1.5 " + good), HasSubstr("x:1:1: frame: `1.5` is not the number of a frame"));
-  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n"), HasSubstr("x:3: pose: the matrix was cut after 3 of its four"));
-  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0 0\n"), HasSubstr("x:2:9: pose: 5 numbers instead of 4"));
-  EXPECT_THAT(problem("0 1 20\n" + std::string(kFirstBlock)), HasSubstr("x:1:3: frame: is not the first number again"));
-  EXPECT_THAT(problem("0 0 1\n" + std::string(kFirstBlock) + "1 0 0 0\n"), HasSubstr("x:6:7: frame: 4 numbers"));
-  EXPECT_THAT(problem("0 0 1\n"), HasSubstr("cut after 0 of its four rows"));
-  EXPECT_THAT(problem("1 2\n"), HasSubstr("x:1:3: pose: 2 numbers, expected a matrix"));
+  EXPECT_THAT(problem("1.5 " + good), HasProblem("matrix.no-frame-number", "x:1:1: frame"));
+  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0\n0 0 1 0\n"), HasProblem("matrix.cut", "x:3: pose"));
+  EXPECT_THAT(problem("1 0 0 0\n0 1 0 0 0\n"), HasProblem("text.number-count", "x:2:9: pose"));
+  EXPECT_THAT(problem("0 1 20\n" + std::string(kFirstBlock)), HasProblem("matrix.other-frame", "x:1:3: frame"));
+  EXPECT_THAT(problem("0 0 1\n" + std::string(kFirstBlock) + "1 0 0 0\n"),
+              HasProblem("text.number-count", "x:6:7: frame"));
+  EXPECT_THAT(problem("0 0 1\n"), HasProblem("matrix.cut"));
+  EXPECT_THAT(problem("1 2\n"), HasProblem("poses.other-count", "x:1:3: pose"));
 }
 
 TEST(NumberedFrames, AreReadInTheOrderOfTheirNumbers) {
   const ScratchFolder scratch;
   const fs::path folder = scratch / "frames";
   fs::create_directories(folder);
-  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("holds no poses of a known format"));
+  EXPECT_THAT(problemsOf([&] { readNumberedFrames(folder); }), HasProblem("frames.unknown-format"));
   put(folder / "camera-intrinsics.txt", "585 0 320\n");
   put(folder / "frame-000010.pose.txt", kSecondBlock);
   put(folder / "frame-000002.pose.txt", kFirstBlock);
@@ -88,13 +90,12 @@ TEST(NumberedFrames, AreReadInTheOrderOfTheirNumbers) {
   put(folder / "11.txt", "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n");
   EXPECT_EQ(readRecordedPoses(folder).without_pose, 1u);
   put(folder / "12.txt", std::string(kFirstBlock) + kSecondBlock);
-  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }),
-              HasSubstr("12.txt: holds 2 poses, where one of frame 12"));
+  EXPECT_THAT(problemsOf([&] { readNumberedFrames(folder); }), HasProblem("frames.several-poses", "12.txt"));
   put(folder / "12.txt", "1 0 0 0\n0 1 0 x\n");
-  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("12.txt:2:7: pose: `x` is not a number"));
+  EXPECT_THAT(problemsOf([&] { readNumberedFrames(folder); }), HasProblem("text.not-a-number", "12.txt:2:7: pose"));
   put(folder / "12.txt", kFirstBlock);
   put(folder / "0012.txt", kFirstBlock);
-  EXPECT_THAT(problemOf([&] { readNumberedFrames(folder); }), HasSubstr("has the frame number 12, and so has"));
+  EXPECT_THAT(problemsOf([&] { readNumberedFrames(folder); }), HasProblem("frames.number-twice"));
 }
 
 TEST(RecordedPoses, OfAFolderAreThoseOfItsTrajectory) {
@@ -105,7 +106,7 @@ TEST(RecordedPoses, OfAFolderAreThoseOfItsTrajectory) {
   put(folder / "groundtruth.txt", "# time\n1.5 1 2 3 0 0 0 1\n");
   EXPECT_EQ(readRecordedPoses(folder).order, PoseOrder::kStamps);
   put(folder / "groundtruth.txt", "nan nan nan nan\nnan nan nan nan\nnan nan nan nan\nnan nan nan nan\n");
-  EXPECT_THAT(problemOf([&] { readRecordedPoses(folder); }), HasSubstr("not one of its matrices is finite"));
+  EXPECT_THAT(problemsOf([&] { readRecordedPoses(folder); }), HasProblem("poses.none-finite"));
 }
 
 TEST(RecordedPoses, OfTheDataSetsAreRead) {

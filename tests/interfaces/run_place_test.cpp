@@ -7,28 +7,30 @@
 #include "common/error.hpp"
 #include "interfaces/run_folder.hpp"
 #include "support.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using test_support::HasProblem;
+using test_support::problemsOf;
 
 TEST(RunPlace, RefusesForeignFolders) {
   const ScratchFolder folder;
-  const auto problem = [&](const fs::path& path) { return problemOf([&] { RunFolder(path, RunInfo(), ""); }); };
+  const auto problem = [&](const fs::path& path) { return problemsOf([&] { RunFolder(path, RunInfo(), ""); }); };
   put(folder / "home/thesis.tex", "years of work");
   put(folder / "home/map.pgm", "a map");
-  EXPECT_THAT(problem(folder / "home"), HasSubstr("holds `thesis.tex`, which is no file of a run, give an empty"));
+  EXPECT_THAT(problem(folder / "home"), HasProblem("run.other-file"));
   EXPECT_EQ(bytesOf(folder / "home/map.pgm"), "a map") << "nothing is touched";
   fs::create_directories(folder / "nested/map.pgm");
-  EXPECT_THAT(problem(folder / "nested"), HasSubstr("holds `map.pgm`"));
+  EXPECT_THAT(problem(folder / "nested"), HasProblem("run.other-file"));
   put(folder / "mine/config.yaml", "laser: urg_04lx");
-  EXPECT_THAT(problem(folder / "mine"), HasSubstr("holds no run"));
+  EXPECT_THAT(problem(folder / "mine"), HasProblem("run.none"));
   EXPECT_EQ(bytesOf(folder / "mine/config.yaml"), "laser: urg_04lx") << "a name of ours makes it no file of ours";
   put(folder / "file", "");
-  EXPECT_THAT(problem(folder / "file"), HasSubstr("file: is not a folder"));
-  EXPECT_THAT(problem(folder / "file/below"), HasSubstr("is a file, and no folder can be made there"));
+  EXPECT_THAT(problem(folder / "file"), HasProblem("folder.none", "file"));
+  EXPECT_THAT(problem(folder / "file/below"), HasProblem("folder.below-file"));
 }
 
 TEST(RunPlace, IsWrittenByOneFlightAtATime) {

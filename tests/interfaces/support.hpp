@@ -79,17 +79,6 @@ inline std::optional<std::string> outputOf(const std::string& command) {
   return ::pclose(pipe) == 0 ? std::optional(output) : std::nullopt;
 }
 
-/// The InputError a call throws, as text; empty when it throws none.
-template <typename Call>
-std::string problemOf(Call&& call) {
-  try {
-    call();
-  } catch (const common::InputError& e) {
-    return e.what();
-  }
-  return "";
-}
-
 /// Runs `body` in a process of its own whose files may not grow beyond a size, as on a disk that is full; true when it
 /// returned true.
 inline bool withFullDisk(std::size_t bytes, const std::function<bool()>& body) {

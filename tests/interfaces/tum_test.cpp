@@ -10,12 +10,16 @@
 #include "interfaces/files/stamp_units.hpp"
 #include "support.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
 using common::Time;
+using test_support::HasProblem;
+using test_support::problemsOf;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 common::StampedPose pose(std::int64_t ns, double x, double y, double z, const Eigen::Quaterniond& q) {
   return {Time::fromNanoseconds(ns), {q, {x, y, z}}};
@@ -60,8 +64,8 @@ TEST(Tum, SkipsCommentsAndBlankLinesAndTakesExponents) {
 }
 
 TEST(Tum, ReportsATruncatedLastLine) {
-  EXPECT_THAT(problemOf([] { parseTum("1 0 0 0 0 0 0 1\n2 0 0", "x.tum"); }),
-              HasSubstr("x.tum:2:5: pose: 3 numbers instead of 8"));
+  EXPECT_THAT(problemsOf([] { parseTum("1 0 0 0 0 0 0 1\n2 0 0", "x.tum"); }),
+              HasProblem("text.number-count", "x.tum:2:5: pose"));
   EXPECT_EQ(parseTum("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1", "x.tum").size(), 2u) << "only its newline is missing";
 }
 
@@ -79,38 +83,35 @@ TEST(Tum, ReadsCompressedFiles) {
 }
 
 TEST(Tum, ReportsThePlaceOfMistakes) {
-  const auto problem = [](const std::string& text) { return problemOf([&] { parseTum(text, "x.tum"); }); };
+  const auto problem = [](const std::string& text) { return problemsOf([&] { parseTum(text, "x.tum"); }); };
   const std::string good = "1 0 0 0 0 0 0 1\n";
-  EXPECT_THAT(problem(good + "2 0 0 0 0 0 1\n"), HasSubstr("x.tum:2:13: pose: 7 numbers instead of 8"));
-  EXPECT_THAT(problem("# c\n2 0 zero 0 0 0 0 1\n"), HasSubstr("x.tum:2:5: y: `zero` is not a finite number"));
-  EXPECT_EQ(problem("+2 0 +1.5 0 0 0 0 1\n"), "");
-  EXPECT_THAT(problem("2 0 +-1.5 0 0 0 0 1\n"), HasSubstr("x.tum:1:5: y: `+-1.5` is not a finite number"));
-  EXPECT_THAT(problem("2 0 0,25 0 0 0 0 1\n"),
-              HasSubstr("x.tum:1:5: y: `0,25` is not a finite number, write decimals with a point"));
-  EXPECT_THAT(problem("1700000001,5 0 0 0 0 0 0 1\n"), HasSubstr("not a time in seconds, write decimals with a point"));
-  EXPECT_THAT(problem("2 0 0 nan 0 0 0 1\n"), HasSubstr("x.tum:1:7: z: `nan` is not a finite number"));
-  EXPECT_THAT(problem("x 0 0 0 0 0 0 1\n"), HasSubstr("x.tum:1:1: t: `x` is not a time"));
-  EXPECT_THAT(problem("1e300 0 0 0 0 0 0 1\n"), HasSubstr("is not a time"));
-  EXPECT_THAT(problem("1 0 0 0 0 0 0 0\n"), HasSubstr("x.tum:1:9: qx qy qz qw: a rotation of length zero"));
-  EXPECT_THAT(problem("1 0 0 0 0 0 1e300 1e300\n"), HasSubstr("a rotation of infinite length"));
-  EXPECT_THAT(problem(good + "2 0 -1e300 0 0 0 0 1\n"), HasSubstr("x.tum:2:5: y: is farther away than 100000000"));
-  EXPECT_EQ(problem("1 1e8 -1e8 1e8 0 0 0 1\n"), "");
-  EXPECT_THAT(problem(good + good), HasSubstr("x.tum:2:1: t: 1.000000000 does not come after 1.000000000"));
-  EXPECT_THAT(problemOf([] { readTum("/nowhere/x.tum"); }), HasSubstr("/nowhere/x.tum: cannot be opened"));
+  EXPECT_THAT(problem(good + "2 0 0 0 0 0 1\n"), HasProblem("text.number-count", "x.tum:2:13: pose"));
+  EXPECT_THAT(problem("# c\n2 0 zero 0 0 0 0 1\n"), HasProblem("text.not-finite", "x.tum:2:5: y"));
+  EXPECT_THAT(problem("+2 0 +1.5 0 0 0 0 1\n"), IsEmpty());
+  EXPECT_THAT(problem("2 0 +-1.5 0 0 0 0 1\n"), HasProblem("text.not-finite", "x.tum:1:5: y"));
+  EXPECT_THAT(problem("2 0 0,25 0 0 0 0 1\n"), HasProblem("text.not-finite", "x.tum:1:5: y"));
+  EXPECT_THAT(problem("1700000001,5 0 0 0 0 0 0 1\n"), HasProblem("text.not-a-time"));
+  EXPECT_THAT(problem("2 0 0 nan 0 0 0 1\n"), HasProblem("text.not-finite", "x.tum:1:7: z"));
+  EXPECT_THAT(problem("x 0 0 0 0 0 0 1\n"), HasProblem("text.not-a-time", "x.tum:1:1: t"));
+  EXPECT_THAT(problem("1e300 0 0 0 0 0 0 1\n"), HasProblem("text.not-a-time"));
+  EXPECT_THAT(problem("1 0 0 0 0 0 0 0\n"), HasProblem("tum.rotation-zero", "x.tum:1:9: qx qy qz qw"));
+  EXPECT_THAT(problem("1 0 0 0 0 0 1e300 1e300\n"), HasProblem("tum.rotation-infinite"));
+  EXPECT_THAT(problem(good + "2 0 -1e300 0 0 0 0 1\n"), HasProblem("text.too-far", "x.tum:2:5: y"));
+  EXPECT_THAT(problem("1 1e8 -1e8 1e8 0 0 0 1\n"), IsEmpty());
+  EXPECT_THAT(problem(good + good), HasProblem("tum.not-later", "x.tum:2:1: t"));
+  EXPECT_THAT(problemsOf([] { readTum("/nowhere/x.tum"); }), HasProblem("file.not-opened", "/nowhere/x.tum"));
 }
 
 TEST(Tum, SaysWhichUnitStampsSince1970AreIn) {
   const auto problem = [](const std::string& stamp) {
-    return problemOf([&] { parseTum(stamp + " 0 0 0 0 0 0 1\n", "x.tum"); });
+    return problemsOf([&] { parseTum(stamp + " 0 0 0 0 0 0 1\n", "x.tum"); });
   };
-  EXPECT_THAT(problem("1600000000123456789"),
-              HasSubstr("x.tum:1:1: t: `1600000000123456789` is not a time in seconds, it looks like nanoseconds since "
-                        "1970: divide the stamps by 1e9"));
-  EXPECT_THAT(problem("1.6e18"), HasSubstr("nanoseconds since 1970: divide the stamps by 1e9"));
-  EXPECT_THAT(problem("1600000000123456"), HasSubstr("microseconds since 1970: divide the stamps by 1e6"));
-  EXPECT_THAT(problem("1600000000123.5"), HasSubstr("milliseconds since 1970: divide the stamps by 1e3"));
-  EXPECT_THAT(problem("86400000000000"), HasSubstr("if the stamps are nanoseconds, divide them by 1e9"));
-  EXPECT_EQ(problem("1600000000.123456789"), "");
+  EXPECT_THAT(problem("1600000000123456789"), HasProblem("text.not-a-time", "x.tum:1:1: t"));
+  EXPECT_THAT(problem("1.6e18"), HasProblem("text.not-a-time", "", "1e9"));
+  EXPECT_THAT(problem("1600000000123456"), HasProblem("text.not-a-time", "", "1e6"));
+  EXPECT_THAT(problem("1600000000123.5"), HasProblem("text.not-a-time", "", "1e3"));
+  EXPECT_THAT(problem("86400000000000"), HasProblem("text.not-a-time", "", "1e9; by 1e6 or 1e3"));
+  EXPECT_THAT(problem("1600000000.123456789"), IsEmpty());
 }
 
 TEST(StampUnits, AreSuspectedFromTheStepsOfASensor) {
@@ -131,9 +132,10 @@ TEST(StampUnits, OfAFormatOfMicrosecondsAreSuspectedOnBothSides) {
 }
 
 TEST(Tum, SaysThatCommasSeparateTheNumbers) {
-  const auto problem = [](const std::string& text) { return problemOf([&] { parseTum(text, "x.tum"); }); };
-  EXPECT_THAT(problem("1.5,0,0,0,0,0,0,1\n"), HasSubstr("separated by commas: put spaces there"));
-  EXPECT_THAT(problem("1305031102160407000,1,2,3,1,0,0,0\n"), HasSubstr("`evo_traj euroc FILE --save_as_tum`"));
+  const auto problem = [](const std::string& text) { return problemsOf([&] { parseTum(text, "x.tum"); }); };
+  EXPECT_THAT(problem("1.5,0,0,0,0,0,0,1\n"), HasProblem("text.number-count", "", "`tr ',' ' ' < FILE`"));
+  EXPECT_THAT(problem("1305031102160407000,1,2,3,1,0,0,0\n"),
+              HasProblem("text.number-count", "", "`evo_traj euroc FILE --save_as_tum`"));
 }
 
 TEST(Tum, LeavesOutPosesThatAreNotFinite) {

@@ -13,6 +13,7 @@
 #include "common/config_check.hpp"
 #include "mapping3d/voxels/ray_walk.hpp"
 #include "tests/mapping3d/rooms.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
@@ -260,9 +261,8 @@ TEST(VoxelConfig, ARangeOfManyVoxelsIsRefused) {
   EXPECT_TRUE(problems(0.05, 5.0).empty());
   EXPECT_TRUE(problems(0.01, 5.0).empty());
   EXPECT_TRUE(problems(0.1, 50.0).empty());
-  EXPECT_EQ(problems(0.01, 50.0),
-            std::vector<std::string>{"range_max_m: 50 is more than 500 voxels of 0.01 m, which would take too much "
-                                     "memory; make resolution_m greater or the range less"});
+  EXPECT_THAT(problems(0.01, 50.0),
+              testing::ElementsAre(test_support::ProblemIs("voxels.too-many", "range_max_m", "500")));
 }
 
 }  // namespace

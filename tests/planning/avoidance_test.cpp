@@ -8,6 +8,7 @@
 #include "avoidance_story.hpp"
 #include "common/config_check.hpp"
 #include "grid_builder.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -17,6 +18,7 @@ using test::kHull_m;
 using test::kTick_s;
 using test::Point;
 using test::Story;
+using test_support::HasProblem;
 using testing::HasSubstr;
 
 TEST(Avoidance, DoesNotLimitTheSpeedInOpenSpace) {
@@ -376,10 +378,11 @@ TEST(Avoidance, RefusesMarginsThatForbidTheClearance) {
   EXPECT_TRUE(common::config::problemsOf(config).empty());
   EXPECT_TRUE(config.validateAgainst(0.10, 0.25).empty());
   ASSERT_EQ(config.validateAgainst(0.05, 0.25).size(), 2u);
-  EXPECT_THAT(config.validateAgainst(0.05, 0.25)[0], HasSubstr("forbids the clearance of 0.05 m"));
+  EXPECT_THAT(config.validateAgainst(0.05, 0.25), HasProblem("avoidance.margin", "margin_m", "0.05 m"));
   config.retreat_distance_m = 0.45;
   ASSERT_EQ(config.validateAgainst(0.10, 0.25).size(), 1u);
-  EXPECT_THAT(config.validateAgainst(0.10, 0.25)[0], HasSubstr("forbids passing unmapped things at 0.35 m"));
+  EXPECT_THAT(config.validateAgainst(0.10, 0.25),
+              HasProblem("avoidance.retreat-distance", "retreat_distance_m", "0.35 m"));
 }
 
 }  // namespace

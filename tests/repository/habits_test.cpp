@@ -1,10 +1,12 @@
-// Unfinished work, machine paths, names of tests, links, scripts and presets.
+// Unfinished work, machine paths, names of tests and messages, links, scripts and presets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -68,7 +70,8 @@ TEST(Files, NameNoMachinePaths) {
   EXPECT_THAT(found, IsEmpty()) << joined(found);
 }
 
-// Time and chance are injected, and only apps and the job pool own threads; otherwise a flight would not repeat.
+// Time and chance are injected, and only the job pool and what runs whole flights own threads; otherwise a flight would
+// not repeat.
 TEST(Files, LibrariesUseNoClockRandomnessOrThreadsOfTheirOwn) {
   const std::vector<std::string> forbidden = {"_clock::now",  "std::rand",    "srand(",       "random_device",
                                               "std::thread(", "std::thread ", "std::jthread", "std::async",
@@ -76,8 +79,8 @@ TEST(Files, LibrariesUseNoClockRandomnessOrThreadsOfTheirOwn) {
   std::vector<std::string> found;
   for (const auto& [path, text] : trackedFiles()) {
     const std::string top = topFolderOf(path);
-    if (!endsWithAny(path, {".cpp", ".hpp"}) || top == "apps" || top == "tests" || top == "benchmarks" ||
-        top == "fuzz" || path.starts_with("common/jobs."))
+    if (!endsWithAny(path, {".cpp", ".hpp"}) || top == "apps" || top == "flight" || top == "simulated_flight" ||
+        top == "tests" || top == "benchmarks" || top == "fuzz" || path.starts_with("common/jobs."))
       continue;
     int number = 0;
     for (const std::string& line : linesOf(text)) {
@@ -159,11 +162,37 @@ TEST(Scripts, EachHasAHelpText) {
 }
 
 TEST(Scripts, RefuseUnknownOptions) {
-  for (const std::string script : {"setup", "build", "format", "tidy", "fuzz"}) {
+  for (const std::string script : {"setup", "build", "format", "messages", "tidy", "fuzz"}) {
     const Answer answer = run("scripts/" + script + " --frobnicate");
     EXPECT_EQ(answer.exit_code, 2) << script << ": " << answer.text;
     EXPECT_THAT(answer.text, HasSubstr("--frobnicate")) << script;
   }
+}
+
+/// The only test of what messages say; others ask for their names.
+TEST(Messages, ThePageIsThatOfTheSources) {
+  const Answer answer = run("scripts/messages --check");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+}
+
+TEST(Messages, EachNameIsOfItsFormAndHasOneText) {
+  const auto page = [](const std::string& source) {
+    const auto file = std::filesystem::temp_directory_path() / ("swiftlet-messages-" + std::to_string(::getpid()));
+    std::ofstream(file) << source;
+    Answer answer = run("scripts/messages " + file.string());
+    std::filesystem::remove(file);
+    return answer;
+  };
+  const Answer whole = page("Message(\"map.no-image\", \"no \\\"{}\\\" \"\n  \"| here\", name)");
+  EXPECT_EQ(whole.exit_code, 0) << whole.text;
+  EXPECT_THAT(whole.text, HasSubstr("\n| `map.no-image` | no \"{}\" \\| here |"));
+  for (const char* name : {"map", "map.noImage", "Map.no-image", "map.no_image", "map.-no"}) {
+    const Answer odd = page("Message(\"" + std::string(name) + "\", \"a\")");
+    EXPECT_EQ(odd.exit_code, 1) << odd.text;
+    EXPECT_THAT(odd.text, HasSubstr("`" + std::string(name) + "`"));
+  }
+  EXPECT_EQ(page("Message(\"a.b\", \"c\") Message(\"a.b\", \"c\", 1)").exit_code, 0);
+  EXPECT_EQ(page("Message(\"a.b\", \"c\") Message(\"a.b\", \"d\")").exit_code, 1);
 }
 
 TEST(Scripts, FuzzListsExistingFuzzersAndEachHasSeeds) {

@@ -1,5 +1,6 @@
 // Recorded cameras, with bounds that a regression would break. The reference of 7-Scenes was tracked by KinectFusion
-// and jumps itself by up to 5 cm and 2 deg between two frames (decision 032), so its bounds are wide.
+// and jumps itself by up to 5 cm and 2 deg between two frames (docs/decisions/mapping3d.md#032), so its bounds are
+// wide.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

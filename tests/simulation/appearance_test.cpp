@@ -9,11 +9,14 @@
 #include "fixtures.hpp"
 #include "simulation/appearance/covering.hpp"
 #include "simulation/sensors/surface_shader.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-using testing::HasSubstr;
+using test_support::ProblemIs;
+using test_support::problemsOf;
+using testing::ElementsAre;
 
 TEST(Texture, IsTheColourOfTheSurfaceOrItsOwn) {
   const Color color(0.2F, 0.4F, 0.6F);
@@ -128,13 +131,7 @@ TEST(WorldTextures, AreNamedInTheMaterial) {
 TEST(WorldTextures, AnUnknownOneIsRefusedWithItsLine) {
   const TemporaryFolder folder("world_textures");
   const std::string file = folder.write("w.sdf", withTexture("brik"));
-  try {
-    loadWorld(file);
-    FAIL();
-  } catch (const common::InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("w.sdf:5"));
-    EXPECT_THAT(e.what(), HasSubstr("did you mean `brick`?"));
-  }
+  EXPECT_THAT(problemsOf([&] { loadWorld(file); }), ElementsAre(ProblemIs("world.no-texture", "w.sdf:5", "`brick`")));
 }
 
 }  // namespace

@@ -7,13 +7,16 @@
 #include "arena_fixtures.hpp"
 #include "common/error.hpp"
 #include "event_bytes.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
 using common::Duration;
 using common::Time;
-using ::testing::HasSubstr;
+using test_support::ProblemIs;
+using test_support::problemsOf;
+using testing::ElementsAre;
 
 constexpr double kHullRadius_m = 0.275;
 
@@ -123,12 +126,10 @@ TEST(Arena, AnAbandonedVehicleLandsAndBlocksNobody) {
 }
 
 TEST(Arena, StartsThatTouchAreRefused) {
-  try {
+  const auto problems = problemsOf([] {
     const Arena arena(boxRoom(), scenarioOf({vehicleAt("alpha", 0, 0), vehicleAt("beta", 0.4, 0)}));
-    FAIL() << "two vehicles in one place";
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::AllOf(HasSubstr("start of `beta`"), HasSubstr("touches the vehicle `alpha`")));
-  }
+  });
+  EXPECT_THAT(problems, ElementsAre(ProblemIs("start.touches-vehicle", "start of `beta`", "`alpha`")));
 }
 
 TEST(Arena, StartsAreRedrawnUntilTheyDoNotTouch) {

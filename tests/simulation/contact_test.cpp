@@ -25,10 +25,10 @@ Truth contactWithPane(const std::vector<bool>& seen) {
   Truth truth;
   QuadrotorState state;
   state.T_world_body.position_m = {0, 0, 1};
-  referee.judgeContacts(common::Time(), state, {}, seen, truth);
+  referee.judgeContacts(common::Time(), state, {}, {}, seen, truth);
   EXPECT_FALSE(truth.crashed);
   state.T_world_body.position_m = {1.9, 0, 1};
-  referee.judgeContacts(common::Time::fromSeconds(0.01), state, {}, seen, truth);
+  referee.judgeContacts(common::Time::fromSeconds(0.01), state, {}, {}, seen, truth);
   EXPECT_TRUE(truth.crashed);
   return truth;
 }

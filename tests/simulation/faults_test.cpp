@@ -8,9 +8,13 @@
 #include "event_bytes.hpp"
 #include "fixtures.hpp"
 #include "simulation/fault_schedule.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
+
+using test_support::ProblemIs;
+using testing::ElementsAre;
 
 using common::Time;
 
@@ -133,6 +137,58 @@ TEST(Faults, OnlyTheBeamsOfTheMirrorOrOfASectorAreLost) {
   EXPECT_NEAR(sector.front() + sector.back(), 1080, 2) << "about straight ahead";
 }
 
+TEST(Faults, AClockThatJumpsShiftsTheStampsUntilItIsSetRight) {
+  for (const double jump_s : {0.3, -0.3}) {
+    FaultConfig fault{Sensor::kLaser, FaultKind::kClockJump, 1.0, 2.0};
+    fault.jump_s = jump_s;
+    const auto jumped = eventsOf<Scan>(withFault(fault));
+    const auto sound = eventsOf<Scan>(withFault({Sensor::kLaser, FaultKind::kSilent, 9.0, 9.0}));
+    ASSERT_EQ(jumped.size(), sound.size());
+    for (std::size_t i = 0; i < jumped.size(); ++i) {
+      const double t = sound[i]->stamps.measured.seconds();
+      EXPECT_NEAR((jumped[i]->stamps.measured - sound[i]->stamps.measured).seconds(),
+                  t >= 1.0 && t < 2.0 ? jump_s : 0.0, 1e-9);
+      EXPECT_EQ(jumped[i]->stamps.arrived, sound[i]->stamps.arrived);
+      EXPECT_EQ(jumped[i]->ranges_m, sound[i]->ranges_m);
+    }
+  }
+}
+
+TEST(Faults, ALostCellTakesAThirdOfTheVoltageAndStaysLost) {
+  Scenario scenario;  // Three cells, by 12.6 V.
+  scenario.sensors.battery_noise_v = 0.0;
+  const auto samplesOf = [](const Scenario& flown) {
+    SimulatedVehicle vehicle(boxRoom(), flown);
+    std::vector<common::SensorEvent> events;
+    EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(4.0), events));
+    EXPECT_EQ(vehicle.truth().lost_cells, static_cast<int>(flown.faults.size()));
+    EXPECT_EQ(vehicle.truth().failed_sensor.has_value(), !flown.faults.empty());
+    return eventsOf<common::BatterySample>(events);
+  };
+  const auto sound = samplesOf(scenario);
+  FaultConfig fault{Sensor::kBattery, FaultKind::kLostCell, 2.0};
+  scenario.faults = {fault};
+  const auto broken = samplesOf(scenario);
+  ASSERT_EQ(broken.size(), sound.size());
+  for (std::size_t i = 0; i < broken.size(); ++i) {
+    const double share = sound[i].stamps.measured.seconds() > 2.0 ? 2.0 / 3.0 : 1.0;
+    EXPECT_NEAR(broken[i].voltage_v, share * sound[i].voltage_v, 0.02) << i;
+    EXPECT_NEAR(broken[i].remaining, sound[i].remaining, 1e-3) << "the charge goes through all cells";
+  }
+  scenario.faults = {fault, fault};
+  EXPECT_NEAR(samplesOf(scenario).back().voltage_v, sound.back().voltage_v / 3.0, 0.05) << "two of three";
+}
+
+TEST(Faults, ALostCellLeavesOtherFaultsOfTheBatteryAsTheyAre) {
+  const FaultSchedule schedule(
+      {{Sensor::kBattery, FaultKind::kLostCell, 1.0}, {Sensor::kBattery, FaultKind::kNan, 2.0, 3.0}});
+  EXPECT_EQ(schedule.of(Sensor::kBattery, Time::fromSeconds(1.5)), nullptr);
+  ASSERT_NE(schedule.of(Sensor::kBattery, Time::fromSeconds(2.5)), nullptr);
+  EXPECT_EQ(schedule.of(Sensor::kBattery, Time::fromSeconds(2.5))->kind, FaultKind::kNan);
+  EXPECT_EQ(schedule.lostCells(Time::fromSeconds(0.5)), 0);
+  EXPECT_EQ(schedule.lostCells(Time::fromSeconds(1e6)), 1);
+}
+
 /// The seconds in which no scan was measured.
 std::vector<int> silentSeconds(const std::vector<common::SensorEvent>& events) {
   std::vector<int> silent;
@@ -206,6 +262,16 @@ TEST(Faults, FailASensorForTheFlightIfTheyTakeAwayWhatItIsFor) {
   EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kBlocked, 0.0, 120.0), "laser");
   EXPECT_EQ(failedBy(Sensor::kLaser, FaultKind::kBlocked, 0.0, 1.0), "") << "one degree";
   EXPECT_EQ(failedBy(Sensor::kPilot, FaultKind::kSilent), "");
+  const auto jumped = [](Sensor sensor, double jump_s) {
+    FaultConfig fault{sensor, FaultKind::kClockJump, 1.0, 9.0};
+    fault.jump_s = jump_s;
+    return FaultSchedule({fault}).failedForFlight(Time::fromSeconds(5.0));
+  };
+  EXPECT_EQ(jumped(Sensor::kLaser, -0.3), Sensor::kLaser);
+  EXPECT_FALSE(jumped(Sensor::kLaser, 0.02)) << "a few millimetres";
+  EXPECT_FALSE(jumped(Sensor::kBattery, 5.0)) << "the charge changes slowly";
+  EXPECT_EQ(FaultSchedule({{Sensor::kBattery, FaultKind::kLostCell, 1.0}}).failedForFlight(Time::fromSeconds(900.0)),
+            Sensor::kBattery);
 }
 
 /// Frames of an RGB-D camera before and in a fault of the second second.
@@ -278,17 +344,23 @@ TEST(Faults, ContradictionsAreRefused) {
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kStuck, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kImu, FaultKind::kMirror, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kBlack, 1.0, 2.0}).size(), 1U);
+  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kClockJump, 1.0, 2.0}),
+            std::vector<std::string>{"jump_s: is missing: how far does the clock jump?"});
+  EXPECT_TRUE(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0}).empty());
+  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0, 2.0}),
+            std::vector<std::string>{"to_s: is given, but a lost cell stays lost"});
+  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kLostCell, 1.0}),
+            std::vector<std::string>{"kind: lost_cell is a fault of the battery alone"});
 }
 
 TEST(Faults, OneThatNeverHappensIsRefused) {
   const auto problems = [](double from_s, double to_s) {
     return common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kSilent, from_s, to_s});
   };
-  const std::vector<std::string> missing{"to_s: is missing: when does the fault end?"};
-  EXPECT_EQ(problems(0.0, 0.0), missing);
-  EXPECT_EQ(problems(2.0, 0.0), missing);
-  EXPECT_EQ(problems(2.0, 2.0), std::vector<std::string>{"to_s: 2 is not after from_s, which is 2"});
-  EXPECT_EQ(problems(2.0, 1.0), std::vector<std::string>{"to_s: 1 is not after from_s, which is 2"});
+  EXPECT_THAT(problems(0.0, 0.0), ElementsAre(ProblemIs("fault.no-end", "to_s")));
+  EXPECT_THAT(problems(2.0, 0.0), ElementsAre(ProblemIs("fault.no-end", "to_s")));
+  EXPECT_THAT(problems(2.0, 2.0), ElementsAre(ProblemIs("fault.ends-early", "to_s")));
+  EXPECT_THAT(problems(2.0, 1.0), ElementsAre(ProblemIs("fault.ends-early", "to_s")));
   EXPECT_TRUE(problems(0.0, 1.0).empty());
 }
 

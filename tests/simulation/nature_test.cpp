@@ -14,14 +14,19 @@
 #include "common/error.hpp"
 #include "event_bytes.hpp"
 #include "simulation/variation.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
+using test_support::HasProblem;
+using test_support::ProblemIs;
+using test_support::problemsOf;
 using ::testing::AllOf;
+using testing::ElementsAre;
 using ::testing::Ge;
-using ::testing::HasSubstr;
 using ::testing::Le;
+using ::testing::Not;
 
 constexpr int kSeeds = 300;
 
@@ -32,13 +37,8 @@ std::string text(const Scenario& scenario) {
 
 Nature shipped(const std::string& name) { return Nature::load(SWIFTLET_SOURCE_DIR "/config/nature/" + name + ".yaml"); }
 
-std::string problemOf(const std::string& yaml) {
-  try {
-    (void)Nature::fromText(yaml, "odd.yaml");
-  } catch (const common::InputError& error) {
-    return error.what();
-  }
-  return "none";
+std::vector<common::Problem> refusalOf(const std::string& yaml) {
+  return problemsOf([&] { (void)Nature::fromText(yaml, "odd.yaml"); });
 }
 
 /// A short flight by the truth.
@@ -201,38 +201,33 @@ TEST(Nature, IsDrawnAnewWhenAFullBatteryIsTooWeak) {
       Nature::fromText("least_thrust_over_weight: 1.2\nquadrotor: {mass_share: [0.9, 1.9]}\n", "heavy.yaml");
   for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_LT(heavy.drawn({}, seed).quadrotor.mass_share, 1.4);
   const Nature lead = Nature::fromText("quadrotor: {mass_share: [1.9, 2.0]}\n", "lead.yaml");
-  try {
-    (void)lead.drawn({}, 1);
-    FAIL() << "no draw can fly";
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("lead.yaml"), HasSubstr("least_thrust_over_weight")));
-  }
+  EXPECT_THAT(problemsOf([&] { (void)lead.drawn({}, 1); }),
+              ElementsAre(ProblemIs("nature.too-heavy", "lead.yaml: least_thrust_over_weight")));
 }
 
 TEST(Nature, MistakesAreToldWithFileLineAndKey) {
-  EXPECT_THAT(problemOf("wind:\n  model: dryden\nquadrotor:\n  mass_shar: [0.9, 1.1]\n"),
-              AllOf(HasSubstr("odd.yaml:4:3: quadrotor: unknown key `mass_shar`"), HasSubstr("`mass_share`")));
-  EXPECT_THAT(problemOf("quadrotor:\n  mass_share: [1.1, 0.9]\n"),
-              HasSubstr("odd.yaml:2:15: quadrotor.mass_share: is upside down: 1.1 is above 0.9"));
-  EXPECT_THAT(problemOf("quadrotor:\n  mass_share: [0.9, 11]\n"),
-              HasSubstr("odd.yaml:2:15: quadrotor.mass_share: 11 is not within 0.5 and 2"));
-  EXPECT_THAT(problemOf("quadrotor:\n  # heavy\n  mass_share: [0.1, 1]\n"),
-              HasSubstr("odd.yaml:3:15: quadrotor.mass_share: 0.1 is not within 0.5 and 2"));
-  EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9, much]}\n"), HasSubstr("is not a range [low, high]"));
-  EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9, 1.0, 1.1]}\n"), HasSubstr("is not a range [low, high]"));
-  EXPECT_THAT(problemOf("quadrotor:\n  mass_share:\n    - 0.9\n    - 1.0\n"), HasSubstr("is not a range [low, high]"));
-  EXPECT_THAT(problemOf("quadrotor: {weak_motor: [1.5, 4]}\n"),
-              HasSubstr("quadrotor.weak_motor: is not a range of two whole numbers"));
-  EXPECT_THAT(problemOf("quadrotor: {weak_motor: [1, 5]}\n"), HasSubstr("quadrotor.weak_motor: 5 is not within"));
-  EXPECT_THAT(problemOf("autopilot: {mixing: [clamp_each, attitude_first]}\n"), HasSubstr("autopilot.mixing"));
-  EXPECT_THAT(problemOf("world: a.sdf\n"), HasSubstr("odd.yaml:1:1: unknown key `world`"))
+  EXPECT_THAT(refusalOf("wind:\n  model: dryden\nquadrotor:\n  mass_shar: [0.9, 1.1]\n"),
+              HasProblem("config.unknown-key", "odd.yaml:4:3: quadrotor", "`mass_share`"));
+  EXPECT_THAT(refusalOf("quadrotor:\n  mass_share: [1.1, 0.9]\n"),
+              HasProblem("nature.upside-down", "odd.yaml:2:15: quadrotor.mass_share"));
+  EXPECT_THAT(refusalOf("quadrotor:\n  mass_share: [0.9, 11]\n"),
+              HasProblem("config.not-within", "odd.yaml:2:15: quadrotor.mass_share"));
+  EXPECT_THAT(refusalOf("quadrotor:\n  # heavy\n  mass_share: [0.1, 1]\n"),
+              HasProblem("config.not-within", "odd.yaml:3:15: quadrotor.mass_share"));
+  EXPECT_THAT(refusalOf("quadrotor: {mass_share: [0.9, much]}\n"), HasProblem("nature.no-range"));
+  EXPECT_THAT(refusalOf("quadrotor: {mass_share: [0.9, 1.0, 1.1]}\n"), HasProblem("nature.no-range"));
+  EXPECT_THAT(refusalOf("quadrotor:\n  mass_share:\n    - 0.9\n    - 1.0\n"), HasProblem("nature.no-range"));
+  EXPECT_THAT(refusalOf("quadrotor: {weak_motor: [1.5, 4]}\n"), HasProblem("nature.not-whole", "quadrotor.weak_motor"));
+  EXPECT_THAT(refusalOf("quadrotor: {weak_motor: [1, 5]}\n"), HasProblem("config.not-within", "quadrotor.weak_motor"));
+  EXPECT_THAT(refusalOf("autopilot: {mixing: [clamp_each, attitude_first]}\n"),
+              HasProblem("nature.no-range", "autopilot.mixing"));
+  EXPECT_THAT(refusalOf("world: a.sdf\n"), HasProblem("config.unknown-key", "odd.yaml:1:1"))
       << "a nature is the plant, not the flight";
-  EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9\n"), HasSubstr("odd.yaml"));
-  EXPECT_THAT(problemOf("quadrotor: {mass_share: &r [0.9, 1.1], thrust_share: *r}\n"),
-              AllOf(HasSubstr("odd.yaml:1:25: quadrotor.mass_share: is a range with an anchor"),
-                    HasSubstr("write the range out as [low, high], without anchors")));
-  EXPECT_THAT(problemOf("quadrotor:\n  mass_share: [0.9, # low\n    1.1]\n  mass_shar: 1\n"),
-              HasSubstr("odd.yaml:4:3: "))
+  EXPECT_THAT(refusalOf("quadrotor: {mass_share: [0.9\n"), HasProblem("yaml.not-closed", "odd.yaml"));
+  EXPECT_THAT(refusalOf("quadrotor: {mass_share: &r [0.9, 1.1], thrust_share: *r}\n"),
+              HasProblem("nature.anchor", "odd.yaml:1:25: quadrotor.mass_share"));
+  EXPECT_THAT(refusalOf("quadrotor:\n  mass_share: [0.9, # low\n    1.1]\n  mass_shar: 1\n"),
+              HasProblem("config.unknown-key", "odd.yaml:4:3"))
       << "behind a range of two lines";
 }
 
@@ -246,6 +241,56 @@ TEST(Nature, AMarkOfTheByteOrderAndCommentsInRangesAreNoMistakes) {
     EXPECT_EQ(range->low, 0.9);
     EXPECT_EQ(range->high, 1.1);
   }
+}
+
+TEST(Nature, BasedOnAnotherDrawsWhatThatDrawsAndItsOwn) {
+  const Nature real = shipped("real"), rectified = shipped("rectified");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Scenario drawn = rectified.drawn({}, seed);
+    EXPECT_THAT(drawn.sensors.imu.rectification_m_s2, AllOf(Ge(0.02), Le(0.2)));
+    const std::string values = rectified.valuesIn(drawn);
+    EXPECT_THAT(values, AllOf(HasSubstr("mass_share"), Not(HasSubstr("based_on"))));
+    EXPECT_EQ(text(Nature::fromText(values, "nature.yaml").drawn({}, seed + 1000)), text(drawn));
+    drawn.sensors.imu.rectification_m_s2 = 0.0;
+    EXPECT_EQ(text(drawn), text(real.drawn({}, seed))) << seed;
+  }
+}
+
+TEST(Nature, ItsOwnKeysReplaceThoseOfItsBase) {
+  const TemporaryFolder folder("nature_bases");
+  folder.write("first.yaml", "least_thrust_over_weight: 1.2\nquadrotor: {mass_share: [0.9, 1.1], thrust_share: 0.9}\n");
+  folder.write("second.yaml", "based_on: first.yaml\nquadrotor: {mass_share: 1.05}\n");
+  const Nature third =
+      Nature::load(folder.write("third.yaml", "based_on: second.yaml\nquadrotor: {thrust_share: [0.95, 1.0]}\n"));
+  EXPECT_EQ(third.rangeOf("quadrotor.mass_share")->high, 1.05);
+  EXPECT_EQ(third.rangeOf("quadrotor.thrust_share")->low, 0.95);
+  const Scenario drawn = third.drawn({}, 1);
+  EXPECT_GE(thrustOverWeight(drawn.vehicle, drawn.quadrotor, drawn.battery_remaining, Nature::kFullThrottle), 1.2);
+}
+
+TEST(Nature, MistakesOfABaseAreToldWithTheirPlace) {
+  EXPECT_THAT(problemOf("quadrotor: {mass_share: 1}\nbased_on: raal\n"),
+              AllOf(HasSubstr("odd.yaml:2:11: based_on: raal: no such file"), HasSubstr("real")));
+  EXPECT_THAT(problemOf("based_on: [0, 1]\n"), HasSubstr("odd.yaml:1:11: based_on: is not the name of a nature"));
+  EXPECT_THAT(problemOf("based_on:\n"), HasSubstr("based_on: is not the name of a nature"));
+  EXPECT_THAT(problemOf("based_on: real\nquadrotor:\n  mass_share: [0.9, 11]\n"),
+              HasSubstr("odd.yaml:3:15: quadrotor.mass_share: 11 is not within"));
+  const TemporaryFolder folder("nature_circles");
+  const auto problem = [](const std::string& file) {
+    try {
+      (void)Nature::load(file);
+    } catch (const common::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(problem(folder.write("one.yaml", "based_on: ./one.yaml\n")),
+              HasSubstr("one.yaml:1:11: based_on: ./one.yaml is based on this nature itself"));
+  folder.write("a.yaml", "based_on: b.yaml\n");
+  EXPECT_THAT(problem(folder.write("b.yaml", "wind: {gust_m_s: 1}\nbased_on: a.yaml\n")),
+              HasSubstr("a.yaml:1:11: based_on: b.yaml is based on this nature itself"));
+  folder.write("bad.yaml", "wind: {gust: 1}\n");
+  EXPECT_THAT(problem(folder.write("good.yaml", "based_on: bad.yaml\n")), HasSubstr("bad.yaml:1:8: wind: unknown key"));
 }
 
 TEST(Nature, WithoutANameIsRefused) { EXPECT_THROW((void)Nature::load(""), common::InputError); }

@@ -1,6 +1,7 @@
 // The plant of a nature: each term of airframe, battery, air and inertial unit against its formula.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -227,7 +228,7 @@ TEST(Vibration, GrowsWithTheThrust) {
     ImuConfig config;
     config.vibration_m_s2 = vibration_m_s2;
     config.accel_bias_m_s2 = 0.0;
-    InertialUnit unit(config, kVehicle.max_thrust_n, 1);
+    InertialUnit unit(config, kVehicle, 1);
     QuadrotorState state;
     state.thrusts_n.fill(0.25 * share * kVehicle.max_thrust_n);
     double squares = 0.0;
@@ -243,6 +244,41 @@ TEST(Vibration, GrowsWithTheThrust) {
   EXPECT_NEAR(spread(1.0, 0.5), std::hypot(noise, 0.5), 0.03);
   EXPECT_NEAR(spread(1.0, 1.0), std::hypot(noise, 1.0), 0.05);
   EXPECT_EQ(spread(0.0, 1.0), spread(0.0, 0.0)) << "off by default";
+}
+
+/// Mean shift of the accelerometer with motors that give `share` of the thrust of hovering.
+Vector3d meanShift(double rectification_m_s2, double share, std::uint64_t seed) {
+  const auto mean = [&](double shift_m_s2) {
+    ImuConfig config;
+    config.rectification_m_s2 = shift_m_s2;
+    InertialUnit unit(config, kVehicle, seed);
+    QuadrotorState state;
+    state.thrusts_n.fill(0.25 * share * kVehicle.mass_kg * common::kGravity_m_s2);
+    unit.feel(state);
+    return unit.sample(1, state).specific_force_body_m_s2;
+  };
+  return mean(rectification_m_s2) - mean(0.0);
+}
+
+TEST(Rectification, ShiftsTheAccelerometerWithTheSquareOfTheThrust) {
+  EXPECT_EQ(meanShift(0.2, 0.0, 1).norm(), 0.0) << "with the motors off";
+  EXPECT_NEAR(std::abs(meanShift(0.2, 1.0, 1).z()), 0.2, 1e-12);
+  EXPECT_NEAR((meanShift(0.2, 1.5, 1) - 2.25 * meanShift(0.2, 1.0, 1)).norm(), 0.0, 1e-12);
+}
+
+TEST(Rectification, HasItsDirectionBySeed) {
+  int up = 0;
+  double least = 1.0, greatest = -1.0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Vector3d by = meanShift(0.2, 1.0, seed);
+    EXPECT_NEAR(std::abs(by.z()), 0.2, 1e-12);
+    up += by.z() > 0.0 ? 1 : 0;
+    least = std::min({least, by.x(), by.y()});
+    greatest = std::max({greatest, by.x(), by.y()});
+  }
+  EXPECT_NEAR(up, 100, 30);
+  EXPECT_NEAR(least, -0.1, 0.005);
+  EXPECT_NEAR(greatest, 0.1, 0.005);
 }
 
 TEST(FuelGauge, WithoutErrorsReadsTheTruth) {

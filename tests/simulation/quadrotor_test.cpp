@@ -216,7 +216,7 @@ TEST(Autopilot, LevelsAndDescendsWhenTheLinkIsLost) {
 }
 
 TEST(InertialUnit, TheAttitudeIsAccurateToADegreeWhileYawDrifts) {
-  InertialUnit unit({}, kVehicle.max_thrust_n, 5);
+  InertialUnit unit({}, kVehicle, 5);
   QuadrotorState state;
   double sum = 0.0, least_yaw = 10, greatest_yaw = -10;
   constexpr int kTicks = 60'000;
@@ -236,7 +236,7 @@ TEST(InertialUnit, TheAttitudeIsAccurateToADegreeWhileYawDrifts) {
 TEST(InertialUnit, ASampleIsTheMeanOverItsPeriodPlusNoiseAndBias) {
   ImuConfig quiet;
   quiet.gyro_noise_rad_s = quiet.gyro_bias_rad_s = quiet.accel_noise_m_s2 = quiet.accel_bias_m_s2 = 0.0;
-  InertialUnit unit(quiet, kVehicle.max_thrust_n, 1);
+  InertialUnit unit(quiet, kVehicle, 1);
   QuadrotorState state;
   for (int i = 0; i < 5; ++i) {
     state.specific_force_body_m_s2 = {static_cast<double>(i), 0, 9.81};
@@ -244,7 +244,7 @@ TEST(InertialUnit, ASampleIsTheMeanOverItsPeriodPlusNoiseAndBias) {
   }
   EXPECT_NEAR(unit.sample(1, state).specific_force_body_m_s2.x(), 2.0, 1e-12);
 
-  InertialUnit noisy({}, kVehicle.max_thrust_n, 1);
+  InertialUnit noisy({}, kVehicle, 1);
   double sum = 0.0, squares = 0.0;
   state = {};
   for (std::uint64_t frame = 1; frame <= 4000; ++frame) {

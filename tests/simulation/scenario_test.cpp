@@ -5,11 +5,14 @@
 #include "common/config.hpp"
 #include "common/error.hpp"
 #include "simulation/scenario.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-using ::testing::HasSubstr;
+using test_support::HasProblem;
+using test_support::problemsOf;
+using testing::IsEmpty;
 
 TEST(Scenario, PrintsAsYamlAndReadsBack) {
   Scenario scenario;
@@ -59,38 +62,32 @@ TEST(Scenario, ListsSeveralVehicles) {
   EXPECT_EQ(beta.vehicleCount(), 1U);
 }
 
-/// Of the scenario in the text, "none" without.
-std::string problem(const std::string& text) {
-  try {
-    scenarioFrom(text);
-  } catch (const common::InputError& error) {
-    return error.what();
-  }
-  return "none";
+std::vector<common::Problem> problemsIn(const std::string& text) {
+  return problemsOf([&] { scenarioFrom(text); });
 }
 
 TEST(Scenario, AStartThatTheWorldWouldReplaceIsRefused) {
   for (const std::string field : {"x_m", "y_m", "z_m", "yaw_deg"}) {
-    const std::string message =
-        field + ": is ignored, because the vehicle starts where the world says; add from_world: false";
-    EXPECT_THAT(problem("vehicles: [{name: a, start: {" + field + ": 9}}]\n"),
-                HasSubstr("vehicles[0].start." + message));
-    EXPECT_THAT(problem("start: {" + field + ": 9}\n"), HasSubstr("start." + message));
-    EXPECT_EQ(problem("start: {from_world: false, " + field + ": 9}\n"), "none");
-    EXPECT_EQ(problem("start: {" + field + ": 0}\n"), "none");
+    const std::string ignored = "scenario.start-ignored";
+    EXPECT_THAT(problemsIn("vehicles: [{name: a, start: {" + field + ": 9}}]\n"),
+                HasProblem(ignored, "vehicles[0].start." + field));
+    EXPECT_THAT(problemsIn("start: {" + field + ": 9}\n"), HasProblem(ignored, "start." + field));
+    EXPECT_THAT(problemsIn("start: {from_world: false, " + field + ": 9}\n"), IsEmpty());
+    EXPECT_THAT(problemsIn("start: {" + field + ": 0}\n"), IsEmpty());
   }
 }
 
 TEST(Scenario, ReportsMistakesInItsVehicles) {
-  EXPECT_EQ(problem("vehicles: [{name: alpha}]\n"), "none");
-  EXPECT_THAT(problem("vehicles: [{name: alpha}, {name: alpha}]\n"), HasSubstr("two are called `alpha`"));
-  EXPECT_THAT(problem("vehicles: [{start: {x_m: 1.0}}]\n"), HasSubstr("name: is not 1 to 40 letters"));
-  EXPECT_THAT(problem("vehicles: [{name: a/b}]\n"), HasSubstr("name: is not 1 to 40 letters"));
-  EXPECT_THAT(problem("start: {from_world: false}\nvehicles: [{name: alpha}]\n"),
-              HasSubstr("start: is for a single vehicle; with `vehicles`, give it for each vehicle there"));
-  EXPECT_THAT(problem("battery_remaining: 0.5\nvehicles: [{name: alpha}]\n"), HasSubstr("battery_remaining"));
-  EXPECT_THAT(problem("vehicles: [{name: alpha}]\nwalkers: [{mode: follow, vehicle: alpa}]\n"),
-              HasSubstr("did you mean `alpha`?"));
+  EXPECT_THAT(problemsIn("vehicles: [{name: alpha}]\n"), IsEmpty());
+  EXPECT_THAT(problemsIn("vehicles: [{name: alpha}, {name: alpha}]\n"), HasProblem("config.name-twice", "vehicles"));
+  EXPECT_THAT(problemsIn("vehicles: [{start: {x_m: 1.0}}]\n"), HasProblem("scenario.no-name", "vehicles[0].name"));
+  EXPECT_THAT(problemsIn("vehicles: [{name: a/b}]\n"), HasProblem("scenario.no-name", "vehicles[0].name"));
+  EXPECT_THAT(problemsIn("start: {from_world: false}\nvehicles: [{name: alpha}]\n"),
+              HasProblem("scenario.single-vehicle", "start"));
+  EXPECT_THAT(problemsIn("battery_remaining: 0.5\nvehicles: [{name: alpha}]\n"),
+              HasProblem("scenario.single-vehicle", "battery_remaining"));
+  EXPECT_THAT(problemsIn("vehicles: [{name: alpha}]\nwalkers: [{mode: follow, vehicle: alpa}]\n"),
+              HasProblem("scenario.no-vehicle", "walkers", "`alpha`"));
 }
 
 TEST(Scenario, TheShippedSensorsAndVehicleLoad) {

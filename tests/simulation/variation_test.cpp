@@ -7,11 +7,15 @@
 
 #include "common/error.hpp"
 #include "fixtures.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-using ::testing::HasSubstr;
+using test_support::ProblemIs;
+using test_support::problemsOf;
+using testing::AllOf;
+using testing::ElementsAre;
 
 TEST(Variation, IsTheSameForASeedAndKeepsWithinItsBounds) {
   WorldModel world = boxRoom();
@@ -57,19 +61,11 @@ TEST(Variation, RedrawsUntilStartIsFreeAndGoalReachable) {
   }
   EXPECT_GT(redraws, 0);
   scenario.variation.reachable_map_m = {9.0, 0.0};
-  try {
-    const SimulatedVehicle vehicle(world, scenario);
-    FAIL() << "a goal outside the room";
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::AllOf(HasSubstr("(9.00, 0.00)"), HasSubstr("none of the 200 draws")));
-  }
+  const auto problems = [&] { return problemsOf([&] { const SimulatedVehicle vehicle(world, scenario); }); };
+  EXPECT_THAT(problems(), ElementsAre(AllOf(ProblemIs("start.goal-not-reached", "reachable_map_m", "(9.00, 0.00)"),
+                                            ProblemIs("start.goal-not-reached", "reachable_map_m", "200 draws"))));
   scenario.variation.obstacles = {"crates"};
-  try {
-    const SimulatedVehicle vehicle(world, scenario);
-    FAIL() << "an obstacle that is not there";
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("did you mean `crate`?"));
-  }
+  EXPECT_THAT(problems(), ElementsAre(ProblemIs("world.no-model", "variation.obstacles", "`crate`")));
 }
 
 TEST(Variation, ColoursAndLightAreThoseOfTheSeedWithinTheirBounds) {

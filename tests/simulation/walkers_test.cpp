@@ -32,6 +32,28 @@ TEST(Walkers, AWalkerIsBlamedForHittingAHoveringVehicle) {
   EXPECT_EQ(vehicle.truth().min_walker_clearance_m, 0.0);
   // It walked 3 m less both radii.
   EXPECT_NEAR(vehicle.truth().contact_time.seconds(), 4.0 + 3.0 - 0.525, 0.3);
+  EXPECT_NEAR(vehicle.truth().walker_in_field_s.value(), vehicle.truth().contact_time.seconds() - 4.0, 0.05);
+}
+
+/// A walker who comes to the vehicle at (0, 0) from there.
+Truth struckFrom(std::vector<double> path_world_m, const WorldModel& world = boxRoom()) {
+  Scenario scenario;
+  scenario.walkers.push_back({WalkerMode::kPath, std::move(path_world_m), WalkerEnd::kStay, 1.0, 0.25, 1.75, 4.0});
+  SimulatedVehicle vehicle(world, scenario);
+  TruthPilot pilot(vehicle);
+  pilot.flyTo(0, 0, 1);
+  EXPECT_FALSE(pilot.fly(15));
+  EXPECT_TRUE(vehicle.truth().by_walker);
+  return vehicle.truth();
+}
+
+TEST(Walkers, AreInTheFieldOfTheLaserFromWhenItCanSeeThem) {
+  EXPECT_FALSE(struckFrom({-3, 0, 0, 0}).walker_in_field_s) << "they come from behind";
+  WorldModel world = boxRoom();
+  world.shapes.push_back(boxShape("screen", {1.5, -0.1, 0.0}, {1.6, 3.0, 2.5}));
+  const auto round = struckFrom({3.0, 1.5, 3.0, -1.5, 1.0, -1.5, 0.0, 0.0}, world);
+  EXPECT_LT(round.walker_in_field_s.value(), struckFrom({3.0, 1.5, 3.0, -1.5, 1.0, -1.5, 0.0, 0.0}).walker_in_field_s)
+      << "they come from behind the screen";
 }
 
 TEST(Walkers, AWalkerStandsAtItsPointsAndChangesItsSpeed) {

@@ -19,13 +19,17 @@
 #include "simulation/ray_caster.hpp"
 #include "simulation/variation.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
+using test_support::HasProblem;
+using test_support::kAnyName;
+using test_support::ProblemIs;
+using test_support::problemsOf;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
@@ -52,16 +56,8 @@ class WorldFiles : public ::testing::Test {
   WorldModel load(const std::string& text, IncompleteWorld incomplete = IncompleteWorld::kRefused) {
     return loadWorld(folder_.write("home/world.sdf", text), {}, incomplete);
   }
-  static std::string said(const std::function<void()>& loading) {
-    try {
-      loading();
-    } catch (const common::InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-  std::string problemOf(const std::string& text) {
-    return said([&] { load(text); });
+  std::vector<common::Problem> refusalOf(const std::string& text) {
+    return problemsOf([&] { load(text); });
   }
   void putModel(const std::string& folder, const std::string& name, const std::string& inside = kBox) {
     folder_.write(folder + "/model.config", "<model><name>x</name><sdf version='1.9'>model.sdf</sdf></model>");
@@ -104,7 +100,7 @@ TEST_F(WorldFiles, Utf16IsRead) {
 TEST_F(WorldFiles, NewerVersionsAreReadByTheRulesOf19) {
   for (const std::string version : {"1.10", "1.11", "1.12"}) {
     const WorldModel w = load(sdf(world(model("cone", "<cone><radius>1</radius><length>2</length></cone>")), version));
-    EXPECT_THAT(w.warnings, ::testing::Contains(AllOf(HasSubstr("world.sdf:1:"), HasSubstr(version))));
+    EXPECT_THAT(w.warnings, HasProblem("sdf.newer-version", "world.sdf:1", version));
     ASSERT_EQ(w.shapes.size(), 1U);
     EXPECT_LT((boxOf(w.shapes[0]).sizes() - Eigen::Vector3f(2, 2, 2)).norm(), 1e-5F);
   }
@@ -114,21 +110,21 @@ TEST_F(WorldFiles, NewerVersionsAreReadByTheRulesOf19) {
 }
 
 TEST_F(WorldFiles, MismatchedTagsAreNamedWithTheirLines) {
-  EXPECT_THAT(problemOf("<sdf version='1.9'>\n<world name='w'>\n</sdf>\n"),
-              AllOf(HasSubstr("world.sdf:3:1: "), HasSubstr("</sdf>"), HasSubstr("<world> of line 2")));
-  EXPECT_THAT(problemOf("<sdf version='1.9'>\n<world name='w'"), HasSubstr("world.sdf:2:1: "));
-  EXPECT_THAT(problemOf("<sdf version='1.9'>\n<% 3.times do |i| %>\n<% end %>\n</sdf>"),
-              AllOf(HasSubstr("world.sdf:2:1: "), HasSubstr("template of ERB"), HasSubstr("erb ")));
+  EXPECT_THAT(refusalOf("<sdf version='1.9'>\n<world name='w'>\n</sdf>\n"),
+              HasProblem("xml.mismatched-tag", "world.sdf:3:1", "<world> of line 2"));
+  EXPECT_THAT(refusalOf("<sdf version='1.9'>\n<world name='w'"), HasProblem("xml.tag-open", "world.sdf:2:1"));
+  EXPECT_THAT(refusalOf("<sdf version='1.9'>\n<% 3.times do |i| %>\n<% end %>\n</sdf>"),
+              HasProblem("sdf.erb-template", "world.sdf:2:1", "erb "));
 }
 
 TEST_F(WorldFiles, TemplatesOfXacroAreRefusedWhereTheyHoldThings) {
   const std::string box = model("box", kBox);
-  EXPECT_EQ(problemOf(sdf(world("<xacro:arg name='a'/><xacro:unless value='x'><plugin name='p' filename='f'/>"
-                                "</xacro:unless>" +
-                                box))),
-            "no error");
-  EXPECT_THAT(problemOf(sdf(world(box + "<xacro:if value='x'>" + model("b", kBox) + "</xacro:if>"))),
-              AllOf(HasSubstr("template of xacro"), HasSubstr("xacro \"")));
+  EXPECT_THAT(refusalOf(sdf(world("<xacro:arg name='a'/><xacro:unless value='x'><plugin name='p' filename='f'/>"
+                                  "</xacro:unless>" +
+                                  box))),
+              IsEmpty());
+  EXPECT_THAT(refusalOf(sdf(world(box + "<xacro:if value='x'>" + model("b", kBox) + "</xacro:if>"))),
+              HasProblem("sdf.xacro-template", "xacro:if", "xacro \""));
 }
 
 TEST_F(WorldFiles, SavedStatesWin) {
@@ -149,14 +145,14 @@ TEST_F(WorldFiles, SavedStatesWin) {
   EXPECT_LT((boxOf(w.shapes[1]).center() - Eigen::Vector3f(7, 0, 0)).norm(), 1e-4F);
   EXPECT_LT((boxOf(w.shapes[2]).center() - Eigen::Vector3f(0, 9, 0)).norm(), 1e-4F);
   EXPECT_LT((boxOf(w.shapes[3]).center() - Eigen::Vector3f(0, 20, 0)).norm(), 1e-4F);
-  EXPECT_THAT(w.warnings, ::testing::Contains(AllOf(HasSubstr("world.sdf:"), HasSubstr("state: "))));
+  EXPECT_THAT(w.warnings, HasProblem("state.used", "state"));
 }
 
 const std::string kOak = "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Oak Tree</uri></include>\n";
 
 TEST_F(WorldFiles, ModelsOfFuelAreFoundInItsCaches) {
-  EXPECT_THAT(problemOf(sdf(world(kOak))), AllOf(HasSubstr("world.sdf:3: "), HasSubstr("Oak Tree"),
-                                                 HasSubstr(pathOf("home/.gz/fuel")), HasSubstr("gz fuel download")));
+  EXPECT_THAT(refusalOf(sdf(world(kOak))), AllOf(HasProblem("sdf.not-found", "world.sdf:3", pathOf("home/.gz/fuel")),
+                                                 HasProblem("sdf.not-found", "world.sdf:3", "gz fuel download")));
   const std::string inside = "/openrobotics/models/oak tree/";
   for (const std::string cache : {"home/.gz/fuel/fuel.gazebosim.org", "home/.ignition/fuel/fuel.ignitionrobotics.org",
                                   "given/fuel.gazebosim.org", "older/fuel.ignitionrobotics.org"}) {
@@ -195,9 +191,9 @@ TEST_F(WorldFiles, ModelUrisAreFoundInTheCachesOfFuel) {
   folder_.write(server + "gerkey/models/crate/2/meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_THAT(load(sdf(world(uri))).modelNames(), ElementsAre("crate"));
   putModel(server + "other/models/crate/1", "another");  // Which of the two is meant is not known.
-  EXPECT_THAT(problemOf(sdf(world(uri))), HasSubstr("Unable to find uri[model://Crate]"));
+  EXPECT_THAT(refusalOf(sdf(world(uri))), HasProblem("sdf.not-found", "", "model://Crate"));
   environment_.set("SDF_PATH", pathOf(server + "other/models"));
-  EXPECT_THAT(problemOf(sdf(world(uri))), HasSubstr("did you mean `model://crate`?"));
+  EXPECT_THAT(refusalOf(sdf(world(uri))), HasProblem("sdf.not-found", "", "`model://crate`"));
   EXPECT_THAT(load(sdf(world("<include><uri>model://crate</uri></include>"))).modelNames(), ElementsAre("another"));
 }
 
@@ -230,8 +226,7 @@ TEST_F(WorldFiles, IncompleteWorldsAreRefusedUnlessAllowed) {
         box + model("m", "<heightmap><uri>no.png</uri><size>1 1 1</size></heightmap>"),
         box + "<population name='p'><model_count>2</model_count><distribution><type>grid</type></distribution>" + box +
             "</population>"}) {
-    EXPECT_THAT(problemOf(sdf(world(text))), AllOf(HasSubstr("world.sdf:"), HasSubstr("--allow-incomplete-world")))
-        << text;
+    EXPECT_THAT(refusalOf(sdf(world(text))), HasProblem(kAnyName, "", "--allow-incomplete-world")) << text;
     const WorldModel w = load(sdf(world(text)), IncompleteWorld::kAllowed);
     EXPECT_THAT(w.modelNames(), ElementsAre("box"));
     EXPECT_THAT(w.warnings, Not(IsEmpty()));
@@ -240,12 +235,12 @@ TEST_F(WorldFiles, IncompleteWorldsAreRefusedUnlessAllowed) {
 
 TEST_F(WorldFiles, NamesThatDifferByCaseAreProposed) {
   folder_.write("home/meshes/Wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_THAT(problemOf(sdf(world(model("m", "<mesh><uri>meshes/wall.OBJ</uri></mesh>")))),
-              AllOf(HasSubstr("meshes/wall.OBJ"), HasSubstr("did you mean `meshes/Wall.obj`?")));
-  EXPECT_EQ(problemOf(sdf(world(model("m", "<mesh><uri>meshes/Wall.obj</uri></mesh>")))), "no error");
+  EXPECT_THAT(refusalOf(sdf(world(model("m", "<mesh><uri>meshes/wall.OBJ</uri></mesh>")))),
+              HasProblem("world.mesh-missing", "mesh", "`meshes/Wall.obj`"));
+  EXPECT_THAT(refusalOf(sdf(world(model("m", "<mesh><uri>meshes/Wall.obj</uri></mesh>")))), IsEmpty());
   folder_.write("home/models/Oak Tree/Leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_THAT(problemOf(sdf(world(model("m", "<mesh><uri>model://oak%20tree/leaf.obj</uri></mesh>")))),
-              HasSubstr("did you mean `model://Oak Tree/Leaf.obj`?"));
+  EXPECT_THAT(refusalOf(sdf(world(model("m", "<mesh><uri>model://oak%20tree/leaf.obj</uri></mesh>")))),
+              HasProblem("world.mesh-missing", "mesh", "`model://Oak Tree/Leaf.obj`"));
 }
 
 TEST_F(WorldFiles, PointersOfGitLfsAreNamed) {
@@ -257,11 +252,11 @@ TEST_F(WorldFiles, PointersOfGitLfsAreNamed) {
       "</geometry><material><pbr><metal><albedo_map>brick.png</albedo_map></metal></pbr></material></visual></link>"
       "</model>";
   const WorldModel w = load(sdf(world(wall + wall.substr(0, 13) + "2" + wall.substr(13))));
-  EXPECT_THAT(w.warnings, ElementsAre(AllOf(HasSubstr("brick.png: "), HasSubstr("git lfs pull"))));
+  EXPECT_THAT(w.warnings, ElementsAre(ProblemIs("file.pointer", "brick.png", "git lfs pull")));
   EXPECT_EQ(w.shapes.at(0).image, "");
   folder_.write("home/hill.png", pointer);
   const std::string hill = model("h", "<heightmap><uri>hill.png</uri><size>4 4 2</size></heightmap>");
-  EXPECT_THAT(problemOf(sdf(world(hill))), AllOf(HasSubstr("world.sdf:3"), HasSubstr("git lfs pull")));
+  EXPECT_THAT(refusalOf(sdf(world(hill))), HasProblem("file.pointer", "world.sdf:3", "git lfs pull"));
   EXPECT_THAT(load(sdf(world(wall + hill)), IncompleteWorld::kAllowed).modelNames(), ElementsAre("wall"));
 }
 
@@ -276,8 +271,8 @@ TEST_F(WorldFiles, PolylinesAreExtruded) {
   EXPECT_NEAR(rays.cast({5, 2, 1}, {1, 0, 0}, 100).distance_m, 5.0, 1e-4) << "the outer side";
   EXPECT_NEAR(rays.cast({12, 2, 1}, {1, 0, 0}, 100).distance_m, 1.0, 1e-4) << "the inner side";
   EXPECT_THAT(
-      problemOf(sdf(world(model("a", "<polyline><point>0 0</point><point>1 0</point><height>1</height></polyline>")))),
-      AllOf(HasSubstr("world.sdf:3"), HasSubstr("less than 3 points")));
+      refusalOf(sdf(world(model("a", "<polyline><point>0 0</point><point>1 0</point><height>1</height></polyline>")))),
+      HasProblem("geometry.too-few-points", "world.sdf:3"));
 }
 
 // The triangles of 1500 points took 600 MB.
@@ -285,8 +280,8 @@ TEST_F(WorldFiles, PolylinesOfVeryManyPointsAreRefused) {
   std::string zigzag;
   for (int i = 0; i < 501; ++i) zigzag += "<point>" + std::to_string(i) + (i % 2 == 0 ? " 0" : " 9") + "</point>";
   const std::string line = "<polyline>" + zigzag + "<height>1</height></polyline>";
-  EXPECT_THAT(problemOf(sdf(world(model("a", line + line)))),
-              AllOf(HasSubstr("world.sdf:3"), HasSubstr("<polyline> have 1002 points, 1000 at most")));
+  EXPECT_THAT(refusalOf(sdf(world(model("a", line + line)))),
+              HasProblem("geometry.too-many-points", "world.sdf:3", "1002"));
 }
 
 TEST_F(WorldFiles, TextsMayHaveCommentsAndCdata) {
@@ -310,12 +305,12 @@ TEST_F(WorldFiles, AFullFolderForCopiesIsNamed) {
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
   const rlimit full{16, limit.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
-  const std::string problem = said([&] { loadWorld(file); });
+  const auto problems = problemsOf([&] { loadWorld(file); });
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
   std::signal(SIGXFSZ, before);
-  EXPECT_THAT(problem, AllOf(HasSubstr("swiftlet-sdf-"), HasSubstr("cannot be written"), HasSubstr("set TMPDIR to")));
+  EXPECT_THAT(problems, HasProblem("sdf.no-copy", "", "TMPDIR"));
   environment_.set("TMPDIR", pathOf("nowhere"));
-  EXPECT_THAT(problemOf(text), AllOf(HasSubstr("cannot be made"), HasSubstr("set TMPDIR to")));
+  EXPECT_THAT(refusalOf(text), HasProblem("sdf.no-folder", "", "TMPDIR"));
   ::unsetenv("TMPDIR");
 }
 
@@ -330,37 +325,37 @@ TEST_F(WorldFiles, HeightmapsAreTerrain) {
   EXPECT_NEAR(rays.cast({-1.99, 1.99, 9}, {0, 0, -1}, 100).distance_m, 6.0, 0.05);
   EXPECT_NEAR(rays.cast({1, -1, 9}, {0, 0, -1}, 100).distance_m, 8.0, 1e-4);
   folder_.write("home/hill.tif", "II*");
-  EXPECT_THAT(problemOf(sdf(world(model("h", "<heightmap><uri>hill.tif</uri><size>4 4 2</size></heightmap>")))),
-              AllOf(HasSubstr("hill.tif"), HasSubstr("PNG and JPEG")));
+  EXPECT_THAT(refusalOf(sdf(world(model("h", "<heightmap><uri>hill.tif</uri><size>4 4 2</size></heightmap>")))),
+              HasProblem("image.no-png-or-jpeg", "h/l", "hill.tif"));
 }
 
 TEST_F(WorldFiles, AbsurdSizesAreNamedWithTheirLine) {
   for (const std::string geometry :
        {"<box><size>-1 1 1</size></box>", "<box><size>1 1e9 1</size></box>", "<sphere><radius>-0.5</radius></sphere>",
         "<sphere><radius>0</radius></sphere>", "<cylinder><radius>1</radius><length>1e300</length></cylinder>"})
-    EXPECT_THAT(problemOf(sdf(world("\n" + model("thing", geometry)))),
-                AllOf(HasSubstr("world.sdf:4"), HasSubstr("thing")))
+    EXPECT_THAT(refusalOf(sdf(world("\n" + model("thing", geometry)))), HasProblem("geometry.size", "thing/l"))
         << geometry;
-  EXPECT_THAT(problemOf(sdf(world(model("far", kBox, "1e8 0 0 0 0 0")))), HasSubstr("far/l"));
+  EXPECT_THAT(refusalOf(sdf(world(model("far", kBox, "1e8 0 0 0 0 0")))), HasProblem("world.too-large", "far/l"));
 }
 
 TEST_F(WorldFiles, ABlockedStartNamesTheNearestFreePlace) {
   const WorldModel w = load(sdf(world(model("floor", "<box><size>20 20 0.1</size></box>", "0 0 -0.05 0 0 0") +
                                       model("crate", "<box><size>1 1 1</size></box>", "0 0 0.5 0 0 0"))));
   Scenario scenario;
-  const std::string text = said([&] { realize(w, scenario); });
-  EXPECT_THAT(text, AllOf(HasSubstr("start: at (0.00, 0.00, 0.00)"), HasSubstr("--start \"")));
+  const auto problems = problemsOf([&] { realize(w, scenario); });
+  ASSERT_THAT(problems, ElementsAre(ProblemIs("start.in-obstacle", "start", "--start \"")));
+  const std::string& text = problems[0].hint;
   double x = 0.0, y = 0.0;
   ASSERT_EQ(std::sscanf(text.substr(text.find("--start")).c_str(), "--start \"%lf;%lf;", &x, &y), 2);
   EXPECT_LT(std::hypot(x, y), 1.5);
   scenario.start = {false, x, y, 0.0, 0.0};
-  EXPECT_EQ(said([&] { realize(w, scenario); }), "no error");
+  EXPECT_THAT(problemsOf([&] { realize(w, scenario); }), IsEmpty());
 }
 
 TEST_F(WorldFiles, OfSeveralWorldsTheFirstIsFlown) {
   const WorldModel w = load(sdf(world(model("a", kBox)) + "<world name='x'>" + model("b", kBox) + "</world>"));
   EXPECT_THAT(w.modelNames(), ElementsAre("a"));
-  EXPECT_THAT(w.warnings, ElementsAre(HasSubstr("left out")));
+  EXPECT_THAT(w.warnings, ElementsAre(ProblemIs("world.further")));
 }
 
 TEST_F(WorldFiles, ARealMazeStandsAsGazeboSavedIt) {

@@ -13,14 +13,16 @@
 #include "sdf_texts.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/truth_map.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Contains;
+using test_support::HasProblem;
+using test_support::kAnyName;
+using test_support::ProblemIs;
+using test_support::problemsOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::string worldFile(const std::string& inside) {
@@ -30,19 +32,14 @@ std::string worldFile(const std::string& inside) {
 class WorldFile : public ::testing::Test {
  protected:
   WorldModel load(const std::string& inside) { return loadWorld(folder_.write("w.sdf", worldFile(inside))); }
-  /// The message about a world that cannot be used; nothing goes to the terminal.
-  std::string problem(const std::function<void()>& loading) {
+  /// Why a world cannot be used; nothing goes to the terminal.
+  std::vector<common::Problem> problem(const std::function<void()>& loading) {
     ::testing::internal::CaptureStderr();
-    std::string text = "no error";
-    try {
-      loading();
-    } catch (const common::InputError& error) {
-      text = error.what();
-    }
+    auto problems = problemsOf(loading);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-    return text;
+    return problems;
   }
-  std::string problemOf(const std::string& inside) {
+  std::vector<common::Problem> refusalOf(const std::string& inside) {
     return problem([&] { load(inside); });
   }
   TemporaryFolder folder_{"swiftlet_world"};
@@ -141,8 +138,7 @@ TEST_F(WorldFile, FindsIncludedModelsAndMeshesOnThePaths) {
   EXPECT_NEAR(w.bounds_world_m().max().x(), 3.0F, 1e-5F);
   ASSERT_EQ(w.shapes.size(), 2U);
   for (const Shape& shape : w.shapes) EXPECT_EQ(shape.triangles.size(), 2U);
-  EXPECT_THAT(problem([&] { loadWorld(file); }),
-              AllOf(HasSubstr("w.sdf:4: "), HasSubstr("model://crate"), HasSubstr("model path")));
+  EXPECT_THAT(problem([&] { loadWorld(file); }), HasProblem("sdf.not-found", "w.sdf:4", "--model-path"));
 }
 
 TEST_F(WorldFile, FindsModelsIncludedByIncludedModels) {
@@ -153,7 +149,7 @@ TEST_F(WorldFile, FindsModelsIncludedByIncludedModels) {
                 "<model><name>outer</name><version>1</version><sdf version='1.9'>model.sdf</sdf></model>");
   folder_.write("models/outer/model.sdf", sdf("outer", "<include><uri>model://inner.sdf</uri></include>"));
   const std::string inside = "<include><uri>model://outer</uri></include>\n" + model("box", kBox);
-  EXPECT_THAT(problemOf(inside), AllOf(HasSubstr("outer/model.sdf:2: "), HasSubstr("model://inner.sdf")))
+  EXPECT_THAT(refusalOf(inside), HasProblem("sdf.not-found", "outer/model.sdf:2", "model://inner.sdf"))
       << "an obstacle would be missing in the world";
   folder_.write("models/inner.sdf", sdf("inner", "<link name='l'><collision name='c'><geometry>" + kBox +
                                                      "</geometry></collision></link>"));
@@ -161,12 +157,12 @@ TEST_F(WorldFile, FindsModelsIncludedByIncludedModels) {
 }
 
 TEST_F(WorldFile, RefusesFilesThatIncludeEachOther) {
-  EXPECT_THAT(problemOf("<include><uri>w.sdf</uri></include>"),
-              AllOf(HasSubstr("w.sdf:4:10: include: "), HasSubstr("include each other")));
+  EXPECT_THAT(refusalOf("<include><uri>w.sdf</uri></include>"),
+              HasProblem("sdf.include-circle", "w.sdf:4:10: include"));
   folder_.write("models/ring/model.sdf",
                 "<sdf version='1.9'><model name='ring'>\n<include><uri>model://ring</uri></include></model></sdf>");
-  EXPECT_THAT(problemOf("<include><uri> model://ring </uri></include>"),
-              AllOf(HasSubstr("ring/model.sdf:2:"), HasSubstr("include each other")));
+  EXPECT_THAT(refusalOf("<include><uri> model://ring </uri></include>"),
+              HasProblem("sdf.include-circle", "ring/model.sdf:2"));
 }
 
 TEST_F(WorldFile, PutsAFloorWhereTheWellKnownGroundPlaneIsMissing) {
@@ -175,17 +171,17 @@ TEST_F(WorldFile, PutsAFloorWhereTheWellKnownGroundPlaneIsMissing) {
       "<include><uri>model://sun</uri></include>\n" +
       model("box", kBox, "3 0 5 0 0 0"));
   EXPECT_NEAR(RayCaster(w).cast({50, 20, 7}, {0, 0, -1}, 100).distance_m, 7.0, 1e-4);
-  EXPECT_THAT(w.warnings, ElementsAre(AllOf(HasSubstr("w.sdf:4: "), HasSubstr("Ground Plane"), HasSubstr("stands in")),
-                                      AllOf(HasSubstr("w.sdf:5: "), HasSubstr("sun"))));
+  EXPECT_THAT(w.warnings, ElementsAre(ProblemIs("sdf.not-found", "w.sdf:4", "z = 0"),
+                                      ProblemIs("sdf.not-found", "w.sdf:5", "sun")));
 }
 
 TEST_F(WorldFile, WarnsOfUnknownElementsWithLineNumbers) {
   const WorldModel w = load("<frobnicate>3</frobnicate>\n" + model("box", kBox));
-  EXPECT_THAT(w.warnings, ElementsAre(AllOf(HasSubstr("w.sdf:4: "), HasSubstr("frobnicate"))));
+  EXPECT_THAT(w.warnings, ElementsAre(ProblemIs("sdf.error", "w.sdf:4", "frobnicate")));
   const std::string file =
       folder_.write("w.sdf", worldFile(model("box", kBox) + model("odd", "<donut><size>1</size></donut>")));
   const WorldModel odd = loadWorld(file, {}, IncompleteWorld::kAllowed);
-  EXPECT_THAT(odd.warnings, Contains(AllOf(HasSubstr("w.sdf:5"), HasSubstr("donut"))));
+  EXPECT_THAT(odd.warnings, HasProblem("geometry.unknown-kind", "w.sdf:5", "donut"));
 }
 
 TEST_F(WorldFile, AcceptsASingleModelAsAWorld) {
@@ -195,32 +191,32 @@ TEST_F(WorldFile, AcceptsASingleModelAsAWorld) {
 
 TEST_F(WorldFile, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(problem([&] { loadWorld((folder_.path() / "none.sdf").string()); }),
-              AllOf(HasSubstr("none.sdf"), HasSubstr("cannot be opened")));
-  EXPECT_THAT(problem([&] { loadWorld(folder_.path().string()); }), HasSubstr("is a folder"));
-  EXPECT_THAT(problemOf("<model name=\"a\">"),
-              AllOf(HasSubstr("w.sdf:5:"), HasSubstr("malformed XML: mismatched tag")));
-  EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "")); }), HasSubstr("malformed XML"));
+              HasProblem("file.not-opened", "none.sdf"));
+  EXPECT_THAT(problem([&] { loadWorld(folder_.path().string()); }), HasProblem("file.is-folder"));
+  EXPECT_THAT(refusalOf("<model name=\"a\">"), HasProblem("xml.mismatched-tag", "w.sdf:5"));
+  EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "")); }), HasProblem("xml.no-element"));
   EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "<robot name='r'/>")); }),
-              AllOf(HasSubstr("w.sdf:1: robot"), HasSubstr("<sdf>")));
+              HasProblem("sdf.other-root", "w.sdf:1: robot"));
   for (const std::string version : {"<sdf>", "<sdf version='junk'>", "<sdf version=''>"})
     EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", version + "</sdf>")); }),
-                AllOf(HasSubstr("w.sdf:1: sdf: "), HasSubstr("is not a version of SDF")));
+                HasProblem("sdf.no-version", "w.sdf:1: sdf"));
   EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "<sdf version='1.9'>\n</sdf>")); }),
-              HasSubstr("neither a <world> nor a <model>"));
-  EXPECT_THAT(problemOf(model("a", "<box><size>a b 1</size></box>")), AllOf(HasSubstr("w.sdf:4"), HasSubstr("a b 1")));
-  EXPECT_THAT(problemOf(model("a", kBox) + model("a", kBox)), AllOf(HasSubstr("w.sdf"), HasSubstr("[a]")));
-  EXPECT_THAT(problemOf(model("a", kBox) + "<model name=\"b\">\n<pose relative_to=\"nowhere\"/>" +
+              HasProblem("sdf.no-world"));
+  EXPECT_THAT(refusalOf(model("a", "<box><size>a b 1</size></box>")),
+              HasProblem("sdf.no-number", "w.sdf:4", "`a b 1`"));
+  EXPECT_THAT(refusalOf(model("a", kBox) + model("a", kBox)), HasProblem("sdf.error", "", "[a]"));
+  EXPECT_THAT(refusalOf(model("a", kBox) + "<model name=\"b\">\n<pose relative_to=\"nowhere\"/>" +
                         "<link name=\"l\"/></model>"),
-              AllOf(HasSubstr("w.sdf:6"), HasSubstr("nowhere")));
-  EXPECT_THAT(problemOf(model("a", "<mesh><uri>model://x/y.dae</uri></mesh>")),
-              AllOf(HasSubstr("w.sdf:4: mesh"), HasSubstr("model://x/y.dae"), HasSubstr("not found")));
+              HasProblem("sdf.error", "w.sdf:6", "nowhere"));
+  EXPECT_THAT(refusalOf(model("a", "<mesh><uri>model://x/y.dae</uri></mesh>")),
+              HasProblem("world.mesh-missing", "w.sdf:4: mesh", "`model://x/y.dae`"));
   folder_.write("bad.dae", "<COLLADA>");
   folder_.write("lfs.dae", "version https://git-lfs.github.com/spec/v1\noid sha256:83d7\nsize 9\n");
-  EXPECT_THAT(problemOf(model("a", "<mesh><uri>lfs.dae</uri></mesh>")),
-              HasSubstr("lfs.dae`: this is a pointer of Git LFS, not the file, run `git lfs pull`"));
-  EXPECT_THAT(problemOf(model("a", "<mesh><uri>bad.dae</uri></mesh>")),
-              AllOf(HasSubstr("w.sdf:4: mesh"), HasSubstr("bad.dae")));
-  EXPECT_THAT(problemOf(""), AllOf(HasSubstr("w.sdf: "), HasSubstr("no geometry at all, give its models")));
+  EXPECT_THAT(refusalOf(model("a", "<mesh><uri>lfs.dae</uri></mesh>")),
+              HasProblem("file.pointer", "w.sdf:4: mesh", "`git lfs pull`"));
+  EXPECT_THAT(refusalOf(model("a", "<mesh><uri>bad.dae</uri></mesh>")),
+              HasProblem(kAnyName, "w.sdf:4: mesh", "bad.dae"));
+  EXPECT_THAT(refusalOf(""), HasProblem("world.empty", "w.sdf"));
 }
 
 TEST_F(WorldFile, AnyContentIsLoadedOrRefusedWithoutACrash) {
@@ -246,19 +242,17 @@ TEST_F(WorldFile, AnyContentIsLoadedOrRefusedWithoutACrash) {
           break;
       }
     }
-    const std::string said = problem([&] { loadWorld(folder_.write("w.sdf", text)); });
-    (said == "no error" ? loaded : refused) += 1;
-    if (said != "no error") {
-      EXPECT_THAT(said, HasSubstr("w.sdf")) << text;
-    }
+    const auto problems = problem([&] { loadWorld(folder_.write("w.sdf", text)); });
+    (problems.empty() ? loaded : refused) += 1;
+    for (const common::Problem& one : problems) EXPECT_TRUE(one.location.file.ends_with("w.sdf")) << text;
   }
   EXPECT_GT(loaded, 3);
   EXPECT_GT(refused, 10);
 }
 
 TEST_F(WorldFile, RefusesSizesThatAreNotNumbers) {
-  EXPECT_THAT(problemOf(model("a", "<box><size>nan 1 1</size></box>")), HasSubstr("w.sdf:4"));
-  EXPECT_THAT(problemOf(model("a", "<sphere><radius>inf</radius></sphere>")), HasSubstr("w.sdf:4"));
+  EXPECT_THAT(refusalOf(model("a", "<box><size>nan 1 1</size></box>")), HasProblem(kAnyName, "w.sdf:4"));
+  EXPECT_THAT(refusalOf(model("a", "<sphere><radius>inf</radius></sphere>")), HasProblem(kAnyName, "w.sdf:4"));
 }
 
 TEST_F(WorldFile, ReportsAnInvalidStart) {
@@ -266,15 +260,15 @@ TEST_F(WorldFile, ReportsAnInvalidStart) {
   const auto start = [&](const std::string& inside) {
     return problem([&] { SimulatedVehicle(load(inside), Scenario()); });
   };
-  EXPECT_EQ(start(floor), "no error");
+  EXPECT_THAT(start(floor), IsEmpty());
   EXPECT_THAT(start("\n<frame name=\"start\"><pose>9 0 0 0 0 0</pose></frame>\n" + floor),
-              AllOf(HasSubstr("w.sdf:5: start: at (9.00, 0.00, 0.00) has no floor under it")));
+              HasProblem("start.no-floor", "w.sdf:5: start", "(9.00, 0.00, 0.00)"));
   EXPECT_THAT(start(floor + "<frame name=\"start\"><pose>1.8 0 0 0 0 0</pose></frame>\n" +
                     model("wall", "<box><size>0.1 4 2</size></box>", "2 0 1 0 0 0")),
-              AllOf(HasSubstr("w.sdf:5: start"), HasSubstr("`wall/l`"), HasSubstr("w.sdf:6")));
+              HasProblem("start.in-obstacle", "w.sdf:5: start", "`wall/l`"));
   EXPECT_THAT(start(floor + "<frame name=\"start\"><pose>1 0 0 0 0 0</pose></frame>\n" +
                     model("step", "<box><size>1 4 0.2</size></box>", "1.5 0 0.1 0 0 0")),
-              HasSubstr("stands on an edge"));
+              HasProblem("start.on-an-edge"));
 }
 
 double reachableSpaceArea(const RayCaster& rays, const FreeSpaceQuery& query) {

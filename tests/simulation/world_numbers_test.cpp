@@ -14,13 +14,17 @@
 #include "simulation/uri_resolver.hpp"
 #include "simulation/variation.hpp"
 #include "simulation/world_model.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
+using test_support::HasProblem;
+using test_support::kAnyName;
+using test_support::problemsOf;
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::IsEmpty;
 
 class WorldNumbers : public ::testing::Test {
  protected:
@@ -29,15 +33,12 @@ class WorldNumbers : public ::testing::Test {
         folder_.write("world.sdf", "<sdf version='1.9'>\n<world name='w'>\n" + models + "</world></sdf>\n"));
   }
   /// What refuses the world, or the start in it.
-  std::string refusalOf(const std::string& models, const StartConfig& start = {}) {
-    try {
+  std::vector<common::Problem> refusalOf(const std::string& models, const StartConfig& start = {}) {
+    return problemsOf([&] {
       Scenario scenario;
       scenario.start = start;
       realize(loadModels(models), scenario);
-    } catch (const common::InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    });
   }
 
   TemporaryFolder folder_{"swiftlet_world_numbers"};
@@ -47,9 +48,10 @@ const std::string kWideFloor = model("floor", "<box><size>20 20 0.1</size></box>
 
 StartConfig startAt(double x_m, double y_m) { return {false, x_m, y_m, 0.0, 0.0}; }
 
-/// The start that a message proposes.
-StartConfig proposedIn(const std::string& text) {
+/// The start that a hint proposes.
+StartConfig proposedIn(const std::vector<common::Problem>& problems) {
   StartConfig start = startAt(0.0, 0.0);
+  const std::string text = problems.empty() ? "" : problems.front().hint;
   const std::size_t at = text.find("--start \"");
   if (at != std::string::npos) std::sscanf(text.c_str() + at, "--start \"%lf;%lf;", &start.x_m, &start.y_m);
   return start;
@@ -68,33 +70,35 @@ TEST_F(WorldNumbers, ThatSdfDoesNotHaveAreRefusedWithWhatToWrite) {
         {box("1&#160;2 3"), "write `1 2 3`"},
         {box("wide\u200B"), "it has a zero-width space (U+200B): write nothing there"},
         {box("1m 2 m 3m"), "write `1 2 3`"},
-        {box("1 2 3 4"), "has 4 numbers"},
-        {box("wide"), "is not 3 numbers"},
+        {box("1 2 3 4"), "`1 2 3 4` has 4"},
+        {box("wide"), "`wide`"},
         {std::string("<sphere><radius>0,5</radius></sphere>"), "write `0.5`"},
         {std::string("<cylinder><radius>1</radius><length>2,5 m</length></cylinder>"), "write `2.5`"},
         {std::string(
              "<polyline><point>0 0</point><point>1,5 0</point><point>1 1</point><height>2,5</height></polyline>"),
          "write `2.5`"}})
-    EXPECT_THAT(refusalOf(kWideFloor + model("thing", geometry)), AllOf(HasSubstr("world.sdf:4:"), HasSubstr(wanted)))
+    EXPECT_THAT(refusalOf(kWideFloor + model("thing", geometry)), HasProblem(kAnyName, "world.sdf:4", wanted))
         << geometry;
-  EXPECT_THAT(refusalOf(kWideFloor + model("thing", kBox, "4 \u22122.5 0 0 0 0")), HasSubstr("write `4 -2.5 0 0 0 0`"));
+  EXPECT_THAT(refusalOf(kWideFloor + model("thing", kBox, "4 \u22122.5 0 0 0 0")),
+              HasProblem("sdf.no-number", "pose", "`4 -2.5 0 0 0 0`"));
   EXPECT_THAT(refusalOf("<frame name='start'><pose>1,5 1,5 0 0 0 0</pose></frame>" + kWideFloor),
-              AllOf(HasSubstr("world.sdf:3:"), HasSubstr("write `1.5 1.5 0 0 0 0`")));
+              HasProblem("sdf.no-number", "world.sdf:3", "`1.5 1.5 0 0 0 0`"));
 }
 
 TEST_F(WorldNumbers, OfSdfAndOfPluginsAreTaken) {
   const std::string plugin = "<plugin name='p' filename='f'><model><pose>1,5</pose></model></plugin>";
-  EXPECT_EQ(refusalOf(kWideFloor + plugin + model("thing", "<box><size>+1 .5\n 1e0</size></box>", "4 2. 0 0 0 -1e-2")),
-            "no error");
-  EXPECT_EQ(refusalOf(kWideFloor + model("thing", "<box><size>&#49;&#x20;&#50;&#x9;3</size></box>", "4 2 0 0 0 0")),
-            "no error");
+  EXPECT_THAT(
+      refusalOf(kWideFloor + plugin + model("thing", "<box><size>+1 .5\n 1e0</size></box>", "4 2. 0 0 0 -1e-2")),
+      IsEmpty());
+  EXPECT_THAT(refusalOf(kWideFloor + model("thing", "<box><size>&#49;&#x20;&#50;&#x9;3</size></box>", "4 2 0 0 0 0")),
+              IsEmpty());
 }
 
 TEST_F(WorldNumbers, AStartUnderATableIsRefusedForOneThatWillDo) {
   const std::string models = kWideFloor + model("table", "<box><size>1.6 0.8 0.04</size></box>", "0 0 0.75 0 0 0");
-  const std::string text = refusalOf(models, startAt(0.0, 0.0));
-  EXPECT_THAT(text, AllOf(HasSubstr("no room for the take-off"), HasSubstr("`table/l`")));
-  EXPECT_EQ(refusalOf(models, proposedIn(text)), "no error");
+  const auto problems = refusalOf(models, startAt(0.0, 0.0));
+  EXPECT_THAT(problems, HasProblem("start.no-room", "", "`table/l`"));
+  EXPECT_THAT(refusalOf(models, proposedIn(problems)), IsEmpty());
 }
 
 TEST_F(WorldNumbers, AStartInTheWallOfARoomIsMovedIntoTheRoom) {
@@ -115,12 +119,12 @@ TEST_F(WorldNumbers, AStartBeneathATerrainIsRefused) {
   folder_.write("hill.png", std::string(bytes.begin(), bytes.end()));
   EXPECT_THAT(refusalOf(kWideFloor + model("hill", "<heightmap><uri>hill.png</uri><size>4 4 2</size></heightmap>"),
                         startAt(0.5, 0.5)),
-              HasSubstr("is beneath the terrain `hill/l`"));
+              HasProblem("start.beneath-terrain", "", "`hill/l`"));
 }
 
 TEST_F(WorldNumbers, ASecondStateIsNamed) {
   const std::string state = "<state world_name='w'><model name='floor'><pose>0 0 0 0 0 0</pose></model></state>\n";
-  EXPECT_THAT(loadModels(kWideFloor + state + state).warnings, ::testing::Contains(HasSubstr("this one is left out")));
+  EXPECT_THAT(loadModels(kWideFloor + state + state).warnings, HasProblem("state.further", "state"));
 }
 
 TEST(SdfLines, EndInEveryWayThatSystemsHave) {

@@ -1,7 +1,8 @@
 // Classic logs of wheeled robots, with their odometry and without, one set of parameters for all, scored by the
 // relations of Kuemmerle 2009. The best published means of Cartographer, tuned for each log, and of the peers run on
 // the raw logs: 0.0229 m and 0.453 deg (intel), 0.0353 m and 0.44 deg (fr079). The bounds on the mean error of the
-// translation are ours, a little above what is measured (decision 085); those on the rotation are the published ones.
+// translation are ours, a little above what is measured (docs/decisions/scan_matching.md#085); those on the rotation
+// are the published ones.
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -110,7 +111,8 @@ TEST(RecordedLog, Freiburg079IsMappedForwardsAndThenBackwards) {
 }
 
 /// The error of gmapping is 0.042 m on the raw log with its odometry; its published error is 0.070 m. Particles without
-/// odometry have no bound (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong (decision 023).
+/// odometry have no bound (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong
+/// (docs/decisions/scan_matching.md#023).
 TEST(RecordedLog, IntelIsMappedByParticles) { expectRelations("intel", true, 0.042, 0.453, SlamMethod::kParticles); }
 
 }  // namespace

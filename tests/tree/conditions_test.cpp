@@ -86,15 +86,17 @@ TEST(Conditions, ThatCannotBeEvaluatedMakeTheNodeFailWithTheReason) {
 }
 
 TEST(Conditions, ProblemsAreFoundBeforeTheFirstTick) {
-  EXPECT_THAT(problemText("<A _skipIf=\"1 +\"/>"), HasSubstr("A._skipIf: expected a value at the end of `1 +`"));
-  EXPECT_THAT(problemText("<Sequence><Script code=\"x := 1\"/><A _skipIf=\"x = 2\"/></Sequence>"),
-              HasSubstr("A._skipIf: it assigns to an entry, but is only asked, use == to compare"));
-  EXPECT_THAT(problemText("<Script code=\"x := 1 / 0\"/>"), HasSubstr("Script.code: division by zero"));
-  EXPECT_THAT(problemText("<A _skipIf=\"1 / 0.0 > 2\"/>"), HasSubstr("A._skipIf: division by zero"));
-  EXPECT_THAT(problemText("<A _while=\"ready\"/>"), HasSubstr("A._while: nothing sets the entry {ready}"));
-  EXPECT_THAT(problemText("<Script code=\"x = 1\"/>"), HasSubstr("Script.code: nothing sets the entry {x}"));
-  EXPECT_THAT(problemText("<Sequence><Script code=\"t := 'soon'\"/><Sleep msec=\"{t}\"/></Sequence>"),
-              HasSubstr("`soon` is not a time"));
+  EXPECT_THAT(problemsInside("<A _skipIf=\"1 +\"/>"), ElementsAre(At("3:4 A._skipIf", "tree.script-syntax", "`1 +`")));
+  EXPECT_THAT(problemsInside("<Sequence><Script code=\"x := 1\"/><A _skipIf=\"x = 2\"/></Sequence>"),
+              ElementsAre(At("3:37 A._skipIf", "tree.script-assigns", "==")));
+  EXPECT_THAT(problemsInside("<Script code=\"x := 1 / 0\"/>"),
+              ElementsAre(At("3:9 Script.code", "tree.script-division")));
+  EXPECT_THAT(problemsInside("<A _skipIf=\"1 / 0.0 > 2\"/>"), ElementsAre(At("3:4 A._skipIf", "tree.script-division")));
+  EXPECT_THAT(problemsInside("<A _while=\"ready\"/>"), ElementsAre(At("3:4 A._while", "tree.entry-unset", "{ready}")));
+  EXPECT_THAT(problemsInside("<Script code=\"x = 1\"/>"),
+              ElementsAre(At("3:9 Script.code", "tree.entry-unset", "{x}")));
+  EXPECT_THAT(problemsInside("<Sequence><Script code=\"t := 'soon'\"/><Sleep msec=\"{t}\"/></Sequence>"),
+              ElementsAre(At("3:19 code", "tree.value-type", "`soon`")));
 }
 
 }  // namespace

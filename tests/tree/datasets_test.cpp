@@ -54,10 +54,10 @@ class Learner {
  public:
   /// False when the problem is about something else.
   bool learn(const Problem& problem, const std::string& text) {
+    const std::string name(problem.message.name());
     std::smatch match;
-    if (std::regex_search(problem.message, match,
-                          std::regex("(?:unknown node )?`([^`]+)`(?: is a node of BehaviorTree.CPP.*)?$")) &&
-        (problem.message.starts_with("unknown node") || problem.message.ends_with("does not have"))) {
+    std::regex_search(problem.message.text(), match, std::regex("[`{]([^`}]+)"));  // What is unknown or not set.
+    if (name == "tree.unknown-node" || name == "tree.foreign-node") {
       NodeManifest& manifest = manifests_[match[1]];
       manifest.id = match[1];
       // A type is a control node when it has children anywhere in the file.
@@ -67,14 +67,13 @@ class Learner {
                                                        : NodeKind::kAction;
       return true;
     }
-    if (std::regex_search(problem.message, match, std::regex("unknown port `([^`]+)`")) &&
-        manifests_.contains(problem.element)) {
+    if (name == "tree.unknown-port" && manifests_.contains(problem.element)) {
       manifests_[problem.element].ports.push_back(
           {.name = match[1], .type = PortType::kString, .direction = Direction::kInOut});
       return true;
     }
     // Entries are filled by the host, or by outputs we cannot tell from inputs.
-    if (std::regex_search(problem.message, match, std::regex("nothing sets the entry \\{([^}]+)\\}"))) {
+    if (name == "tree.entry-unset") {
       options.host_entries.push_back(match[1]);
       return true;
     }

@@ -187,11 +187,8 @@ TEST(SubTree, RemapsAnEntryOfTheOuterTree) {
 
 TEST(SubTree, HasItsOwnEntries) {
   Story story(R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice"/></Sequence>)", kThrice);
-  ASSERT_EQ(story.problems().size(), 1U);
-  EXPECT_EQ(
-      toString(story.problems()[0]),
-      "story.xml:5:35: Repeat.num_cycles: nothing sets the entry {times}, another tree has one of this name: share it "
-      "by times=\"{times}\" or _autoremap=\"true\" on the SubTree");
+  EXPECT_THAT(story.problems(), ElementsAre(At("5:35 Repeat.num_cycles", "tree.entry-unset", "{times}",
+                                               "times=\"{times}\"", "_autoremap=\"true\"")));
 }
 
 TEST(SubTree, RunsItsScriptsOnTheEntriesOfEachUse) {
@@ -249,9 +246,8 @@ TEST(SubTree, APortOfItsModelWithoutDefaultMustBeGiven) {
   model.replace(model.find(R"( default="7")"), 12, "");
   Story story(R"(<Sequence><A/><SubTree ID="Thrice"/></Sequence>)", std::string(kThrice) + model);
   ASSERT_FALSE(story.problems().empty());
-  EXPECT_EQ(toString(story.problems()[0]) + " [" + story.problems()[0].path + "]",
-            "story.xml:3:15: SubTree: port `times` is missing, and <TreeNodesModel> gives it no default "
-            "[Main/Sequence/Thrice]");
+  EXPECT_THAT(story.problems()[0],
+              At("3:15 SubTree", "tree.subtree-port-missing", "`times`", "[Main/Sequence/Thrice]"));
 }
 
 TEST(SubTree, AFlagThatItIsGivenIsATruthValue) {

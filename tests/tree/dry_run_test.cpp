@@ -59,7 +59,7 @@ class DryRuns : public test_support::Scratch {
 TEST(OutcomeScripts, AreReadLineByLine) {
   const OutcomeScript script = readOutcomeScript(
       "# a comment\n\nticks: 7\n tick_ms: 50\r\nM/Fly: RUNNING x2 , FAILURE\nIsLow: false x 3, true", "s.txt");
-  EXPECT_THAT(linesOf(script.problems), IsEmpty());
+  EXPECT_THAT(script.problems, IsEmpty());
   EXPECT_EQ(script.ticks, 7);
   EXPECT_EQ(script.tick_ms, 50);
   ASSERT_EQ(script.leaves.size(), 2U);
@@ -70,9 +70,9 @@ TEST(OutcomeScripts, AreReadLineByLine) {
 }
 
 TEST(OutcomeScripts, MistakesHaveAPlace) {
-  const auto problemsOf = [](const char* text) { return linesOf(readOutcomeScript(text, "s.txt").problems); };
-  EXPECT_THAT(problemsOf("Fly RUNNING"), ElementsAre("s.txt:1:1: expected `LEAF: ANSWER, ANSWER x3, ...`"));
-  EXPECT_THAT(problemsOf("\n  Fly: DONE"), ElementsAre(HasSubstr("s.txt:2:3: Fly: `DONE` is not an answer, expected")));
+  const auto problemsOf = [](const char* text) { return readOutcomeScript(text, "s.txt").problems; };
+  EXPECT_THAT(problemsOf("Fly RUNNING"), ElementsAre(At("1:1", "tree.answers-line")));
+  EXPECT_THAT(problemsOf("\n  Fly: DONE"), ElementsAre(At("2:3 Fly", "tree.unknown-answer", "`DONE`")));
   for (const char* wrong : {"Fly:", "Fly: RUNNING x0", "Fly: RUNNING 3", "Fly: RUNNING,", "Fly: IDLE", "ticks: 0",
                             "ticks: many", "tick_ms: -5", "Fly: RUNNING x999999999", ": RUNNING"})
     EXPECT_EQ(problemsOf(wrong).size(), 1U) << wrong;
@@ -83,7 +83,7 @@ TEST(OutcomeScripts, MayHaveCommentsBehindAnswersAndAByteOrderMark) {
       "\xEF\xBB\xBF"
       "Fly: RUNNING, SUCCESS # as: usual\n  # Land: FAILURE\nM/Go #2: FAILURE\nticks: 7 # few",
       "s.txt");
-  EXPECT_THAT(linesOf(script.problems), IsEmpty());
+  EXPECT_THAT(script.problems, IsEmpty());
   ASSERT_EQ(script.leaves.size(), 2U);
   EXPECT_EQ(script.leaves[0].leaf, "Fly");
   EXPECT_THAT(script.leaves[0].answers, ElementsAre(Status::kRunning, Status::kSuccess));
@@ -92,14 +92,14 @@ TEST(OutcomeScripts, MayHaveCommentsBehindAnswersAndAByteOrderMark) {
 }
 
 TEST(OutcomeScripts, NameALeafOnce) {
-  EXPECT_THAT(linesOf(readOutcomeScript("Fly: SUCCESS\nLand: SUCCESS\nFly: FAILURE", "s.txt").problems),
-              ElementsAre("s.txt:3:1: Fly: is named twice, first in line 1, write all its answers in one line"));
+  EXPECT_THAT(readOutcomeScript("Fly: SUCCESS\nLand: SUCCESS\nFly: FAILURE", "s.txt").problems,
+              ElementsAre(At("3:1 Fly", "tree.answers-twice", "line 1")));
 }
 
 TEST_F(DryRuns, LeavesReadTheirInputs) {
   const auto climb = [this](const std::string& before) {
     const Ran made = run("<Sequence>" + before + "<Climb height_m=\"{h}\"/></Sequence>", "Climb: RUNNING, SUCCESS");
-    EXPECT_THAT(linesOf(made.problems), IsEmpty());
+    EXPECT_THAT(made.problems, IsEmpty());
     return made.ticks.back().answer == Status::kSuccess ? "done" : made.ticks.back().events.front();
   };
   EXPECT_EQ(climb("<SetBlackboard value=\"1\" output_key=\"h\"/>"), "done");
@@ -117,7 +117,7 @@ TEST_F(DryRuns, LeavesReadTheirInputs) {
 
 TEST_F(DryRuns, TellWhatHappensTickByTick) {
   const Ran run = this->run("<Sequence><Fly goal=\"a\"/><Land/></Sequence>", "Fly: RUNNING x2, SUCCESS\ntick_ms: 50");
-  EXPECT_THAT(linesOf(run.problems), IsEmpty());
+  EXPECT_THAT(run.problems, IsEmpty());
   EXPECT_THAT(run.unscripted, ElementsAre("Main/Sequence/Land: SUCCESS"));
   ASSERT_EQ(answers(run), "RUNNING RUNNING SUCCESS");
   EXPECT_EQ(run.ticks[1].now_ns, 100'000'000);
@@ -131,7 +131,7 @@ TEST_F(DryRuns, TellWhatHappensTickByTick) {
 TEST_F(DryRuns, ALeafIsNamedByPathNameOrType) {
   const Ran run = this->run("<Sequence><Fly goal=\"a\"/><Fly goal=\"b\" name=\"second\"/><Fly goal=\"c\"/></Sequence>",
                             "Fly: SUCCESS\nsecond: RUNNING, SUCCESS\nMain/Sequence/Fly[2]: RUNNING x2, FAILURE");
-  EXPECT_THAT(linesOf(run.problems), IsEmpty());
+  EXPECT_THAT(run.problems, IsEmpty());
   EXPECT_EQ(answers(run), "RUNNING RUNNING RUNNING FAILURE");
 }
 
@@ -144,7 +144,7 @@ TEST_F(DryRuns, AnswersGoOnWhereALeafStartsAnew) {
 TEST_F(DryRuns, ASkippedAnswerIsUsedUpByATick) {
   const Ran run = this->run("<Priority><Hold/><Fly goal=\"a\"/></Priority>",
                             "Hold: SKIPPED x2, RUNNING, SUCCESS, SKIPPED\nFly: RUNNING x4, SUCCESS");
-  EXPECT_THAT(linesOf(run.problems), IsEmpty());
+  EXPECT_THAT(run.problems, IsEmpty());
   // Fly is ticked in all but the third tick, in which Hold has the vehicle.
   EXPECT_EQ(answers(run), "RUNNING RUNNING RUNNING RUNNING RUNNING SUCCESS");
   EXPECT_THAT(run.ticks[2].events, ::testing::Contains(HasSubstr("Hold takes over from Fly")));
@@ -181,20 +181,19 @@ TEST_F(DryRuns, ScriptsThatDoNotFitAreRefused) {
   const auto problemsOf = [this](const char* script) {
     const Ran made = run("<Priority><Hold/><Sequence><IsLow/><Sleep msec=\"1\"/><Land/></Sequence></Priority>", script);
     EXPECT_THAT(made.ticks, IsEmpty());
-    return linesOf(made.problems);
+    return made.problems;
   };
-  EXPECT_THAT(problemsOf("Lnd: SUCCESS"),
-              ElementsAre("s.txt:1:1: Lnd: the mission has no such leaf, did you mean `Land`?"));
-  EXPECT_THAT(problemsOf("Sleep: SUCCESS"), ElementsAre(HasSubstr("a node of the engine, which is ticked as it is")));
-  EXPECT_THAT(problemsOf("Land: SKIPPED"), ElementsAre("s.txt:1:1: Land: `Land` is never SKIPPED"));
-  EXPECT_THAT(problemsOf("IsLow: RUNNING"), ElementsAre("s.txt:1:1: IsLow: a condition is true or false"));
+  EXPECT_THAT(problemsOf("Lnd: SUCCESS"), ElementsAre(At("1:1 Lnd", "tree.unknown-leaf", "`Land`?")));
+  EXPECT_THAT(problemsOf("Sleep: SUCCESS"), ElementsAre(At("1:1 Sleep", "tree.answers-of-engine")));
+  EXPECT_THAT(problemsOf("Land: SKIPPED"), ElementsAre(At("1:1 Land", "tree.answers-skipped")));
+  EXPECT_THAT(problemsOf("IsLow: RUNNING"), ElementsAre(At("1:1 IsLow", "tree.answers-of-condition")));
   EXPECT_THAT(problemsOf("Land: SUCCESS\nMain/Priority/Sequence/Land: SUCCESS"),
-              ElementsAre(HasSubstr("s.txt:1:1: Land: other lines name each of these leaves better")));
+              ElementsAre(At("1:1 Land", "tree.answers-unused")));
 }
 
 TEST_F(DryRuns, PortsAreCheckedAsInFlight) {
-  EXPECT_THAT(linesOf(run("<Fly/>", "Fly: SUCCESS").problems), ElementsAre(HasSubstr("port `goal` is missing")));
-  EXPECT_THAT(linesOf(run("<Dive/>", "").problems), ElementsAre(HasSubstr("unknown node `Dive`")));
+  EXPECT_THAT(run("<Fly/>", "Fly: SUCCESS").problems, ElementsAre(At("3:1 Fly", "tree.port-missing", "`goal`")));
+  EXPECT_THAT(run("<Dive/>", "").problems, ElementsAre(At("3:1 Dive", "tree.unknown-node")));
 }
 
 TEST_F(DryRuns, NodesOfOtherProgramsAnswerToo) {

@@ -32,9 +32,9 @@ Registry withPorts() {
   return registry;
 }
 
-std::vector<std::string> problemsIn(const std::string& inside, const std::string& more = {}) {
+std::vector<Problem> problemsIn(const std::string& inside, const std::string& more = {}) {
   const Registry registry = withPorts();
-  return linesOf(parseText(file(inside, more), "f.xml", registry).problems);
+  return parseText(file(inside, more), "f.xml", registry).problems;
 }
 
 constexpr const char* kEmptyPorts =
@@ -50,11 +50,10 @@ TEST(EmptyPorts, AreAsNotGiven) {
 }
 
 TEST(EmptyPorts, ThatMustBeGivenAreTold) {
-  EXPECT_THAT(problemsIn("<Fly goal=\"\"/>"),
-              ElementsAre("f.xml:3:6: Fly: port `goal` is empty, expected a point `x;y` or `x;y;z` in metres"));
-  EXPECT_THAT(problemsIn("<Script code=\"\"/>"), ElementsAre(HasSubstr("port `code` is empty, expected a script")));
+  EXPECT_THAT(problemsIn("<Fly goal=\"\"/>"), ElementsAre(At("3:6 Fly", "tree.port-missing", "`goal`")));
+  EXPECT_THAT(problemsIn("<Script code=\"\"/>"), ElementsAre(At("3:9 Script", "tree.port-missing", "`code`")));
   EXPECT_THAT(problemsIn("<SetBlackboard value=\"1\" output_key=\"\"/>"),
-              ElementsAre(HasSubstr("port `output_key` is empty, expected an entry")));
+              ElementsAre(At("3:26 SetBlackboard", "tree.port-missing", "`output_key`")));
 }
 
 TEST(EmptyPorts, OfTextThatMustBeGivenAreTheEmptyText) {

@@ -13,10 +13,9 @@
 namespace swiftlet::tree {
 namespace {
 
+using testing::At;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::linesOf;
 using testing::MockedTree;
 
 class ForeignFile : public ::testing::Test {
@@ -30,13 +29,7 @@ class ForeignFile : public ::testing::Test {
   }
   void writeTree(const std::string& inside, const std::string& more = {}) { write(testing::file(inside, more)); }
 
-  /// Each with its place, without the name of the file.
-  std::vector<std::string> shortLines(const std::vector<Problem>& problems) const {
-    std::vector<std::string> lines = linesOf(problems);
-    for (std::string& line : lines) line.erase(0, path_.size() + 1);
-    return lines;
-  }
-  std::vector<std::string> problemsOfMission() const { return shortLines(parseFile(path_, withEveryName()).problems); }
+  std::vector<Problem> problemsOfMission() const { return parseFile(path_, withEveryName()).problems; }
   std::string firstTick() const { return MockedTree(path_).tick().substr(0, 7); }
 
   /// The engine's nodes and the mocks, but the file is read as a mission is.
@@ -50,14 +43,12 @@ TEST_F(ForeignFile, HasRawCharactersInItsValues) {
       "<Sequence><Script code=\"n := 3; s := 'a&b&#65;&lt;&nbsp;'\"/>\n"
       "<!-- \"&<\" --><Tést a='\"<'/> <ScriptCondition code=\"n < 4 && 2 < n\" name='<&'\n/>"
       "<ScriptCondition code=\"s == 'a&amp;bA&lt;&amp;nbsp;'\"/></Sequence>");
-  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("malformed XML")));
+  EXPECT_THAT(problemsOfMission(), ElementsAre(At("3:42 <Sequence>", "tree.xml-malformed")));
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(shortLines(tree.warnings()),
-              ElementsAre("3:40: `&` stands for itself in a value, which XML does not allow, write &amp;",
-                          "4:24: `<` stands for itself in a value, which XML does not allow, write &lt;",
-                          "4:54: `<` stands for itself in a value, which XML does not allow, write &lt;",
-                          "4:74: `<` stands for itself in a value, which XML does not allow, write &lt;"));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(),
+              ElementsAre(At("3:40", "tree.value-unescaped", "&amp;"), At("4:24", "tree.value-unescaped", "&lt;"),
+                          At("4:54", "tree.value-unescaped"), At("4:74", "tree.value-unescaped")));
   EXPECT_EQ(firstTick(), "SUCCESS");
 }
 
@@ -65,26 +56,25 @@ TEST_F(ForeignFile, WithRawCharactersHasItsPlaces) {
   writeTree(
       "<Sequence><Script code=\"n := 1 && 2 < 3\"/><Repeat num_cycles=\"0 < 1\" num=\"<<&\" more=\"\">\n"
       "<Do a=\"&&&&\"/></Repeat> text<Inverter/></Sequence>");
-  EXPECT_THAT(shortLines(MockedTree(path_).problems()),
-              ElementsAre(HasSubstr("4:25: Sequence: text is not expected here"),
-                          HasSubstr("3:51: Repeat.num_cycles: `0 < 1` is not a whole number"),
-                          HasSubstr("3:70: Repeat: unknown port `num`"), HasSubstr("3:80: Repeat: unknown port `more`"),
-                          HasSubstr("4:29: Inverter: has 0 children")));
+  EXPECT_THAT(
+      MockedTree(path_).problems(),
+      ElementsAre(At("4:25 Sequence", "tree.stray-text"), At("3:51 Repeat.num_cycles", "tree.value-type", "`0 < 1`"),
+                  At("3:70 Repeat", "tree.unknown-port", "`num`"), At("3:80 Repeat", "tree.unknown-port", "`more`"),
+                  At("4:29 Inverter", "tree.children-count")));
   write("<root BTCPP_format=\"4\"><BehaviorTree ID=\"A < B && C\"><Do a=\"&&\"></Dont></BehaviorTree></root>");
-  EXPECT_THAT(shortLines(MockedTree(path_).problems()), ElementsAre(HasSubstr("1:67: <Do>: malformed XML")));
+  EXPECT_THAT(MockedTree(path_).problems(), ElementsAre(At("1:67 <Do>", "tree.xml-malformed")));
   write("<root BTCPP_format=\"4\"><BehaviorTree ID=\"A < B\"><Do a=\"&&/></BehaviorTree></root>");
-  EXPECT_THAT(shortLines(MockedTree(path_).problems()), ElementsAre(HasSubstr("malformed XML")));
+  EXPECT_THAT(MockedTree(path_).problems(), ElementsAre(At("1:49 <BehaviorTree>", "tree.xml-malformed")));
 }
 
 TEST_F(ForeignFile, NamesConstantsOfItsProgram) {
   writeTree("<Sequence><Script code=\"A := THE_ANSWER; color := RED\"/><Script code=\"b := unknown\"/></Sequence>");
   EXPECT_THAT(problemsOfMission().size(), 3U);
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(shortLines(tree.warnings()),
-              ElementsAre(HasSubstr("nothing sets the entry {THE_ANSWER}, unless it is a constant"),
-                          HasSubstr("nothing sets the entry {RED}"),
-                          HasSubstr("nothing sets the entry {unknown}, unless the program that ticks the tree does")));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(), ElementsAre(At("3:19 Script.code", "tree.entry-unset", "{THE_ANSWER}", "constant"),
+                                           At("3:19 Script.code", "tree.entry-unset", "{RED}", "constant"),
+                                           At("3:65 Script.code", "tree.entry-unset", "{unknown}", "program")));
 }
 
 TEST_F(ForeignFile, ReadsEntriesThatItsProgramSets) {
@@ -93,9 +83,9 @@ TEST_F(ForeignFile, ReadsEntriesThatItsProgramSets) {
       "</Timeout></ReactiveSequence>");
   EXPECT_THAT(problemsOfMission().size(), 2U) << "a port of a mock may also write its entry";
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(shortLines(tree.warnings()),
-              ElementsAre(HasSubstr("{battery_ok}, unless the program"), HasSubstr("{patience}, unless the program")));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(), ElementsAre(At("3:36 ScriptCondition.code", "tree.entry-unset", "{battery_ok}"),
+                                           At("3:64 Timeout.msec", "tree.entry-unset", "{patience}")));
 }
 
 TEST_F(ForeignFile, OfOurOwnLeavesAloneHasNoOtherProgram) {
@@ -103,7 +93,7 @@ TEST_F(ForeignFile, OfOurOwnLeavesAloneHasNoOtherProgram) {
   ours.add({.id = "Fly", .kind = NodeKind::kAction, .ports = {{.name = "to", .type = PortType::kPoint}}},
            ours.find("AlwaysSuccess")->build);
   writeTree("<Fly to=\"{place}\"/>");
-  EXPECT_THAT(shortLines(MockedTree(path_, ours).problems()), ElementsAre(HasSubstr("nothing sets the entry {place}")));
+  EXPECT_THAT(MockedTree(path_, ours).problems(), ElementsAre(At("3:6 Fly.to", "tree.entry-unset", "{place}")));
 }
 
 TEST_F(ForeignFile, HasCommentsWithDashes) {
@@ -112,50 +102,48 @@ TEST_F(ForeignFile, HasCommentsWithDashes) {
       "<!----><!-- - -->";
   write("<!-- first -- -->" + testing::file("<Sequence>" + comments + "<Do text=\"<!-- a -- b -->\"/></Sequence>"));
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(shortLines(tree.warnings()),
-              ElementsAre("1:12: `--` stands in a comment, which XML does not allow; also in line 4, 5 and 6, write "
-                          "<!-- == text == -->",
-                          HasSubstr("6:40: `<` stands for itself")));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(),
+              ElementsAre(At("1:12", "tree.comment-dashes", "4, 5 and 6"), At("6:40", "tree.value-unescaped", "`<`")));
   std::string many;
   for (int i = 0; i < 13; ++i) many += "<!-- a <!-- b -->\n";
   writeTree("<Sequence>" + many + "<AlwaysSuccess/></Sequence>");
-  EXPECT_THAT(
-      shortLines(MockedTree(path_).warnings()),
-      ElementsAre(HasSubstr("; also in line 4, 5, 6, 7, 8, 9, 10, 11, 12, 13 and 2 more, take the inner <!--")));
+  EXPECT_THAT(MockedTree(path_).warnings(),
+              ElementsAre(At("3:20", "tree.comment-nested", "4, 5, 6, 7, 8, 9, 10, 11, 12, 13 and 2 more")));
   writeTree("<Sequence>" + comments + "<AlwaysSuccess/></Sequence>");
   EXPECT_THAT(problemsOfMission(), IsEmpty()) << "in a mission, too";
   writeTree("<Sequence>" + comments + "\n<Nobody/></Sequence>");
-  EXPECT_THAT(shortLines(parseFile(path_, Registry::standard()).problems), ElementsAre(HasSubstr("7:1: Nobody")));
+  EXPECT_THAT(parseFile(path_, Registry::standard()).problems, ElementsAre(At("7:1 Nobody", "tree.unknown-node")));
   writeTree("<Sequence><!-- a -- b</Sequence>");
-  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("3:11: <Sequence>: malformed XML: unclosed token")));
+  EXPECT_THAT(problemsOfMission(), ElementsAre(At("3:11 <Sequence>", "tree.xml-malformed")));
 }
 
 TEST_F(ForeignFile, HasAttributesThatNobodyReads) {
   write(
       "<root BTCPP_format=\"4\" _favorite=\"true\" version=\"2\"><BehaviorTree ID=\"M\" _favorite=\"true\" _x=\"d\">"
       "<Do _y=\"2\"/></BehaviorTree></root>");
-  EXPECT_THAT(problemsOfMission(),
-              ElementsAre(HasSubstr("root: unknown attribute `_favorite`"), HasSubstr("unknown attribute `version`"),
-                          HasSubstr("Do: unknown attribute `_y`")));
+  EXPECT_THAT(problemsOfMission(), ElementsAre(At("1:24 root", "tree.unknown-attribute", "`_favorite`"),
+                                               At("1:41 root", "tree.unknown-attribute", "`version`"),
+                                               At("1:102 Do", "tree.unknown-attribute", "`_y`")));
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
+  EXPECT_THAT(tree.problems(), IsEmpty());
   EXPECT_THAT(tree.warnings().size(), 3U);
 }
 
 TEST_F(ForeignFile, CallsAConditionAnAction) {
   writeTree("<Action ID=\"ScriptCondition\" code=\"true\"/>");
-  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("write <Condition ID=\"ScriptCondition\">")));
-  EXPECT_THAT(shortLines(MockedTree(path_).problems()), IsEmpty());
+  EXPECT_THAT(problemsOfMission(),
+              ElementsAre(At("3:1 Action", "tree.wrong-kind", "<Condition ID=\"ScriptCondition\">")));
+  EXPECT_THAT(MockedTree(path_).problems(), IsEmpty());
   EXPECT_EQ(firstTick(), "SUCCESS");
 }
 
 TEST_F(ForeignFile, GivesATreeMoreThanItUses) {
   writeTree("<SubTree ID=\"Used\" more=\"1\"/>", "<BehaviorTree ID=\"Used\"><Do/></BehaviorTree>");
-  EXPECT_THAT(problemsOfMission(), ElementsAre(HasSubstr("the tree `Used` has no entry {more}")));
+  EXPECT_THAT(problemsOfMission(), ElementsAre(At("3:20 SubTree", "tree.unknown-entry", "`Used`", "{more}")));
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(shortLines(tree.warnings()), ElementsAre(HasSubstr("the tree `Used` has no entry {more}")));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(), ElementsAre(At("3:20 SubTree", "tree.unknown-entry", "`Used`", "{more}")));
 }
 
 TEST_F(ForeignFile, WithoutAMainTreeIsReadByTheOneThatNoOtherUses) {
@@ -163,7 +151,7 @@ TEST_F(ForeignFile, WithoutAMainTreeIsReadByTheOneThatNoOtherUses) {
       "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><Do/></BehaviorTree><BehaviorTree ID=\"Z\"><SubTree ID=\"A\"/>"
       "</BehaviorTree></root>");
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.warnings()), ElementsAre(HasSubstr("write main_tree_to_execute=\"Z\"")));
+  EXPECT_THAT(tree.warnings(), ElementsAre(At("1:1 root", "tree.main-missing", "main_tree_to_execute=\"Z\"")));
   EXPECT_EQ(MockedTree(path_).tick(), "SUCCESS: A SUCCESS, Do SUCCESS");
 }
 
@@ -173,10 +161,10 @@ TEST_F(ForeignFile, HasTreesThatAreNotUsed) {
             "<BehaviorTree ID=\"Itself\"><SubTree ID=\"Itself\"/></BehaviorTree>\n");
   EXPECT_THAT(problemsOfMission().size(), 3U);
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(shortLines(tree.warnings()),
-              ElementsAre(HasSubstr("Repeat: port `num_cycles` is missing"), HasSubstr("Repeat: has 0 children"),
-                          HasSubstr("the tree contains itself")));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(),
+              ElementsAre(At("6:27 Repeat", "tree.port-missing", "`num_cycles`"),
+                          At("6:27 Repeat", "tree.children-count"), At("7:27 SubTree", "tree.contains-itself")));
   writeTree("<SubTree ID=\"Used\"/>", "<BehaviorTree ID=\"Used\"><Repeat/></BehaviorTree>\n");
   EXPECT_THAT(MockedTree(path_).problems().size(), 2U);
 }
@@ -188,11 +176,11 @@ TEST_F(ForeignFile, HasElementsAndAttributesOfItsEditor) {
       "<BehaviorTree ID=\"Used\"><Do/></BehaviorTree>\n<Layout zoom=\"2\"/>\n");
   EXPECT_THAT(problemsOfMission().size(), 4U);
   const MockedTree tree(path_);
-  EXPECT_THAT(shortLines(tree.problems()), IsEmpty());
-  EXPECT_THAT(
-      shortLines(tree.warnings()),
-      ElementsAre(HasSubstr("6:1: Layout: unknown element"), HasSubstr("Do: unknown attribute `_collapsed`"),
-                  HasSubstr("Script: unknown attribute `_x`"), HasSubstr("SubTree: unknown attribute `_collapsed`")));
+  EXPECT_THAT(tree.problems(), IsEmpty());
+  EXPECT_THAT(tree.warnings(), ElementsAre(At("6:1 Layout", "tree.unknown-element"),
+                                           At("3:15 Do", "tree.unknown-attribute", "`_collapsed`"),
+                                           At("3:56 Script", "tree.unknown-attribute", "`_x`"),
+                                           At("3:83 SubTree", "tree.unknown-attribute", "`_collapsed`")));
 }
 
 }  // namespace

@@ -7,12 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/tree/parser.hpp"
+#include "tests/tree/problem_matcher.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
+using testing::At;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 using Files = std::map<std::string, std::string>;
 
@@ -25,11 +26,9 @@ ParseResult parseWith(const Files& files, const std::string& main, const Registr
   return parseFile(main, registry, options);
 }
 
-std::vector<std::string> problemsOf(const Files& files, const std::string& main = "dir/main.xml") {
+std::vector<Problem> problemsOf(const Files& files, const std::string& main = "dir/main.xml") {
   const Registry registry = Registry::standard();
-  std::vector<std::string> lines;
-  for (const Problem& problem : parseWith(files, main, registry).problems) lines.push_back(toString(problem));
-  return lines;
+  return parseWith(files, main, registry).problems;
 }
 
 std::string tree(const std::string& id, const std::string& inside, const std::string& include = {}) {
@@ -62,28 +61,25 @@ TEST(Includes, OfEachOtherAreRefused) {
   EXPECT_THAT(
       problemsOf({{"dir/main.xml", tree("Main", "<AlwaysSuccess/>", "a.xml")},
                   {"dir/a.xml", tree("A", "<AlwaysSuccess/>", "../dir/main.xml")}}),
-      ElementsAre("dir/a.xml:2:1: include: files include each other: dir/main.xml -> dir/a.xml -> dir/main.xml, take "
-                  "this one out"));
+      ElementsAre(At("dir/a.xml:2:1 include", "tree.include-cycle", "dir/main.xml -> dir/a.xml -> dir/main.xml")));
 }
 
 TEST(Includes, OfMissingFilesAreRefused) {
   EXPECT_THAT(problemsOf({{"dir/main.xml", tree("Main", "<AlwaysSuccess/>", "nope.xml")}}),
-              ElementsAre("dir/main.xml:2:10: include: `dir/nope.xml` cannot be read, a path begins at the folder "
-                          "of the file that includes"));
-  EXPECT_THAT(problemsOf({}), ElementsAre("dir/main.xml: cannot be read"));
+              ElementsAre(At("dir/main.xml:2:10 include", "tree.include-unreadable", "`dir/nope.xml`")));
+  EXPECT_THAT(problemsOf({}), ElementsAre(At("dir/main.xml", "tree.file-unreadable")));
 }
 
 TEST(Includes, NameTheFileOfEachProblem) {
   EXPECT_THAT(
       problemsOf({{"dir/main.xml", tree("Main", "<SubTree ID=\"A\"/>", "a.xml")}, {"dir/a.xml", tree("A", "<Nope/>")}}),
-      ElementsAre(HasSubstr("dir/a.xml:2:22: Nope: unknown node")));
+      ElementsAre(At("dir/a.xml:2:22 Nope", "tree.unknown-node")));
 }
 
 TEST(Includes, WithTheSameTreeIdAreRefused) {
   EXPECT_THAT(problemsOf({{"dir/main.xml", tree("A", "<AlwaysSuccess/>", "a.xml")},
                           {"dir/a.xml", tree("A", "<AlwaysSuccess/>")}}),
-              ElementsAre("dir/main.xml:3:1: BehaviorTree: `A` is defined twice, first at dir/a.xml:2:1, give "
-                          "one of them another ID"));
+              ElementsAre(At("dir/main.xml:3:1 BehaviorTree", "tree.defined-twice", "dir/a.xml:2:1")));
 }
 
 TEST(Includes, OfTooManyFilesAreRefused) {
@@ -91,13 +87,13 @@ TEST(Includes, OfTooManyFilesAreRefused) {
   for (int i = 0; i < 100; ++i)
     files["dir/" + std::to_string(i) + ".xml"] =
         tree("T" + std::to_string(i), "<AlwaysSuccess/>", std::to_string(i + 1) + ".xml");
-  EXPECT_THAT(problemsOf(files, "dir/0.xml"), ElementsAre(HasSubstr("more than 64 files")));
+  EXPECT_THAT(problemsOf(files, "dir/0.xml"), ElementsAre(At("2:1 include", "tree.files-many", "64")));
 }
 
 TEST(Files, ThatAreNotRegularFilesCannotBeRead) {
   const Registry registry = Registry::standard();
   for (const char* path : {"/", "/dev/zero", "/nonexistent.xml"})
-    EXPECT_EQ(toString(parseFile(path, registry).problems), std::string(path) + ": cannot be read\n");
+    EXPECT_THAT(parseFile(path, registry).problems, ElementsAre(At(path, "tree.file-unreadable")));
 }
 
 }  // namespace

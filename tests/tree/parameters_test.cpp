@@ -9,7 +9,6 @@ namespace swiftlet::tree::testing {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Registry goingRegistry() {
   Registry registry = Registry::standard();
@@ -39,10 +38,10 @@ std::vector<std::string> listed() {
   return lines;
 }
 
-std::string changed(const std::map<std::string, std::string>& values) {
-  const Changed result = withParameters(kFile, "f.xml", goingRegistry(), values);
-  return result.problems.empty() ? result.text : toString(result.problems);
+Changed change(const std::map<std::string, std::string>& values) {
+  return withParameters(kFile, "f.xml", goingRegistry(), values);
 }
+std::string changed(const std::map<std::string, std::string>& values) { return change(values).text; }
 
 /// kFile with one text in place of another.
 std::string with(const std::string& old, const std::string& now) {
@@ -78,14 +77,17 @@ TEST(Parameters, AreWrittenInPlace) {
 }
 
 TEST(Parameters, ThatDoNotFitAreRefused) {
-  EXPECT_THAT(changed({{"M/Sequence/Go[1].height_m", "9"}}),
-              HasSubstr("f.xml:5:23: M/Sequence/Go[1].height_m: `9` is out of range, expected a number in metres from "
-                        "0.3 to 5"));
-  EXPECT_THAT(changed({{"M/Sequence/Go[1].goal", ""}}), HasSubstr("it is required"));
-  EXPECT_THAT(changed({{"M/Sequence/Go[2].gaol", "1;2"}}),
-              HasSubstr("f.xml: M/Sequence/Go[2].gaol: the mission has no such parameter, did you mean"));
-  EXPECT_THAT(changed({{"M/Sequence/Go[1].goal", "1;2\" x=\"3"}}), HasSubstr("is not a point"));
-  EXPECT_THAT(changed({{"M/Sequence/Sleep.msec", "7"}}), HasSubstr("no such parameter"));
+  const auto refusal = [](const std::string& key, const std::string& value) { return change({{key, value}}).problems; };
+  EXPECT_THAT(refusal("M/Sequence/Go[1].height_m", "9"),
+              ElementsAre(At("5:23 M/Sequence/Go[1].height_m", "tree.value-range", "`9`")));
+  EXPECT_THAT(refusal("M/Sequence/Go[1].goal", ""),
+              ElementsAre(At("5:11 M/Sequence/Go[1].goal", "tree.parameter-required")));
+  EXPECT_THAT(refusal("M/Sequence/Go[2].gaol", "1;2"),
+              ElementsAre(At("f.xml M/Sequence/Go[2].gaol", "tree.unknown-parameter", "`M/Sequence/Go[2].goal`?")));
+  EXPECT_THAT(refusal("M/Sequence/Go[1].goal", "1;2\" x=\"3"),
+              ElementsAre(At("5:11 M/Sequence/Go[1].goal", "tree.value-type")));
+  EXPECT_THAT(refusal("M/Sequence/Sleep.msec", "7"),
+              ElementsAre(At("f.xml M/Sequence/Sleep.msec", "tree.unknown-parameter")));
 }
 
 }  // namespace

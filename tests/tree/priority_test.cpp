@@ -80,7 +80,7 @@ TEST(Priority, ALowerChildIsSuspendedAndNotReset) {
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: A, resume C") << "in the same tick, and B is not asked again";
   EXPECT_THAT(story.switches(),
-              ElementsAre("Sequence takes over from nobody (B wants)", "Sequence lets go for A (A wants)",
+              ElementsAre("Sequence takes over from nobody (B wants)", "Sequence yields to A (A wants)",
                           "A takes over from Sequence (A wants)", "Sequence takes over from A (A ended with SUCCESS)"));
 }
 
@@ -93,7 +93,7 @@ TEST(Priority, TheUpperChildStartsOnlyWhenTheLowerHasLetGo) {
   EXPECT_EQ(story.view(), "Priority RUNNING, A IDLE, B RUNNING") << "B has the vehicle until it stopped";
   EXPECT_EQ(story.tick(), "RUNNING: B suspending");
   EXPECT_EQ(story.tick(), "RUNNING: B suspended, start A");
-  EXPECT_THAT(story.switches(), ElementsAre("B takes over from nobody (B wants)", "B lets go for A (A wants)",
+  EXPECT_THAT(story.switches(), ElementsAre("B takes over from nobody (B wants)", "B yields to A (A wants)",
                                             "A takes over from B (A wants)"));
 }
 
@@ -104,7 +104,7 @@ TEST(Priority, TheLowerChildContinuesWhenTheUpperNoLongerAsks) {
   story.switches();
   EXPECT_EQ(story.says("A", "RUNNING").tick(), "RUNNING: B suspending");
   EXPECT_EQ(story.says("A", "nothing").tick(), "RUNNING: resume B");
-  EXPECT_THAT(story.switches(), ElementsAre("B lets go for A (A wants)", "B goes on (A no longer asks)"));
+  EXPECT_THAT(story.switches(), ElementsAre("B yields to A (A wants)", "B continues (A no longer asks)"));
   EXPECT_EQ(story.says("A", "RUNNING").tick(), "RUNNING: B suspending") << "it has to stop all over again";
 }
 
@@ -116,7 +116,7 @@ TEST(Priority, TheHighestOfSeveralRequestsWins) {
   EXPECT_EQ(story.says("B", "RUNNING").tick(), "RUNNING: C suspending");
   EXPECT_EQ(story.says("A", "RUNNING").tick(), "RUNNING: C suspended, start A");
   EXPECT_THAT(story.switches(),
-              ElementsAre("C lets go for B (B wants)", "C lets go for A (A wants)", "A takes over from C (A wants)"));
+              ElementsAre("C yields to B (B wants)", "C yields to A (A wants)", "A takes over from C (A wants)"));
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "RUNNING: A, start B");
   EXPECT_EQ(story.says("A", "nothing").says("B", "SUCCESS").tick(), "RUNNING: B, resume C");
 }

@@ -8,67 +8,68 @@
 namespace swiftlet::tree::testing {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
-std::vector<std::string> slipsOf(const std::string& text) {
-  return linesOf(parseText(text, "f.xml", Registry::standard()).problems);
+std::vector<Problem> slipsOf(const std::string& text) {
+  return parseText(text, "f.xml", Registry::standard()).problems;
 }
 
 /// `inside` starts at line 3, column 1.
-std::vector<std::string> slipsIn(const std::string& inside, const std::string& more = {}) {
+std::vector<Problem> slipsIn(const std::string& inside, const std::string& more = {}) {
   return slipsOf(file(inside, more));
 }
 
 TEST(Slips, ACommentThatEndsEarlierThanMeantIsTold) {
-  const std::string ended = "--> in line 3 already, a comment ends at its first -->";
   EXPECT_THAT(slipsIn("<Sequence><!-- A --> B --> C --><AlwaysSuccess/></Sequence>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:24: -->: the comment before has ended at the "), HasSubstr(ended))));
+              ElementsAre(At("3:24 -->", "tree.comment-ended", "line 3")));
   EXPECT_THAT(slipsIn("<Sequence><!-- <Sequence> <!-- a --> <Sleep/> </Sequence> -->\n<AlwaysSuccess/></Sequence>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:59: -->: "), HasSubstr(ended))));
+              ElementsAre(At("3:59 -->", "tree.comment-ended", "line 3")));
   EXPECT_THAT(slipsIn("<Sequence>--><AlwaysSuccess/></Sequence>"),
-              ElementsAre(HasSubstr("f.xml:3:11: -->: no comment begins before it")));
+              ElementsAre(At("3:11 -->", "tree.comment-unopened")));
   EXPECT_THAT(slipsIn("<Sequence>go<!-- a --><AlwaysSuccess/></Sequence>"),
-              ElementsAre(HasSubstr("text is not expected here")));
+              ElementsAre(At("3:11 Sequence", "tree.stray-text")));
 }
 
 TEST(Slips, ATagWithinATagIsToldByWhatItIs) {
   EXPECT_THAT(slipsIn("<Sleep <!-- home --> msec=\"1;1\"/>"),
-              ElementsAre(HasSubstr("a comment stands between two tags, move it out of this one")));
+              ElementsAre(At("3:8 <BehaviorTree>", "tree.xml-malformed", "a comment stands between two tags")));
   EXPECT_THAT(slipsIn("<Sleep msec='1;1' <AlwaysSuccess/>"),
-              ElementsAre(HasSubstr("the tag before has no > at its end")));
-  EXPECT_THAT(slipsIn("<Sleep msec='<!-- 1;1'/>"), ElementsAre(HasSubstr("in a value, write < as &lt;")));
+              ElementsAre(At("3:19 <BehaviorTree>", "tree.xml-malformed", "the tag before has no >")));
+  EXPECT_THAT(slipsIn("<Sleep msec='<!-- 1;1'/>"),
+              ElementsAre(At("3:14 <BehaviorTree>", "tree.xml-malformed", "&lt;")));
 }
 
 TEST(Slips, AnHtmlPageIsTold) {
-  for (const char* page : {"<!DOCTYPE html>\n<html lang=\"en\"><br></html>", "<!doctype HTML><p>", "<HTML><br></HTML>"})
-    EXPECT_THAT(slipsOf(page), ElementsAre(HasSubstr("this is an HTML page, not a file of trees"))) << page;
+  for (const auto& [page, place] : {std::pair{"<!DOCTYPE html>\n<html lang=\"en\"><br></html>", "1:15"},
+                                    {"<!doctype HTML><p>", "1:1"},
+                                    {"<HTML><br></HTML>", "1:1"}})
+    EXPECT_THAT(slipsOf(page), ElementsAre(At(place, "tree.html-page"))) << page;
 }
 
 TEST(Slips, ANameThatLooksTheSameIsNamedByItsCharacter) {
   const std::string set = "<SetBlackboard value=\"1\" output_key=\"n\u200cn\"/>";
   EXPECT_THAT(slipsIn("<Sequence>" + set + "<ScriptCondition code=\"nn == 1\"/></Sequence>"),
-              ElementsAre(AllOf(HasSubstr("nothing sets the entry {nn}, did you mean `n"),
-                                HasSubstr("which holds U+200C (zero width non-joiner, take it out)?"))));
+              ElementsAre(At("3:71 ScriptCondition.code", "tree.entry-unset", "{nn}", "`n\u200cn`", "U+200C")));
   EXPECT_THAT(slipsIn("<SubTree ID=\"a-b\"/>", "<BehaviorTree ID=\"a\u2212b\"><AlwaysSuccess/></BehaviorTree>"),
-              ElementsAre(HasSubstr("which holds U+2212 (minus sign, write `-`)?")));
+              ElementsAre(At("3:10 SubTree", "tree.unknown-tree", "U+2212")));
 }
 
 TEST(Slips, AMarkThatIsNoCommentIsTold) {
-  for (const char* mark : {"<! -- a -->", "<!- a -->", "<!a>"})
+  for (const auto& [mark, place] :
+       {std::pair{"<! -- a -->", "3:13 <Sequence>"}, {"<!- a -->", "3:14 <Sequence>"}, {"<!a>", "3:13 <Sequence>"}})
     EXPECT_THAT(slipsIn("<Sequence>" + std::string(mark) + "<AlwaysSuccess/></Sequence>"),
-                ElementsAre(HasSubstr("a comment is written as <!-- text -->")))
+                ElementsAre(At(place, "tree.xml-malformed", "<!-- text -->")))
         << mark;
 }
 
 TEST(Slips, WhatXmlReservesIsReportedWithHowItIsWritten) {
   EXPECT_THAT(slipsIn("<Script code=\"a := 1 && 0\"/>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:23: "), HasSubstr(", write & as &amp;"))));
-  EXPECT_THAT(slipsIn("<Script code=\"a := 1 & 0\"/>"), ElementsAre(HasSubstr(", write & as &amp;")));
+              ElementsAre(At("3:23 <BehaviorTree>", "tree.xml-malformed", "&amp;")));
+  EXPECT_THAT(slipsIn("<Script code=\"a := 1 & 0\"/>"),
+              ElementsAre(At("3:23 <BehaviorTree>", "tree.xml-malformed", "&amp;")));
   EXPECT_THAT(slipsIn("<ScriptCondition code=\"1 < 2\"/>"),
-              ElementsAre(AllOf(HasSubstr("f.xml:3:26: "), HasSubstr(", in a value, write < as &lt;"))));
-  EXPECT_THAT(slipsIn("<Script code=1/>"), ElementsAre(HasSubstr(", put the value in quotes")));
+              ElementsAre(At("3:26 <BehaviorTree>", "tree.xml-malformed", "&lt;")));
+  EXPECT_THAT(slipsIn("<Script code=1/>"), ElementsAre(At("3:14 <BehaviorTree>", "tree.xml-malformed", "quotes")));
 }
 
 }  // namespace

@@ -98,12 +98,7 @@ Registry withStandIns(Stage& stage, const Registry& base) {
   return registry;
 }
 
-std::string problemText(std::string_view inside) {
-  std::string text;
-  const Story story(inside);
-  for (const Problem& problem : story.problems()) text += toString(problem) + "\n";
-  return text;
-}
+std::vector<Problem> problemsInside(std::string_view inside) { return Story(inside).problems(); }
 
 std::string file(std::string_view inside, std::string_view more) {
   return "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\">\n<BehaviorTree ID=\"Main\">\n" + std::string(inside) +
@@ -165,13 +160,13 @@ void Story::Witness::onSwitch(const Switch& change) {
   const std::string reason = " (" + change.reason + ")";
   switch (change.kind) {
     case Switch::Kind::kLetsGo:
-      switches.push_back(from + " lets go for " + change.to->name() + reason);
+      switches.push_back(from + " yields to " + change.to->name() + reason);
       break;
     case Switch::Kind::kTakes:
       switches.push_back(change.to->name() + " takes over from " + from + reason);
       break;
     case Switch::Kind::kKeeps:
-      switches.push_back(change.to->name() + " goes on" + reason);
+      switches.push_back(change.to->name() + " continues" + reason);
       break;
   }
 }
@@ -180,15 +175,9 @@ void Story::Witness::onFailure(const Node& node, std::string_view reason) {
   failures.push_back(node.name() + ": " + std::string(reason));
 }
 
-std::vector<std::string> linesOf(const std::vector<Problem>& problems) {
-  std::vector<std::string> lines;
-  for (const Problem& problem : problems) lines.push_back(toString(problem));
-  return lines;
-}
-
-std::vector<std::string> problemsWithStandIns(const std::string& text) {
+std::vector<Problem> problemsWithStandIns(const std::string& text) {
   Stage stage;
-  return linesOf(parseText(text, "f.xml", withStandIns(stage)).problems);
+  return parseText(text, "f.xml", withStandIns(stage)).problems;
 }
 
 }  // namespace swiftlet::tree::testing

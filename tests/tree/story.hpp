@@ -10,6 +10,7 @@
 
 #include "behaviors/tree/parser.hpp"
 #include "behaviors/tree/registry.hpp"
+#include "tests/tree/problem_matcher.hpp"
 
 namespace swiftlet::tree::testing {
 
@@ -43,7 +44,7 @@ class Story {
   std::string halt();
   /// "Sequence RUNNING, A SUCCESS, B IDLE".
   std::string view() const;
-  /// The switches since the last call: "A lets go for B (reason)".
+  /// The switches since the last call: "A yields to B (reason)".
   std::vector<std::string> switches();
   /// Failures with their reasons since the last call: "Timeout: timed out after 1 s".
   std::vector<std::string> failures();
@@ -72,12 +73,10 @@ class Story {
   std::int64_t now_ns_ = 0;
 };
 
-/// The problems of a tree with that content, one line each.
-std::string problemText(std::string_view inside);
-/// As text, for comparisons.
-std::vector<std::string> linesOf(const std::vector<Problem>& problems);
+/// The problems of a tree with that content, whose leaves may be stand-ins.
+std::vector<Problem> problemsInside(std::string_view inside);
 /// The problems of a text named f.xml whose leaves are stand-ins.
-std::vector<std::string> problemsWithStandIns(const std::string& text);
+std::vector<Problem> problemsWithStandIns(const std::string& text);
 std::string file(std::string_view inside, std::string_view more = {});
 
 }  // namespace swiftlet::tree::testing

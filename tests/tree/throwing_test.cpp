@@ -41,7 +41,7 @@ TEST(ALeafThatThrows, WhenItLetsGoHasLetGo) {
   priority.says("A", "RUNNING").says("A", "throws explaining");
   EXPECT_EQ(priority.tick(), "RUNNING: start A");
   EXPECT_THAT(priority.switches(),
-              ElementsAre("B takes over from nobody (B wants)", "B lets go for A (threw an exception: boom)",
+              ElementsAre("B takes over from nobody (B wants)", "B yields to A (threw an exception: boom)",
                           "A takes over from B (threw an exception: boom)"));
 }
 

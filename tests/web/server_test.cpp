@@ -13,6 +13,7 @@
 #include "common/error.hpp"
 #include "tests/console/fake_backend.hpp"
 #include "tests/support/patience.hpp"
+#include "tests/support/problem_matchers.hpp"
 #include "tests/web/http_client.hpp"
 #include "web/server/assets.hpp"
 #include "web/server/reachable_address.hpp"
@@ -266,13 +267,8 @@ TEST(WebServerTest, APortInUseIsAClearError) {
   FakeBackend backend({});
   FakeBackend::Setup second;
   second.port = backend.port();
-  try {
-    FakeBackend other(second);
-    FAIL() << "two servers on one port";
-  } catch (const common::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("is in use"));
-    EXPECT_THAT(error.what(), HasSubstr("choose another port"));
-  }
+  EXPECT_THAT(test_support::problemsOf([&] { FakeBackend other(second); }),
+              test_support::HasProblem("server.port-in-use", "port"));
 }
 
 TEST(WebServerTest, BadOptionsAreClearErrors) {

@@ -21,6 +21,7 @@ namespace {
 namespace beast = boost::beast;
 namespace http = beast::http;
 using boost::system::error_code;
+using common::Message;
 using Response = http::response<http::string_body>;
 
 /// Limits against clients that send without end. The longest command has some hundred bytes.
@@ -79,11 +80,12 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
     keep_alive_ = false;
     head_only_ = false;
-    if (error == http::error::body_limit) return sendError(413, "the body is too large");
+    if (error == http::error::body_limit)
+      return sendError(413, Message("request.body-too-large", "the body is too large"));
     if (error == http::error::header_limit || error == http::error::buffer_overflow)
-      return sendError(431, "the headers are too large");
+      return sendError(431, Message("request.headers-too-large", "the headers are too large"));
     if (error && error.category() == http::make_error_code(http::error::bad_method).category())
-      return sendError(400, "this is not an HTTP request: " + error.message());
+      return sendError(400, Message("request.no-http", "this is not an HTTP request: {}", error.message()));
     if (error) return close();
     request_ = parser_->release();
     keep_alive_ = request_.version() >= 11 && request_.keep_alive();
@@ -109,7 +111,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   }
 
   void perform(const Refuse& refuse) {
-    Response response = json(refuse.status, {{"accepted", false}, {"reason", refuse.reason}});
+    Response response = refusal(refuse.status, refuse.reason);
     if (!refuse.allow.empty()) response.set(http::field::allow, refuse.allow);
     if (refuse.status == 401) response.set(http::field::www_authenticate, "Bearer");
     send(std::move(response));
@@ -143,9 +145,9 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   void perform(const SendPicture& picture) {
     WatchedVehicle& vehicle = core_->vehicle(picture.vehicle);
     vehicle.telemetry.look();
-    if (!vehicle.telemetry.world().value) return sendError(503, "there is no map yet");
+    if (!vehicle.telemetry.world().value) return sendError(503, Message("server.no-map", "there is no map yet"));
     if (!core_->mayDraw(*this) || (!byOperator() && !core_->viewersMaySend()))
-      return sendError(503, "too many viewers; try again");
+      return sendError(503, Message("server.busy", "too many viewers; try again"));
     const common::Time begin = core_->now();
     const std::vector<std::uint8_t> png = vehicle.hub.png(picture.view);
     core_->drew(*this, core_->now() - begin);
@@ -158,7 +160,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   void perform(const SendState& state) {
     Telemetry& telemetry = core_->vehicle(state.vehicle).telemetry;
     telemetry.look();
-    if (!telemetry.world().value) return sendError(503, "there is no state yet");
+    if (!telemetry.world().value) return sendError(503, Message("server.no-state", "there is no state yet"));
     Response response = make(200, "application/json");
     response.body() = completeJson(*telemetry.world().value, telemetry.observe(), telemetry.events().after(0));
     send(std::move(response));
@@ -175,7 +177,9 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   /// Sends an error to the client if it may not.
   bool mayWatch() {
     const bool may = byOperator() || core_->roomForViewer();
-    if (!may) sendError(503, "too many viewers; close some pages, or use the operator's link");
+    if (!may)
+      sendError(503,
+                Message("server.too-many-viewers", "too many viewers; close some pages, or use the operator's link"));
     return may;
   }
 
@@ -188,9 +192,10 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   }
 
   void perform(const StartMission& start) {
-    if (core_->options.missions == nullptr) return sendError(404, "this program offers no missions");
+    if (core_->options.missions == nullptr)
+      return sendError(404, Message("server.no-missions", "this program offers no missions"));
     auto taken = core_->options.missions->take(start.file, start.parameters);
-    if (!taken) return sendError(409, taken.error());
+    if (!taken) return sendError(409, Message("mission.not-flown", "{}", taken.error()));
     perform(GiveCommand{std::move(*taken), start.vehicle});
   }
 
@@ -201,7 +206,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
                                                                  const std::optional<common::CommandResult>& result) {
               self->answer(id, result);
             });
-    if (!given) return sendError(503, "too many commands wait for their answer");
+    if (!given) return sendError(503, Message("server.too-many-commands", "too many commands wait for their answer"));
     stream_.expires_never();
     core_->wake();
   }
@@ -232,9 +237,10 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     return response;
   }
 
-  void sendError(int status, const std::string& reason) {
-    send(json(status, {{"accepted", false}, {"reason", reason}}));
+  Response refusal(int status, const Message& why) const {
+    return json(status, {{"accepted", false}, {"code", why.name()}, {"reason", why.text()}});
   }
+  void sendError(int status, const Message& why) { send(refusal(status, why)); }
 
   void send(Response response) {
     response.keep_alive(keep_alive_);

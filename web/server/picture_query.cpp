@@ -18,6 +18,8 @@
 namespace swiftlet::web {
 namespace {
 
+using common::Message;
+
 /// Larger numbers are mistakes: no map is 100 km wide.
 constexpr double kFarthestTarget_m = 1e5;
 
@@ -29,7 +31,8 @@ class Parameters {
       if (key == "token" || key == "vehicle" || key == "t" || key == "_") continue;
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         const std::string hint = common::didYouMean(key, known);
-        refuse(400, fmt::format("unknown parameter {}{}{}", shown(key), hint.empty() ? "" : ", ", hint));
+        refuse(400, Message("query.unknown-parameter", "unknown parameter {}{}{}", shown(key), hint.empty() ? "" : ", ",
+                            hint));
       }
     }
   }
@@ -41,7 +44,8 @@ class Parameters {
     const char* end = it->second.data() + it->second.size();
     const auto [stop, error] = std::from_chars(it->second.data(), end, value);
     if (error != std::errc() || stop != end || !(value >= least))
-      refuse(400, fmt::format("{}: {} is not a number of at least {:g}{}", key, shown(it->second), least, unit));
+      refuse(400, Message("query.too-low", "{}: {} is not a number of at least {:g}{}", key, shown(it->second), least,
+                          unit));
     return std::min(value, greatest);
   }
 
@@ -51,7 +55,7 @@ class Parameters {
   double within(const std::string& key, double otherwise, double bound_low, double bound_high, const char* unit) const {
     const double value = number(key, otherwise, bound_low, std::numeric_limits<double>::infinity(), unit);
     if (!(value <= bound_high))
-      refuse(400, fmt::format("{}: {:g} is not at most {:g}{}", key, value, bound_high, unit));
+      refuse(400, Message("query.too-high", "{}: {:g} is not at most {:g}{}", key, value, bound_high, unit));
     return value;
   }
 
@@ -61,7 +65,8 @@ class Parameters {
     if (it == query_.end()) return 0;
     const auto found = std::find(words.begin(), words.end(), it->second);
     if (found == words.end())
-      refuse(400, fmt::format("{}: {} is none of {}", key, shown(it->second), fmt::join(words, ", ")));
+      refuse(400,
+             Message("query.unknown-word", "{}: {} is none of {}", key, shown(it->second), fmt::join(words, ", ")));
     return static_cast<std::size_t>(found - words.begin());
   }
 
@@ -69,7 +74,8 @@ class Parameters {
     const auto it = query_.find("scheme");
     if (it == query_.end()) return rendering::Scheme::kLight;
     const auto scheme = rendering::schemeFrom(it->second);
-    if (!scheme) refuse(400, fmt::format("scheme: {} is neither `light` nor `dark`", shown(it->second)));
+    if (!scheme)
+      refuse(400, Message("query.unknown-scheme", "scheme: {} is neither `light` nor `dark`", shown(it->second)));
     return *scheme;
   }
 
@@ -103,7 +109,7 @@ PictureQuery cameraQuery(const Target& target, PictureView::Source source) {
 /// Parameters that a kind of viewpoint does not use are refused, so that their lack of effect is no surprise.
 void refuseUnused(const Parameters& parameters, std::initializer_list<const char*> keys, const char* needs) {
   for (const char* key : keys)
-    if (parameters.has(key)) refuse(400, fmt::format("{}: only for {}", key, needs));
+    if (parameters.has(key)) refuse(400, Message("query.without-effect", "{}: only for {}", key, needs));
 }
 
 rendering::Viewpoint3d viewpoint(const Parameters& parameters) {

@@ -11,6 +11,8 @@
 namespace swiftlet::web {
 namespace {
 
+using common::Message;
+
 constexpr const char* kPublicExample = "https://field.example/swiftlet/";
 
 /// "https://field.example/swiftlet/" in its three parts.
@@ -35,8 +37,8 @@ std::optional<Origin> originOf(const Parts& parts) {
   return Origin{parts.scheme, authority->host, authority->port.value_or(portOf(parts.scheme))};
 }
 
-[[noreturn]] void fail(const std::string& text, const std::string& message, const std::string& hint) {
-  throw common::InputError(common::Problem{{}, "--public-url", fmt::format("`{}` {}", text, message), hint});
+[[noreturn]] void fail(const std::string& text, const Message& message, const std::string& hint) {
+  throw common::InputError(common::Problem{{}, "--public-url", message.behind(fmt::format("`{}` ", text)), hint});
 }
 
 void checkScheme(const std::string& text, const Parts& parts) {
@@ -45,15 +47,15 @@ void checkScheme(const std::string& text, const Parts& parts) {
     const std::string word = common::lowerCase(text.substr(0, text.find_first_of(":/")));
     const bool is_scheme = word == "http" || word == "https";
     const std::size_t host = is_scheme ? text.find_first_not_of(":/", word.size()) : text.find_first_not_of('/');
-    fail(text, "does not say whether it is http or https",
+    fail(text, Message("url.no-scheme", "does not say whether it is http or https"),
          host == std::string::npos ? fmt::format("write an address such as {}", kPublicExample)
                                    : fmt::format("write http://{0} or https://{0}", text.substr(host)));
   }
   const std::string_view behind = std::string_view(text).substr(text.find("://"));
   if (parts.scheme == "ws" || parts.scheme == "wss")
-    fail(text, "is the address of a WebSocket, not of the page",
+    fail(text, Message("url.of-websocket", "is the address of a WebSocket, not of the page"),
          fmt::format("write {}{}", parts.scheme == "ws" ? "http" : "https", behind));
-  fail(text, "is neither http nor https", fmt::format("write https{}", behind));
+  fail(text, Message("url.other-scheme", "is neither http nor https"), fmt::format("write https{}", behind));
 }
 
 }  // namespace
@@ -80,15 +82,17 @@ PublicUrl parsePublicUrl(const std::string& text) {
   const std::string slashed = std::string(path) + (path.ends_with('/') ? "" : "/");
   const std::size_t host = parts.authority.rfind('@') + 1;  // 0 if there is no user.
   const std::string bare = fmt::format("{}://{}{}", parts.scheme, parts.authority.substr(host), slashed);
-  if (host > 0) fail(text, "has a user or a password in it", fmt::format("write {}", bare));
+  if (host > 0) fail(text, Message("url.user", "has a user or a password in it"), fmt::format("write {}", bare));
   const auto origin = originOf(parts);
   if (!origin)
-    fail(text, fmt::format("names no host, or a wrong port: `{}`", parts.authority),
+    fail(text, Message("url.no-host", "names no host, or a wrong port: `{}`", parts.authority),
          fmt::format("write one host, and perhaps a port, as in {}", kPublicExample));
-  if (!surplus.empty()) fail(text, fmt::format("has more than a path: `{}`", surplus), fmt::format("write {}", bare));
+  if (!surplus.empty())
+    fail(text, Message("url.more-than-path", "has more than a path: `{}`", surplus), fmt::format("write {}", bare));
   const auto target = parseTarget(slashed);
   if (!target || target->path.find("//") != std::string::npos)
-    fail(text, fmt::format("has a malformed path: `{}`", path), fmt::format("write a path as in {}", kPublicExample));
+    fail(text, Message("url.malformed-path", "has a malformed path: `{}`", path),
+         fmt::format("write a path as in {}", kPublicExample));
   return {*origin, target->path, toString(*origin) + slashed};
 }
 

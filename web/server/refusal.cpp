@@ -4,7 +4,7 @@
 
 namespace swiftlet::web {
 
-void refuse(int status, std::string reason, std::string allow) {
+void refuse(int status, common::Message reason, std::string allow) {
   throw Refuse{status, std::move(reason), std::move(allow)};
 }
 

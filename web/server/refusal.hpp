@@ -4,16 +4,18 @@
 #include <string>
 #include <string_view>
 
+#include "common/message.hpp"
+
 namespace swiftlet::web {
 
 struct Refuse {
   int status = 400;  ///< 400, 401, 403, 404, 405, 426
-  std::string reason;
+  common::Message reason;
   std::string allow;  ///< For status 405: the allowed methods.
 };
 
 /// Throws a Refuse, which route() returns.
-[[noreturn]] void refuse(int status, std::string reason, std::string allow = {});
+[[noreturn]] void refuse(int status, common::Message reason, std::string allow = {});
 
 /// Text of an unknown client, made safe for a message.
 std::string shown(std::string_view text);

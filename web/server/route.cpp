@@ -17,6 +17,8 @@
 namespace swiftlet::web {
 namespace {
 
+using common::Message;
+
 /// Larger numbers are mistakes: no map is 100 km wide.
 constexpr double kGreatestCoordinate_m = 1e5;
 
@@ -48,18 +50,19 @@ void checkHost(const Request& request, const Policy& policy) {
   if (origin && (origin->host == "localhost" || isAddressLiteral(origin->host) || in(policy.hosts, origin->host) ||
                  std::any_of(policy.public_urls.begin(), policy.public_urls.end(), isHost)))
     return;
-  refuse(403, fmt::format("the host {} is not this server: open the page by its address{}", shown(request.host),
-                          origin ? howToAllow(origin) + ", or with https" : ""));
+  refuse(403, Message("request.other-host", "the host {} is not this server: open the page by its address{}",
+                      shown(request.host), origin ? howToAllow(origin) + ", or with https" : ""));
 }
 
-void checkMethod(const Request& request, const std::string& wanted) {
-  if (request.method != wanted) refuse(405, fmt::format("use {} here, not {}", wanted, shown(request.method)), wanted);
+void checkMethod(const Request& request, const std::string& wanted, const std::string& allow) {
+  if (request.method != wanted)
+    refuse(405, Message("request.other-method", "use {} here, not {}", wanted, shown(request.method)), allow);
 }
+void checkMethod(const Request& request, const std::string& wanted) { checkMethod(request, wanted, wanted); }
 
 /// HEAD is GET without the body (RFC 9110, 9.1).
 void checkGetOrHead(const Request& request) {
-  if (request.method == "GET" || request.method == "HEAD") return;
-  refuse(405, fmt::format("use GET here, not {}", shown(request.method)), "GET, HEAD");
+  if (request.method != "HEAD") checkMethod(request, "GET", "GET, HEAD");
 }
 
 /// By its public addresses, or by the Host; not by a Host that is a public address of https, whose name others may use
@@ -78,7 +81,8 @@ void checkOrigin(const Request& request, const Policy& policy) {
   if (request.origin.empty()) return;
   const auto origin = parseOrigin(request.origin);
   if (origin && isOwn(*origin, request, policy)) return;
-  refuse(403, fmt::format("a page of {} may not do this{}", shown(request.origin), howToAllow(origin)));
+  refuse(403,
+         Message("request.other-page", "a page of {} may not do this{}", shown(request.origin), howToAllow(origin)));
 }
 
 /// The texts that may be the operator's token. A proxy may put a token of its own into Authorization, and a page that
@@ -102,9 +106,11 @@ void checkToken(const Request& request, const Target& target, const Policy& poli
   if (showsToken(request, target, policy)) return;
   const auto shown = shownTokens(request, target);
   if (std::all_of(shown.begin(), shown.end(), [](std::string_view given) { return given.empty(); }))
-    refuse(401,
-           "this needs the operator's token: open the link printed at start, or send `Authorization: Bearer TOKEN`");
-  refuse(401, "the operator's token is wrong: open the link printed at this program's start");
+    refuse(401, Message("request.no-token",
+                        "this needs the operator's token: open the link printed at start, or send `Authorization: "
+                        "Bearer TOKEN`"));
+  refuse(401, Message("request.wrong-token",
+                      "the operator's token is wrong: open the link printed at this program's start"));
 }
 
 /// The number of the vehicle that is meant; the first where none is named.
@@ -114,16 +120,19 @@ std::size_t vehicleOf(const Target& target, const Policy& policy) {
   const auto it = std::find(policy.vehicles.begin(), policy.vehicles.end(), named->second);
   if (it != policy.vehicles.end()) return static_cast<std::size_t>(it - policy.vehicles.begin());
   const std::string hint = common::didYouMean(named->second, policy.vehicles);
-  refuse(404, fmt::format("there is no vehicle {}{}{}", shown(named->second), hint.empty() ? "" : ", ", hint));
+  refuse(404, Message("request.no-vehicle", "there is no vehicle {}{}{}", shown(named->second),
+                      hint.empty() ? "" : ", ", hint));
 }
 
 double coordinate(const nlohmann::json& body, const char* key) {
   const auto it = body.find(key);
   if (it == body.end() || !it->is_number())
-    refuse(400, fmt::format("{}: a number of metres in the map is missing; send {{\"x_m\": 1.0, \"y_m\": 2.0}}", key));
+    refuse(400, Message("goal.no-coordinate",
+                        "{}: a number of metres in the map is missing; send {{\"x_m\": 1.0, \"y_m\": 2.0}}", key));
   const double value = it->get<double>();
   if (!std::isfinite(value) || std::abs(value) > kGreatestCoordinate_m)
-    refuse(400, fmt::format("{}: {} is not within {:g} m of the origin", key, value, kGreatestCoordinate_m));
+    refuse(400,
+           Message("goal.too-far", "{}: {} is not within {:g} m of the origin", key, value, kGreatestCoordinate_m));
   return value;
 }
 
@@ -132,7 +141,8 @@ bool inGivenMap(const nlohmann::json& body) {
   const auto it = body.find("frame");
   if (it == body.end() || *it == "map") return false;
   if (*it == "given") return true;
-  refuse(400, "frame: expected \"map\", the frame of the flight, or \"given\", that of the given map");
+  refuse(400, Message("request.no-frame",
+                      "frame: expected \"map\", the frame of the flight, or \"given\", that of the given map"));
 }
 
 /// The object in the body of a request; `example` is what it may send.
@@ -141,17 +151,23 @@ nlohmann::json objectIn(const Request& request, const std::string& example) {
   if (body.is_object()) return body;
   const std::size_t begin = request.body.find_first_not_of(" \t\r\n");
   const bool broken = body.is_discarded() && begin != std::string::npos && request.body[begin] == '{';
-  refuse(400,
-         (broken ? "the body is not JSON: its numbers must be finite, its names and texts in quotation marks; send "
-                 : "the body is not a JSON object; send ") +
-             example);
+  refuse(400, broken ? Message("request.no-json",
+                               "the body is not JSON: its numbers must be finite, its names and texts in quotation "
+                               "marks; send {}",
+                               example)
+                     : Message("request.no-object", "the body is not a JSON object; send {}", example));
 }
+
+[[noreturn]] void refuseKey(const std::string& key, const char* known) {
+  refuse(400, Message("request.unknown-key", "unknown key {}; send {}", shown(key), known));
+}
+
+[[noreturn]] void refuseBody(const char* example) { refuse(400, Message("request.other-body", "send {}", example)); }
 
 Action goal(const Request& request, std::size_t vehicle) {
   const nlohmann::json body = objectIn(request, R"({"x_m": 1.0, "y_m": 2.0})");
   for (const auto& [key, value] : body.items())
-    if (key != "x_m" && key != "y_m" && key != "frame")
-      refuse(400, fmt::format("unknown key {}; send x_m, y_m and perhaps frame", shown(key)));
+    if (key != "x_m" && key != "y_m" && key != "frame") refuseKey(key, "x_m, y_m and perhaps frame");
   const Eigen::Vector2d place(coordinate(body, "x_m"), coordinate(body, "y_m"));
   if (inGivenMap(body)) return GiveCommand{common::GoalCommand{{}, place}, vehicle};
   return GiveCommand{common::GoalCommand{place}, vehicle};
@@ -159,10 +175,11 @@ Action goal(const Request& request, std::size_t vehicle) {
 
 std::map<std::string, std::string> parametersIn(const nlohmann::json& given) {
   if (given.is_null()) return {};
-  if (!given.is_object()) refuse(400, R"(parameters: expected an object of texts, {"KEY": "VALUE"})");
+  if (!given.is_object())
+    refuse(400, Message("mission.parameters", "parameters: expected an object of texts, {{\"KEY\": \"VALUE\"}}"));
   std::map<std::string, std::string> parameters;
   for (const auto& [name, text] : given.items()) {
-    if (!text.is_string()) refuse(400, fmt::format("{}: the value is not a text", shown(name)));
+    if (!text.is_string()) refuse(400, Message("mission.parameter-value", "{}: the value is not a text", shown(name)));
     parameters[name] = text;
   }
   return parameters;
@@ -172,19 +189,20 @@ std::map<std::string, std::string> parametersIn(const nlohmann::json& given) {
 Action mission(const Request& request, std::size_t vehicle) {
   constexpr const char* kExample = R"({"file": "a file of /api/missions", "parameters": {}})";
   const nlohmann::json body = objectIn(request, kExample);
-  if (!body.contains("file") || !body["file"].is_string()) refuse(400, fmt::format("send {}", kExample));
+  if (!body.contains("file") || !body["file"].is_string()) refuseBody(kExample);
   StartMission start{body["file"], {}, vehicle};
   for (const auto& [key, value] : body.items()) {
     if (key == "file") continue;
-    if (key != "parameters") refuse(400, fmt::format("unknown key {}; send file and parameters", shown(key)));
+    if (key != "parameters") refuseKey(key, "file and parameters");
     start.parameters = parametersIn(value);
   }
   return start;
 }
 
 Eigen::Vector2d corner(const nlohmann::json& pair) {
-  constexpr const char* kExpected = "corners_m: expected pairs of metres in the map, [[0.0, 1.0], [2.0, 1.0], ...]";
-  if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) refuse(400, kExpected);
+  if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number())
+    refuse(400, Message("keep-out.no-corners",
+                        "corners_m: expected pairs of metres in the map, [[0.0, 1.0], [2.0, 1.0], ...]"));
   return {pair[0].get<double>(), pair[1].get<double>()};
 }
 
@@ -192,13 +210,12 @@ Action keepOut(const Request& request, std::size_t vehicle) {
   constexpr const char* kExample = R"({"corners_m": [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]]})";
   const nlohmann::json body = objectIn(request, kExample);
   const std::size_t keys = body.contains("frame") ? 2 : 1;
-  if (body.size() != keys || !body.contains("corners_m") || !body["corners_m"].is_array())
-    refuse(400, fmt::format("send {}", kExample));
+  if (body.size() != keys || !body.contains("corners_m") || !body["corners_m"].is_array()) refuseBody(kExample);
   if (body["corners_m"].size() > common::kMostCorners)
-    refuse(400, fmt::format("corners_m: more than {} corners", common::kMostCorners));
+    refuse(400, Message("keep-out.too-many-corners", "corners_m: more than {} corners", common::kMostCorners));
   common::KeepOutCommand zone;
   for (const nlohmann::json& pair : body["corners_m"]) zone.area.corners_map_m.push_back(corner(pair));
-  if (const std::string problem = problemOf(zone.area); !problem.empty()) refuse(400, "corners_m: " + problem);
+  if (const auto problem = problemOf(zone.area)) refuse(400, problem->behind("corners_m: "));
   if (inGivenMap(body)) zone.corners_given_m = std::exchange(zone.area.corners_map_m, {});
   return GiveCommand{std::move(zone), vehicle};
 }
@@ -229,7 +246,8 @@ Action read(const Request& request, const Target& target, std::size_t vehicle, c
   if (target.path == "/api/map.png") return SendPicture{mapPicture(target), vehicle};
   if (target.path == "/api/state") return SendState{vehicle};
   checkOrigin(request, policy);
-  if (!request.wants_websocket) refuse(426, "this is a WebSocket: connect with `Upgrade: websocket`");
+  if (!request.wants_websocket)
+    refuse(426, Message("request.no-websocket", "this is a WebSocket: connect with `Upgrade: websocket`"));
   return OpenSocket{target.path == "/api/map3d" ? OpenSocket::Feed::kMap3d : OpenSocket::Feed::kPage, vehicle};
 }
 
@@ -286,7 +304,8 @@ Action decide(const Request& request, const Policy& policy) {
     return ConfirmToken{};
   }
   if (const auto redirect = toFolder(request, target->path, policy)) return *redirect;
-  if (!in(policy.files, fileOf(target->path))) refuse(404, fmt::format("there is no {} here", shown(target->path)));
+  if (!in(policy.files, fileOf(target->path)))
+    refuse(404, Message("request.no-such-path", "there is no {} here", shown(target->path)));
   (void)vehicleOf(*target, policy);
   checkGetOrHead(request);
   return ServeFile{fileOf(target->path)};

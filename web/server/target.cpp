@@ -15,6 +15,8 @@
 namespace swiftlet::web {
 namespace {
 
+using common::Message;
+
 int hexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -50,7 +52,9 @@ bool climbs(std::string_view path) {
   return false;
 }
 
-std::string malformed(std::string_view target) { return fmt::format("the address {} is malformed", shown(target)); }
+Message malformed(std::string_view target) {
+  return Message("request.malformed-address", "the address {} is malformed", shown(target));
+}
 
 /// Of ":8080"; 0 without a port, nullopt where it is malformed.
 std::optional<int> portIn(std::string_view text) {
@@ -78,8 +82,8 @@ std::optional<std::string> shortestForm(std::string_view text) {
   return inet_ntop(AF_INET6, &address, shortest.data(), shortest.size());
 }
 
-/// What is wrong with it; empty if nothing is.
-std::string parseQuery(std::string_view target, std::map<std::string, std::string>& query) {
+/// What is wrong with it; nullopt if nothing is.
+std::optional<Message> parseQuery(std::string_view target, std::map<std::string, std::string>& query) {
   std::string_view text = target.substr(target.find('?') + 1);
   while (!text.empty()) {
     const std::string_view pair = text.substr(0, text.find('&'));
@@ -89,22 +93,21 @@ std::string parseQuery(std::string_view target, std::map<std::string, std::strin
     const auto key = decoded(pair.substr(0, equals), true);
     const auto value = equals == std::string_view::npos ? std::string() : decoded(pair.substr(equals + 1), true);
     if (!key || !value) return malformed(target);
-    if (!query.emplace(*key, *value).second) return fmt::format("{} is given twice", shown(*key));
+    if (!query.emplace(*key, *value).second) return Message("query.parameter-twice", "{} is given twice", shown(*key));
   }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace
 
-tl::expected<Target, std::string> parseTarget(std::string_view target) {
+tl::expected<Target, Message> parseTarget(std::string_view target) {
   if (target.empty() || target.front() != '/') return tl::unexpected(malformed(target));
   const std::size_t question = target.find('?');
   const auto path = decoded(target.substr(0, question), false);
   if (!path || climbs(*path)) return tl::unexpected(malformed(target));
   Target result{*path, {}};
   if (question == std::string_view::npos) return result;
-  if (std::string problem = parseQuery(target, result.query); !problem.empty())
-    return tl::unexpected(std::move(problem));
+  if (auto problem = parseQuery(target, result.query)) return tl::unexpected(*std::move(problem));
   return result;
 }
 

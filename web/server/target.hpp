@@ -8,6 +8,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/message.hpp"
 #include "web/server/request.hpp"
 
 namespace swiftlet::web {
@@ -17,9 +18,9 @@ struct Target {
   std::map<std::string, std::string> query;
 };
 
-/// Or in words what is wrong: the target is not an absolute path, has a broken escape, a control character or a ".."
-/// segment, or names a query key twice.
-tl::expected<Target, std::string> parseTarget(std::string_view target);
+/// Or what is wrong: the target is not an absolute path, has a broken escape, a control character or a ".." segment, or
+/// names a query key twice.
+tl::expected<Target, common::Message> parseTarget(std::string_view target);
 
 /// The request with a target that parseTarget() takes. One in the absolute form, "http://localhost:8080/api/state"
 /// (RFC 9112, 3.2.2), brings its own host, which takes the place of the Host header.

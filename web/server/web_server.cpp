@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cctype>
+#include <utility>
 
 #include <fmt/format.h>
 #include <boost/asio/io_context.hpp>
@@ -26,29 +27,32 @@ namespace {
 
 using boost::asio::ip::tcp;
 using boost::system::error_code;
+using common::Message;
 
 /// The shortest password that NIST SP 800-63B allows.
 constexpr std::size_t kLeastTokenLength = 8;
 
-[[noreturn]] void fail(const std::string& element, const std::string& message, const std::string& hint) {
-  throw common::InputError(common::Problem{{}, element, message, hint});
+[[noreturn]] void fail(const char* element, Message message, const char* hint) {
+  throw common::InputError(common::Problem{{}, element, std::move(message), hint});
 }
 
 void checkOptions(const WebServer::Options& options) {
   SWIFTLET_CHECK(options.unix_time != nullptr);
   const auto sound = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   if (options.token.size() < kLeastTokenLength || !std::all_of(options.token.begin(), options.token.end(), sound))
-    fail("token", fmt::format("`{}` is not at least {} letters, digits, `-` or `_`", options.token, kLeastTokenLength),
+    fail("token",
+         Message("server.token", "`{}` is not at least {} letters, digits, `-` or `_`", options.token,
+                 kLeastTokenLength),
          "");
   if (options.port < 0 || options.port > 65535)
-    fail("port", fmt::format("{} is not in 0 to 65535", options.port), "0 picks a free one");
+    fail("port", Message("server.no-port", "{} is not in 0 to 65535", options.port), "0 picks a free one");
 }
 
 boost::asio::ip::address addressOf(const std::string& text) {
   error_code error;
   auto address = boost::asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
   if (error)
-    fail("address", fmt::format("`{}` is not an IPv4 or IPv6 address", text),
+    fail("address", Message("server.no-address", "`{}` is not an IPv4 or IPv6 address", text),
          "127.0.0.1 serves this machine, 0.0.0.0 every network");
   return address;
 }
@@ -86,11 +90,12 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
     if (!error) return;
     const std::string where = fmt::format("{}:{}", endpoint.address().to_string(), endpoint.port());
     if (error == boost::asio::error::address_in_use)
-      fail("port", fmt::format("{} is in use", where),
+      fail("port", Message("server.port-in-use", "{} is in use", where),
            "stop what listens there, or choose another port; 0 picks a free one");
     if (error == boost::asio::error::access_denied)
-      fail("port", fmt::format("{} may not be opened by this user", where), "choose a port above 1023");
-    fail("address", fmt::format("cannot listen on {}: {}", where, error.message()),
+      fail("port", Message("server.port-not-allowed", "{} may not be opened by this user", where),
+           "choose a port above 1023");
+    fail("address", Message("server.cannot-listen", "cannot listen on {}: {}", where, error.message()),
          "127.0.0.1 serves this machine, 0.0.0.0 every network");
   }
 

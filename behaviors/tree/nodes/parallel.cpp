@@ -28,9 +28,9 @@ NodeManifest Parallel::manifest() {
 Parallel::Parallel(const NodeSetup& setup)
     : Composite(setup), success_count_(setup, "success_count"), failure_count_(setup, "failure_count") {}
 
-std::string Parallel::problemOfCounts() const {
-  const std::string success = tooMany("success_count", success_count_.get(), count());
-  return success.empty() ? tooMany("failure_count", failure_count_.get(), count()) : success;
+std::optional<Message> Parallel::problemOfCounts() const {
+  auto success = tooMany("success_count", success_count_.get(), count());
+  return success ? success : tooMany("failure_count", failure_count_.get(), count());
 }
 
 void Parallel::clear(TickContext&) {
@@ -43,7 +43,7 @@ Status Parallel::run(TickContext& context) {
   const auto failure_count = failure_count_.get();
   if (!success_count) return endWith(context, fail(context, success_count_.problem()));
   if (!failure_count) return endWith(context, fail(context, failure_count_.problem()));
-  if (const std::string problem = problemOfCounts(); !problem.empty()) return endWith(context, fail(context, problem));
+  if (const auto problem = problemOfCounts()) return endWith(context, fail(context, problem->text()));
   const std::size_t needed = threshold(*success_count, count());
   const std::size_t bearable = threshold(*failure_count, count());
 

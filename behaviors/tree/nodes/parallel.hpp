@@ -23,8 +23,8 @@ class Parallel final : public Composite {
 
  private:
   Status run(TickContext& context) override;
-  /// A count that was read from an entry and is more than the children; empty if there is none.
-  std::string problemOfCounts() const;
+  /// A count that was read from an entry and is more than the children; nothing if there is none.
+  std::optional<Message> problemOfCounts() const;
   void clear(TickContext&) override;
 
   Input<std::int64_t> success_count_;

@@ -9,10 +9,10 @@ std::size_t threshold(std::int64_t asked, std::size_t children) {
   return static_cast<std::size_t>(std::max<std::int64_t>(0, asked < 0 ? all + asked + 1 : asked));
 }
 
-std::string tooMany(std::string_view port, const std::optional<std::int64_t>& asked, std::size_t children) {
-  if (!asked || *asked <= static_cast<std::int64_t>(children)) return {};
-  return std::string(port) + " is " + std::to_string(*asked) + ", but it has only " + std::to_string(children) +
-         (children == 1 ? " child" : " children");
+std::optional<Message> tooMany(std::string_view port, const std::optional<std::int64_t>& asked, std::size_t children) {
+  if (!asked || *asked <= static_cast<std::int64_t>(children)) return std::nullopt;
+  return Message("tree.count-unreachable", "{} is {}, but it has only {} {}", port, *asked, children,
+                 children == 1 ? "child" : "children");
 }
 
 }  // namespace swiftlet::tree

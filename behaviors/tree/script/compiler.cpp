@@ -5,6 +5,8 @@
 #include <charconv>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "behaviors/tree/characters.hpp"
 #include "behaviors/tree/script/operand.hpp"
 
@@ -49,12 +51,12 @@ const BinarySign* binarySign(const Token& token, int loosest) {
 }
 
 std::string place(std::string_view text, const Token& token) {
-  if (token.kind == TokenKind::kEnd) return "at the end of `" + std::string(text) + "`";
-  const std::string where = "at `" + std::string(token.text) + "`";
+  if (token.kind == TokenKind::kEnd) return fmt::format("at the end of `{}`", text);
+  const std::string where = fmt::format("at `{}`", token.text);
   if (token.kind != TokenKind::kBad) return where;
   if (token.text.front() == '\'' || token.text.front() == '"') return where + ", a text without an end";
   const bool ascii = static_cast<unsigned char>(token.text.front()) < 0x80;
-  return where + (ascii ? "" : ", which is " + nameOfCharacter(token.text, 0) + ": only texts may hold it");
+  return ascii ? where : fmt::format("{}, which is {}: only texts may hold it", where, nameOfCharacter(token.text, 0));
 }
 
 /// For people who write the operators of other languages: `and` and `or` stand where a sign is expected, and what
@@ -75,17 +77,18 @@ ScriptCompiler::Result ScriptCompiler::compile(std::string_view text, ScriptCode
   readTokens(text, tokens_);
   position_ = 0;
   depth_ = 0;
-  problem_.clear();
+  problem_.reset();
   const std::size_t first_statement = code.statements.size(), first_write = code.writes.size(),
                     first_pairing = code.pairings.size();
-  if (tokens_.size() > kMostTokens) problem_ = "it is longer than " + std::to_string(kMostTokens) + " words";
-  while (problem_.empty()) {
+  if (tokens_.size() > kMostTokens) problem_ = Message("tree.script-long", "it is longer than {} words", kMostTokens);
+  while (!problem_) {
     while (take(";")) {}
     if (next().kind == TokenKind::kEnd) break;
     code.statements.push_back(expression());
-    if (problem_.empty() && next().kind != TokenKind::kEnd && !at(";")) fail(next(), "an operator or `;`");
+    if (!problem_ && next().kind != TokenKind::kEnd && !at(";")) fail(next(), "an operator or `;`");
   }
-  if (problem_.empty() && code.statements.size() == first_statement) problem_ = "it has no statement";
+  if (!problem_ && code.statements.size() == first_statement)
+    problem_ = Message("tree.script-empty", "it has no statement");
   return {{.text = text,
            .statements = {first_statement, code.statements.size()},
            .entries = {first_entry_, code.entries.size()},
@@ -104,7 +107,7 @@ ScriptCompiler::Index ScriptCompiler::expression() {
   if (sign == kAssignments.end()) return choice();
   const std::string_view name = next().text;
   if (name == "true" || name == "false" || constants_.contains(name))
-    return fail(next(), "the name of an entry before `" + std::string(*sign) + "`, but it is a constant");
+    return fail(next(), fmt::format("the name of an entry before `{}`, but it is a constant", *sign));
   position_ += 2;
   if (++depth_ > kDeepest) return fail(next(), "fewer than 100 levels");
   const Index assigned = assignment(name, *sign);
@@ -124,7 +127,7 @@ ScriptCompiler::Index ScriptCompiler::assignment(std::string_view name, std::str
     const Op op = sign == "+=" ? Op::kAdd : sign == "-=" ? Op::kSubtract : sign == "*=" ? Op::kMultiply : Op::kDivide;
     value = addBinary(op, *old, value, writes_before);
   }
-  if (!problem_.empty()) return 0;
+  if (problem_) return 0;
   const Index written = entry(name, !makes);
   recordWrite(written, makes, code_->expressions[value]);
   return add({.op = makes ? Op::kMake : Op::kAssign, .a = value, .of = written});
@@ -182,9 +185,9 @@ ScriptCompiler::Index ScriptCompiler::comparison(Index left) {
     ++position_;
     const std::size_t writes_before = code_->writes.size();
     const Index right = binary(kComparison + 1);
-    if (problem_.empty()) recordPairing(sign->op, linked ? code_->expressions[left].b : left, right);
+    if (!problem_) recordPairing(sign->op, linked ? code_->expressions[left].b : left, right);
     left = addBinary(sign->op, left, right, writes_before);
-    if (problem_.empty()) code_->expressions[left].linked = linked;
+    if (!problem_) code_->expressions[left].linked = linked;
     linked = true;
   }
   return left;
@@ -245,8 +248,9 @@ bool ScriptCompiler::isZero(const ScriptExpression& expression) const {
 
 /// `right` was compiled when the code had `writes_before` assignments.
 ScriptCompiler::Index ScriptCompiler::addBinary(Op op, Index left, Index right, std::size_t writes_before) {
-  if (op == Op::kDivide && problem_.empty() && isZero(code_->expressions[right])) problem_ = "division by zero";
-  if (op == Op::kAdd && problem_.empty()) recordPairing(op, left, right);
+  if (op == Op::kDivide && !problem_ && isZero(code_->expressions[right]))
+    problem_ = Message("tree.script-division", "division by zero");
+  if (op == Op::kAdd && !problem_) recordPairing(op, left, right);
   const auto buffer = static_cast<Index>(code_->joins);
   if (op == Op::kJoin || op == Op::kAdd) ++code_->joins;
   return add({.op = op, .keeps = code_->writes.size() > writes_before, .a = left, .b = right, .of = buffer});
@@ -290,11 +294,9 @@ bool ScriptCompiler::take(std::string_view sign) {
 }
 
 ScriptCompiler::Index ScriptCompiler::fail(const Token& token, std::string_view expected) {
-  if (problem_.empty()) {
-    const Token& before = tokens_[position_ > 0 ? position_ - 1 : 0];
-    problem_ = "expected " + std::string(expected) + " " + place(text_, token);
-    problem_ += wordHint(before, token);
-  }
+  if (!problem_)
+    problem_ = Message("tree.script-syntax", "expected {} {}{}", expected, place(text_, token),
+                       wordHint(tokens_[position_ > 0 ? position_ - 1 : 0], token));
   position_ = tokens_.size() - 1;
   return 0;
 }

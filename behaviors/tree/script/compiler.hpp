@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "behaviors/tree/message.hpp"
 #include "behaviors/tree/script/lexer.hpp"
 #include "behaviors/tree/script/program.hpp"
 
@@ -21,7 +22,7 @@ class ScriptCompiler {
 
   struct Result {
     ScriptProgram program;
-    std::string problem;  ///< What is wrong with the text; empty if it is a script.
+    std::optional<Message> problem;  ///< What is wrong with the text; nothing if it is a script.
   };
   /// Adds a script to `code`. The text must outlive the code. A text that is no script leaves code that nothing uses.
   Result compile(std::string_view text, ScriptCode& code);
@@ -65,7 +66,7 @@ class ScriptCompiler {
   std::vector<Token> tokens_;
   std::size_t position_ = 0;
   int depth_ = 0;
-  std::string problem_;
+  std::optional<Message> problem_;
 };
 
 }  // namespace swiftlet::tree

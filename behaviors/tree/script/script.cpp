@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/core.h>
+
 namespace swiftlet::tree {
 namespace {
 
@@ -39,7 +41,7 @@ void append(std::string& text, const Operand& operand) {
 
 Scripts::Added Scripts::add(std::string_view text) {
   ScriptCompiler::Result result = compiler_.compile(text, code_);
-  if (!result.problem.empty()) return {nullptr, std::move(result.problem)};
+  if (result.problem) return {nullptr, std::move(result.problem)};
   slots_.resize(code_.entries.size());
   joined_.resize(code_.joins);
   return {&scripts_.emplace_back(*this, result.program), {}};
@@ -65,7 +67,7 @@ std::optional<bool> Script::holds() {
   const auto value = run();
   if (!value) return std::nullopt;
   const auto truth = truthOf(*value);
-  if (!truth) return fail(std::string("is ") + kindOf(*value) + ", expected true or false");
+  if (!truth) return fail(fmt::format("is {}, expected true or false", kindOf(*value)));
   return truth;
 }
 
@@ -75,7 +77,7 @@ std::nullopt_t Script::fail(std::string problem) {
 }
 
 std::nullopt_t Script::failUnset(std::uint32_t entry, std::string_view remedy) {
-  return fail("the entry {" + std::string(owner_->code_.entries[entry].name) + "} is not set" + std::string(remedy));
+  return fail(fmt::format("the entry {{{}}} is not set{}", owner_->code_.entries[entry].name, remedy));
 }
 
 std::optional<Operand> Script::evaluate(std::uint32_t index) {
@@ -214,7 +216,7 @@ std::optional<Operand> Script::arithmetic(Op op, const Operand& a, const Operand
     if (const auto whole = wholeResult(sign, *whole_a, *whole_b)) return *whole;
   }
   const auto number_a = numberOf(a), number_b = numberOf(b);
-  if (!number_a || !number_b) return fail(std::string(kindOf(number_a ? b : a)) + " is not a number");
+  if (!number_a || !number_b) return fail(fmt::format("{} is not a number", kindOf(number_a ? b : a)));
   if (op == Op::kDivide && *number_b == 0.0) return fail("division by zero");
   const double result = realResult(op, *number_a, *number_b);
   return std::isfinite(result) ? std::optional<Operand>(result) : fail("the result is not a finite number");
@@ -233,7 +235,7 @@ std::optional<bool> Script::comparison(Op op, const Operand& a, const Operand& b
   if (op == Op::kUnequal) return !areEqual(left, right);
   const auto order = compare(left, right);
   if (!order || *order == std::partial_ordering::unordered)
-    return fail(std::string(kindOf(a)) + " and " + kindOf(b) + " have no order");
+    return fail(fmt::format("{} and {} have no order", kindOf(a), kindOf(b)));
   if (op == Op::kLess) return *order < 0;
   if (op == Op::kLessEqual) return *order <= 0;
   return op == Op::kGreater ? *order > 0 : *order >= 0;

@@ -99,8 +99,8 @@ class Scripts {
   Scripts& operator=(const Scripts&) = delete;
 
   struct Added {
-    Script* script = nullptr;  ///< Lives as long as this object.
-    std::string problem;       ///< What is wrong with the text, if there is no script.
+    Script* script = nullptr;        ///< Lives as long as this object.
+    std::optional<Message> problem;  ///< What is wrong with the text, if there is no script.
   };
   /// The text must outlive this object.
   Added add(std::string_view text);

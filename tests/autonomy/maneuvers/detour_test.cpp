@@ -42,7 +42,7 @@ TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
   begin();
   EXPECT_TRUE(detour_.active());
   const common::Event event = lastEvent();
-  EXPECT_EQ(event.text, "goes nearer to look");
+  EXPECT_EQ(event.text, "moves closer to look");
   EXPECT_EQ(event.reason, "a wall");
   runUntil(
       [this] {

@@ -134,9 +134,9 @@ TEST_F(ExploreManeuver, MakesRoomForAPersonWhoBlocksThePath) {
   want(common::ExploreIntent{});
   run(2.0);
   EXPECT_EQ(executor_.status().reason, "a person may block the path");
-  EXPECT_EQ(timesSaid("goes aside to make room"), 0);
+  EXPECT_EQ(timesSaid("moves aside to make room"), 0);
   run(1.5);
-  EXPECT_EQ(timesSaid("goes aside to make room"), 1);
+  EXPECT_EQ(timesSaid("moves aside to make room"), 1);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   discs_.clear();
   runUntil([this] { return distanceTo_m({6.0, 2.0}) < 0.6; }, 20.0);
@@ -163,7 +163,7 @@ TEST_F(ExploreManeuver, MakesNoRoomWhenNobodyWalkedRecently) {
   want(common::ExploreIntent{});
   EXPECT_LT(runUntil([this] { return ended(); }, 20.0), 2.0);
   EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
-  EXPECT_EQ(timesSaid("goes aside to make room"), 0);
+  EXPECT_EQ(timesSaid("moves aside to make room"), 0);
 }
 
 TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {

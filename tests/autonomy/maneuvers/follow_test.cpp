@@ -137,7 +137,7 @@ TEST_F(FollowInFlight, LooksAroundForSomebodyAndGivesUp) {
   EXPECT_LT(std::abs(common::wrapAngle(state_.T_map_body_planar().yaw_rad - yaw_rad)), 0.1);
   run(3.0);
   EXPECT_GT(std::abs(common::wrapAngle(state_.T_map_body_planar().yaw_rad - yaw_rad)), 0.2);
-  EXPECT_EQ(executor_.status().reason, "waits for somebody who walks");
+  EXPECT_EQ(executor_.status().reason, "waits for a walking person");
   EXPECT_EQ(runToTheEnd(4.0), IntentState::kFailed);
 }
 
@@ -177,7 +177,7 @@ TEST_F(FollowInFlight, CannotReturnToNobody) {
   back.until_near = true;
   want(back);
   EXPECT_EQ(runToTheEnd(1.0), IntentState::kFailed);
-  EXPECT_EQ(executor_.status().reason, "nobody was followed before");
+  EXPECT_EQ(executor_.status().reason, "no person was followed before");
 }
 
 }  // namespace

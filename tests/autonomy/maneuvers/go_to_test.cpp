@@ -39,7 +39,7 @@ class GoToManeuver : public ManeuverInFlight {
     fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
     if (open) fill(grid_, kDoor, kFreeCell);
   }
-  long detours() const { return timesSaid("goes nearer to look") + timesSaid("goes aside to make room"); }
+  long detours() const { return timesSaid("moves closer to look") + timesSaid("moves aside to make room"); }
 };
 
 TEST_F(GoToManeuver, FliesThroughTheDoorToTheGoal) {
@@ -173,7 +173,7 @@ TEST_F(GoToManeuver, WaitsForAPathAndFliesADetourToLook) {
   EXPECT_EQ(detours(), 0);
   EXPECT_LT(distanceTo_m({1.5, 2.0}), 0.05) << "meanwhile it stays";
   run(1.0);
-  EXPECT_EQ(timesSaid("goes nearer to look"), 1);
+  EXPECT_EQ(timesSaid("moves closer to look"), 1);
   run(3.0);
   EXPECT_NEAR(position_m().x(), 4.0 - 0.375, 0.2);
   run(3.0);
@@ -190,7 +190,7 @@ TEST_F(GoToManeuver, MakesRoomForAPersonInTheDoor) {
   discs_ = {{{4.0, 2.0}, 0.5}};
   want(to(6.0, 2.0));
   runUntil([this] { return detours() > 0; }, 5.0);
-  EXPECT_EQ(timesSaid("goes aside to make room"), 1);
+  EXPECT_EQ(timesSaid("moves aside to make room"), 1);
   discs_.clear();
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
@@ -218,8 +218,8 @@ TEST_F(GoToManeuver, DropsABlockedPlanAndHolds) {
   runUntil([this] { return position_m().x() > 2.0; }, 10.0);
   ASSERT_TRUE(controller_.follower().followsPath());
   fill(grid_, kDoor, kWallCell);
-  EXPECT_LT(runUntil([this] { return timesSaid("plan given up") > 0; }, 5.0), 0.5);
-  EXPECT_THAT(reasonOf("plan given up"), StartsWith("blocked before"));
+  EXPECT_LT(runUntil([this] { return timesSaid("plan discarded") > 0; }, 5.0), 0.5);
+  EXPECT_THAT(reasonOf("plan discarded"), StartsWith("blocked before"));
   EXPECT_FALSE(controller_.follower().followsPath());
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
   run(1.5);
@@ -227,7 +227,7 @@ TEST_F(GoToManeuver, DropsABlockedPlanAndHolds) {
   EXPECT_LT(position_m().x(), 4.0 - 0.375);
   fill(grid_, kDoor, kFreeCell);
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
-  EXPECT_EQ(timesSaid("plan given up"), 1);
+  EXPECT_EQ(timesSaid("plan discarded"), 1);
 }
 
 TEST_F(GoToManeuver, ResendsAPathThatWasDroppedWithTheEstimate) {

@@ -63,7 +63,7 @@ TEST_F(PathFlightTest, StopsBeforeAnObstacleOnThePlanAndReportsIt) {
   fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
   look();
   EXPECT_TRUE(flight_.keep(input()));
-  EXPECT_EQ(lastEvent().text, "plan given up");
+  EXPECT_EQ(lastEvent().text, "plan discarded");
   EXPECT_FALSE(flight_.plan());
   run(1.5);
   EXPECT_TRUE(controller_.stopped());

@@ -48,8 +48,8 @@ TEST_F(PlacesInTheGivenMap, OfABlockage) {
   want(to(6.0, 2.0));
   runUntil([this] { return position_m().x() > 2.0; }, 10.0);
   fill(grid_, {{80, 0}, {84, 80}}, kWallCell);
-  runUntil([this] { return timesSaid("plan given up") > 0; }, 5.0);
-  EXPECT_EQ(reasonOf("plan given up"), "blocked before (106.00, 2.00) in the given map") << "the end of the leg";
+  runUntil([this] { return timesSaid("plan discarded") > 0; }, 5.0);
+  EXPECT_EQ(reasonOf("plan discarded"), "blocked before (106.00, 2.00) in the given map") << "the end of the leg";
 }
 
 TEST_F(PlacesInTheGivenMap, OfViewpointsAndFrontiers) {

@@ -39,7 +39,7 @@ TEST_F(TakeOffManeuver, WaitsALittleForSensorsThatSeeWhereItIs) {
   want(common::TakeOffIntent{kHeight_m});
   run(3.0);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
-  EXPECT_EQ(executor_.status().reason, "the take-off waits: no beams return");
+  EXPECT_EQ(executor_.status().reason, "take-off delayed: no beams return");
   EXPECT_EQ(controller_.state(), FlightState::kPoweredOff) << "its motors are off";
   unready_.clear();
   EXPECT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
@@ -54,7 +54,7 @@ TEST_F(TakeOffManeuver, IsRefusedWhereTheSensorsGoOnSeeingTooLittle) {
   EXPECT_EQ(runToTheEnd(6.0), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "take-off refused: no beams return");
   EXPECT_EQ(controller_.state(), FlightState::kPoweredOff);
-  EXPECT_EQ(timesSaid("the take-off waits"), 1);
+  EXPECT_EQ(timesSaid("take-off delayed"), 1);
 }
 
 TEST_F(TakeOffManeuver, SucceedsAtOnceInFlightAndGivesTheHeightOfTheNextPath) {

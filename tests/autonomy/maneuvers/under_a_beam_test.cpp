@@ -52,7 +52,7 @@ TEST_F(UnderABeam, TheVehicleFliesBelowItAndComesBackUp) {
   EXPECT_NEAR(height_m(), kHeight_m, 0.05);
   EXPECT_GE(below_m, 0.5);
   EXPECT_LT(below_m, 0.9 - 0.125 - 0.1) << "half the hull and air below the beam";
-  EXPECT_EQ(timesSaid("flies at 0.55 m for a while"), 1);
+  EXPECT_EQ(timesSaid("flies lower, at 0.55 m"), 1);
   EXPECT_EQ(executor_.dip_m(), 0.0) << "it is back at the height of flight";
 }
 
@@ -86,10 +86,10 @@ TEST_F(UnderABeam, WhatNobodyHasSeenBelowItIsNotFlownThrough) {
 TEST_F(UnderABeam, WithALaserAloneItIsUnknownAndSaidOnce) {
   want(to(6.5, 2.0));
   EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
-  EXPECT_EQ(timesSaid("whether there is room below what blocks the path is not known"), 1);
+  EXPECT_EQ(timesSaid("room below the obstacle on the path is unknown"), 1);
   want(to(6.5, 3.0));
   EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
-  EXPECT_EQ(timesSaid("whether there is room below what blocks the path is not known"), 1);
+  EXPECT_EQ(timesSaid("room below the obstacle on the path is unknown"), 1);
 }
 
 TEST_F(UnderABeam, AFlightBackAlongTheTrailIsAsLow) {
