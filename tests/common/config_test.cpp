@@ -11,16 +11,17 @@
 #include "common/error.hpp"
 #include "common/validation.hpp"
 #include "common/vehicle_config.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::common {
 namespace {
 
 using config::YamlPrinter;
+using test_support::HasProblem;
+using test_support::kAnyName;
+using test_support::ProblemIs;
 using testing::ElementsAre;
-using testing::EndsWith;
-using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 /// One field of each kind.
 struct Leaf {
@@ -58,7 +59,7 @@ struct Branch {
   std::vector<common::Problem> validate() const {
     return Validation()
         .atMost("near_m", near_m, "far_m", far_m)
-        .require(leaf.share < 0.9 || leaf.count > 1, "leaf.share", "is too much for one")
+        .require(leaf.share < 0.9 || leaf.count > 1, "leaf.share", {"leaf.too-much", "is too much for one"})
         .problems();
   }
 };
@@ -70,14 +71,9 @@ struct Required {
 };
 
 template <typename Config>
-std::string problemsOf(const std::string& yaml) {
+std::vector<Problem> problemsOf(const std::string& yaml) {
   Config config;
-  try {
-    config::YamlReader::fromText(yaml, "test.yaml").read(config);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
+  return test_support::problemsOf([&] { config::YamlReader::fromText(yaml, "test.yaml").read(config); });
 }
 
 TEST(Config, FileValuesReplaceDefaults) {
@@ -89,43 +85,46 @@ TEST(Config, FileValuesReplaceDefaults) {
 }
 
 TEST(Config, UnknownKeyIsReportedWithItsPlaceAndASuggestion) {
-  EXPECT_EQ(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diametre_m: 0.5\n"),
-            "test.yaml:2:1: unknown key `hull_diametre_m`, did you mean `hull_diameter_m`?");
+  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diametre_m: 0.5\n"),
+              ElementsAre(ProblemIs("config.unknown-key", "test.yaml:2:1", "`hull_diameter_m`")));
 }
 
 TEST(Config, ADuplicateKeyIsReported) {
-  EXPECT_EQ(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diameter_m: 0.5\nmass_kg: 1.6\n"),
-            "test.yaml:3:1: key `mass_kg` is given twice, it is in line 1 too: leave out one of the two");
+  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diameter_m: 0.5\nmass_kg: 1.6\n"),
+              ElementsAre(ProblemIs("config.key-twice", "test.yaml:3:1", "in line 1 too")));
 }
 
 TEST(Config, WrongTypeAndRangeAreReportedTogether) {
-  const std::string text = problemsOf<LaserConfig>("beams: many\nrange_max_m: -3\nmount: {roll: 3}\n");
-  EXPECT_THAT(text, HasSubstr("test.yaml:1:8: beams: `many` is not a whole number"));
-  EXPECT_THAT(text, HasSubstr("test.yaml:2:14: range_max_m: -3 is not within 0.1 and 1000"));
-  EXPECT_THAT(text, HasSubstr("test.yaml:3:9: mount: unknown key `roll`, did you mean `roll_deg`?"));
+  const auto problems = problemsOf<LaserConfig>("beams: many\nrange_max_m: -3\nmount: {roll: 3}\n");
+  EXPECT_THAT(problems, HasProblem("config.other-type", "test.yaml:1:8: beams", "a whole number"));
+  EXPECT_THAT(problems, HasProblem("config.not-within", "test.yaml:2:14: range_max_m", "0.1 and 1000"));
+  EXPECT_THAT(problems, HasProblem("config.unknown-key", "test.yaml:3:9: mount", "`roll_deg`"));
 }
 
 TEST(Config, NumbersAtTheEndsOfTheirRangeAreAccepted) {
-  EXPECT_THAT(problemsOf<LaserConfig>("beams: -2147483648\nmirror_first_beam: 1\n"), HasSubstr("beams: -2147483648"));
-  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1e400\n"), HasSubstr("`1e400` is not a number"));
-  EXPECT_EQ(problemsOf<Leaf>("share: 0\ncount: 9\n"), "") << "both ends are within";
-  EXPECT_EQ(problemsOf<Leaf>("gain: 0\n"), "test.yaml:1:7: gain: 0 is not positive");
+  EXPECT_THAT(problemsOf<LaserConfig>("beams: -2147483648\nmirror_first_beam: 1\n"),
+              HasProblem(kAnyName, "beams", "-2147483648"));
+  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1e400\n"), HasProblem("config.other-type", "mass_kg", "`1e400`"));
+  EXPECT_THAT(problemsOf<Leaf>("share: 0\ncount: 9\n"), IsEmpty()) << "both ends are within";
+  EXPECT_THAT(problemsOf<Leaf>("gain: 0\n"), ElementsAre(ProblemIs("config.not-positive", "test.yaml:1:7: gain")));
 }
 
 TEST(Config, NanIsNeverWithinBounds) {
-  EXPECT_EQ(problemsOf<Leaf>("share: .nan\n"), "test.yaml:1:8: share: nan is not within 0 and 1");
-  EXPECT_EQ(problemsOf<Leaf>("gain: .nan\n"), "test.yaml:1:7: gain: nan is not positive");
-  EXPECT_EQ(problemsOf<Branch>("far_m: .nan\n"), "test.yaml:1:8: far_m: nan is not at least 0.5");
-  EXPECT_THAT(problemsOf<LaserConfig>("mount: {roll_deg: .nan}\n"), HasSubstr("mount.roll_deg: nan is not within"));
+  EXPECT_THAT(problemsOf<Leaf>("share: .nan\n"), ElementsAre(ProblemIs("config.not-within", "test.yaml:1:8: share")));
+  EXPECT_THAT(problemsOf<Leaf>("gain: .nan\n"), ElementsAre(ProblemIs("config.not-positive", "test.yaml:1:7: gain")));
+  EXPECT_THAT(problemsOf<Branch>("far_m: .nan\n"),
+              ElementsAre(ProblemIs("config.out-of-bounds", "test.yaml:1:8: far_m", "at least 0.5")));
+  EXPECT_THAT(problemsOf<LaserConfig>("mount: {roll_deg: .nan}\n"), HasProblem("config.not-within", "mount.roll_deg"));
 }
 
 TEST(Config, OutOfBoundsIsReportedWithItsPlaceInSectionsAndLists) {
-  EXPECT_EQ(problemsOf<Branch>("leaf:\n  count: 10\n"), "test.yaml:2:10: leaf.count: 10 is not within 1 and 9");
-  EXPECT_EQ(problemsOf<Branch>("leaves:\n  - count: 2\n  - {count: 0}\n"),
-            "test.yaml:3:13: leaves[1].count: 0 is not within 1 and 9");
-  EXPECT_EQ(problemsOf<Leaf>("corners_m: [1, -2,\n  30, .nan]\n"),
-            "test.yaml:2:3: corners_m[2]: 30 is not within -10 and 10\n"
-            "test.yaml:2:7: corners_m[3]: nan is not within -10 and 10");
+  EXPECT_THAT(problemsOf<Branch>("leaf:\n  count: 10\n"),
+              ElementsAre(ProblemIs("config.not-within", "test.yaml:2:10: leaf.count")));
+  EXPECT_THAT(problemsOf<Branch>("leaves:\n  - count: 2\n  - {count: 0}\n"),
+              ElementsAre(ProblemIs("config.not-within", "test.yaml:3:13: leaves[1].count")));
+  EXPECT_THAT(problemsOf<Leaf>("corners_m: [1, -2,\n  30, .nan]\n"),
+              ElementsAre(ProblemIs("config.not-within", "test.yaml:2:3: corners_m[2]", "30 is not within -10 and 10"),
+                          ProblemIs("config.not-within", "test.yaml:2:7: corners_m[3]", "nan")));
 }
 
 /// A file that is read over another gives a list whole: its items keep nothing of those in their place.
@@ -146,27 +145,30 @@ TEST(Config, AListReplacesTheOneBefore) {
 }
 
 TEST(Config, AViolatedRelationIsReportedAtTheFieldItNames) {
-  EXPECT_EQ(problemsOf<Branch>("near_m: 5\nfar_m: 4\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 4");
-  EXPECT_EQ(problemsOf<Branch>("near_m: 1\nleaf: {count: 1, share: 0.95}\n"),
-            "test.yaml:2:25: leaf.share: is too much for one");
-  EXPECT_EQ(problemsOf<Branch>("near_m: 5\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 2");
+  EXPECT_THAT(problemsOf<Branch>("near_m: 5\nfar_m: 4\n"),
+              ElementsAre(ProblemIs("config.above-other", "test.yaml:1:9: near_m")));
+  EXPECT_THAT(problemsOf<Branch>("near_m: 1\nleaf: {count: 1, share: 0.95}\n"),
+              ElementsAre(ProblemIs("leaf.too-much", "test.yaml:2:25: leaf.share")));
+  EXPECT_THAT(problemsOf<Branch>("near_m: 5\n"), ElementsAre(ProblemIs("config.above-other", "test.yaml:1:9: near_m")));
 }
 
 TEST(Config, AValueOutOfBoundsIsNotComparedWithOthers) {
-  EXPECT_EQ(problemsOf<Branch>("far_m: -1\n"), "test.yaml:1:8: far_m: -1 is not at least 0.5");
-  EXPECT_EQ(problemsOf<Branch>("near_m: many\nfar_m: 0.6\n"), "test.yaml:1:9: near_m: `many` is not a number")
+  EXPECT_THAT(problemsOf<Branch>("far_m: -1\n"),
+              ElementsAre(ProblemIs("config.out-of-bounds", "test.yaml:1:8: far_m")));
+  EXPECT_THAT(problemsOf<Branch>("near_m: many\nfar_m: 0.6\n"),
+              ElementsAre(ProblemIs("config.other-type", "test.yaml:1:9: near_m")))
       << "nor is the default that it keeps";
 }
 
 TEST(Config, ANumberWithoutADefaultMustBeGiven) {
-  EXPECT_EQ(problemsOf<Required>("{}\n"), "test.yaml:1:1: size_m: is missing");
-  EXPECT_EQ(problemsOf<Required>("size_m: 0.2\n"), "");
+  EXPECT_THAT(problemsOf<Required>("{}\n"), ElementsAre(ProblemIs("config.missing", "test.yaml:1:1: size_m")));
+  EXPECT_THAT(problemsOf<Required>("size_m: 0.2\n"), IsEmpty());
 }
 
 TEST(Config, InvalidYamlAndAMissingFileAreReported) {
-  EXPECT_THAT(problemsOf<LaserConfig>("a: [1, 2"), HasSubstr("test.yaml:"));
+  EXPECT_THAT(problemsOf<LaserConfig>("a: [1, 2"), HasProblem("yaml.not-closed", "test.yaml:1:4"));
   EXPECT_THROW(config::YamlReader::fromFile("/nowhere/x.yaml"), InputError);
-  EXPECT_THAT(problemsOf<LaserConfig>("- 1\n- 2\n"), HasSubstr("a list where keys were expected"));
+  EXPECT_THAT(problemsOf<LaserConfig>("- 1\n- 2\n"), HasProblem("config.no-keys", "test.yaml:1:1", "a list"));
 }
 
 TEST(Config, AConfigMadeInCodeIsCheckedToo) {
@@ -179,9 +181,9 @@ TEST(Config, AConfigMadeInCodeIsCheckedToo) {
   branch.leaves[1].corners_m = {0.0, std::numeric_limits<double>::infinity()};
   EXPECT_THAT(
       config::problemsOf(branch),
-      ElementsAre("near_m: nan is not within 0 and 100", "leaf.count: 0 is not within 1 and 9",
-                  "leaf.color: 2 is none of its 2 words", "leaves[1].corners_m[1]: inf is not within -10 and 10",
-                  "near_m: nan is more than far_m, which is 2"));
+      ElementsAre(ProblemIs("config.not-within", "near_m"), ProblemIs("config.not-within", "leaf.count"),
+                  ProblemIs("config.no-such-word", "leaf.color"),
+                  ProblemIs("config.not-within", "leaves[1].corners_m[1]"), ProblemIs("config.above-other", "near_m")));
 }
 
 TEST(Config, CommentsContainDescriptionAndBounds) {

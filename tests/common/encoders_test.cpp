@@ -54,7 +54,7 @@ TEST(EncodeTest, APhotoAsPngReadsBackAsTheSamePicture) {
   const Image image = pattern(40, 30);
   const Bytes png = encodePng(image, ImageContent::kPhoto);
   const auto read = decodeColor({reinterpret_cast<const char*>(png.data()), png.size()});
-  ASSERT_TRUE(read) << read.error().reason;
+  ASSERT_TRUE(read) << read.error().reason.text();
   EXPECT_EQ(read->rgb, image.rgb);
 }
 
@@ -63,7 +63,7 @@ TEST(EncodeTest, DepthKeepsAllSixteenBits) {
   for (int i = 0; i < 21; ++i) depth.codes.push_back(static_cast<std::uint16_t>(i * 3119));
   const Bytes png = encodePng(depth);
   const auto read = decodeDepth({reinterpret_cast<const char*>(png.data()), png.size()});
-  ASSERT_TRUE(read) << read.error().reason;
+  ASSERT_TRUE(read) << read.error().reason.text();
   EXPECT_EQ(read->width_px, 7);
   EXPECT_EQ(read->codes, depth.codes);
 }

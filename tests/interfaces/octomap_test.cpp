@@ -11,7 +11,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/error.hpp"
 #include "tests/interfaces/octomap_reader.hpp"
 #include "tests/support/problem_matchers.hpp"
 

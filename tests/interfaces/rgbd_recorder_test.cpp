@@ -70,7 +70,7 @@ TEST_F(RgbdRecorders, WhereNothingCanBeWrittenItSaysWhy) {
   write("rgbd/rgb", "a file where a folder is to be");
   const auto made = RgbdRecorder::create(folder_ / "rgbd");
   ASSERT_FALSE(made);
-  EXPECT_THAT(made.error().message, testing::HasSubstr("rgbd/rgb: "));
+  EXPECT_THAT(made.error().message.text(), testing::HasSubstr("rgbd/rgb: "));
 }
 
 TEST_F(RgbdRecorders, AFrameThatWasCutShortIsLeftOutAndCounted) {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "arena_fixtures.hpp"
-#include "common/error.hpp"
 #include "event_bytes.hpp"
 #include "tests/support/problem_matchers.hpp"
 

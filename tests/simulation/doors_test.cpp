@@ -1,6 +1,7 @@
 // Doors that close and open during a flight.
 #include "simulation/doors.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -10,6 +11,7 @@
 #include "common/random.hpp"
 #include "fixtures.hpp"
 #include "simulation/truth_map.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -22,16 +24,17 @@ DoorConfig doorAcross(std::vector<double> closed_s, double width_m = 8.0) {
 }
 
 TEST(DoorConfig, NeedsANameAndTimesInOrder) {
+  using test_support::HasProblem;
   const auto problems = [](const DoorConfig& door) { return common::config::problemsOf(door); };
   EXPECT_TRUE(problems(doorAcross({0.0, 3.0, 5.0})).empty());
-  EXPECT_EQ(problems(doorAcross({})), std::vector<std::string>{"closed_s: is empty: when does the door close?"});
-  EXPECT_EQ(problems(doorAcross({3.0, 3.0})), std::vector<std::string>{"closed_s: is not in the order of time"});
+  EXPECT_THAT(problems(doorAcross({})), HasProblem("door.never-closes", "closed_s"));
+  EXPECT_THAT(problems(doorAcross({3.0, 3.0})), HasProblem("door.not-in-order", "closed_s"));
   DoorConfig nameless = doorAcross({1.0});
   nameless.name = "";
-  EXPECT_EQ(problems(nameless), std::vector<std::string>{"name: is missing"});
+  EXPECT_THAT(problems(nameless), HasProblem("door.no-name", "name"));
   Scenario scenario;
   scenario.doors = {doorAcross({1.0}), doorAcross({2.0})};
-  EXPECT_EQ(scenario.validate(), std::vector<std::string>{"doors: two are called `hall`"});
+  EXPECT_THAT(scenario.validate(), HasProblem("config.name-twice", "doors", "`hall`"));
 }
 
 TEST(Doors, AreWhereRaysMeetTheSameBoxOfTriangles) {
