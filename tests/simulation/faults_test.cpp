@@ -344,13 +344,13 @@ TEST(Faults, ContradictionsAreRefused) {
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kStuck, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kImu, FaultKind::kMirror, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kBlack, 1.0, 2.0}).size(), 1U);
-  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kClockJump, 1.0, 2.0}),
-            std::vector<std::string>{"jump_s: is missing: how far does the clock jump?"});
+  EXPECT_THAT(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kClockJump, 1.0, 2.0}),
+              test_support::HasProblem("fault.no-jump", "jump_s"));
   EXPECT_TRUE(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0}).empty());
-  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0, 2.0}),
-            std::vector<std::string>{"to_s: is given, but a lost cell stays lost"});
-  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kLostCell, 1.0}),
-            std::vector<std::string>{"kind: lost_cell is a fault of the battery alone"});
+  EXPECT_THAT(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0, 2.0}),
+              test_support::HasProblem("fault.lost-for-good", "to_s"));
+  EXPECT_THAT(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kLostCell, 1.0}),
+              test_support::HasProblem("fault.of-battery", "kind"));
 }
 
 TEST(Faults, OneThatNeverHappensIsRefused) {
