@@ -235,9 +235,8 @@ Pose3 Estimator::T_odom_bodyAt(const perception::ProjectedScan& scan) const {
 void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Time now) {
   if (poses_.odomAtKey()) altitude_.follow(*map_.keyPoses(), poses_.odomAtKey()->key);
   const Time stamp = outcome.scan.stamp;
-  const auto vertical = filter_->verticalAt(stamp, altitude_.lastScan());
   const AltitudeStep altitude = altitude_.add(outcome.scan, map_.T_map_odom(), T_odom_body,
-                                              {vertical, vertical ? vertical->climb : std::nullopt, filter_->atRest()});
+                                              filter_->verticalAt(stamp, altitude_.lastScan()), filter_->atRest());
   fuse(altitude, outcome.scan.stamp);
   if (!altitude.below_m) return;
   outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};

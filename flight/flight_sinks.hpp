@@ -1,4 +1,4 @@
-// The sinks of a flight: its run folder, the page, and whoever hears its events.
+// The sinks of a flight: its run folder, the page, and a function that gets its events.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // One vehicle's flight from its first tick to its last file: its autonomy, the loop between both, the run folder and
-// whoever watches. Whether the vehicle is real or simulated, and how fast its time passes, is up to the caller.
+// its observers. Whether the vehicle is real or simulated, and how fast its time passes, is up to the caller.
 #pragma once
 
 #include <functional>

@@ -26,12 +26,13 @@ void AltitudePipeline::initialize(common::Time time, double height_m) {
 }
 
 AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
-                                   const common::Pose2& T_odom_body, const Vertical& vertical) {
+                                   const common::Pose2& T_odom_body,
+                                   const std::optional<perception::VerticalMotion>& vertical, bool at_rest) {
   const common::Pose2 T_map_body = T_map_odom * T_odom_body;
   AltitudeStep step;
   step.below_m = medianBelow_m(scan);
-  if (!vertical.state || scan.stamp <= last_scan_) return step;
-  const double height_m = vertical.state->height_m;
+  if (!vertical || scan.stamp <= last_scan_) return step;
+  const double height_m = vertical->height_m;
   std::vector<perception::GroundPoint> ground;
   ground.reserve(scan.mirror.size());
   for (const auto& point : scan.mirror)
@@ -42,9 +43,9 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   const auto update = filter_.update({.stamp = scan.stamp,
                                       .position_map_m = T_map_body.position_m(),
                                       .points = ground,
-                                      .known = *vertical.state,
-                                      .climb = vertical.climb,
-                                      .at_rest = vertical.at_rest,
+                                      .known = *vertical,
+                                      .climb = vertical->climb,
+                                      .at_rest = at_rest,
                                       .gradient_map = slopes_.gradientAt(T_map_body.position_m())});
   last_scan_ = scan.stamp;
   step.vertical = update.vertical;

@@ -61,15 +61,11 @@ class AltitudePipeline {
   /// Makes floor hits of the beams that ended on a slope ahead.
   void removeGround(perception::ProjectedScan& scan) const { fan_.remove(scan); }
 
-  /// What the filter knows of the vertical motion at the scan's stamp; without `state` the scan does not change the
-  /// levels.
-  struct Vertical {
-    std::optional<perception::VerticalState> state;
-    std::optional<perception::InertialClimb> climb;  ///< Since lastScan().
-    bool at_rest = false;
-  };
+  /// `vertical` is what the filter knows at the scan's stamp, with the climb since lastScan(); without it the scan does
+  /// not change the levels. `at_rest`: the vehicle stands.
   AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_odom,
-                   const common::Pose2& T_odom_body, const Vertical& vertical);
+                   const common::Pose2& T_odom_body, const std::optional<perception::VerticalMotion>& vertical,
+                   bool at_rest);
   /// Stamp of the last scan, or of the start.
   common::Time lastScan() const { return last_scan_; }
 

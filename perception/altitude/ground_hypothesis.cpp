@@ -65,11 +65,7 @@ void GroundHypothesis::predict(double dt_s, const InertialClimb& climb, bool at_
   if (at_rest) standStill();
 }
 
-void GroundHypothesis::standStill() {
-  Row row = Row::Zero();
-  row[kVelocity] = 1.0;
-  update(row, 0.0, square(kAtRest_m_s));
-}
+void GroundHypothesis::standStill() { update(Row::Unit(kVelocity), 0.0, square(kAtRest_m_s)); }
 
 double GroundHypothesis::Innovation::logDensity() const {
   return -0.5 * (squaredMahalanobis() + std::log(2.0 * std::numbers::pi * variance));
@@ -77,9 +73,7 @@ double GroundHypothesis::Innovation::logDensity() const {
 
 GroundHypothesis::Row GroundHypothesis::row(int surface, const Eigen::Vector2d& place_map_m) const {
   const Surface& below = surfaces[static_cast<std::size_t>(surface)];
-  Row row = Row::Zero();
-  row[kHeight] = 1.0;
-  row[at(surface)] = -1.0;
+  Row row = Row::Unit(kHeight) - Row::Unit(at(surface));
   if (below.slopes) row.segment<2>(kGradient) = -(place_map_m - below.sloped_from_map_m).transpose();
   return row;
 }
@@ -95,16 +89,12 @@ GroundHypothesis::Innovation GroundHypothesis::innovation(int surface, const Eig
 
 GroundHypothesis::Innovation GroundHypothesis::innovationOver(double height_m, double distance_m,
                                                               double variance_m2) const {
-  Row row = Row::Zero();
-  row[kHeight] = 1.0;
-  return innovationOf(row, height_m + distance_m, variance_m2);
+  return innovationOf(Row::Unit(kHeight), height_m + distance_m, variance_m2);
 }
 
 GroundHypothesis::Innovation GroundHypothesis::innovationOfHeight(int surface, double height_m,
                                                                   double variance_m2) const {
-  Row row = Row::Zero();
-  row[at(surface)] = 1.0;
-  return innovationOf(row, height_m, variance_m2);
+  return innovationOf(Row::Unit(at(surface)), height_m, variance_m2);
 }
 
 void GroundHypothesis::update(const Row& row, double value, double variance) {
@@ -121,15 +111,18 @@ void GroundHypothesis::measure(int surface, const Eigen::Vector2d& place_map_m, 
 }
 
 void GroundHypothesis::knowHeight(int surface, double height_m, double variance_m2) {
-  Row row = Row::Zero();
-  row[at(surface)] = 1.0;
-  update(row, height_m, variance_m2);
+  update(Row::Unit(at(surface)), height_m, variance_m2);
 }
 
 void GroundHypothesis::forget(int component) {
   state_[component] = 0.0;
   covariance_.row(component).setZero();
   covariance_.col(component).setZero();
+}
+
+void GroundHypothesis::forgetGradient() {
+  forget(kGradient);
+  forget(kGradient + 1);
 }
 
 void GroundHypothesis::doubt(double height_m2, double speed_m2_s2, double bias_m2_s4) {
@@ -141,7 +134,7 @@ void GroundHypothesis::doubt(double height_m2, double speed_m2_s2, double bias_m
 
 void GroundHypothesis::leave(int surface) {
   Surface& left = surfaces[static_cast<std::size_t>(surface)];
-  if (left.slopes) forget(kGradient), forget(kGradient + 1);
+  if (left.slopes) forgetGradient();
   left = {};
   forget(at(surface));
 }
@@ -187,8 +180,7 @@ void GroundHypothesis::endSlope(const Eigen::Vector2d& place_map_m) {
   state_ = moved * state_;
   covariance_ = moved * covariance_ * moved.transpose();
   below.slopes = false;
-  forget(kGradient);
-  forget(kGradient + 1);
+  forgetGradient();
 }
 
 }  // namespace swiftlet::perception::altitude

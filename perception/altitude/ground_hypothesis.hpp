@@ -98,6 +98,7 @@ class GroundHypothesis {
   Innovation innovationOf(const Row& row, double value, double variance) const;
   void update(const Row& row, double value, double variance);
   void forget(int component);
+  void forgetGradient();
 
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();

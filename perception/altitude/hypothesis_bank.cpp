@@ -13,8 +13,8 @@ using common::Time;
 
 namespace {
 
-// How often something begins, by the path or by the time. They are the orders of magnitude of furnished rooms; the
-// figures of docs/decisions/altitude.md#112 say what changes when they are wrong by a factor.
+// How often something begins, by the path or by the time: orders of magnitude of furnished rooms, which were chosen on
+// the flights of tests/altitude (docs/decisions/altitude.md#112, where two of them were varied).
 constexpr double kEdges_1_m = 0.5;            ///< Edges of furniture, in a room that has some;
 constexpr double kClutter_m = 0.5;            ///< where one was, there are others within this distance.
 constexpr double kSomethingMoves_1_s = 0.02;  ///< Something is put below or taken away while the vehicle stays.
@@ -30,16 +30,11 @@ constexpr double kLost_m = 1.0, kLost_m_s = 1.0, kLost_m_s2 = 0.3;
 
 // What a surface that comes into sight is: a level known at the place or near it, the floor, another surface.
 constexpr double kKnownHere = 0.8, kKnownNear = 0.15, kFloorAnywhere = 0.5, kOther = 0.5, kOtherHere = 0.1;
-constexpr double kReturn = 0.005;         ///< The share of edges behind which lies what was below a moment ago.
-constexpr double kNeighbourhood_m = 0.8;  ///< A level known within this distance is near.
+constexpr double kReturn = 0.005;  ///< The share of edges behind which lies what was below a moment ago.
 /// Most furniture is lower than a metre. Hardly anything lies just below the take-off floor, and little deep below it.
 constexpr double kFurniture_m = 1.0, kLow_1_m = 0.8, kHigh_1_m = 0.1;
 constexpr double kOnFloor_m = 0.03, kLeastStepDown_m = 0.25, kSunk = 1e-3, kBelowFloor = 0.02;
-/// A smaller surface is no part of a level that is known near by.
-constexpr double kSmall_s = 0.3;
 
-/// Standard deviation of a real surface from flat, shared by all beams of a scan.
-constexpr double kFlatness_m = 0.005;
 constexpr double kGate2 = 25.0;  ///< What is farther off than five standard deviations is another surface.
 /// Without anything below for this long, the other sensors know the height better than this filter remembers it.
 constexpr double kRemembered_s = 0.5;
@@ -50,6 +45,8 @@ constexpr int kBranching = 3;                    ///< Slopes begin in so many of
 constexpr double kNegligible = -14.0;            ///< Logarithm of a weight, against the best, that is given up.
 constexpr double kEnds_m = 0.05, kLost_s = 0.2;  ///< How often it is asked whether a slope has ended, or all is lost.
 constexpr double kSure = 0.9, kAgree_m = 0.02;
+
+double weightOf(const GroundHypothesis& h) { return std::exp(h.log_weight); }
 
 /// Whether both say the same of what is below now, and of the vehicle: within what no flight would notice.
 bool areSame(const GroundHypothesis& a, const GroundHypothesis& b, Time now) {
@@ -278,18 +275,15 @@ void HypothesisBank::prune() {
       next_.push_back(h);
   }
   std::swap(bank_, next_);
-}
-
-double HypothesisBank::weight(const GroundHypothesis& h) const {
   double sum = 0.0;
-  for (const GroundHypothesis& other : bank_) sum += std::exp(other.log_weight - h.log_weight);
-  return 1.0 / sum;
+  for (const GroundHypothesis& h : bank_) sum += weightOf(h);
+  for (GroundHypothesis& h : bank_) h.log_weight -= std::log(sum);
 }
 
 bool HypothesisBank::isSure() const {
   double share = 0.0;
   for (const GroundHypothesis& h : bank_)
-    if (std::abs(h.vertical().height_m - best().vertical().height_m) < kAgree_m) share += weight(h);
+    if (std::abs(h.vertical().height_m - best().vertical().height_m) < kAgree_m) share += weightOf(h);
   return share >= kSure;
 }
 
@@ -298,7 +292,7 @@ VerticalState HypothesisBank::state() const {
   const Eigen::Vector3d mean = state.mean();
   for (const GroundHypothesis& h : bank_) {
     const Eigen::Vector3d off = h.vertical().mean() - mean;
-    state.covariance += weight(h) * off * off.transpose();
+    state.covariance += weightOf(h) * off * off.transpose();
   }
   return state;
 }

@@ -26,6 +26,14 @@
 
 namespace swiftlet::perception::altitude {
 
+/// A level known within this distance is near.
+inline constexpr double kNeighbourhood_m = 0.8;
+/// Standard deviation of a real surface from flat, shared by all beams of a scan: no level is known better.
+inline constexpr double kFlatness_m = 0.005;
+/// What was seen for less time is a small surface: no level, and no part of one that is known near by
+/// (docs/decisions/altitude.md#095).
+inline constexpr double kSmall_s = 0.3;
+
 /// The vehicle's way from the scan before to this one.
 struct ScanStep {
   common::Time before, now;
@@ -54,7 +62,6 @@ class HypothesisBank {
   VerticalState state() const;
   /// Whether so many hypotheses agree on the height that the map of levels may learn from it.
   bool isSure() const;
-  std::size_t size() const { return bank_.size(); }
   /// The surface has become a level.
   void nameLevel(int serial, int level);
   /// The levels near the largest surface of the last scan, and the cell of its middle.
@@ -71,11 +78,11 @@ class HypothesisBank {
   double shareOfLevel(int level) const;
   double shareOfUnknown_1_m(double height_m) const;
   double variance_m2(int beams) const;
-  double weight(const GroundHypothesis& h) const;
 
   MultilevelConfig config_;
   const LevelStore& levels_;
-  std::vector<GroundHypothesis> bank_, next_;  ///< The likeliest first; never empty after start().
+  /// The likeliest first; never empty after start(). After prune() the weights sum to one.
+  std::vector<GroundHypothesis> bank_, next_;
   int serials_ = 0;
   double unbranched_m_ = 0.0, unbranched_s_ = 0.0;
   common::Time seen_;  ///< When something was below.

@@ -21,14 +21,11 @@ namespace {
 
 /// Side of a cell of the level map.
 constexpr double kCell_m = 0.10;
-/// Two levels whose cells come this close, within kMeeting_m of the vehicle, meet.
-constexpr double kJoinDistance_m = 0.20, kMeeting_m = 0.80;
-/// Standard deviation of a level from flat: none is known better.
-constexpr double kLevelSigma_m = 0.005;
+/// Two levels whose cells come this close near the vehicle meet.
+constexpr double kJoinDistance_m = 0.20;
 /// Two levels are one if their heights differ by less than 3.5 standard deviations.
 constexpr double kSame2 = 12.0;
-/// A surface that was seen for this long and in so many scans becomes a level (docs/decisions/altitude.md#095).
-constexpr double kNewLevel_s = 0.3;
+/// A surface that is not small and was seen in so many scans becomes a level.
 constexpr int kNewLevelScans = 3;
 
 }  // namespace
@@ -70,7 +67,7 @@ void MultilevelFilter::Impl::learnLeftLevels() {
     LevelEstimate& level = store.at(s.level);
     if (level.variance_m2 <= 0.0) continue;  // The take-off floor defines height 0.
     level.height_m = bank.best().height_m(i);
-    level.variance_m2 = std::max(bank.best().variance_m2(i), square(kLevelSigma_m));
+    level.variance_m2 = std::max(bank.best().variance_m2(i), square(kFlatness_m));
     changed = true;
   }
 }
@@ -86,9 +83,9 @@ void MultilevelFilter::Impl::learnNewLevels(AltitudeUpdate& outcome) {
     const Surface& s = best.surfaces[static_cast<std::size_t>(i)];
     if (!s.isSeen(step.now) || s.level != kNoLevel) continue;
     for (const CellIndex& cell : sightOf(s).cells) pending.push_back({s.serial, cell});
-    const bool confirmed = s.scans >= kNewLevelScans && (step.now - s.first).seconds() >= kNewLevel_s;
+    const bool confirmed = s.scans >= kNewLevelScans && (step.now - s.first).seconds() >= kSmall_s;
     if (s.slopes || !confirmed || !bank.isSure()) continue;
-    const int id = store.add(best.height_m(i), std::max(best.variance_m2(i), square(kLevelSigma_m)));
+    const int id = store.add(best.height_m(i), std::max(best.variance_m2(i), square(kFlatness_m)));
     for (const PendingCell& cell : pending)
       if (cell.serial == s.serial) store.extend(id, cell.cell);
     bank.nameLevel(s.serial, id);
@@ -123,7 +120,7 @@ void MultilevelFilter::Impl::regainFloor(int level, const SurfaceSight& sight, A
   state.height_m = sight.distance_below_m;
   state.covariance.row(0).setZero();
   state.covariance.col(0).setZero();
-  state.covariance(0, 0) = square(config.beam_noise_m) + square(kLevelSigma_m);
+  state.covariance(0, 0) = square(config.beam_noise_m) + square(kFlatness_m);
   bank.start(state, step.now);
   (void)store.join(kFloor, level);
   std::erase(bank.near(), level);
@@ -138,9 +135,9 @@ void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
     for (std::size_t j = i + 1; j < near.size();) {
       const LevelEstimate& a = store.at(near[i]);
       const LevelEstimate& b = store.at(near[j]);
-      const double variance_m2 = a.variance_m2 + b.variance_m2 + 2.0 * square(kLevelSigma_m);
+      const double variance_m2 = a.variance_m2 + b.variance_m2 + 2.0 * square(kFlatness_m);
       if (square(a.height_m - b.height_m) > kSame2 * variance_m2 ||
-          !store.meet(near[i], near[j], bank.center(), kMeeting_m, kJoinDistance_m)) {
+          !store.meet(near[i], near[j], bank.center(), kNeighbourhood_m, kJoinDistance_m)) {
         ++j;
         continue;
       }
@@ -205,7 +202,6 @@ AltitudeUpdate MultilevelFilter::update(const GroundSight& sight) {
 }
 
 VerticalState MultilevelFilter::state() const { return impl_->bank.state(); }
-std::size_t MultilevelFilter::hypotheses() const { return impl_->bank.size(); }
 common::LevelMap MultilevelFilter::levels() const { return impl_->store.snapshot(); }
 std::uint64_t MultilevelFilter::levelsVersion() const { return impl_->version; }
 

@@ -75,8 +75,6 @@ class MultilevelFilter {
   AltitudeUpdate update(const GroundSight& sight);
 
   VerticalState state() const;
-  /// How many explanations of what was measured are still possible.
-  std::size_t hypotheses() const;
   /// A copy of all levels with their cells.
   common::LevelMap levels() const;
   /// A counter that changes with every change of a level; levels() need not be called while it stays the same.

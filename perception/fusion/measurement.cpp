@@ -18,13 +18,6 @@ Measurement measurementOf(MeasurementKind kind, Time time) {
   return m;
 }
 
-Measurement verticalOf(MeasurementKind kind, Time time, double value, double variance) {
-  Measurement m = measurementOf(kind, time);
-  m.value = value;
-  m.covariance(0, 0) = variance;
-  return m;
-}
-
 bool isCovariance(const Eigen::Matrix3d& m) {
   if (!m.allFinite() || !m.isApprox(m.transpose(), 1e-6)) return false;
   return common::symmetricEigenvalues(m).minCoeff() > 0.0;
@@ -62,7 +55,9 @@ Measurement measuredRelativePose3(Time from, Time to, const common::Pose3& T_fro
 }
 
 Measurement measuredHeight(Time time, double height_m, double variance_m2, double common_variance_m2) {
-  Measurement m = verticalOf(MeasurementKind::kHeight, time, height_m, variance_m2);
+  Measurement m = measurementOf(MeasurementKind::kHeight, time);
+  m.value = height_m;
+  m.covariance(0, 0) = variance_m2;
   m.common_variance_m2 = common_variance_m2;
   return m;
 }

@@ -30,9 +30,8 @@ class OverATable : public testing::Test {
       perception::MirrorPoint beam;
       beam.z_level_m = -1.0F;
       scan.mirror.assign(6, beam);
-      const AltitudePipeline::Vertical vertical{
-          perception::VerticalState{1.4, 0.0, 0.0, 1e-4 * Eigen::Matrix3d::Identity()}, std::nullopt};
-      pipeline_.add(scan, Pose2{}, Pose2{3.05, 0.05, 0.0}, vertical);
+      const perception::VerticalMotion vertical{{1.4, 0.0, 0.0, 1e-4 * Eigen::Matrix3d::Identity()}, std::nullopt};
+      pipeline_.add(scan, Pose2{}, Pose2{3.05, 0.05, 0.0}, vertical, false);
     }
   }
   bool tableAt(double x_m, double y_m) const {

@@ -47,14 +47,14 @@ TEST(Estimator, MatchedScansCorrectTheStateAndDrawTheMap) {
 }
 
 TEST(Estimator, BeamsThatPassBelowSomethingDoNotClearIt) {
-  // A post stands ahead for a second, then the laser sees past its place: it has left, or the vehicle has come down.
+  // A post stands ahead for a while, then the laser sees past its place: it has left, or the vehicle has come down.
   const auto cellsOfPost = [](double below_map_m) {
     EstimatorStory story(2.5);
     const common::Pose2 start = planar(story.truthAt(Time{}));
     const Eigen::Vector2d post_m = start * Eigen::Vector2d(1.3, 0.0);
     const test::PlanarWorld empty = story.world;
     story.world.addBox(post_m.x(), post_m.y(), 0.2, 0.2);
-    story.run(1.2);
+    story.run(1.4);  // Long enough that the beams past it, drawn into the map, do not clear it by themselves.
     story.world = empty;
     story.feedback.below_map_m = below_map_m;
     story.run(1.95);
@@ -65,7 +65,7 @@ TEST(Estimator, BeamsThatPassBelowSomethingDoNotClearIt) {
         occupied += common::occupancy::isOccupied(grid->at(grid->cellAt(post_m + Eigen::Vector2d(x, y)))) ? 1 : 0;
     return occupied;
   };
-  EXPECT_GE(cellsOfPost(0.45), 1);
+  EXPECT_GE(cellsOfPost(0.45), 2);
   EXPECT_EQ(cellsOfPost(0.0), 0);
 }
 

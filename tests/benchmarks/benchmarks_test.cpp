@@ -35,7 +35,7 @@ TEST_F(RecordedBenchmarks, VariationsOfALog) {
 /// A camera that walks through a room, slowly, and its true poses.
 void record(const std::filesystem::path& folder, double frames_Hz, double reference_Hz, double reference_late_s) {
   auto recorder = interfaces::RgbdRecorder::create(folder);
-  ASSERT_TRUE(recorder) << recorder.error().message;
+  ASSERT_TRUE(recorder) << recorder.error().message.text();
   const auto pose = [](double time_s) { return mapping3d::walk(0.3 * time_s); };
   const mapping3d::TexturedRoom room;
   constexpr double kLasts_s = 2.4;

@@ -1,6 +1,7 @@
 // What tests ask of problems: their name and place, not their English, which docs/messages.md lists.
 #pragma once
 
+#include <cctype>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -32,11 +33,14 @@ inline std::string placeOf(common::Problem problem) {
 }
 
 /// Whether a place is this one, of which the test may leave out the folders or the file, the column and the element.
+/// What is left out ends with a folder, with the name of the file or with the column: a line is not left out.
 inline bool isPlace(const std::string& place, const std::string& wanted) {
   for (std::size_t at = place.find(wanted); at != std::string::npos; at = place.find(wanted, at + 1)) {
     const std::string_view before = std::string_view(place).substr(0, at);
     const std::string_view behind = std::string_view(place).substr(at + wanted.size());
-    if ((before.empty() || before.ends_with("/") || before.ends_with(":") || before.ends_with(": ")) && (behind.empty() || behind[0] == ':'))
+    const bool after_file = before.ends_with(":") && before.size() > 1 && !std::isdigit(before[before.size() - 2]);
+    if ((before.empty() || before.ends_with("/") || before.ends_with(": ") || after_file) &&
+        (behind.empty() || behind[0] == ':'))
       return true;
   }
   return wanted.empty();
