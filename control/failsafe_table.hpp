@@ -142,6 +142,12 @@ inline constexpr Failsafe kFailsafes[] = {
 static_assert(std::is_sorted(std::begin(kFailsafes), std::end(kFailsafes),
                              [](const Failsafe& a, const Failsafe& b) { return a.response > b.response; }),
               "the rows stand by rank");
+static_assert(std::all_of(std::begin(kFailsafes), std::end(kFailsafes),
+                          [](const Failsafe& row) {
+                            return std::any_of(std::begin(kFindingTexts), std::end(kFindingTexts),
+                                               [&](const FindingText& text) { return text.finding == row.finding; });
+                          }),
+              "a finding of the table has its words");
 
 }  // namespace failsafe_table
 }  // namespace swiftlet::control

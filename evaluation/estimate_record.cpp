@@ -43,6 +43,7 @@ void EstimateRecord::compare(const common::VehicleState& estimate, const Pose3& 
   horizontal_errors_m.push_back(error_m.head<2>().norm());
   horizontal_errors_raw_m.push_back((T_map_body.position_m - T_start_truth.position_m).head<2>().norm());
   spatial_errors_m.push_back(error_m.norm());
+  if (estimate.vertical_valid) greatest_height_error_m = std::max(greatest_height_error_m, std::abs(error_m.z()));
   yaw_errors_rad.push_back(
       std::abs(common::wrapAngle(common::yawOf(T_map_body.rotation) - common::yawOf(T_map_truth.rotation))));
   if (next_trajectory_ && estimate.stamp < *next_trajectory_) return;

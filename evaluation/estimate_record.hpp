@@ -39,6 +39,7 @@ class EstimateRecord {
   const ComparedEstimate& newest() const { return newest_; }
 
   std::vector<double> horizontal_errors_m, spatial_errors_m, yaw_errors_rad;
+  double greatest_height_error_m = 0.0;         ///< While the height was said to be known.
   std::vector<double> horizontal_errors_raw_m;  ///< In FlightRecord::T_world_start.
   common::Trajectory truth_map;                 ///< In the `map` frame, at 20 Hz, for pictures.
 

@@ -141,6 +141,7 @@ void measureEstimate(const EstimateRecord& record, FlightScore& score) {
   score["estimate_rms_m"] = rmsOf(record.horizontal_errors_m);
   score["estimate_rms_raw_m"] = rmsOf(record.horizontal_errors_raw_m);
   score["estimate_spatial_rms_m"] = rmsOf(record.spatial_errors_m);
+  if (!record.spatial_errors_m.empty()) score["height_error_m"] = record.greatest_height_error_m;
   score["estimate_yaw_rms_rad"] = rmsOf(record.yaw_errors_rad);
 }
 

@@ -100,7 +100,10 @@ std::string nameOf(const FaultConfig& fault) {
   std::string when = fault.phase;
   if (when.empty()) when = fault.place_world_m.empty() ? fmt::format("{:g}s", fault.from_s) : "place";
   std::replace(when.begin(), when.end(), ' ', '_');
-  return fmt::format("{}-{}-{}", toString(fault.sensor), kKinds.at(static_cast<std::size_t>(fault.kind)), when);
+  const auto kind = static_cast<std::size_t>(fault.kind);
+  const double off_m_s2 = fault.kind == FaultKind::kBias ? fault.accel_bias_m_s2 : 0.0;
+  return fmt::format("{}-{}{}-{}", toString(fault.sensor), kKinds.at(kind),
+                     off_m_s2 != 0.0 ? fmt::format("{:+g}m_s2", off_m_s2) : "", when);
 }
 
 }  // namespace swiftlet::simulation

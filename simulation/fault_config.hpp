@@ -54,7 +54,7 @@ struct FaultConfig {
   std::vector<common::Problem> validate() const;
 };
 
-/// What goes wrong and when, for tables and names of folders: "imu-silent-taking_off", "laser-nan-15s",
+/// What goes wrong and when, for tables and names of folders: "imu-silent-taking_off", "imu-bias+0.3m_s2-15s",
 /// "imu-nan-place".
 std::string nameOf(const FaultConfig& fault);
 

@@ -27,15 +27,14 @@ namespace {
 /// within the window.
 constexpr double kRate_deg_s = 25.0;
 constexpr double kRateWindow_s = 0.1;
-/// Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is not used.
-/// Less force than that means that the vehicle sinks.
-constexpr double kVertical_m_s2 = 3.5;
-constexpr double kVerticalWindow_s = 0.05;
+/// Median specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is not
+/// used. Less force than that means that the vehicle sinks.
+constexpr double kAlong_m_s2 = 3.5;
 /// Median specific force across the rotors' axis from which the accelerometer is not used: a tilt does not cause any,
 /// only drag and pushes do.
-constexpr double kHorizontal_m_s2 = 2.5;
+constexpr double kAcross_m_s2 = 2.5;
 /// More than twice the push of a hand, so that its median does not see the push.
-constexpr double kHorizontalWindow_s = 0.3;
+constexpr double kForceWindow_s = 0.3;
 constexpr double kPause_s = 0.1;  ///< After a pause the windows start over.
 /// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
 constexpr std::size_t kUsualSamples = 320;
@@ -73,8 +72,8 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
     fault_ = Fault::kNone;
     return sample;
   }
-  window_.push_back({sample, expected_m_s2, context_.thrust_applies && !context_.near_ground});
-  const double longest_s = std::max({kRateWindow_s, kVerticalWindow_s, kHorizontalWindow_s});
+  window_.push_back({sample, expected_m_s2, context_.thrust_applies});
+  const double longest_s = std::max(kRateWindow_s, kForceWindow_s);
   const auto kept = std::find_if(window_.begin(), window_.end(), [&](const Compared& one) {
     return (now - one.sample.stamps.measured).seconds() <= longest_s + 0.02;
   });
@@ -88,23 +87,18 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
     // A replaced value is off by a few percent of gravity for seconds, which is worth this much noise.
     spread_m_s2_ = spread_m_s2_ > 0.0 ? -kImpliedSpread_m_s2 : kImpliedSpread_m_s2;
     used.specific_force_body_m_s2 =
-        Vector3d(0.0, 0.0, impliedForce_m_s2(expected_m_s2)) + Vector3d::Constant(spread_m_s2_);
+        Vector3d(0.0, 0.0, context_.thrust_applies ? expected_m_s2 : common::kGravity_m_s2) +
+        Vector3d::Constant(spread_m_s2_);
   }
   return used;
 }
 
-/// Near the ground so little thrust means that the vehicle stands, and the ground carries its weight.
-double InertialCheck::impliedForce_m_s2(double expected_m_s2) const {
-  constexpr double kStands = 0.85;  // Less cannot lift, even where the hover command is off by a tenth.
-  const bool stands = context_.near_ground && expected_m_s2 < kStands * common::kGravity_m_s2;
-  return stands || !context_.thrust_applies ? common::kGravity_m_s2 : expected_m_s2;
-}
-
+/// The ground carries what the thrust leaves of the weight, and no more.
 double InertialCheck::expectedForce_m_s2(Time now) {
   const double dt_s = last_ ? std::clamp((now - *last_).seconds(), 0.0, kPause_s) : 0.0;
   const double share = common::followedShare(dt_s, ImuSubstitute::kThrustLag_s);
   thrust_over_hover_ += share * (context_.thrust_over_hover - thrust_over_hover_);
-  return common::kGravity_m_s2 * thrust_over_hover_;
+  return common::kGravity_m_s2 * (context_.near_ground ? std::max(thrust_over_hover_, 1.0) : thrust_over_hover_);
 }
 
 /// Over the window of the rates, or as much of it as there is.
@@ -137,15 +131,17 @@ std::string InertialCheck::fault() const {
                                : "the accelerometer contradicted the thrust a moment ago";
 }
 
-/// The median of one component of the specific force over the newest samples that span `span_s`: a push that is shorter
-/// than half of that leaves it as it is. nullopt if they do not span it yet.
-std::optional<double> InertialCheck::medianForce_m_s2(double span_s, int component) {
+/// The median of a component of the specific force over the newest samples that span kForceWindow_s, along the rotors'
+/// axis without the force of the thrust: a push that is shorter than half of that leaves it as it is. nullopt if the
+/// samples do not span it yet.
+std::optional<double> InertialCheck::medianForce_m_s2(int component) {
   const Time newest = window_.back().sample.stamps.measured;
-  if ((newest - window_.front().sample.stamps.measured).seconds() < span_s - 1e-6) return std::nullopt;
+  if ((newest - window_.front().sample.stamps.measured).seconds() < kForceWindow_s - 1e-6) return std::nullopt;
   sorted_m_s2_.clear();
   for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
-    if ((newest - it->sample.stamps.measured).seconds() > span_s - 1e-6) break;
-    sorted_m_s2_.push_back(it->sample.specific_force_body_m_s2[component]);
+    if ((newest - it->sample.stamps.measured).seconds() > kForceWindow_s - 1e-6) break;
+    const double thrust_m_s2 = component == 2 ? it->expected_m_s2 : 0.0;
+    sorted_m_s2_.push_back(it->sample.specific_force_body_m_s2[component] - thrust_m_s2);
   }
   const auto middle = sorted_m_s2_.begin() + static_cast<std::ptrdiff_t>(sorted_m_s2_.size() / 2);
   std::nth_element(sorted_m_s2_.begin(), middle, sorted_m_s2_.end());
@@ -170,15 +166,13 @@ bool InertialCheck::forcesDiffer() {
     fault_ = fault;
     fault_size_ = off_m_s2;
   };
-  const auto x = medianForce_m_s2(kHorizontalWindow_s, 0), y = medianForce_m_s2(kHorizontalWindow_s, 1);
-  if (x && y && std::hypot(*x, *y) > kHorizontal_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
+  const auto x = medianForce_m_s2(0), y = medianForce_m_s2(1);
+  if (x && y && std::hypot(*x, *y) > kAcross_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
   const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
   if (!known) return differ;
-  const auto along = meanOver(window_, kVerticalWindow_s, [](const Compared& one) {
-    return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
-  });
+  const auto along = medianForce_m_s2(2);
   // Less force than the thrust gives means a sinking vehicle, by a weak motor or battery. More force is impossible.
-  if (along && *along > kVertical_m_s2) distrust(*along, Fault::kAlong);
+  if (along && *along > kAlong_m_s2) distrust(*along, Fault::kAlong);
   return differ;
 }
 

@@ -18,14 +18,15 @@ namespace swiftlet::autonomy {
 /// What the vehicle does, as far as it decides what a sample must be.
 struct InertialContext {
   bool airborne = false;     ///< Flying, taking off or landing; on the ground nothing is compared.
-  bool near_ground = false;  ///< The ground may carry a part of the weight: the thrust is no reference.
+  bool near_ground = false;  ///< The ground may carry a part of the weight.
   bool thrust_applies = true;
   double thrust_over_hover = 1.0;  ///< Command given over the command that carries the weight.
 };
 
 /// A rotor pushes along the body's z axis and little else acts on a slow vehicle, so the specific force along it is
-/// gravity times the share of the hover thrust, whatever the tilt, and that across it is small. The means over windows
-/// are compared: vibration is ten times as large as the bias of a good sensor. One thread. Once the windows are full,
+/// gravity times the share of the hover thrust, whatever the tilt, and that across it is small. Rates are compared by
+/// their mean and forces by their median over a window: vibration is ten times as large as the bias of a good sensor,
+/// and a push is a true force. One thread. Once the windows are full,
 /// a sample allocates nothing.
 class InertialCheck {
  public:
@@ -54,9 +55,8 @@ class InertialCheck {
     bool known = false;          ///< Whether the thrust determines it.
   };
   double expectedForce_m_s2(common::Time now);
-  double impliedForce_m_s2(double expected_m_s2) const;
   Eigen::Vector3d ahrsRate_rad_s() const;
-  std::optional<double> medianForce_m_s2(double span_s, int component);
+  std::optional<double> medianForce_m_s2(int component);
   bool ratesDiffer();
   bool forcesDiffer();
 

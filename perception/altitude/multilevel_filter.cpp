@@ -35,7 +35,8 @@ struct MultilevelFilter::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  // The steps of Algorithm 1, in its order.
+  // Lines 14 to 17 of Algorithm 1. A level that is left is re-estimated (15) before a new one is made (14), which may
+  // have its cells.
   void learnLeftLevels();
   void learnNewLevels(AltitudeUpdate& outcome);
   void extendLevels(AltitudeUpdate& outcome);

@@ -58,11 +58,14 @@ TEST_F(InertialCheckStory, APushOfAHandIsMotionAndNoFault) {
   EXPECT_EQ(check_.fault(), "");
   feed(0.3);
   EXPECT_EQ(check_.fault(), "");
+  const ImuSample used = feed(0.1, {0.0, 0.0, 15.0});
+  EXPECT_EQ(used.specific_force_body_m_s2, sample_.specific_force_body_m_s2) << "from below too";
+  EXPECT_EQ(check_.fault(), "");
 }
 
 TEST_F(InertialCheckStory, AWrongAccelerometerIsReplacedByTheThrust) {
   feed(1.0);
-  const ImuSample used = feed(0.08, {0.0, 0.0, 6.0});
+  const ImuSample used = feed(0.2, {0.0, 0.0, 6.0});
   const double spread_m_s2 = InertialCheck::kImpliedSpread_m_s2;
   EXPECT_NEAR(std::abs(used.specific_force_body_m_s2.z() - 9.81), spread_m_s2, 0.1);
   const ImuSample next = feed(0.005, {0.0, 0.0, 6.0});
@@ -89,11 +92,18 @@ TEST_F(InertialCheckStory, WrongGyroscopesAreReplacedByTheAhrs) {
   EXPECT_EQ(check_.fault(), "");
 }
 
-TEST_F(InertialCheckStory, OnTheGroundAndNearItTheThrustSaysNothing) {
+TEST_F(InertialCheckStory, NearTheGroundTheGroundMayCarryTheWeightAndNoMore) {
   context_.near_ground = true;
-  feed(1.0);
-  feed(0.5, {0.0, 0.0, 5.0});
-  EXPECT_EQ(check_.fault(), "");
+  context_.thrust_over_hover = 0.5;
+  feed(1.0, {0.0, 0.0, 0.5 * 9.81});
+  EXPECT_EQ(check_.fault(), "") << "it stands with half the thrust of a hover";
+  feed(0.1, {0.0, 0.0, 30.0});
+  EXPECT_EQ(check_.fault(), "") << "it touches down";
+  feed(0.3, {0.0, 0.0, 0.5 * 9.81 + 6.0});
+  EXPECT_NE(check_.fault().find("the accelerometer contradicts the thrust by 6"), std::string::npos) << check_.fault();
+}
+
+TEST_F(InertialCheckStory, OnTheGroundNothingIsCompared) {
   context_.airborne = false;
   feed(0.5, {5.0, 0.0, 5.0}, 2.0);
   EXPECT_EQ(check_.fault(), "");
@@ -115,7 +125,7 @@ TEST_F(InertialCheckStory, WhatIsNotFiniteHidesNoFault) {
   feed(0.1, {NAN, 0.0, 0.0});
   feed(0.3);
   EXPECT_EQ(check_.fault(), "");
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 20; ++i) {
     feed(0.01, {0.0, 0.0, 6.0});
     const ImuSample used = feed(0.005, {0.0, 0.0, NAN});
     EXPECT_TRUE(std::isnan(used.specific_force_body_m_s2.z())) << "it is given back as it is";
