@@ -157,7 +157,8 @@ void draw(const CheckOptions& options, const tree::Registry& ours, const std::st
 void requireOneTree(const CheckOptions& options) {
   for (const auto& [option, value] : {std::pair{"--dry-run", options.dry_run}, {"--draw", options.draw}})
     if (!value.empty() && options.missions.size() != 1 && !options.mock_leaves)
-      throw common::InputError(common::Problem{{}, option, "the file is of one mission", "name that one alone"});
+      throw common::InputError({}, option, common::Message("check.one-mission", "the file is of one mission"),
+                               "name that one alone");
 }
 
 int check(const CheckOptions& options) {

@@ -102,7 +102,7 @@ std::string commandHint(const CLI::App& app, const std::string& word) {
   return common::didYouMean(word, known);
 }
 
-std::string unknown(const std::string& what, const std::string& hint) {
+std::string unknown(const common::Message& what, const std::string& hint) {
   return toString(common::Problem{{}, "", what, hint});
 }
 
@@ -110,7 +110,7 @@ std::string unknownOption(const CLI::App& app, const std::string& name) {
   std::string hint = placeHint(app, name);
   if (hint.empty()) hint = name == "-v" || name == "-V" ? "did you mean `--version`?" : "";
   if (hint.empty()) hint = common::didYouMean((name.starts_with("--") ? "" : "-") + name, optionsOf(app));
-  return unknown(fmt::format("`{}` is not an option of `{}`", name, fullName(app)), hint);
+  return unknown(common::Message("option.unknown", "`{}` is not an option of `{}`", name, fullName(app)), hint);
 }
 
 /// A long option behind one dash, of which CLI11 would make several short ones: `-headless` would be `-h`, help.
@@ -146,9 +146,11 @@ std::optional<std::string> unknownWord(const CLI::App& app) {
     // Of a command without arguments that reads a profile.
     const bool reads_profile = std::find(options.begin(), options.end(), "--system") != options.end();
     if (hint.empty() && reads_profile && !hasArguments(app)) hint = fmt::format("did you mean `--system {}`?", word);
-    return unknown(fmt::format("`{}` is one argument too many for `{}`", word, fullName(app)), hint);
+    return unknown(common::Message("argument.too-many", "`{}` is one argument too many for `{}`", word, fullName(app)),
+                   hint);
   }
-  return unknown(fmt::format("`{}` is not a command of `{}`", word, fullName(app)), commandHint(app, word));
+  return unknown(common::Message("command.unknown", "`{}` is not a command of `{}`", word, fullName(app)),
+                 commandHint(app, word));
 }
 
 /// Replaces CLI11's words for an option with too few or too many values.

@@ -103,10 +103,9 @@ void plotDrift(const TapedFlight& flight, const flight::System& system, const Co
     integrated.points.emplace_back(v.time_s, v.integrated_m_s);
   }
   if (velocities.empty())
-    throw common::InputError(common::Problem{{options.runs.front()},
-                                             "--drift",
-                                             "its filter never started while the truth was known",
-                                             "put a run first that took off, flown with --control-log"});
+    throw common::InputError({options.runs.front()}, "--drift",
+                             common::Message("drift.no-filter", "its filter never started while the truth was known"),
+                             "put a run first that took off, flown with --control-log");
   plot.series = {std::move(integrated), std::move(filter), std::move(truth)};
   required(interfaces::writeAtomically(options.drift, rendering::plotSvg(plot)));
   if (options.json) return;

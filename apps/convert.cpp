@@ -64,14 +64,13 @@ Kind kindOf(const fs::path& file, bool may_be_plan) {
   if (interfaces::cloudFormatOf(file)) return Kind::kCloud;
   if (may_be_plan && file.extension() == ".yaml") return Kind::kFloorPlan;
   throw common::InputError(
-      common::Problem{{file.string()},
-                      "",
-                      fmt::format("`{}` is not a kind of 3D map", file.extension().string()),
-                      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : hintFor(ending)});
+      {file.string()}, "",
+      common::Message("convert.other-kind", "`{}` is not a kind of 3D map", file.extension().string()),
+      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : hintFor(ending));
 }
 
-[[noreturn]] void refuseFile(const ConvertOptions& options, const std::string& message, const std::string& hint) {
-  throw common::InputError(common::Problem{{options.from}, "", message, hint});
+[[noreturn]] void refuseFile(const ConvertOptions& options, const common::Message& message, const std::string& hint) {
+  throw common::InputError({options.from}, "", message, hint);
 }
 
 void tellNotes(const std::vector<std::string>& notes) {
@@ -83,7 +82,8 @@ void sayLeftOut(const ConvertOptions& options, std::size_t left_out, std::size_t
                 const std::string& hint) {
   if (left_out == 0) return;
   const std::string points = plural(all, "point", "points");
-  if (left_out == all) refuseFile(options, fmt::format("all of its {} are {}", points, where), hint);
+  if (left_out == all)
+    refuseFile(options, common::Message("convert.no-points-left", "all of its {} are {}", points, where), hint);
   const bool many = left_out > all / 10 && !hint.empty();
   tellNotes({fmt::format("{} of {} left out: {}{}", left_out, points, where, many ? ": " + hint : "")});
 }
@@ -94,8 +94,8 @@ interfaces::CloudPlacement placementOf(const ConvertOptions& options) {
   if (options.origin.empty()) return placement;
   const std::vector<double> origin = listedNumbers(options.origin);
   if (origin.size() != 3)
-    throw common::InputError(common::Problem{
-        {}, "--origin", fmt::format("`{}` is not x;y;z", options.origin), "for instance 512300;5412300;0"});
+    throw common::InputError({}, "--origin", common::Message("convert.no-origin", "`{}` is not x;y;z", options.origin),
+                             "for instance 512300;5412300;0");
   placement.origin_file = {origin[0], origin[1], origin[2]};
   return placement;
 }
@@ -128,7 +128,8 @@ interfaces::StoredCloud readPoints(const ConvertOptions& options) {
   if (cloud.rounding_m > kMostRounding_m)
     refuseFile(
         options,
-        fmt::format("its coordinates are so great that they would be rounded by up to {:.3g} m", cloud.rounding_m),
+        common::Message("convert.rounded", "its coordinates are so great that they would be rounded by up to {:.3g} m",
+                        cloud.rounding_m),
         fmt::format("they are kept in single precision: give {}", originNear(cloud.points, placement)));
   return cloud;
 }
@@ -161,10 +162,11 @@ common::VoxelMap readVoxels(const ConvertOptions& options, Kind from, Kind to) {
   const double resolution_m = options.resolution_m.value_or(kUsualResolution_m);
   mapping3d::PointVoxels voxels = mapping3d::voxelsAround(points, resolution_m, interfaces::kMostOctreeBlocks);
   if (voxels.full)
-    refuseFile(options,
-               fmt::format("its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
-                           interfaces::kMostOctreeBlocks, resolution_m),
-               fmt::format("give a greater --resolution; {}", kUnitHint));
+    refuseFile(
+        options,
+        common::Message("convert.too-many-blocks", "its points fill more than {} blocks of 8 x 8 x 8 voxels of {:g} m",
+                        interfaces::kMostOctreeBlocks, resolution_m),
+        fmt::format("give a greater --resolution; {}", kUnitHint));
   sayUnless(options.scale || voxels.left_out > points.size() / 10, extentNote(cloud));
   if (voxels.left_out > 0)
     sayLeftOut(options, voxels.left_out, points.size(),
@@ -184,7 +186,9 @@ std::vector<common::SurfacePoint> pointsOf(const ConvertOptions& options, Kind f
   const interfaces::StoredOctree octree = readTree(options);
   const std::size_t occupied = mapping3d::occupiedCount(octree.map);
   if (occupied > kMostPoints)
-    refuseFile(options, fmt::format("its {} occupied voxels are more than {} points", occupied, kMostPoints),
+    refuseFile(options,
+               common::Message("convert.too-many-points", "its {} occupied voxels are more than {} points", occupied,
+                               kMostPoints),
                "name the result .bt or .ot, which keep a cube of voxels as one");
   return octree.colors.empty() ? mapping3d::occupiedCenters(octree.map) : interfaces::coloredCenters(octree);
 }
@@ -194,14 +198,17 @@ void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind 
   const common::OccupancyGrid plan = mapping3d::floorPlan(map, *options.low_m, *options.high_m);
   const common::CellRect known = knownExtent(plan);
   if (known.empty())
-    refuseFile(options, fmt::format("nothing is known from {} to {} m", *options.low_m, *options.high_m), "");
-  if (!interfaces::isReadable(plan))
     refuseFile(
         options,
-        fmt::format("the plan would be {} by {} cells of {:g} m", known.width(), known.height(), plan.resolution_m()),
-        from == Kind::kCloud
-            ? "remove points far away, give a greater --resolution, or --scale if they are not in metres"
-            : "");
+        common::Message("convert.nothing-known", "nothing is known from {} to {} m", *options.low_m, *options.high_m),
+        "");
+  if (!interfaces::isReadable(plan))
+    refuseFile(options,
+               common::Message("convert.plan-too-large", "the plan would be {} by {} cells of {:g} m", known.width(),
+                               known.height(), plan.resolution_m()),
+               from == Kind::kCloud
+                   ? "remove points far away, give a greater --resolution, or --scale if they are not in metres"
+                   : "");
   if (from == Kind::kCloud)
     show("note: a cloud does not tell where room is free: nothing can be planned in a plan of occupied cells alone\n");
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));
@@ -209,19 +216,24 @@ void writePlan(const common::VoxelMap& map, const ConvertOptions& options, Kind 
 
 /// Before the work.
 void checkOptions(const ConvertOptions& options, Kind from, Kind to) {
-  const auto refuse = [](const std::string& option, const std::string& message, const std::string& hint) {
-    throw common::InputError(common::Problem{{}, option, message, hint});
+  const auto refuse = [](const std::string& option, const common::Message& message, const std::string& hint) {
+    throw common::InputError({}, option, message, hint);
   };
   if (options.resolution_m && (from != Kind::kCloud || to == Kind::kCloud))
-    refuse("--resolution", "only a cloud that becomes voxels has a resolution to choose", "");
+    refuse("--resolution",
+           common::Message("convert.no-resolution", "only a cloud that becomes voxels has a resolution to choose"), "");
   if (from != Kind::kCloud && (options.scale || !options.origin.empty()))
-    refuse(options.scale ? "--scale" : "--origin", "only the coordinates of a cloud can be changed", "");
+    refuse(options.scale ? "--scale" : "--origin",
+           common::Message("convert.coordinates-of-octree", "only the coordinates of a cloud can be changed"), "");
   if (to != Kind::kFloorPlan && (options.low_m || options.high_m))
-    refuse(options.low_m ? "--low" : "--high", "heights are those of a floor plan", "name it .yaml");
+    refuse(options.low_m ? "--low" : "--high", common::Message("convert.no-plan", "heights are those of a floor plan"),
+           "name it .yaml");
   if (to == Kind::kFloorPlan && (!options.low_m || !options.high_m))
-    refuse("convert", "a floor plan needs the heights that it shows", "for instance --low 0.8 --high 1.2");
+    refuse("convert", common::Message("convert.no-heights", "a floor plan needs the heights that it shows"),
+           "for instance --low 0.8 --high 1.2");
   if (to == Kind::kFloorPlan && *options.low_m > *options.high_m)
-    refuse("--low", fmt::format("{} is above --high {}", *options.low_m, *options.high_m), "");
+    refuse("--low", common::Message("convert.low-above-high", "{} is above --high {}", *options.low_m, *options.high_m),
+           "");
 }
 
 int convert(const ConvertOptions& options) {

@@ -49,10 +49,9 @@ void keepOnly(const std::string& keys, evaluation::EnvelopeConfig& config) {
     wanted.push_back(keys.substr(begin, end - begin));
     begin = end + 1;
     if (std::find(known.begin(), known.end(), wanted.back()) == known.end())
-      throw common::InputError(common::Problem{{},
-                                               "--only",
-                                               fmt::format("no quantity has the key `{}`", wanted.back()),
-                                               common::didYouMean(wanted.back(), known)});
+      throw common::InputError(
+          {}, "--only", common::Message("envelope.no-such-quantity", "no quantity has the key `{}`", wanted.back()),
+          common::didYouMean(wanted.back(), known));
   }
   std::erase_if(config.quantities, [&wanted](const auto& quantity) {
     return std::find(wanted.begin(), wanted.end(), quantity.key) == wanted.end();
@@ -61,16 +60,22 @@ void keepOnly(const std::string& keys, evaluation::EnvelopeConfig& config) {
 
 /// The one condition of the trial that is flown. The envelope's base replaces its natures.
 TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, const fs::path& file) {
-  const auto refused = [&](const char* element, const std::string& message, const char* hint) {
-    return common::InputError(common::Problem{{file.string()}, element, message, hint});
+  const auto refused = [&](const char* element, const common::Message& message, const char* hint) {
+    return common::InputError({file.string()}, element, message, hint);
   };
   if (trial.each_fault)
-    throw refused("each_fault", "does not go with --envelope, which flies one condition", "leave it out");
+    throw refused("each_fault",
+                  common::Message("envelope.one-condition", "does not go with --envelope, which flies one condition"),
+                  "leave it out");
   if (!trial.batteries.empty())
-    throw refused("batteries", "does not go with --envelope, which pins the plant", "leave it out");
+    throw refused("batteries",
+                  common::Message("envelope.pins-plant", "does not go with --envelope, which pins the plant"),
+                  "leave it out");
   if (!options.system.empty()) trial.setSystem(options.system);
   if (trial.systems.size() > 1)
-    throw refused("systems", fmt::format("names several: {}", fmt::join(trial.systems, ", ")), "give --system");
+    throw refused("systems",
+                  common::Message("envelope.several-systems", "names several: {}", fmt::join(trial.systems, ", ")),
+                  "give --system");
   trial.natures.resize(1);
   return trial.byCondition().front();
 }
@@ -79,8 +84,9 @@ TrialConfig onlyCondition(TrialConfig trial, const EnvelopeOptions& options, con
 TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature& base) {
   const fs::path file = flight::findTrial(options.trial);
   if (fs::is_directory(file))
-    throw common::InputError(
-        common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});
+    throw common::InputError({file.string()}, "--envelope",
+                             common::Message("file.is-folder", "is a folder, a file was expected"),
+                             "give the file of one trial");
   std::vector<TrialConfig> trials = {onlyCondition(evaluation::readTrial(file), options, file)};
   simulated_flight::prepare(trials, *options.types);
   TrialConfig trial = std::move(trials.front());

@@ -35,8 +35,8 @@ std::vector<SharedLog> chosen(const LogsOptions& options) {
       std::string names;
       for (const SharedLog& log : logs)
         if (names.find(log.name) == std::string::npos) names += (names.empty() ? "" : ", ") + log.name;
-      throw common::InputError(
-          common::Problem{{}, "--log", fmt::format("there is no log `{}`", name), "there are " + names});
+      throw common::InputError({}, "--log", common::Message("logs.no-such-log", "there is no log `{}`", name),
+                               "there are " + names);
     }
   std::erase_if(logs, [&](const SharedLog& log) {
     const bool named =

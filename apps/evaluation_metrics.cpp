@@ -22,8 +22,8 @@ namespace swiftlet::apps {
 namespace {
 
 using common::InputError;
+using common::Message;
 using common::Ordered;
-using common::Problem;
 using evaluation::Alignment;
 using evaluation::PosePair;
 using evaluation::Stretch;
@@ -105,14 +105,12 @@ Compared compare(const EvaluateOptions& options) {
   const common::Trajectory &estimate = compared.estimate.trajectory, &reference = compared.reference.trajectory;
   compared.pairs = evaluation::associate(estimate, reference, common::Duration::fromSeconds(options.max_difference_s));
   if (compared.pairs.empty())
-    throw InputError(
-        Problem{{options.estimate},
-                "",
-                fmt::format("no pose is within {} {} of one of {}: {} to {} against {} to {}", options.max_difference_s,
-                            compared.order == PoseOrder::kStamps ? "s" : "frames", options.against,
-                            textOf(estimate.front().stamp), textOf(estimate.back().stamp),
-                            textOf(reference.front().stamp), textOf(reference.back().stamp)),
-                unitHint(compared, "see --max-difference")});
+    throw InputError({options.estimate}, "",
+                     Message("evaluation.no-pairs", "no pose is within {} {} of one of {}: {} to {} against {} to {}",
+                             options.max_difference_s, compared.order == PoseOrder::kStamps ? "s" : "frames",
+                             options.against, textOf(estimate.front().stamp), textOf(estimate.back().stamp),
+                             textOf(reference.front().stamp), textOf(reference.back().stamp)),
+                     unitHint(compared, "see --max-difference"));
   return compared;
 }
 
@@ -120,11 +118,10 @@ void requireAlignable(const EvaluateOptions& options, const Compared& compared) 
   const Alignment alignment = kAlignments.at(options.align);
   if (evaluation::align(compared.pairs, alignment)) return;
   throw InputError(
-      Problem{{options.estimate},
-              "--align",
-              fmt::format("the {} pairs do not determine the {} alignment: too few, or on one {}",
-                          compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
-              unitHint(compared, "see `--align first` and `--align none`")});
+      {options.estimate}, "--align",
+      Message("evaluation.not-aligned", "the {} pairs do not determine the {} alignment: too few, or on one {}",
+              compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
+      unitHint(compared, "see `--align first` and `--align none`"));
 }
 
 void report(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,
@@ -154,19 +151,17 @@ void report(const EvaluateOptions& options, const Compared& compared, nlohmann::
 int evaluateRelations(const EvaluateOptions& options) {
   const std::vector<common::Relation> relations = interfaces::readRelations(options.against);
   if (relations.empty())
-    throw InputError(Problem{{options.against},
-                             "",
-                             "holds no relations",
-                             "a line of them is `from to x y z roll pitch yaw`, with stamps in seconds"});
+    throw InputError({options.against}, "", Message("evaluation.no-relations", "holds no relations"),
+                     "a line of them is `from to x y z roll pitch yaw`, with stamps in seconds");
   const Ordered estimate = read(options.estimate);
   const evaluation::RelationErrors errors = evaluation::relationErrors(estimate.trajectory, relations);
   const std::size_t missing = errors.missing.size(), compared = relations.size() - missing;
   if (compared == 0)
-    throw InputError(Problem{{options.estimate},
-                             "",
-                             fmt::format("has no pose at the stamps of any relation, such as {} and {}",
-                                         textOf(relations[0].from), textOf(relations[0].to)),
-                             "stamps are those of the log, to the microsecond"});
+    throw InputError(
+        {options.estimate}, "",
+        Message("evaluation.no-poses-of-relations", "has no pose at the stamps of any relation, such as {} and {}",
+                textOf(relations[0].from), textOf(relations[0].to)),
+        "stamps are those of the log, to the microsecond");
 
   const std::vector<ErrorFigures> figures = figuresOf(errors);
   if (options.json) {
@@ -188,26 +183,24 @@ int evaluateRelations(const EvaluateOptions& options) {
 int evaluateAte(const EvaluateOptions& options) {
   const Alignment alignment = kAlignments.at(options.align);
   if (options.scale && alignment != Alignment::kPlanar && alignment != Alignment::kSpatial)
-    throw InputError(Problem{{}, "--scale", "is fitted with the alignment", "use --align planar or spatial"});
+    throw InputError({}, "--scale", Message("evaluation.scale-alone", "is fitted with the alignment"),
+                     "use --align planar or spatial");
   Compared compared = compare(options);
   requireAlignable(options, compared);
   double scale = 1.0;
   if (options.scale) {
     const auto best = evaluation::bestScale(compared.pairs, alignment);
     if (!best)
-      throw InputError(Problem{{options.estimate},
-                               "--scale",
-                               "no scale above zero fits",
-                               "it moves against the reference: compare without --scale, or turn its axes"});
+      throw InputError({options.estimate}, "--scale", Message("evaluation.no-scale", "no scale above zero fits"),
+                       "it moves against the reference: compare without --scale, or turn its axes");
     scale = *best;
     compared.pairs = evaluation::scaled(std::move(compared.pairs), scale);
   }
   const auto error = evaluation::absoluteTrajectoryError(compared.pairs, alignment);
   if (!error)
-    throw InputError(Problem{{options.estimate},
-                             "--scale",
-                             "shrinks the estimate to nothing",
-                             "the shapes do not agree: compare without --scale"});
+    throw InputError({options.estimate}, "--scale",
+                     Message("evaluation.scaled-to-nothing", "shrinks the estimate to nothing"),
+                     "the shapes do not agree: compare without --scale");
   std::string title = "Absolute trajectory error, aligned: " + options.align;
   if (options.scale) title += fmt::format(", estimate scaled by {:.6f}", scale);
   report(options, compared, {{"align", options.align}, {"scale", common::rounded(scale, 9)}}, title,
@@ -219,22 +212,19 @@ int evaluateAte(const EvaluateOptions& options) {
 int evaluateRpe(const EvaluateOptions& options) {
   const Stretch stretch{kUnits.at(options.unit), options.delta};
   if (stretch.unit == Stretch::Unit::kFrames && std::floor(options.delta) != options.delta)
-    throw InputError(Problem{{},
-                             "--delta",
-                             fmt::format("{} is no number of frames", options.delta),
-                             "give a whole one, or --unit seconds or metres"});
+    throw InputError({}, "--delta", Message("evaluation.not-whole", "{} is no number of frames", options.delta),
+                     "give a whole one, or --unit seconds or metres");
   const Compared compared = compare(options);
   if (stretch.unit == Stretch::Unit::kSeconds && compared.order != PoseOrder::kStamps)
-    throw InputError(
-        Problem{{}, "--unit", "the poses have no times in seconds", "give --unit frames or --unit metres"});
+    throw InputError({}, "--unit", Message("evaluation.no-times", "the poses have no times in seconds"),
+                     "give --unit frames or --unit metres");
   const evaluation::RelativeError error = evaluation::relativePoseError(compared.pairs, stretch);
   const std::size_t stretches = error.translation_m.count;
   if (stretches == 0)
-    throw InputError(Problem{
-        {options.estimate},
-        "--delta",
-        fmt::format("no stretch of {} {} lies within the {} pairs", options.delta, options.unit, compared.pairs.size()),
-        "give a shorter one"});
+    throw InputError({options.estimate}, "--delta",
+                     Message("evaluation.no-stretch", "no stretch of {} {} lies within the {} pairs", options.delta,
+                             options.unit, compared.pairs.size()),
+                     "give a shorter one");
   report(options, compared, {{"delta", options.delta}, {"unit", options.unit}, {"stretches", stretches}},
          fmt::format("Relative pose error over {} {}, {} stretches", options.delta, options.unit, stretches),
          {{"translation", "rpe_translational_", "m", error.translation_m},

@@ -73,8 +73,9 @@ void takeWorldOptions(const FlyOptions& options, simulation::Scenario& scenario)
   scenario.allow_incomplete_world = scenario.allow_incomplete_world || options.allow_incomplete_world;
   if (options.start.empty()) return;
   if (!scenario.vehicles.empty())
-    throw common::InputError(common::Problem{
-        {}, "--start", "the scenario has several vehicles", "say in its file where each of them starts"});
+    throw common::InputError({}, "--start",
+                             common::Message("fly.several-vehicles", "the scenario has several vehicles"),
+                             "say in its file where each of them starts");
   scenario.start = parseStart(options.start);
 }
 
@@ -82,7 +83,8 @@ void takeWorldOptions(const FlyOptions& options, simulation::Scenario& scenario)
 evaluation::TrialConfig conditionsOf(const FlyOptions& options) {
   evaluation::TrialConfig trial;
   if (!options.scenario.empty() && !options.world.empty())
-    throw common::InputError(common::Problem{{}, "--scenario", "the scenario says which world", "leave out --world"});
+    throw common::InputError({}, "--scenario", common::Message("fly.two-worlds", "the scenario says which world"),
+                             "leave out --world");
   if (options.scenario.empty()) {
     trial.scenario.world = simulated_flight::findWorldFile(options.world.empty() ? kWorld : options.world).string();
   } else {
@@ -124,8 +126,9 @@ simulated_flight::SimulatedSetup setupOf(const FlyOptions& options) {
   setup.out = options.out;
   setup.wait = options.wait;
   if (options.wait && options.headless)
-    throw common::InputError(
-        common::Problem{{}, "--wait", "without the page nobody can start the mission", "leave out --headless"});
+    throw common::InputError({}, "--wait",
+                             common::Message("fly.nobody-starts", "without the page nobody can start the mission"),
+                             "leave out --headless");
   return setup;
 }
 

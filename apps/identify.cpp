@@ -135,10 +135,10 @@ void requirePlant(const std::filesystem::path& run) {
   const auto mission = nlohmann::json::parse(common::readBytes(run / "mission.json"), nullptr, false);
   const auto nature = mission.is_object() ? mission.find("nature") : mission.end();
   if (nature != mission.end() && *nature == simulation::Nature::calm().name()) return;
-  throw common::InputError(common::Problem{{run.string()},
-                                           "--bench",
-                                           "has no nature.yaml, so that nobody knows which vehicle flew",
-                                           "put a run of the simulator first, or leave out --bench"});
+  throw common::InputError(
+      {run.string()}, "--bench",
+      common::Message("identify.no-plant", "has no nature.yaml, so that nobody knows which vehicle flew"),
+      "put a run of the simulator first, or leave out --bench");
 }
 
 /// The plant that flew the run, fixed to one axis.

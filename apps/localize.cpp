@@ -43,8 +43,9 @@ struct LocalizeOptions {
 common::Pose2 startInMap(const std::string& text) {
   const std::vector<double> start = listedNumbers(text);
   if (start.size() != 3)
-    throw common::InputError(common::Problem{
-        {}, "--start", fmt::format("`{}` is not x;y;yaw", text), "metres and degrees, for instance 3.0;-1.5;90"});
+    throw common::InputError(
+        {}, "--start", common::Message("start.no-place", "`{}` is not a place x;y;yaw in metres and degrees", text),
+        "for instance 3.0;-1.5;90");
   return {start[0], start[1], common::wrapAngle(start[2] * common::kRadPerDeg)};
 }
 
@@ -56,11 +57,9 @@ void refuseOutside(const common::Pose2& T_map_start, const interfaces::StoredMap
   const Eigen::Vector2d high_grid_m = Eigen::Vector2d(known.end.x, known.end.y) * map.grid.resolution_m();
   if ((start_grid_m.array() >= low_grid_m.array()).all() && (start_grid_m.array() <= high_grid_m.array()).all()) return;
   const Eigen::Vector2d a_m = map.T_map_grid * low_grid_m, b_m = map.T_map_grid * high_grid_m;
-  throw common::InputError(common::Problem{
-      {},
-      "--start",
-      fmt::format("`{}` lies outside the map", text),
-      fmt::format("two of its corners are {:.1f};{:.1f} and {:.1f};{:.1f}", a_m.x(), a_m.y(), b_m.x(), b_m.y())});
+  throw common::InputError(
+      {}, "--start", common::Message("start.outside-map", "`{}` lies outside the map", text),
+      fmt::format("two of its corners are {:.1f};{:.1f} and {:.1f};{:.1f}", a_m.x(), a_m.y(), b_m.x(), b_m.y()));
 }
 
 /// The pose was lost after this one.
@@ -230,7 +229,7 @@ int localize(const LocalizeOptions& options) {
   const fs::path& out = folder.path();
   LocalizeRun run;
   localizeLog(log, options, localizer, run);
-  if (run.estimates == 0) throw log.error("not localized: " + log.whyNoPoints());
+  if (run.estimates == 0) throw log.unusable("not localized: ");
   if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const perception::LogLocalizerCounts counts = localizer.counts();

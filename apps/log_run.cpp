@@ -117,7 +117,8 @@ std::vector<LogRun> logRuns(const std::vector<SharedLog>& logs) {
 
 LogOutcome mapped(const LogRun& run, const std::string& system) {
   const std::vector<interfaces::LoggedScan> scans = scansOf(run.log);
-  if (scans.empty()) throw common::InputError(common::Problem{{run.log.log}, "", "no scan in it could be read", ""});
+  if (scans.empty())
+    throw common::InputError({run.log.log}, "", common::Message("laser-log.no-scans", "no scan in it could be read"));
   const double begin_s = 1e-3 * flight::processorMs();
   LogMapping mapping(flight::laserSlamOf(flight::loadSystem(system)));
   RecordedLog log(std::make_unique<ScansAsLog>(run.backwards ? reversed(scans) : scans), run.log.log, run.wheels);

@@ -134,7 +134,7 @@ int map(const MapOptions& options) {
   const fs::path& out = folder.path();
   MapRun run(options);
   mapLog(log, options, run);
-  if (run.mapping.slam.keyPoses().empty()) throw log.error("no map: " + log.whyNoPoints());
+  if (run.mapping.slam.keyPoses().empty()) throw log.unusable("no map: ");
   if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const common::OccupancyGrid grid = run.mapping.slam.map();

@@ -132,7 +132,7 @@ common::Trajectory givenPoses(const Map3dOptions& options) {
   if (options.poses == "none") return {};
   common::Trajectory poses =
       common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
-  if (poses.empty()) throw common::InputError(common::Problem{{options.poses}, "", "holds no poses", ""});
+  if (poses.empty()) throw common::InputError({options.poses}, "", common::Message("poses.none", "holds no poses"));
   return poses;
 }
 
@@ -146,12 +146,13 @@ void requireInReach(const Map3dOptions& options, const common::Trajectory& poses
     const auto pose = common::poseAt(poses, pair.stamp, gap);
     if (!pose || pose->position_m.cwiseAbs().maxCoeff() < reach_m) continue;
     const Eigen::Vector3d& at_m = pose->position_m;
-    throw common::InputError(common::Problem{
-        {options.poses},
-        "",
-        fmt::format("places a frame at ({:.0f}, {:.0f}, {:.0f}) m, but the map reaches only {:.0f} m from the origin",
-                    at_m.x(), at_m.y(), at_m.z(), reach_m),
-        "are the poses in metres? If so, subtract an offset from all of them"});
+    throw common::InputError(
+        {options.poses}, "",
+        common::Message(
+            "poses.out-of-reach",
+            "places a frame at ({:.0f}, {:.0f}, {:.0f}) m, but the map reaches only {:.0f} m from the origin", at_m.x(),
+            at_m.y(), at_m.z(), reach_m),
+        "are the poses in metres? If so, subtract an offset from all of them");
   }
 }
 
@@ -226,11 +227,10 @@ int map3d(const Map3dOptions& options) {
   Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
     for (const std::string& warning : shown.warnings) showError(warning + "\n");
-    throw common::InputError(
-        common::Problem{{options.folder},
-                        "",
-                        fmt::format("of {} none can be used", plural(folder.listing().pairs.size(), "frame", "frames")),
-                        map3dRemedy(folder, run)});
+    throw common::InputError({options.folder}, "",
+                             common::Message("rgbd.none-usable", "of {} none can be used",
+                                             plural(folder.listing().pairs.size(), "frame", "frames")),
+                             map3dRemedy(folder, run));
   }
   const common::Trajectory trajectory = trajectoryOf(run, RecordedCamera(folder.calibration()));
   const double path_length_m = pathLength_m(trajectory);

@@ -20,10 +20,9 @@ std::pair<std::size_t, std::size_t> placeIn(const std::string& text, const fs::p
   const std::size_t begin = text.find(marks.begin);
   const std::size_t end = begin == std::string::npos ? begin : text.find(marks.end, begin);
   if (end == std::string::npos)
-    throw common::InputError(common::Problem{{page.string()},
-                                             std::string(marks.option),
-                                             "the page has no place for the results",
-                                             fmt::format("it needs the lines `{}` and `{}`", marks.begin, marks.end)});
+    throw common::InputError({page.string()}, std::string(marks.option),
+                             common::Message("page.no-place", "the page has no place for the results"),
+                             fmt::format("it needs the lines `{}` and `{}`", marks.begin, marks.end));
   return {begin + marks.begin.size() + 1, end};
 }
 

@@ -185,8 +185,9 @@ void refuseTheGraphItself(const OptimizeOptions& options) {
   const fs::path target = fs::path(options.out) / "graph.g2o";
   std::error_code ignored;
   if (fs::equivalent(target, options.graph, ignored))
-    throw common::InputError(
-        common::Problem{{target.string()}, "--out", "is the graph to be optimized itself", "give another folder"});
+    throw common::InputError({target.string()}, "--out",
+                             common::Message("optimize.own-graph", "is the graph to be optimized itself"),
+                             "give another folder");
 }
 
 void write(ResultsFolder& folder, const interfaces::G2oFile& file, OptimizeReport& report) {

@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-common::InputError unusable(const fs::path& file, const std::string& option, const std::string& message,
+common::InputError unusable(const fs::path& file, const std::string& option, const common::Message& message,
                             const std::string& hint) {
-  return common::InputError(common::Problem{{file.string()}, option, message, hint});
+  return common::InputError({file.string()}, option, message, hint);
 }
 
 }  // namespace
@@ -27,12 +27,15 @@ void requireWritable(const fs::path& file, const std::string& option) {
   std::error_code failure;
   const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
   if (!fs::is_directory(folder, failure))
-    throw unusable(file, option, "its folder does not exist", "make the folder first");
+    throw unusable(file, option, common::Message("file.no-folder", "its folder does not exist"),
+                   "make the folder first");
   const fs::file_status status = fs::status(file, failure);
   if (fs::is_directory(status) || file.filename().empty())
-    throw unusable(file, option, "is a folder", "give the name of a file in it");
+    throw unusable(file, option, common::Message("file.is-folder", "is a folder, a file was expected"),
+                   "give the name of a file in it");
   if (fs::exists(fs::symlink_status(file, failure)) && !fs::is_regular_file(status))
-    throw unusable(file, option, "is there already, and no file", "give another name");
+    throw unusable(file, option, common::Message("file.is-other", "is there already, and no file"),
+                   "give another name");
   if (const interfaces::Written written = interfaces::tryToWrite(file); !written) {
     common::Problem problem = interfaces::unusableFolder(folder, written.error().why);
     problem.location.file = file.string();
@@ -47,7 +50,8 @@ void requireWritable(const fs::path& file, const std::string& option, std::strin
   if (!fs::exists(file, failure) || fs::file_size(file, failure) == 0 ||
       interfaces::saysAtStart(file, first_line, first_line.size()))
     return;
-  throw unusable(file, option, fmt::format("is there already, and does not begin with `{}`", first_line),
+  throw unusable(file, option,
+                 common::Message("file.of-others", "is there already, and does not begin with `{}`", first_line),
                  "give another name: what it holds would be lost");
 }
 

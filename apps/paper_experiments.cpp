@@ -45,15 +45,17 @@ bool isFigure(const TrialConfig& trial, std::string_view figure) {
   return evaluation::findTrialFigure(figure) != nullptr;
 }
 
-std::vector<std::string> problemsOf(const PaperExperiment& row, const std::map<std::string, TrialConfig>& trials) {
+std::vector<common::Message> problemsOf(const PaperExperiment& row, const std::map<std::string, TrialConfig>& trials) {
   if (row.trial.empty()) return {};
   const auto found = trials.find(row.trial);
-  if (found == trials.end()) return {fmt::format("there is no trial `{}`", row.trial)};
+  if (found == trials.end()) return {common::Message("papers.no-such-trial", "there is no trial `{}`", row.trial)};
   const TrialConfig& trial = found->second;
-  std::vector<std::string> problems;
-  if (!isFigure(trial, row.figure)) problems.push_back(fmt::format("{} has no figure `{}`", row.trial, row.figure));
+  std::vector<common::Message> problems;
+  if (!isFigure(trial, row.figure))
+    problems.push_back(common::Message("papers.no-such-figure", "{} has no figure `{}`", row.trial, row.figure));
   const std::string& profile = row.profile.empty() ? row.own : row.profile;
-  if (!trial.flies(profile)) problems.push_back(fmt::format("{} does not fly `{}`", row.trial, profile));
+  if (!trial.flies(profile))
+    problems.push_back(common::Message("papers.not-flown", "{} does not fly `{}`", row.trial, profile));
   return problems;
 }
 
@@ -81,10 +83,13 @@ void PaperExperiment::describe(common::config::Fields& fields) {
 std::vector<common::Problem> PaperExperiment::validate() const {
   const int given = (trial.empty() ? 0 : 1) + (shown_by.empty() ? 0 : 1) + (missing.empty() ? 0 : 1);
   return common::Validation()
-      .require(given == 1, "item", "has not one of `trial`, `shown_by` and `missing`")
-      .require(trial.empty() == figure.empty(), "figure", "goes with `trial`")
-      .require(!profile.starts_with("swiftlet"), "profile", "is one of ours: give it as `own`")
-      .require(own.starts_with("swiftlet"), "own", "is not one of ours")
+      .require(given == 1, "item",
+               common::Message("papers.not-one-proof", "has not one of `trial`, `shown_by` and `missing`"))
+      .require(trial.empty() == figure.empty(), "figure",
+               common::Message("papers.figure-of-trial", "goes with `trial`"))
+      .require(!profile.starts_with("swiftlet"), "profile",
+               common::Message("papers.own-profile", "is one of ours: give it as `own`"))
+      .require(own.starts_with("swiftlet"), "own", common::Message("papers.other-profile", "is not one of ours"))
       .problems();
 }
 
@@ -98,7 +103,7 @@ Papers readPapers() {
   const auto trials = allTrials();
   std::vector<common::Problem> problems;
   for (const PaperExperiment& row : papers.experiments)
-    for (const std::string& problem : problemsOf(row, trials))
+    for (const common::Message& problem : problemsOf(row, trials))
       problems.push_back({{file}, fmt::format("{}, {}", row.paper, row.item), problem, ""});
   if (!problems.empty()) throw common::InputError(std::move(problems));
   return papers;

@@ -37,33 +37,37 @@ struct FlownTrial {
   mutable bool used = false;  ///< A row of the page shows it.
 
   /// `key` is within the trial, "flights[0]"; empty: the trial itself.
-  common::InputError problem(const std::string& key, const std::string& message) const {
+  common::InputError problem(const std::string& key, const common::Message& message) const {
     const std::string element = fmt::format("trials[{}]{}{}", index, key.empty() ? "" : ".", key);
-    return common::InputError(common::Problem{{file}, element, message, "give results that `swiftlet trial` wrote"});
+    return common::InputError({file}, element, message, "give results that `swiftlet trial` wrote");
   }
 };
+
+common::Message noObject() { return common::Message("results.no-object", "is no object"); }
 
 /// Throws common::InputError unless all that the page may read of the trial has its type.
 void requireSound(const FlownTrial& trial) {
   const Json& json = trial.json;
-  if (!json.is_object()) throw trial.problem("", "is no object");
+  if (!json.is_object()) throw trial.problem("", noObject());
   for (const char* key : {"name", "system"})
-    if (json.contains(key) && !json[key].is_string()) throw trial.problem(key, "is no text");
+    if (json.contains(key) && !json[key].is_string())
+      throw trial.problem(key, common::Message("results.no-text", "is no text"));
   if (json.contains("runs") && !json["runs"].is_number_unsigned())
-    throw trial.problem("runs", fmt::format("{} is no number of flights", json["runs"].dump()));
+    throw trial.problem("runs", common::Message("results.no-count", "{} is no number of flights", json["runs"].dump()));
   const Json without = json.value("seeds_without", Json::object());
-  if (!without.is_object()) throw trial.problem("seeds_without", "is no object");
+  if (!without.is_object()) throw trial.problem("seeds_without", noObject());
   for (const auto& [name, seeds] : without.items())
-    if (!seeds.is_array()) throw trial.problem("seeds_without." + name, "is no list");
+    if (!seeds.is_array())
+      throw trial.problem("seeds_without." + name, common::Message("results.no-list", "is no list"));
   const Json flights = json.value("flights", Json::array());
-  if (!flights.is_array()) throw trial.problem("flights", "is no list");
+  if (!flights.is_array()) throw trial.problem("flights", common::Message("results.no-list", "is no list"));
   for (std::size_t i = 0; i < flights.size(); ++i) {
     const std::string key = fmt::format("flights[{}]", i);
-    if (!flights[i].is_object()) throw trial.problem(key, "is no object");
+    if (!flights[i].is_object()) throw trial.problem(key, noObject());
     const Json phases = flights[i].value("phases", Json::object());
-    if (!phases.is_object()) throw trial.problem(key + ".phases", "is no object");
+    if (!phases.is_object()) throw trial.problem(key + ".phases", noObject());
     for (const auto& [name, phase] : phases.items())
-      if (!phase.is_object()) throw trial.problem(key + ".phases." + name, "is no object");
+      if (!phase.is_object()) throw trial.problem(key + ".phases." + name, noObject());
   }
 }
 
@@ -73,10 +77,12 @@ std::vector<FlownTrial> readResults(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     const Json json = Json::parse(common::readBytes(file, std::size_t{64} << 20), nullptr, false);
     if (!json.is_object() || !json.contains("trials") || !json["trials"].is_array())
-      throw common::InputError(
-          common::Problem{{file}, "", "is not the results.json of trials", "give one that `swiftlet trial` wrote"});
+      throw common::InputError({file}, "",
+                               common::Message("results.not-of-trials", "is not the results.json of trials"),
+                               "give one that `swiftlet trial` wrote");
     if (json["trials"].empty())
-      throw common::InputError(common::Problem{{file}, "trials", "is empty", "give the results of flights"});
+      throw common::InputError({file}, "trials", common::Message("results.empty", "is empty"),
+                               "give the results of flights");
     for (std::size_t i = 0; i < json["trials"].size(); ++i) {
       trials.push_back({file, i, json["trials"][i]});
       requireSound(trials.back());
@@ -103,7 +109,8 @@ std::optional<double> figureOf(const FlownTrial& trial, const std::string& key, 
   if (!value.is_number()) return std::nullopt;
   const auto number = value.get<double>();
   if (!(std::abs(number) < kGreatestFigure))
-    throw trial.problem(key, fmt::format("{} is no figure of a flight, in SI units", value.dump()));
+    throw trial.problem(key,
+                        common::Message("results.no-figure", "{} is no figure of a flight, in SI units", value.dump()));
   return number;
 }
 

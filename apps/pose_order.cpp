@@ -12,7 +12,7 @@ namespace swiftlet::apps {
 namespace {
 
 using common::InputError;
-using common::Problem;
+using common::Message;
 using interfaces::PoseOrder;
 using interfaces::RecordedPoses;
 
@@ -32,11 +32,11 @@ void numberByStamps(const std::string& file, RecordedPoses& found, const std::st
       at.stamp = common::Time::fromSeconds(std::round(rate_Hz * at.stamp.seconds()));
     return;
   }
-  throw InputError(Problem{{file},
-                           "",
-                           fmt::format("has stamps, where {} has frame numbers: no pairs are known", numbered_file),
-                           fmt::format("write frame numbers where the stamps stand, or frame numbers / {:g}",
-                                       interfaces::kNumberedFrames_Hz)});
+  throw InputError(
+      {file}, "",
+      Message("poses.not-numbered", "has stamps, where {} has frame numbers: no pairs are known", numbered_file),
+      fmt::format("write frame numbers where the stamps stand, or frame numbers / {:g}",
+                  interfaces::kNumberedFrames_Hz));
 }
 
 /// With those that have no pose, where their places are known.
@@ -56,12 +56,12 @@ PoseOrder giveOneClock(const std::string& estimate_file, RecordedPoses& estimate
                        RecordedPoses& reference) {
   if (estimate.order == PoseOrder::kLines || reference.order == PoseOrder::kLines) {
     if (framesOf(estimate) != framesOf(reference))
-      throw InputError(Problem{
-          {estimate_file},
-          "",
-          fmt::format("has {} poses and {} has {}: without stamps or frame numbers they are paired in their order",
-                      framesOf(estimate), reference_file, framesOf(reference)),
-          "give one pose for each frame, or frame numbers before the matrices"});
+      throw InputError(
+          {estimate_file}, "",
+          Message("poses.counts-differ",
+                  "has {} poses and {} has {}: without stamps or frame numbers they are paired in their order",
+                  framesOf(estimate), reference_file, framesOf(reference)),
+          "give one pose for each frame, or frame numbers before the matrices");
     numberInOrder(estimate);
     numberInOrder(reference);
     return PoseOrder::kLines;

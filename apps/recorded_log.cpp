@@ -144,23 +144,28 @@ void RecordedLog::countRanges(const common::LaserScan& scan) {
   }
 }
 
-std::string RecordedLog::whyNoPoints() const {
-  if (scans_ == 0) return "no scan in it could be read";
-  const std::string none = fmt::format("none of its {} has points enough", plural(scans_, "scan", "scans"));
-  if (ranges_ == 0) return none + ": they have no ranges";
+common::Message RecordedLog::whyNoPoints() const {
+  using common::Message;
+  if (scans_ == 0) return Message("laser-log.no-scans", "no scan in it could be read");
+  const std::string scans = plural(scans_, "scan", "scans");
+  if (ranges_ == 0)
+    return Message("laser-log.no-ranges", "none of its {} has points enough: they have no ranges", scans);
   if (2 * invalid_ >= ranges_)
-    return none + fmt::format(": {} of {} ranges are no number or nearer than the laser's {:g} m", invalid_, ranges_,
-                              nearest_m_);
+    return Message("laser-log.no-numbers",
+                   "none of its {} has points enough: {} of {} ranges are no number or nearer than the laser's {:g} m",
+                   scans, invalid_, ranges_, nearest_m_);
   if (2 * beyond_ >= ranges_)
-    return none + fmt::format(": {} of {} ranges are beyond the laser's {:g} m; are they in metres?", beyond_, ranges_,
-                              farthest_m_);
-  return none;
+    return Message(
+        "laser-log.ranges-beyond",
+        "none of its {} has points enough: {} of {} ranges are beyond the laser's {:g} m; are they in metres?", scans,
+        beyond_, ranges_, farthest_m_);
+  return Message("laser-log.few-points", "none of its {} has points enough", scans);
 }
 
-common::InputError RecordedLog::error(const std::string& message) const {
+common::InputError RecordedLog::unusable(std::string_view what) const {
   const std::vector<common::Problem>& problems = reader().counts().first_problems;
-  return common::InputError(
-      common::Problem{{file_}, "", message, problems.empty() ? "" : "first problem: " + toString(problems.front())});
+  const std::string hint = problems.empty() ? "" : "first problem: " + toString(problems.front());
+  return common::InputError({file_}, "", whyNoPoints().behind(what), hint);
 }
 
 }  // namespace swiftlet::apps

@@ -72,12 +72,13 @@ class RecordedLog {
   std::vector<std::pair<std::string, std::string>> facts() const;
   /// For people: what is odd about it, with what the front end found.
   std::vector<std::string> warnings(const perception::LaserSlamCounts& found) const;
-  /// For people: what the ranges of all scans were, where no scan had points enough.
-  std::string whyNoPoints() const;
-  /// An error about the log as a whole, with the first of its records that could not be read.
-  common::InputError error(const std::string& message) const;
+  /// `what` and what the ranges of all scans were, where no scan had points enough; with the first of the records that
+  /// could not be read.
+  common::InputError unusable(std::string_view what) const;
 
  private:
+  common::Message whyNoPoints() const;
+
   void countStamp(common::Time stamp);
   /// What is odd about the steps of the stamps; empty if they are regular.
   std::string stampNote() const;

@@ -31,8 +31,8 @@ bool isUnfinished(const ResultsKind& kind, const fs::directory_entry& entry) {
   });
 }
 
-common::InputError unusable(const fs::path& path, const std::string& message, const std::string& hint) {
-  return common::InputError(common::Problem{{path.string()}, "", message, hint});
+common::InputError unusable(const fs::path& path, const common::Message& message, const std::string& hint) {
+  return common::InputError({path.string()}, "", message, hint);
 }
 
 }  // namespace
@@ -40,10 +40,12 @@ common::InputError unusable(const fs::path& path, const std::string& message, co
 ResultsFolder::ResultsFolder(fs::path path, const ResultsKind& kind)
     : path_(std::move(path)), unfinished_(path_ / kUnfinished), kind_(kind) {
   try {
-    if (fs::exists(path_) && !fs::is_directory(path_)) throw unusable(path_, "is not a folder", kAskForAnother);
+    if (fs::exists(path_) && !fs::is_directory(path_))
+      throw unusable(path_, common::Message("folder.none", "is not a folder"), kAskForAnother);
     made_ = fs::create_directories(path_);
     lock_.emplace(path_);
-    if (lock_->refused()) throw unusable(path_, "is being written by another run", kAskForAnother);
+    if (lock_->refused())
+      throw unusable(path_, common::Message("results.in-use", "is being written by another run"), kAskForAnother);
     if (!made_) refuseForeignFiles();
     // Before the work, so that a folder that cannot be written is reported at once.
     fs::remove_all(unfinished_);
@@ -59,14 +61,17 @@ void ResultsFolder::refuseForeignFiles() const {
     if (isUnfinished(kind_, entry)) continue;
     if (!isFileOf(kind_, entry))
       throw unusable(path_,
-                     fmt::format("holds `{}`, which is no file of a {}", entry.path().filename().string(), kind_.noun),
+                     common::Message("results.other-file", "holds `{}`, which is no file of a {}",
+                                     entry.path().filename().string(), kind_.noun),
                      kAskForAnother);
     empty = false;
   }
   // A flight, or another program, writes files of the same names.
   if (!empty && !interfaces::saysAtStart(path_ / kind_.proof, kind_.proof_text, 400))
-    throw unusable(path_, fmt::format("holds no {} of this program, and what it holds would be lost", kind_.noun),
-                   kAskForAnother);
+    throw unusable(
+        path_,
+        common::Message("results.none", "holds no {} of this program, and what it holds would be lost", kind_.noun),
+        kAskForAnother);
 }
 
 void ResultsFolder::publish() {
@@ -81,7 +86,7 @@ void ResultsFolder::publish() {
         fs::remove(path_ / file);
     }
   } catch (const fs::filesystem_error& e) {
-    throw unusable(path_, fmt::format("cannot be written: {}", e.code().message()), "");
+    throw unusable(path_, common::Message("folder.not-written", "cannot be written: {}", e.code().message()), "");
   }
 }
 

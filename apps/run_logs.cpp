@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-common::InputError unusableRun(const fs::path& place, const std::string& message, const std::string& hint) {
-  return common::InputError(common::Problem{{place.string()}, "", message, hint});
+common::InputError unusableRun(const fs::path& place, const common::Message& message, const std::string& hint) {
+  return common::InputError({place.string()}, "", message, hint);
 }
 
 /// A name alone is not enough: a sheet of the user may have that of another one.
@@ -29,7 +29,7 @@ void refuseOtherVehicle(const fs::path& config, const FlownVehicle& vehicle) {
   const std::string hint =
       fmt::format("give {} {}", vehicle.option, own == system.own_files.end() ? system.config.vehicle : own->second);
   if (flew.name != given.name)
-    throw unusableRun(config, fmt::format("`{}` flew, not `{}`", flew.name, given.name), hint);
+    throw unusableRun(config, common::Message("run.other-vehicle", "`{}` flew, not `{}`", flew.name, given.name), hint);
   struct Value {
     const char* key;
     double flew, given;
@@ -40,9 +40,10 @@ void refuseOtherVehicle(const fs::path& config, const FlownVehicle& vehicle) {
                              {"battery_empty_v", flew.battery_empty_v, given.battery_empty_v},
                              {"battery_capacity_ah", flew.battery_capacity_ah, given.battery_capacity_ah}})
     if (value.flew != value.given)
-      throw unusableRun(
-          config, fmt::format("another `{}` flew: its {} is {}, not {}", flew.name, value.key, value.flew, value.given),
-          hint);
+      throw unusableRun(config,
+                        common::Message("run.other-sheet", "another `{}` flew: its {} is {}, not {}", flew.name,
+                                        value.key, value.flew, value.given),
+                        hint);
 }
 
 /// One row a tick: with stamps in another unit no step of a fit would be right.
@@ -52,7 +53,8 @@ void refuseOtherRate(const fs::path& log, const std::vector<interfaces::ControlR
   const double period_s = common::medianStep_s(rows, [](const interfaces::ControlRow& row) { return row.stamp; });
   if (rows.size() < 2 || (period_s > tick_s / kMostOff && period_s < tick_s * kMostOff)) return;
   throw unusableRun(log,
-                    fmt::format("its rows are {:g} s apart, and a flight writes one each {:g} s", period_s, tick_s),
+                    common::Message("run.other-rate", "its rows are {:g} s apart, and a flight writes one each {:g} s",
+                                    period_s, tick_s),
                     "the column t has seconds");
 }
 
@@ -63,10 +65,9 @@ void refuseRunsGivenTwice(const std::vector<std::string>& runs, const std::strin
     for (std::size_t j = 0; j < i; ++j) {
       std::error_code failure;
       if (fs::equivalent(runs[i], runs[j], failure))
-        throw common::InputError(common::Problem{{},
-                                                 argument,
-                                                 fmt::format("{} is given twice, and counts as one flight", runs[i]),
-                                                 "give each flight once"});
+        throw common::InputError({}, argument,
+                                 common::Message("run.twice", "{} is given twice, and counts as one flight", runs[i]),
+                                 "give each flight once");
     }
 }
 
@@ -74,20 +75,25 @@ std::vector<interfaces::ControlRow> readControlRows(const std::string& run, cons
   const fs::path folder = run, log = folder / "control.tsv";
   std::error_code failure;
   if (!fs::is_directory(folder, failure))
-    throw unusableRun(folder, "is no folder of a run", "give the folder that a flight wrote");
+    throw unusableRun(folder, common::Message("folder.none", "is not a folder"), "give the folder that a flight wrote");
   if (!interfaces::saysAtStart(folder / "mission.json", "swiftlet mission", 200))
-    throw unusableRun(folder, "is not the folder of a run", "a run has a mission.json");
+    throw unusableRun(folder, common::Message("run.no-mission", "is not the folder of a run"),
+                      "a run has a mission.json");
   if (!fs::exists(log, failure) && !failure)
-    throw unusableRun(folder, "has no control.tsv", "fly it with --control-log");
+    throw unusableRun(folder, common::Message("run.not-recorded", "has no {}", "control.tsv"),
+                      "fly it with --control-log");
   refuseOtherVehicle(folder / "config.yaml", vehicle);
   std::vector<interfaces::ControlRow> rows = interfaces::readControlLog(log);
   refuseOtherRate(log, rows);
   const bool flew = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.flying; });
-  if (!flew) throw unusableRun(log, "the vehicle never flew in it", "a flight of a minute and more is needed");
+  if (!flew)
+    throw unusableRun(log, common::Message("run.never-flew", "the vehicle never flew in it"),
+                      "a flight of a minute and more is needed");
   const auto blind =
       std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row.flying && !row.has_truth; });
   if (truth == Truth::kNeeded && blind != rows.end())
-    throw unusableRun(log, fmt::format("has no truth at {:.2f} s, in flight", blind->stamp.seconds()),
+    throw unusableRun(log,
+                      common::Message("run.no-truth", "has no truth at {:.2f} s, in flight", blind->stamp.seconds()),
                       "only flights of the simulator or with motion capture have it");
   return rows;
 }
@@ -95,7 +101,8 @@ std::vector<interfaces::ControlRow> readControlRows(const std::string& run, cons
 std::vector<perception::FilterInput> readFilterTape(const std::string& run) {
   const fs::path file = fs::path(run) / "fusion.tsv";
   std::error_code failure;
-  if (!fs::exists(file, failure) && !failure) throw unusableRun(run, "has no fusion.tsv", "fly it with --control-log");
+  if (!fs::exists(file, failure) && !failure)
+    throw unusableRun(run, common::Message("run.not-recorded", "has no {}", "fusion.tsv"), "fly it with --control-log");
   std::vector<perception::FilterInput> inputs;
   interfaces::LineReader reader(file);
   std::vector<interfaces::Word> words;
@@ -104,7 +111,9 @@ std::vector<perception::FilterInput> readFilterTape(const std::string& run) {
     texts.clear();
     for (const interfaces::Word& word : words) texts.push_back(word.text);
     auto input = perception::filterInputOf(texts);
-    if (!input) throw reader.problemAt(words.front().column, "", "is no input of the filter");
+    if (!input)
+      throw reader.problemAt(words.front().column, "",
+                             common::Message("run.no-filter-input", "is no input of the filter"));
     inputs.push_back(std::move(*input));
   }
   return inputs;
@@ -118,7 +127,9 @@ perception::TapedFlight readTapedFlight(const std::string& run, const FlownVehic
   flight.inputs = readFilterTape(run);
   const double flown_s = (flight.truth.back().stamp - flight.truth.front().stamp).seconds();
   if (flown_s < least_s)
-    throw unusableRun(run, fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, least_s),
+    throw unusableRun(run,
+                      common::Message("run.too-short", "{:.1f} s of flight are too few, at least {:g} s are needed",
+                                      flown_s, least_s),
                       "give a flight of a minute and more");
   return flight;
 }

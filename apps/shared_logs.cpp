@@ -41,10 +41,14 @@ void SharedLog::describe(common::config::Fields& fields) {
 std::vector<common::Problem> SharedLog::validate() const {
   const int given = (relations.empty() ? 0 : 1) + (poses.empty() ? 0 : 1) + (poses_in_log ? 1 : 0);
   return common::Validation()
-      .require(!name.empty() && !log.empty(), "log", "needs a name and a file")
-      .require(given <= 1, "name", "has more than one of `relations`, `poses` and `poses_in_log`")
-      .require(relations.empty() == (best_mean_m == 0.0), "best_mean_m", "goes with `relations`")
-      .require(!(poses_in_log && wheels), "wheels", "are not in a log whose poses are corrected")
+      .require(!name.empty() && !log.empty(), "log", common::Message("logs.no-name-or-file", "needs a name and a file"))
+      .require(
+          given <= 1, "name",
+          common::Message("logs.several-references", "has more than one of `relations`, `poses` and `poses_in_log`"))
+      .require(relations.empty() == (best_mean_m == 0.0), "best_mean_m",
+               common::Message("logs.mean-of-relations", "goes with `relations`"))
+      .require(!(poses_in_log && wheels), "wheels",
+               common::Message("logs.corrected-poses", "are not in a log whose poses are corrected"))
       .problems();
 }
 
@@ -61,11 +65,10 @@ std::vector<SharedLog> readSharedLogs(const std::string& folder) {
       if (file->empty()) continue;
       *file = (data_sets / *file).lexically_normal().string();
       if (!fs::exists(*file))
-        throw common::InputError(common::Problem{{*file},
-                                                 "",
-                                                 fmt::format("is not there, where {} has it", list.string()),
-                                                 "give the folder of the data sets by --datasets or "
-                                                 "$SWIFTLET_DATASETS"});
+        throw common::InputError({*file}, "",
+                                 common::Message("logs.missing", "is not there, where {} has it", list.string()),
+                                 "give the folder of the data sets by --datasets or "
+                                 "$SWIFTLET_DATASETS");
     }
   return std::move(shared.logs);
 }

@@ -18,7 +18,9 @@ class Spool {
  public:
   /// Throws InputError if there is no room for temporary files.
   Spool() : file_(std::tmpfile()) {
-    if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is /tmp full?"});
+    if (!file_)
+      throw common::InputError({}, "", common::Message("spool.not-made", "no temporary file can be made"),
+                               "is /tmp full?");
   }
 
   /// Throws InputError if there is no room left.
@@ -40,7 +42,8 @@ class Spool {
  private:
   static common::InputError full() {
     return common::InputError(
-        common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is /tmp full?"});
+        {}, "", common::Message("spool.not-written", "the temporary file of the trajectory cannot be written"),
+        "is /tmp full?");
   }
 
   struct Close {

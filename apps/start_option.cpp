@@ -19,10 +19,9 @@ simulation::StartConfig parseStart(const std::string& text) {
   const bool in_bounds =
       std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::abs(number) <= kMost; });
   if (numbers.size() != 4 || !in_bounds)
-    throw common::InputError(common::Problem{{},
-                                             "--start",
-                                             fmt::format("`{}` is not a place x;y;yaw in metres and degrees", text),
-                                             "for instance --start \"1.5;-2;90\", decimals with a point"});
+    throw common::InputError(
+        {}, "--start", common::Message("start.no-place", "`{}` is not a place x;y;yaw in metres and degrees", text),
+        "for instance --start \"1.5;-2;90\", decimals with a point");
   return {false, numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 

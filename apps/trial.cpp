@@ -40,20 +40,20 @@ struct TrialOptions {
   std::string write;
 };
 
-void refuseIf(bool given, const char* option, const char* message) {
-  if (given) throw common::InputError(common::Problem{{}, option, message, ""});
+void refuseIf(bool given, const char* option, const common::Message& message) {
+  if (given) throw common::InputError({}, option, message);
 }
 
 EnvelopeOptions envelopeOptions(const TrialOptions& options) {
-  constexpr const char* kPinned = "does not go with --envelope, which pins the plant";
-  constexpr const char* kNotKept =
-      "does not go with --envelope, which keeps only the runs that fail, for their reports";
-  refuseIf(options.run.battery.has_value(), "--battery", kPinned);
-  refuseIf(!options.run.nature.empty(), "--nature", kPinned);
+  const common::Message pinned("envelope.pins-plant", "does not go with --envelope, which pins the plant");
+  const common::Message not_kept("envelope.keeps-failed-runs",
+                                 "does not go with --envelope, which keeps only the runs that fail, for their reports");
+  refuseIf(options.run.battery.has_value(), "--battery", pinned);
+  refuseIf(!options.run.nature.empty(), "--nature", pinned);
   refuseIf(!options.run.vehicle_memory.empty(), "--vehicle-memory",
-           "does not go with --envelope, which starts from the data sheet");
-  refuseIf(options.run.control_log, "--control-log", kNotKept);
-  refuseIf(options.run.record_rgbd, "--record-rgbd", kNotKept);
+           common::Message("envelope.data-sheet", "does not go with --envelope, which starts from the data sheet"));
+  refuseIf(options.run.control_log, "--control-log", not_kept);
+  refuseIf(options.run.record_rgbd, "--record-rgbd", not_kept);
   EnvelopeOptions envelope{.trial = options.run.trials,
                            .types = flight::nodesWith(options.leaves),
                            .only = options.only,
@@ -178,10 +178,10 @@ void addTrial(Command& program) {
       "Example: swiftlet trial trials/papers/unb_case1.yaml --system swiftlet --envelope --jobs 2");
   command.runs([options] {
     if (options->envelope) return flyEnvelope(envelopeOptions(*options));
-    constexpr const char* kOnlyThere = "goes only with --envelope";
-    refuseIf(!options->quantities.empty(), "--quantities", kOnlyThere);
-    refuseIf(!options->only.empty(), "--only", kOnlyThere);
-    refuseIf(!options->write.empty(), "--write", kOnlyThere);
+    const common::Message only_there("envelope.option-alone", "goes only with --envelope");
+    refuseIf(!options->quantities.empty(), "--quantities", only_there);
+    refuseIf(!options->only.empty(), "--only", only_there);
+    refuseIf(!options->write.empty(), "--write", only_there);
     return trial(*options);
   });
 }

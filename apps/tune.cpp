@@ -49,8 +49,9 @@ void refuseRepeatedFlights(const TuneOptions& options) {
     for (const std::string& learned : options.runs) {
       std::error_code error;
       if (std::filesystem::equivalent(run, learned, error))
-        throw common::InputError(
-            common::Problem{{}, "--held-out", fmt::format("{} is learned from too", run), "give a flight that is not"});
+        throw common::InputError({}, "--held-out",
+                                 common::Message("tune.learned-from-too", "{} is learned from too", run),
+                                 "give a flight that is not");
     }
 }
 
@@ -74,11 +75,11 @@ int tuneNoise(const TuneOptions& options) {
   const flight::System system = flight::loadSystem(options.system);
   if (!options.out.empty()) requireWritable(options.out, "--out", kSettingsLine);
   if (options.runs.empty())
-    throw common::InputError(
-        common::Problem{{}, "run", "names no flight", "give flights to learn from, or --gains with a trial to fly"});
+    throw common::InputError({}, "run", common::Message("tune.no-flights", "names no flight"),
+                             "give flights to learn from, or --gains with a trial to fly");
   if (options.held_out.empty())
-    throw common::InputError(common::Problem{
-        {}, "--held-out", "names no flight", "parameters are judged on flights that they were not learned from"});
+    throw common::InputError({}, "--held-out", common::Message("tune.no-flights", "names no flight"),
+                             "parameters are judged on flights that they were not learned from");
   refuseRepeatedFlights(options);
   const std::vector<TapedFlight> learned_from = readFlights(options.runs, system.vehicle);
   const std::vector<TapedFlight> held_out = readFlights(options.held_out, system.vehicle);
@@ -109,8 +110,8 @@ int tuneNoise(const TuneOptions& options) {
 int tune(const TuneOptions& options) {
   if (options.gains.trial.empty()) return tuneNoise(options);
   if (!options.runs.empty() || !options.held_out.empty())
-    throw common::InputError(common::Problem{
-        {}, "--gains", "does not go with recorded flights", "it flies its own: leave out the runs and --held-out"});
+    throw common::InputError({}, "--gains", common::Message("tune.flies-its-own", "does not go with recorded flights"),
+                             "it flies its own: leave out the runs and --held-out");
   TuneGainsOptions gains = options.gains;
   gains.system = options.system;
   gains.out = options.out;

@@ -40,13 +40,14 @@ TrialConfig trialToFly(const TuneGainsOptions& options) {
   if (!options.nature.empty()) trial.natures = {options.nature};
   std::vector<TrialConfig> conditions = trial.byCondition();
   if (conditions.size() != 1)
-    throw common::InputError(common::Problem{
-        {file.string()}, "natures", "has several conditions to fly in", "choose a nature with --nature"});
+    throw common::InputError({file.string()}, "natures",
+                             common::Message("tune.several-conditions", "has several conditions to fly in"),
+                             "choose a nature with --nature");
   simulated_flight::prepare(conditions);
   TrialConfig one = conditions.front();
   if (one.phases.empty())
-    throw common::InputError(common::Problem{
-        {file.string()}, "phases", "is missing", "gains are compared by phases that have criteria with a `max`"});
+    throw common::InputError({file.string()}, "phases", common::Message("config.missing", "is missing"),
+                             "gains are compared by phases that have criteria with a `max`");
   one.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(one.natures.front()));
   return one;
 }
@@ -131,8 +132,9 @@ std::vector<Gain> gainsToSearch(const flight::System& system, const std::string&
   for (const Gain& gain : control::gainsOf(system.config.autonomy.control))
     if (gain.name.starts_with(only)) gains.push_back(gain);
   if (gains.empty())
-    throw common::InputError(common::Problem{
-        {}, "--only", fmt::format("no gain of {} begins with `{}`", system.name, only), "see `swiftlet config`"});
+    throw common::InputError({}, "--only",
+                             common::Message("tune.no-such-gain", "no gain of {} begins with `{}`", system.name, only),
+                             "see `swiftlet config`");
   return gains;
 }
 
@@ -150,8 +152,9 @@ int tuneGains(const TuneGainsOptions& options) {
   if (!options.out.empty()) requireWritable(options.out, "--out", kProfileLine);
   const std::vector<Gain> start = gainsToSearch(system, options.only);
   if (options.flights < 2 * options.seeds)
-    throw common::InputError(
-        common::Problem{{}, "--flights", "is too few for two sets of gains", "each is flown with all --seeds"});
+    throw common::InputError({}, "--flights",
+                             common::Message("tune.too-few-flights", "is too few for two sets of gains"),
+                             "each is flown with all --seeds");
   const TrialConfig trial = trialToFly(options);
   const fs::path folder = simulated_flight::trialFolder("", "tune", simulated_flight::kTrialResults);
   GainFlights flights(trial, system, options, folder);

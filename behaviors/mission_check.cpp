@@ -98,7 +98,7 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
   for (const tree::Problem& problem : problems) {
     common::Problem shown{{problem.location.file, problem.location.line, problem.location.column},
                           problem.element,
-                          problem.message.text(),
+                          common::Message(problem.message.name(), "{}", problem.message.text()),
                           problem.hint};
     const std::string path = problem.path.empty() ? "" : " [" + problem.path + "]";
     if (shown.hint.empty())
@@ -113,7 +113,7 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
 tree::Problem toTree(const common::Problem& problem) {
   return {{problem.location.file, problem.location.line, problem.location.column},
           problem.element,
-          tree::Message("mission.input", "{}", problem.message.text()),
+          tree::Message(problem.message.name(), "{}", problem.message.text()),
           problem.hint};
 }
 

@@ -134,11 +134,10 @@ fs::path findIn(const std::vector<fs::path>& folders, const fs::path& name) {
     if (error && !unusable) unusable = error;
     places += (places.empty() ? "" : " or ") + (folder == "." ? "this folder" : folder.string());
   }
-  if (unusable)
-    throw InputError(Problem{{name.string()}, "", Message("file.not-reached", "{}", unusable.message()), ""});
+  if (unusable) throw InputError({name.string()}, "", Message("file.not-reached", "{}", unusable.message()));
   const Message message = name.is_absolute() ? Message("file.missing", "no such file")
                                              : Message("file.missing-in", "no such file in {}", places);
-  throw InputError(Problem{{name.string()}, "", message, name.empty() ? std::string() : hintFor(name, folders)});
+  throw InputError({name.string()}, "", message, name.empty() ? std::string() : hintFor(name, folders));
 }
 
 }  // namespace

@@ -61,6 +61,9 @@ Message messageOf(const Problem& problem) { return Message(problem.message.name(
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
 
+InputError::InputError(SourceLocation location, std::string element, Message message, std::string hint)
+    : InputError(Problem{std::move(location), std::move(element), std::move(message), std::move(hint)}) {}
+
 InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(joinProblems(problems)), problems_(std::move(problems)) {}
 

@@ -39,6 +39,7 @@ Message messageOf(const Problem& problem);
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Problem problem);
+  InputError(SourceLocation location, std::string element, Message message, std::string hint = "");
   explicit InputError(std::vector<Problem> problems);
   const std::vector<Problem>& problems() const { return problems_; }
 

@@ -12,10 +12,8 @@ FormerSettings::FormerSettings(const std::string& file) {
   try {
     texts_ = loadYaml(yamlText(readText(file, kMostYamlBytes)), file).as<std::map<std::string, std::string>>();
   } catch (const YAML::Exception& error) {
-    throw InputError(Problem{{file},
-                             "",
-                             Message("former-settings.not-a-list", "{}", error.what()),
-                             "it is a part of the program: install it again"});
+    throw InputError({file}, "", Message("former-settings.not-a-list", "{}", error.what()),
+                     "it is a part of the program: install it again");
   }
 }
 

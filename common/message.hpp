@@ -19,9 +19,6 @@ class Message {
   template <typename... Values>
   Message(std::string_view name, fmt::format_string<Values...> text, Values&&... values)
       : name_(name), text_(fmt::format(text, std::forward<Values>(values)...)) {}
-  // A text without a name. To be removed once the messages of apps/ and behaviors/ have names.
-  Message(std::string text) : text_(std::move(text)) {}  // NOLINT(google-explicit-constructor)
-  Message(const char* text) : text_(text) {}             // NOLINT(google-explicit-constructor)
 
   std::string_view name() const { return name_; }
   const std::string& text() const { return text_; }

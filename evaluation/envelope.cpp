@@ -92,9 +92,7 @@ Scenario pinned(const Scenario& scenario, const simulation::Nature& base) {
 
 double baseValue(const EnvelopeQuantity& quantity, const Scenario& pinned) {
   const simulation::Nature& base = *pinned.nature;
-  const auto wrong = [&](Message what) {
-    return common::InputError(common::Problem{{base.name()}, quantity.key, std::move(what), ""});
-  };
+  const auto wrong = [&](Message what) { return common::InputError({base.name()}, quantity.key, std::move(what)); };
   const auto range = base.rangeOf(quantity.key);
   const bool is_charge = quantity.key == "battery_remaining";  // pinned() has fixed it.
   if (range && range->low < range->high && !is_charge)

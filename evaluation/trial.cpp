@@ -262,8 +262,8 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(file_or_folder))
     if (entry.is_regular_file() && isTrialFile(entry.path())) files.push_back(entry.path());
   if (files.empty())
-    throw InputError(Problem{
-        {file_or_folder.string()}, "", Message("trial.none", "holds no trials"), "expected are files NAME.yaml"});
+    throw InputError({file_or_folder.string()}, "", Message("trial.none", "holds no trials"),
+                     "expected are files NAME.yaml");
   std::sort(files.begin(), files.end());
 
   std::vector<TrialConfig> trials;
@@ -295,10 +295,8 @@ fs::path dataSetsFolder(const fs::path& root) {
 fs::path findArchive(const std::string& archive, const fs::path& data_sets) {
   fs::path file = data_sets / archive;
   if (fs::is_regular_file(file)) return file;
-  throw InputError(Problem{{file.string()},
-                           "archive",
-                           Message("trial.no-archive", "there is no such file"),
-                           "set SWIFTLET_DATASETS to the folder that holds `" + archive + "`"});
+  throw InputError({file.string()}, "archive", Message("trial.no-archive", "there is no such file"),
+                   "set SWIFTLET_DATASETS to the folder that holds `" + archive + "`");
 }
 
 }  // namespace swiftlet::evaluation

@@ -66,8 +66,10 @@ constexpr std::array kOtherKinds{Kind{"a world", "worlds", ".sdf", "a file of SD
 
 void refuseOtherUse(const std::string& name, const Use& use, const Kind& kind) {
   if (use.what.empty() || use.what == kind.what) return;
-  throw common::InputError(common::Problem{
-      {name}, "", fmt::format("is {}, and no {}, which is {}", use.what, kind.what + 2, kind.format), use.hint});
+  throw common::InputError(
+      {name}, "",
+      common::Message("file.other-use", "is {}, and no {}, which is {}", use.what, kind.what + 2, kind.format),
+      use.hint);
 }
 
 fs::path findNamed(const std::string& name, const Kind& kind) {
@@ -93,8 +95,8 @@ std::string findOfKind(const std::string& name, const Kind& kind) {
   refuseOtherUse(name, use, kind);
   const std::string ending = common::endingOf(file);
   if (use.what.empty() && ending != kind.ending && !fs::is_directory(file) && (ending == ".yaml" || ending == ".yml"))
-    throw common::InputError(
-        common::Problem{{name}, "", fmt::format("is no {}, which is {}", kind.what + 2, kind.format), ""});
+    throw common::InputError({name}, "",
+                             common::Message("file.not-of-kind", "is no {}, which is {}", kind.what + 2, kind.format));
   return file.string();
 }
 
@@ -102,9 +104,7 @@ std::string findOfKind(const std::string& name, const Kind& kind) {
 
 std::string findMission(const std::string& name) {
   std::string file = findOfKind(name, kMission);
-  if (fs::is_directory(file))
-    throw common::InputError(
-        common::Problem{{name}, "", "is a folder, and no mission, which is an XML file", "name a file of it"});
+  if (fs::is_directory(file)) refuseOtherUse(name, {"a folder", "name a file of it"}, kMission);
   return file;
 }
 

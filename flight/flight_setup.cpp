@@ -38,10 +38,9 @@ std::vector<FlightMission> soundMissions(const std::vector<std::string>& files, 
 
 void requireCamera(const System& system) {
   if (system.rgbd_camera) return;
-  throw common::InputError(common::Problem{{},
-                                           "--record-rgbd",
-                                           "the vehicle of `" + system.name + "` has no RGB-D camera",
-                                           "`--system swiftlet_3d` has one"});
+  throw common::InputError({}, "--record-rgbd",
+                           common::Message("record.no-camera", "the vehicle of `{}` has no RGB-D camera", system.name),
+                           "`--system swiftlet_3d` has one");
 }
 
 std::filesystem::path folderOf(const FlightSetup& setup) {

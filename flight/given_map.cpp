@@ -34,11 +34,11 @@ interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
   interfaces::StoredMap stored = interfaces::readMap(yaml_file);
   if (const double resolution_m = stored.grid.resolution_m(); resolution_m > kCoarsest_m)
     throw common::InputError(
-        common::Problem{stored.resolution_location, "resolution",
-                        fmt::format("{} m a cell is too coarse: doors close in it", resolution_m),
-                        fmt::format("give a map of at most {} m a cell; 0.05 m is usual", kCoarsest_m)});
-  if (const std::string why = perception::Localizer::whyUnusable(stored.grid); !why.empty())
-    throw common::InputError(common::Problem{stored.image_location, "image", why, whyEmpty(stored.notes)});
+        stored.resolution_location, "resolution",
+        common::Message("map.too-coarse", "{} m a cell is too coarse: doors close in it", resolution_m),
+        fmt::format("give a map of at most {} m a cell; 0.05 m is usual", kCoarsest_m));
+  if (const auto why = perception::Localizer::whyUnusable(stored.grid))
+    throw common::InputError(stored.image_location, "image", *why, whyEmpty(stored.notes));
   return stored;
 }
 

@@ -119,9 +119,9 @@ void readProfile(const std::string& file, SystemConfig& config, ProfilePlaces& p
     std::error_code error;
     if (std::any_of(chain.begin(), chain.end(),
                     [&](const std::string& above) { return std::filesystem::equivalent(above, base_file, error); }))
-      throw common::InputError(common::Problem{place, "based_on",
-                                               fmt::format("{} is based on this profile itself", base),
-                                               "name another one, or leave based_on out"});
+      throw common::InputError(place, "based_on",
+                               common::Message("profile.circle", "{} is based on this profile itself", base),
+                               "name another one, or leave based_on out");
     readProfile(base_file, config, places, std::move(chain));
   }
   std::optional<common::FormerSettings> former;
@@ -131,8 +131,8 @@ void readProfile(const std::string& file, SystemConfig& config, ProfilePlaces& p
   });
   reader.read(config);
   if (reader.writtenKeys().empty())
-    throw common::InputError(
-        common::Problem{{file}, "", "names no setting, so it is no profile", "the least one is `based_on: swiftlet`"});
+    throw common::InputError({file}, "", common::Message("profile.no-setting", "names no setting, so it is no profile"),
+                             "the least one is `based_on: swiftlet`");
   config.based_on.clear();
   places.add(reader);
   places.setFile(file);
@@ -177,8 +177,8 @@ void refuseUnfitModel(const System& system, const ProfilePlaces& places, const c
   if (model)
     for (const common::Problem& problem : system.model->problemsFor(system.vehicle))
       problems.push_back({places.of("vehicle_model"), "vehicle_model",
-                          fmt::format("{}: {}: {}", toString(model->locationOf(problem.element)), problem.element,
-                                      problem.message.text()),
+                          problem.message.behind(
+                              fmt::format("{}: {}: ", toString(model->locationOf(problem.element)), problem.element)),
                           problem.hint});
   if (autonomy.control.controller.kind == control::ControllerKind::kLqr)
     for (common::Problem& problem : problemsOfLqr(system)) {
@@ -194,15 +194,16 @@ void refuseUnfitVerticalLaser(const System& system, const ProfilePlaces& places)
   if (!system.vertical_laser) return;
   const common::SourceLocation place = places.of("vertical_laser");
   if (system.rgbd_camera)
-    throw common::InputError(common::Problem{place, "vertical_laser",
-                                             "one sensor makes the 3D map, and the profile names an rgbd_camera too",
-                                             "leave out one of the two"});
+    throw common::InputError(place, "vertical_laser",
+                             common::Message("profile.two-sensors-of-3d-map",
+                                             "one sensor makes the 3D map, and the profile names an rgbd_camera too"),
+                             "leave out one of the two");
   if (system.vertical_laser->mirror_beams > 0)
     throw common::InputError(
-        common::Problem{place, "vertical_laser",
-                        fmt::format("{} has a mirror ({} beams), and an upright laser has none",
-                                    system.config.vertical_laser, system.vertical_laser->mirror_beams),
-                        "name a sheet such as `utm_30lx_upright`"});
+        place, "vertical_laser",
+        common::Message("profile.upright-mirror", "{} has a mirror ({} beams), and an upright laser has none",
+                        system.config.vertical_laser, system.vertical_laser->mirror_beams),
+        "name a sheet such as `utm_30lx_upright`");
 }
 
 /// Puts "# " before every line.
@@ -277,12 +278,14 @@ System System::namingSheetsByPath() const {
 std::vector<common::Problem> problemsOfLqr(const System& system) {
   const std::string& name = system.config.vehicle_model;
   const std::string hint = fmt::format("`swiftlet identify` makes one from flights of `{}`", system.vehicle.name);
-  if (!system.model) return {{{}, "", "lqr needs a vehicle_model, and the profile names none", hint}};
-  if (!system.model->hasAxes()) return {{{}, "", fmt::format("lqr needs every axis, but {} lacks some", name), hint}};
+  if (!system.model)
+    return {{{}, "", common::Message("lqr.no-model", "lqr needs a vehicle_model, and the profile names none"), hint}};
+  if (!system.model->hasAxes())
+    return {{{}, "", common::Message("lqr.axes-missing", "lqr needs every axis, but {} lacks some", name), hint}};
   std::vector<common::Problem> problems;
   for (const common::Problem& problem :
        control::Lqr::problemsOf(system.config.autonomy.control.controller.lqr, *system.model))
-    problems.push_back({{}, "", "lqr: " + toString(problem), "weights nearer to the default ones would fit"});
+    problems.push_back({{}, "", messageOf(problem).behind("lqr: "), "weights nearer to the default ones would fit"});
   return problems;
 }
 

@@ -26,19 +26,21 @@ void refuseOtherBattery(const autonomy::VehicleMemory& memory, const common::Veh
 VehicleMemorySetup setupOfMemory(const std::filesystem::path& file, const common::VehicleConfig& vehicle,
                                  std::size_t vehicles, MemoryUse use) {
   const bool writes = use == MemoryUse::kReadAndWrite;
-  const auto unusable = [&](const std::string& message, const std::string& hint) {
-    return common::InputError(common::Problem{{file.string()}, "--vehicle-memory", message, hint});
+  const auto unusable = [&](const common::Message& message, const std::string& hint) {
+    return common::InputError({file.string()}, "--vehicle-memory", message, hint);
   };
-  if (vehicles > 1) throw unusable(fmt::format("is of one vehicle, but {} fly", vehicles), "fly them one by one");
+  if (vehicles > 1)
+    throw unusable(common::Message("vehicle-memory.several-vehicles", "is of one vehicle, but {} fly", vehicles),
+                   "fly them one by one");
   auto memory = readVehicleMemory(file, vehicle);
-  if (!memory && !writes) throw unusable("there is no such file", "a flight with `fly --vehicle-memory` makes one");
+  if (!memory && !writes)
+    throw unusable(common::Message("file.missing", "no such file"), "a flight with `fly --vehicle-memory` makes one");
   const std::filesystem::path folder = file.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw unusable("its folder does not exist", "make the folder first");
+    throw unusable(common::Message("file.no-folder", "its folder does not exist"), "make the folder first");
   if (writes)
     if (const auto written = interfaces::tryToWrite(file); !written)
-      throw common::InputError(
-          common::Problem{{}, "--vehicle-memory", "cannot be written: " + written.error().message.text(), ""});
+      throw common::InputError({}, "--vehicle-memory", written.error().message.behind("cannot be written: "));
   VehicleMemorySetup setup;
   setup.kept = true;
   if (memory) setup.read = std::make_shared<const autonomy::VehicleMemory>(std::move(*memory));
@@ -54,10 +56,10 @@ std::optional<autonomy::VehicleMemory> readVehicleMemory(const std::filesystem::
   autonomy::VehicleMemory memory;
   reader.read(memory);
   if (memory.vehicle != vehicle.name)
-    throw common::InputError(
-        common::Problem{reader.locationOf("vehicle"), "vehicle",
-                        fmt::format("is that of `{}`, but `{}` flies", memory.vehicle, vehicle.name),
-                        "give each vehicle a file of its own"});
+    throw common::InputError(reader.locationOf("vehicle"), "vehicle",
+                             common::Message("vehicle-memory.other-vehicle", "is that of `{}`, but `{}` flies",
+                                             memory.vehicle, vehicle.name),
+                             "give each vehicle a file of its own");
   refuseOtherBattery(memory, vehicle, reader);
   return memory;
 }

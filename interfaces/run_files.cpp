@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using common::InputError;
 using common::Message;
-using common::Problem;
 
 /// Every file that a run may leave; no other file is ever removed.
 constexpr std::array<const char*, 24> kFiles = {"mission.json",
@@ -62,7 +61,7 @@ bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.jso
 constexpr const char* kAskForAnother = "give an empty or new folder";
 
 InputError unusable(const fs::path& path, Message message, const char* hint = kAskForAnother) {
-  return InputError(Problem{{path.string()}, "", std::move(message), hint});
+  return InputError({path.string()}, "", std::move(message), hint);
 }
 
 /// What `use` does with the folder's files; why they cannot be used is an InputError.

@@ -30,7 +30,6 @@ using common::Duration;
 using common::InputError;
 using common::Message;
 using common::MissionState;
-using common::Problem;
 using common::Time;
 
 /// Between two versions of map, mission.json and report.
@@ -40,7 +39,7 @@ constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Bet
 
 template <typename Writer>
 Writer opened(tl::expected<Writer, FileError> writer) {
-  if (!writer) throw InputError(Problem{{}, "", writer.error().message, ""});
+  if (!writer) throw InputError({}, "", writer.error().message);
   return std::move(*writer);
 }
 
@@ -225,7 +224,7 @@ RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
   if (!impl_->summary.info.vehicle_memory_yaml.empty())
     impl_->write(kMemoryReadFile, impl_->summary.info.vehicle_memory_yaml);
   impl_->writeSummary();
-  if (impl_->failure) throw InputError(Problem{{}, "", Message("run.not-written", "{}", *impl_->failure), ""});
+  if (impl_->failure) throw InputError({}, "", Message("run.not-written", "{}", *impl_->failure));
 }
 
 RunFolder::~RunFolder() = default;

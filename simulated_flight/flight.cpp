@@ -128,10 +128,10 @@ std::vector<flight::FlightMission> soundMissions(const SimulatedSetup& setup, bo
 void checkFlightFolder(const fs::path& folder, const simulation::Scenario& scenario) {
   if (scenario.vehicles.empty()) return interfaces::checkRunFolder(folder);
   if (fs::exists(folder / "mission.json"))
-    throw common::InputError(common::Problem{{folder.string()},
-                                             "--out",
-                                             "holds the run of one vehicle, among whose files several would be lost",
-                                             "give an empty or new folder"});
+    throw common::InputError(
+        {folder.string()}, "--out",
+        common::Message("run.of-one-vehicle", "holds the run of one vehicle, among whose files several would be lost"),
+        "give an empty or new folder");
   for (const std::string& name : vehicleNames(scenario)) interfaces::checkRunFolder(folder / name);
 }
 

@@ -52,10 +52,10 @@ PlacedMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::
   PlacedMap placed{std::make_shared<const flight::FlightMap>(flight::readFlightMap(folder / "map.yaml")),
                    fitted(slam, tracked, driven)};
   if (!placed.T_world_given)
-    throw common::InputError(common::Problem{{},
-                                             "map.path_world_m",
-                                             "makes a map of one spot: it cannot be laid into the world",
-                                             "give it places that are some metres apart"});
+    throw common::InputError(
+        {}, "map.path_world_m",
+        common::Message("survey.one-spot", "makes a map of one spot: it cannot be laid into the world"),
+        "give it places that are some metres apart");
   return placed;
 }
 

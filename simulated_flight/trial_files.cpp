@@ -52,7 +52,7 @@ Problem inTrial(const TrialConfig& trial, const std::string& key, const std::str
   if (place.file.empty()) return problem;
   if (const fs::path file = fs::path(name).filename(); file != name && isFile(trial.folder / file))
     problem.hint = fmt::format("did you mean `{}`?", file.string());
-  return {place, key, fmt::format("{}: {}", name, problem.message.text()), std::move(problem.hint)};
+  return {place, key, problem.message.behind(name + ": "), std::move(problem.hint)};
 }
 
 std::optional<Problem> findMissionOf(const TrialConfig& trial, const std::string& key, std::string& name) {

@@ -61,15 +61,15 @@ void checkControllers(const TrialConfig& trial, const flight::System& system, st
   for (const evaluation::OperatorStep& step : trial.operator_steps) {
     if (step.command != evaluation::OperatorAction::kController) continue;
     const auto kind = control::controllerNamed(step.controller);
-    const auto add = [&](const std::string& message, const std::string& hint) {
+    const auto add = [&](const common::Message& message, const std::string& hint) {
       problems.push_back({step.place, fmt::format("trial {}: operator: controller", trial.name), message, hint});
     };
     if (!kind)
-      add(fmt::format("there is no `{}`", step.controller),
+      add(common::Message("controller.unknown", "there is no `{}`", step.controller),
           common::didYouMean(step.controller, control::controllerWords()));
     else if (*kind == control::ControllerKind::kLqr)
       for (const common::Problem& problem : flight::problemsOfLqr(system))
-        add(fmt::format("profile {}: {}", system.name, problem.message.text()), problem.hint);
+        add(problem.message.behind(fmt::format("profile {}: ", system.name)), problem.hint);
   }
 }
 
@@ -83,7 +83,7 @@ void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& proble
     if (std::find(known.begin(), known.end(), word) != known.end()) return;
     problems.push_back({{world.file},
                         fmt::format("trial {}: targets", trial.name),
-                        fmt::format("{} has no `{}`", whose, word),
+                        common::Message("trial.no-target", "{} has no `{}`", whose, word),
                         common::didYouMean(word, known)});
   };
   for (const evaluation::TrialTarget& target : trial.targets) {
@@ -178,7 +178,8 @@ std::vector<evaluation::FlightScore> flyScored(const TrialConfig& trial, const S
     for (const auto& [name, value] : evaluation::reportedFigures(score)) end.figures.push_back({name, value});
   };
   const FlightResult result = flySimulated(setup, soundMissions(setup, setup.map != nullptr), hooks);
-  if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
+  if (const auto failure = result.writeFailure())
+    throw common::InputError({}, "", common::Message("run.not-written", "{}", *failure));
   std::vector<evaluation::FlightScore> scores;
   for (const flight::VehicleResult& vehicle : result.vehicles) {
     scores.push_back(std::move(by_name[vehicle.name]));
@@ -192,8 +193,9 @@ fs::path trialFolder(const std::string& given, const std::string& noun, const Tr
   interfaces::requireWritableFolder(out, "--out");
   const fs::path results = out / proof.file;
   if ((fs::exists(results) || fs::exists(reportIn(out))) && !interfaces::saysAtStart(results, proof.text, 16))
-    throw common::InputError(common::Problem{
-        {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
+    throw common::InputError({out.string()}, "--out",
+                             common::Message("trial.other-results", "holds a report or results of something else"),
+                             "give an empty or new folder");
   return out;
 }
 
@@ -206,11 +208,10 @@ void checkSeeds(int first, int count) {
   const std::int64_t last = std::int64_t{first} + count - 1;
   if (static_cast<double>(last) <= simulation::kGreatestSeed) return;
   throw common::InputError(
-      common::Problem{{},
-                      "--seed",
-                      fmt::format("{} flights from seed {} on would end with seed {}, above {:.0f}", count, first, last,
-                                  simulation::kGreatestSeed),
-                      "begin with a lower one"});
+      {}, "--seed",
+      common::Message("trial.seed-too-great", "{} flights from seed {} on would end with seed {}, above {:.0f}", count,
+                      first, last, simulation::kGreatestSeed),
+      "begin with a lower one");
 }
 
 }  // namespace swiftlet::simulated_flight

@@ -50,10 +50,10 @@ void refuseSameNames(const std::vector<TrialConfig>& trials, const fs::path& fil
   std::set<std::string> names;
   for (const TrialConfig& trial : trials)
     if (!names.insert(trial.name).second)
-      throw common::InputError(common::Problem{{file_or_folder.string()},
-                                               "",
-                                               fmt::format("two conditions to fly in are named `{}`", trial.name),
-                                               "name each of systems, natures and batteries once"});
+      throw common::InputError(
+          {file_or_folder.string()}, "",
+          common::Message("trial.conditions-alike", "two conditions to fly in are named `{}`", trial.name),
+          "name each of systems, natures and batteries once");
 }
 
 }  // namespace

@@ -88,9 +88,9 @@ fs::path findModelFolder(const std::string& name, const std::string& key, const 
   }
   if (name.empty() || fs::path(name).is_absolute()) searched.clear();
   if (!name.empty() && isInAny(bases, name))
-    throw common::InputError(common::Problem{{name}, key, "is a file, a folder was expected", ""});
-  throw common::InputError(
-      common::Problem{{}, key, "there is no folder `" + name + "`" + searched, hintForFolder(name, bases)});
+    throw common::InputError({name}, key, common::Message("folder.none", "is not a folder"));
+  throw common::InputError({}, key, common::Message("folder.missing", "there is no folder `{}`{}", name, searched),
+                           hintForFolder(name, bases));
 }
 
 fs::path findWorldFile(const std::string& name, const fs::path& beside) {

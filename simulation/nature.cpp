@@ -41,8 +41,8 @@ Nature Nature::calm() { return {"calm", nullptr}; }
 
 Nature Nature::load(const std::string& name) {
   if (name.empty())
-    throw common::InputError(common::Problem{
-        {}, "nature", common::Message("nature.no-name", "has an empty name"), "give calm, real, harsh, or a file"});
+    throw common::InputError({}, "nature", common::Message("nature.no-name", "has an empty name"),
+                             "give calm, real, harsh, or a file");
   const std::filesystem::path file = NatureRanges::fileOf(name, {});
   Nature nature = fromText(NatureRanges::textOf(file), file.string());
   nature.name_ = std::filesystem::path(name).stem().string();
@@ -83,12 +83,10 @@ Scenario Nature::drawn(const Scenario& scenario, std::uint64_t seed) const {
   }
   // The charge that is written out lifts no draw: what the vehicle does about it is then the subject of the trial.
   if (fixed_charge) return *first;
-  throw common::InputError(
-      common::Problem{{ranges_->file()},
-                      "least_thrust_over_weight",
-                      common::Message("nature.too-heavy", "none of {} draws can lift the vehicle `{}`", kMostPlants,
-                                      scenario.vehicle.name),
-                      "draw a lighter vehicle, or more thrust"});
+  throw common::InputError({ranges_->file()}, "least_thrust_over_weight",
+                           common::Message("nature.too-heavy", "none of {} draws can lift the vehicle `{}`",
+                                           kMostPlants, scenario.vehicle.name),
+                           "draw a lighter vehicle, or more thrust");
 }
 
 std::string Nature::valuesIn(const Scenario& drawn) const { return ranges_ ? ranges_->valuesIn(drawn) : ""; }

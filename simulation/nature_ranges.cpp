@@ -172,15 +172,14 @@ void NatureRanges::readBase(const Base& base, std::vector<std::string> chain) {
     file = fileOf(base.name, std::filesystem::path(file_).parent_path());
   } catch (const InputError& missing) {
     const Problem& problem = missing.problems().front();
-    throw InputError(Problem{base.place, kBasedOn, problem.message.behind(base.name + ": "), problem.hint});
+    throw InputError(base.place, kBasedOn, problem.message.behind(base.name + ": "), problem.hint);
   }
   // One file may be named in many ways, `a.yaml` and `./a.yaml`.
   std::error_code error;
   if (std::any_of(chain.begin(), chain.end(),
                   [&](const std::string& above) { return std::filesystem::equivalent(above, file, error); }))
-    throw InputError(Problem{base.place, kBasedOn,
-                             Message("nature.circle", "{} is based on this nature itself", base.name),
-                             "name another one, or leave based_on out"});
+    throw InputError(base.place, kBasedOn, Message("nature.circle", "{} is based on this nature itself", base.name),
+                     "name another one, or leave based_on out");
   const NatureRanges read(textOf(file), file.string(), std::move(chain));
   entries_ = read.entries_;
   least_thrust_over_weight_ = read.least_thrust_over_weight_;

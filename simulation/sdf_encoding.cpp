@@ -80,14 +80,13 @@ std::string utf8Text(const std::string& file, std::string_view bytes) {
   auto text = converted(bytes, encoding);
   if (text) return text->starts_with(kMark) ? text->substr(kMark.size()) : *std::move(text);
   using common::Message;
-  throw common::InputError(common::Problem{
-      {file, 1},
-      "",
+  throw common::InputError(
+      {file, 1}, "",
       text.error() == Failure::kUnknownEncoding
           ? Message("encoding.unknown", "the encoding `{}`, which the file declares, is not known", encoding)
           : Message("encoding.other-bytes", "the file is not in `{}`, the encoding that {}", encoding,
                     is_wide ? "its first bytes say" : "it declares"),
-      "save it as UTF-8 in an editor"});
+      "save it as UTF-8 in an editor");
 }
 
 }  // namespace swiftlet::simulation

@@ -186,10 +186,9 @@ sdf::Errors loadOrExplain(sdf::Root& root, const SdfSources& sources, const sdf:
   try {
     return root.Load(sources.toRead(), config);
   } catch (const std::exception& exception) {
-    throw InputError(Problem{{sources.originalOf(sources.toRead())},
-                             "",
-                             Message("sdf.gave-up", "libsdformat gave up: {}", exception.what()),
-                             "leave out what was changed last, or halves of its models, to find the element"});
+    throw InputError({sources.originalOf(sources.toRead())}, "",
+                     Message("sdf.gave-up", "libsdformat gave up: {}", exception.what()),
+                     "leave out what was changed last, or halves of its models, to find the element");
   }
 }
 

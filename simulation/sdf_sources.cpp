@@ -132,8 +132,8 @@ std::string SdfSources::visit(const std::string& file, const common::SourceLocat
   const fs::path real = canonical(file);
   if (const auto known = done_.find(real); known != done_.end()) return known->second;
   if (std::find(open_.begin(), open_.end(), real) != open_.end())
-    throw InputError(Problem{
-        from, "include", Message("sdf.include-circle", "files include each other: {} leads back to itself", file), ""});
+    throw InputError(from, "include",
+                     Message("sdf.include-circle", "files include each other: {} leads back to itself", file));
   open_.push_back(real);
   Document document{file, {}, {}, {}, {}};
   std::string result = prepare(document, common::readText(file));
@@ -145,17 +145,15 @@ std::string SdfSources::prepare(Document& document, const std::string& bytes) {
   document.text = utf8Text(document.file, bytes);
   auto tags = readTags(document.file, document.text);
   if (const std::size_t ruby = document.text.find("<%"); !tags && ruby != std::string::npos)
-    throw InputError(
-        Problem{locationIn(document.file, document.text, ruby), "",
-                Message("sdf.erb-template", "is a template of ERB (embedded Ruby), which is not evaluated"),
-                fmt::format("make the world of it: erb \"{}\" > world.sdf", document.file)});
+    throw InputError(locationIn(document.file, document.text, ruby), "",
+                     Message("sdf.erb-template", "is a template of ERB (embedded Ruby), which is not evaluated"),
+                     fmt::format("make the world of it: erb \"{}\" > world.sdf", document.file));
   if (!tags) throw InputError(tags.error());
   document.tags = *std::move(tags);
   const std::string root(document.tags.front().name);
   if (root != "sdf" && open_.size() > 1) return asItIs(document);  // libsdformat reads URDF models.
   if (root != "sdf")
-    throw InputError(
-        Problem{{document.file, 1}, root, Message("sdf.other-root", "the root element of a world is <sdf>"), ""});
+    throw InputError({document.file, 1}, root, Message("sdf.other-root", "the root element of a world is <sdf>"));
   checkVersion(document);
   if (!isTemplate(document))  // The numbers of one may be expressions.
     if (const auto problems = numberProblems(document.file, document.text, document.tags); !problems.empty())
@@ -173,10 +171,8 @@ void SdfSources::checkVersion(Document& document) {
   if (!minor) {
     std::string hint = common::misleadingHint(document.tags.front().attributes);
     if (hint.empty()) hint = "expected is version=\"1.9\" or another from 1.0 on";
-    throw InputError(Problem{{document.file, 1},
-                             "sdf",
-                             Message("sdf.no-version", "`{}` is not a version of SDF", version.value_or("")),
-                             hint});
+    throw InputError({document.file, 1}, "sdf",
+                     Message("sdf.no-version", "`{}` is not a version of SDF", version.value_or("")), hint);
   }
   if (*minor <= kNewestMinorVersion) return;
   warnings_.push_back({document.locationOf(document.tags.front()), "sdf",
@@ -308,7 +304,7 @@ std::string SdfSources::asItIs(const Document& document) {
 
 std::string SdfSources::copy(const Document& document) {
   const auto refuse = [](const fs::path& folder, Message message) {
-    throw InputError(Problem{{folder.string()}, "", std::move(message), "set TMPDIR to another folder"});
+    throw InputError({folder.string()}, "", std::move(message), "set TMPDIR to another folder");
   };
   if (folder_.path.empty()) {
     std::error_code failure;

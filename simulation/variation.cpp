@@ -372,10 +372,8 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
   const auto mustExist = [&](const std::vector<std::string>& names, const char* key) {
     for (const std::string& name : names)
       if (!world.hasModel(name))
-        throw InputError(Problem{{world.file},
-                                 key,
-                                 Message("world.no-model", "there is no model `{}`", name),
-                                 common::didYouMean(name, models)});
+        throw InputError({world.file}, key, Message("world.no-model", "there is no model `{}`", name),
+                         common::didYouMean(name, models));
   };
   mustExist(scenario.variation.obstacles, "variation.obstacles");
   mustExist(scenario.variation.tinted, "variation.tinted");

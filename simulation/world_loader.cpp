@@ -76,10 +76,8 @@ class Loader {
                Color::Constant(0.6F));
     if (!problems_.empty()) throw InputError(problems_);
     if (world_.shapes.empty())
-      throw InputError(Problem{{world_.file},
-                               "",
-                               Message("world.empty", "it has no geometry at all"),
-                               "give its models links with <collision> or <visual>"});
+      throw InputError({world_.file}, "", Message("world.empty", "it has no geometry at all"),
+                       "give its models links with <collision> or <visual>");
     return std::move(world_);
   }
 

@@ -122,8 +122,8 @@ StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFor
 StoredCloud readCloud(const std::filesystem::path& file, const CloudPlacement& placement) {
   const auto format = cloudFormatOf(unpackedName(file));
   if (!format)
-    throw common::InputError(common::Problem{
-        {file.string()}, "", common::Message("cloud.other-ending", "is not named .ply or .pcd, plain or packed"), ""});
+    throw common::InputError({file.string()}, "",
+                             common::Message("cloud.other-ending", "is not named .ply or .pcd, plain or packed"));
   return parseCloud(readUnpacked(file), file.string(), *format, placement);
 }
 

@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using common::InputError;
 using common::Message;
-using common::Problem;
 
 constexpr std::int64_t kMaxUnpackedBytes = std::int64_t{4} << 30;
 
@@ -83,7 +82,7 @@ class Unpacking {
     if (type != AE_IFREG || link) throw fail(name, Message("archive.no-file", "is neither a file nor a folder"));
     fs::create_directories(target.parent_path());
     if (const Written written = writeAtomically(target, contentOf(reader, name)); !written)
-      throw InputError(Problem{{}, "", written.error().message, ""});
+      throw InputError({}, "", written.error().message);
   }
 
   fs::path checkedName(const std::string& name) const {
@@ -116,7 +115,7 @@ class Unpacking {
   }
 
   InputError fail(const std::string& entry, Message message) const {
-    return InputError(Problem{{archive_.string()}, entry, std::move(message), ""});
+    return InputError({archive_.string()}, entry, std::move(message));
   }
 
   fs::path archive_;
@@ -138,8 +137,7 @@ fs::path unpackInto(const fs::path& cache, const fs::path& archive) {
     fs::rename(temporary.path(), folder, failure);
     if (failure && !fs::is_directory(folder)) throw fs::filesystem_error("rename", folder, failure);
   } catch (const fs::filesystem_error& e) {
-    throw InputError(
-        Problem{{cache.string()}, "", Message("folder.not-written", "cannot be written: {}", e.code().message()), ""});
+    throw InputError({cache.string()}, "", Message("folder.not-written", "cannot be written: {}", e.code().message()));
   }
   return folder;
 }

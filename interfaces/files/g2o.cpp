@@ -77,13 +77,11 @@ class Reading {
     } else if (!space_.empty()) {
       file.graph = space_.finish(lines_.name(), fixed_, leftOut());
     } else {
-      throw common::InputError(common::Problem{
-          {lines_.name()},
-          "",
+      throw common::InputError(
+          {lines_.name()}, "",
           Message("g2o.no-graph",
                   "holds no pose graph, expected EDGE_SE2 or EDGE_SE3:QUAT of g2o, EDGE2 or EDGE3 of TORO{}",
-                  leftOut()),
-          ""});
+                  leftOut()));
     }
     file.indefinite_edges = plane_.indefiniteEdges() + space_.indefiniteEdges();
     for (const auto& [tag, left_out] : left_out_) file.warnings.push_back(warningOf(tag, left_out));

@@ -65,8 +65,8 @@ class G2oCollector {
   Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed,
                const std::string& left_out) {
     if (graph_.edges.empty())
-      throw common::InputError(common::Problem{
-          {file}, "", common::Message("g2o.no-edges", "holds vertices, but no edges connect them{}", left_out), ""});
+      throw common::InputError(
+          {file}, "", common::Message("g2o.no-edges", "holds vertices, but no edges connect them{}", left_out));
     if (first_problem_) throw indefiniteError();
     if (graph_.ids.empty()) takeVerticesFromEdges();
     for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -174,8 +174,8 @@ class G2oCollector {
   int indexOf(std::int64_t id, const char* element, const common::SourceLocation& location) const {
     const auto found = vertices_.find(id);
     if (found != vertices_.end()) return found->second.index;
-    throw common::InputError(common::Problem{
-        location, element, common::Message("g2o.no-vertex", "there is no vertex {}", id), "every vertex needs a line"});
+    throw common::InputError(location, element, common::Message("g2o.no-vertex", "there is no vertex {}", id),
+                             "every vertex needs a line");
   }
 
   Graph graph_;

@@ -8,7 +8,6 @@ namespace {
 
 using common::InputError;
 using common::Message;
-using common::Problem;
 
 constexpr std::size_t kReadBytes = std::size_t{1} << 16;
 /// The byte order mark that some editors write before UTF-8.
@@ -78,7 +77,7 @@ void LineReader::readBlock() {
 }
 
 InputError LineReader::problemAt(int column, std::string element, Message message, std::string hint) const {
-  return InputError(Problem{{name(), line_number_, column}, std::move(element), std::move(message), std::move(hint)});
+  return InputError({name(), line_number_, column}, std::move(element), std::move(message), std::move(hint));
 }
 
 }  // namespace swiftlet::interfaces

@@ -17,7 +17,6 @@ namespace {
 
 using common::InputError;
 using common::Message;
-using common::Problem;
 
 constexpr const char* kConvert = "convert it, for instance by ImageMagick's `convert FILE map.png`";
 
@@ -76,7 +75,7 @@ class NetpbmWords {
   }
 
   InputError fail(const char* element, Message message) const {
-    return InputError(Problem{{name_, line_}, element, std::move(message), ""});
+    return InputError({name_, line_}, element, std::move(message));
   }
 
   /// Whether no word follows.
@@ -184,9 +183,7 @@ MapPicture parseNetpbm(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 MapPicture parsePicture(std::string_view bytes, const std::string& name) {
-  const auto refuse = [&](const Message& message, const char* hint) {
-    throw InputError(Problem{{name}, "", message, hint});
-  };
+  const auto refuse = [&](const Message& message, const char* hint) { throw InputError({name}, "", message, hint); };
   if (bytes.empty()) refuse(Message("picture.empty", "is empty, a picture was expected"), kGetAgain);
   if (isWebPage(bytes)) refuse(Message("picture.web-page", "is a page of the web, a picture was expected"), kGetFile);
   if (isNetpbm(bytes)) return parseNetpbm(bytes, name);

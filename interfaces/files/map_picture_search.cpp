@@ -82,11 +82,11 @@ FoundPicture findPicture(const fs::path& yaml_file, const std::string& named, co
                             name),
                     fmt::format("write `image: {}`", name)}};
   const std::string likely = likelyPicture(yaml_file, named);
-  throw InputError(Problem{
+  throw InputError(
       location, "image",
       Message("map.no-image", "`{}`: {}", meant.string(), failure ? failure.message() : std::string("no such file")),
       likely.empty() ? "it is looked for there, and by its name beside the YAML"
-                     : fmt::format("`{0}` lies beside the YAML: write `image: {0}`", likely)});
+                     : fmt::format("`{0}` lies beside the YAML: write `image: {0}`", likely));
 }
 
 InputError pictureForYaml(const fs::path& picture) {
@@ -102,13 +102,11 @@ InputError pictureForYaml(const fs::path& picture) {
     }
     if (beside.empty() && saysAtStart(file, name, kMostYamlBytes)) beside = file.string();
   }
-  return InputError(Problem{{picture.string()},
-                            "",
-                            Message("map.is-picture", "is the picture of a map, its YAML was expected"),
-                            beside.empty() ? fmt::format("write `image: {}`, `resolution: 0.05` (metres a pixel) and "
-                                                         "`origin: [0, 0, 0]` into a .yaml beside it, and give that",
-                                                         name)
-                                           : fmt::format("give `{}`", beside)});
+  return InputError({picture.string()}, "", Message("map.is-picture", "is the picture of a map, its YAML was expected"),
+                    beside.empty() ? fmt::format("write `image: {}`, `resolution: 0.05` (metres a pixel) and "
+                                                 "`origin: [0, 0, 0]` into a .yaml beside it, and give that",
+                                                 name)
+                                   : fmt::format("give `{}`", beside));
 }
 
 }  // namespace swiftlet::interfaces

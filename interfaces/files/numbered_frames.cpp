@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using common::InputError;
 using common::Message;
-using common::Problem;
 
 /// The number in "frame-000123.pose.txt", "000123.pose.txt" or "123.txt"; nullopt for other names.
 std::optional<std::int64_t> poseFrame(std::string_view name) {
@@ -38,34 +37,29 @@ std::optional<std::int64_t> poseFrame(std::string_view name) {
 RecordedPoses readNumberedFrames(const fs::path& folder) {
   std::error_code failure;
   const fs::directory_iterator entries(folder, failure);
-  if (failure)
-    throw InputError(Problem{{folder.string()}, "", Message("file.not-reached", "{}", failure.message()), ""});
+  if (failure) throw InputError({folder.string()}, "", Message("file.not-reached", "{}", failure.message()));
   std::map<std::int64_t, fs::path> files;
   for (const auto& entry : entries) {
     const auto number = poseFrame(entry.path().filename().string());
     if (!number) continue;
     if (const auto [other, is_new] = files.emplace(*number, entry.path()); !is_new)
-      throw InputError(Problem{{entry.path().string()},
-                               "",
-                               Message("frames.number-twice", "has the frame number {}, and so has `{}`", *number,
-                                       other->second.filename().string()),
-                               "keep one of them"});
+      throw InputError({entry.path().string()}, "",
+                       Message("frames.number-twice", "has the frame number {}, and so has `{}`", *number,
+                               other->second.filename().string()),
+                       "keep one of them");
   }
   if (files.empty())
-    throw InputError(Problem{{folder.string()},
-                             "",
-                             Message("frames.unknown-format", "holds no poses of a known format"),
-                             "expected trajectory.tum, groundtruth.txt, trajectory.log (Open3D), frame-000000.pose.txt "
-                             "(7-Scenes) or 0.txt (ScanNet); of KITTI, give the file"});
+    throw InputError({folder.string()}, "", Message("frames.unknown-format", "holds no poses of a known format"),
+                     "expected trajectory.tum, groundtruth.txt, trajectory.log (Open3D), frame-000000.pose.txt "
+                     "(7-Scenes) or 0.txt (ScanNet); of KITTI, give the file");
   RecordedPoses found{PoseOrder::kNumbers, {}, 0};
   for (const auto& [number, file] : files) {
     const RecordedPoses one = readPoseMatrices(file);
     if (one.poses.size() + one.without_pose != 1)
-      throw InputError(Problem{{file.string()},
-                               "",
-                               Message("frames.several-poses", "holds {} poses, where one of frame {} belongs",
-                                       one.poses.size() + one.without_pose, number),
-                               "give the file alone if it is a trajectory"});
+      throw InputError({file.string()}, "",
+                       Message("frames.several-poses", "holds {} poses, where one of frame {} belongs",
+                               one.poses.size() + one.without_pose, number),
+                       "give the file alone if it is a trajectory");
     found.without_pose += one.without_pose;
     for (const common::StampedPose& at : one.poses)
       found.poses.push_back({common::Time::fromSeconds(static_cast<double>(number)), at.pose});

@@ -64,8 +64,7 @@ class OctreeReader {
 
  private:
   [[noreturn]] void fail(Message message, std::string hint = "") const {
-    throw common::InputError(
-        common::Problem{{name_}, fmt::format("byte {}", place_), std::move(message), std::move(hint)});
+    throw common::InputError({name_}, fmt::format("byte {}", place_), std::move(message), std::move(hint));
   }
   [[noreturn]] void failAtHeader() const {
     fail(Message("octree.header-open", "the header does not end with a line `data`"));

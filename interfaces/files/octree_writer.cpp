@@ -17,7 +17,6 @@ namespace {
 
 using common::InputError;
 using common::Message;
-using common::Problem;
 using common::VoxelBlock;
 using common::VoxelIndex;
 using common::VoxelMap;
@@ -56,11 +55,9 @@ class OctreeWriter {
       const VoxelIndex shifted{block.x + kShift, block.y + kShift, block.z + kShift};
       for (const int number : {shifted.x, shifted.y, shifted.z})
         if (number < 0 || number >= 2 * kShift)
-          throw InputError(Problem{
-              {},
-              "octree",
-              Message("octree.map-too-wide", "the map reaches beyond {:.0f} m", octree::kMiddle * map.resolution_m()),
-              ""});
+          throw InputError(
+              {}, "octree",
+              Message("octree.map-too-wide", "the map reaches beyond {:.0f} m", octree::kMiddle * map.resolution_m()));
       blocks_.push_back({mortonCode(shifted), map.block(block)});
     }
     std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.code < b.code; });
@@ -187,11 +184,9 @@ OctreeFormat octreeFormatOf(const std::filesystem::path& file) {
   const std::string ending = common::endingOf(file);
   if (ending == ".bt") return OctreeFormat::kBinary;
   if (ending == ".ot") return OctreeFormat::kLogOdds;
-  throw InputError(
-      Problem{{file.string()},
-              "",
-              Message("octree.other-ending", "the ending `{}` is not one of an octree", file.extension().string()),
-              "name it .bt or .ot"});
+  throw InputError({file.string()}, "",
+                   Message("octree.other-ending", "the ending `{}` is not one of an octree", file.extension().string()),
+                   "name it .bt or .ot");
 }
 
 std::string toOctree(const VoxelMap& map, OctreeFormat format) { return OctreeWriter(map, format).write(); }

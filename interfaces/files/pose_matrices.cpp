@@ -194,8 +194,8 @@ RecordedPoses parsePoseMatrices(std::string_view text, const std::string& name) 
 
 void requireFinitePoses(const RecordedPoses& found, const std::filesystem::path& path) {
   if (!found.poses.empty()) return;
-  throw common::InputError(common::Problem{
-      {path.string()}, "", Message("poses.none-finite", "holds no poses: not one of its matrices is finite"), ""});
+  throw common::InputError({path.string()}, "",
+                           Message("poses.none-finite", "holds no poses: not one of its matrices is finite"));
 }
 
 }  // namespace swiftlet::interfaces

@@ -12,7 +12,7 @@ namespace swiftlet::interfaces {
 /// The value; throws InputError with the reason without one.
 template <typename Made>
 Made required(tl::expected<Made, interfaces::FileError> made) {
-  if (!made) throw common::InputError(common::Problem{{}, "", made.error().message, ""});
+  if (!made) throw common::InputError({}, "", made.error().message);
   if constexpr (!std::is_void_v<Made>) return std::move(*made);
 }
 

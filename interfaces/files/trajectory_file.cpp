@@ -62,10 +62,8 @@ RecordedPoses readRecordedPoses(const fs::path& path) {
 std::vector<common::StampedPose> readPoses(const fs::path& file) {
   RecordedPoses found = readRecordedPoses(file);
   if (found.order == PoseOrder::kStamps) return std::move(found.poses);
-  throw common::InputError(common::Problem{{file.string()},
-                                           "",
-                                           Message("poses.no-stamps", "has no stamps"),
-                                           fmt::format("expected {}", toString(tumFormat()))});
+  throw common::InputError({file.string()}, "", Message("poses.no-stamps", "has no stamps"),
+                           fmt::format("expected {}", toString(tumFormat())));
 }
 
 std::vector<common::StampedPose> parseReferencePoses(std::string_view text, const std::string& name) {

@@ -29,8 +29,8 @@ ByteSource sourceOf(const std::filesystem::path& file) {
   common::requireFile(file);
   std::FILE* opened = std::fopen(file.c_str(), "rb");
   if (opened == nullptr)
-    throw common::InputError(common::Problem{
-        {file.string()}, "", Message("file.not-opened", "cannot be opened: {}", std::strerror(errno)), ""});
+    throw common::InputError({file.string()}, "",
+                             Message("file.not-opened", "cannot be opened: {}", std::strerror(errno)));
   return [held = std::shared_ptr<std::FILE>(opened, &std::fclose)](char* to, std::size_t bytes) -> BytesRead {
     const std::size_t count = std::fread(to, 1, bytes, held.get());
     if (count == 0 && std::ferror(held.get()) != 0) return tl::unexpected(std::string(std::strerror(errno)));
@@ -224,7 +224,7 @@ std::filesystem::path unpackedName(const std::filesystem::path& file) {
 std::string readUnpacked(const std::filesystem::path& file, std::size_t most_bytes) {
   constexpr std::size_t kChunk = std::size_t{1} << 20;
   const auto fail = [&](Message message, const char* hint) {
-    throw common::InputError(common::Problem{{file.string()}, "", std::move(message), hint});
+    throw common::InputError({file.string()}, "", std::move(message), hint);
   };
   UnpackedStream stream(file);
   std::string bytes;

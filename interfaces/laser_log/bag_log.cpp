@@ -83,11 +83,9 @@ class BagLog final : public CountedLog {
     // The first problem explains why there are no scans.
     std::string why;
     for (const common::Problem& problem : counts().first_problems) why += problem.message.text() + "; ";
-    return common::InputError(
-        common::Problem{{reader_.name()},
-                        "",
-                        common::Message("bag.no-scans", "has no messages of type {}", kLaserScanType),
-                        why + topics});
+    return common::InputError({reader_.name()}, "",
+                              common::Message("bag.no-scans", "has no messages of type {}", kLaserScanType),
+                              why + topics);
   }
 
   double file_bytes_;

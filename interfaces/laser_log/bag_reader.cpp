@@ -80,10 +80,8 @@ BagReader::BagReader(UnpackedStream stream, Options options)
   try {
     if (file_.bytes(kMagic.size()) == kMagic) return;
   } catch (const StreamFailure&) {}
-  throw common::InputError(common::Problem{{name()},
-                                           "",
-                                           Message("bag.other-version", "is no bag of version 2.0"),
-                                           "`rosbag migrate` brings older ones up to it"});
+  throw common::InputError({name()}, "", Message("bag.other-version", "is no bag of version 2.0"),
+                           "`rosbag migrate` brings older ones up to it");
 }
 
 BagReader::~BagReader() = default;
@@ -158,10 +156,8 @@ void BagReader::leaveChunk() {
 }
 
 common::InputError BagReader::cutAt(std::uint64_t offset, const StreamFailure& failure) const {
-  return common::InputError(common::Problem{{name()},
-                                            fmt::format("byte {}", offset),
-                                            Message("file.damaged", "is cut or damaged, its end cannot be read"),
-                                            failure.message});
+  return common::InputError({name()}, fmt::format("byte {}", offset),
+                            Message("file.damaged", "is cut or damaged, its end cannot be read"), failure.message);
 }
 
 std::string BagReader::header(StreamCursor& from) {
@@ -172,10 +168,8 @@ std::string BagReader::header(StreamCursor& from) {
 
 void BagReader::readBagHeader(const std::string& header) {
   if (const auto encryptor = find(header, "encryptor"); encryptor && !encryptor->empty())
-    throw common::InputError(common::Problem{{name()},
-                                             "",
-                                             Message("bag.encrypted", "is encrypted by {}", shown(*encryptor)),
-                                             "`rosbag decrypt` gives one that can be read"});
+    throw common::InputError({name()}, "", Message("bag.encrypted", "is encrypted by {}", shown(*encryptor)),
+                             "`rosbag decrypt` gives one that can be read");
   // A writer fills this in at its end; until then the position of the index is zero.
   const auto index = find(header, "index_pos"), chunks = find(header, "chunk_count");
   if (index && chunks && index->find_first_not_of('\0') != std::string_view::npos)

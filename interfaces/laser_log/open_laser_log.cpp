@@ -38,12 +38,11 @@ std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& file, const 
   if (format == Format::kCarmen) return openTextLog(file, carmenFormat(file, options));
   if (format == Format::kBreezy) return openTextLog(file, breezyFormat(file, options));
   if (format == Format::kBag) return openBagLog(file, options);
-  throw common::InputError(common::Problem{
-      {file.string(), 0, 0},
-      "",
-      format == Format::kEmpty ? common::Message("laser-log.empty", "is empty")
+  throw common::InputError({file.string(), 0, 0}, "",
+                           format == Format::kEmpty
+                               ? common::Message("laser-log.empty", "is empty")
                                : common::Message("laser-log.unknown-format", "not a laser log known here"),
-      "expected CARMEN text (FLASER or ROBOTLASER1 lines), BreezySLAM's .dat or a rosbag 1"});
+                           "expected CARMEN text (FLASER or ROBOTLASER1 lines), BreezySLAM's .dat or a rosbag 1");
 }
 
 }  // namespace swiftlet::interfaces

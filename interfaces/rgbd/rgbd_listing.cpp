@@ -24,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using common::InputError;
 using common::Message;
-using common::Problem;
 using common::Time;
 
 constexpr const char* kKnownFormats =
@@ -167,8 +166,7 @@ void listSevenScenes(const fs::path& folder, RgbdListing& listing) {
   std::map<std::int64_t, fs::path> colors, depths;
   std::error_code failure;
   const fs::directory_iterator entries(folder, failure);
-  if (failure)
-    throw InputError(Problem{{folder.string()}, "", Message("file.not-reached", "{}", failure.message()), ""});
+  if (failure) throw InputError({folder.string()}, "", Message("file.not-reached", "{}", failure.message()));
   for (const auto& entry : entries) {
     const std::string name = entry.path().filename().string();
     const std::optional<std::int64_t> number = frameNumber(name);
@@ -210,7 +208,7 @@ bool isThere(const fs::path& file) {
   std::error_code failure;
   const fs::file_status status = fs::status(file, failure);
   if (failure && status.type() != fs::file_type::not_found)
-    throw InputError(Problem{{file.string()}, "", Message("file.not-reached", "{}", failure.message()), ""});
+    throw InputError({file.string()}, "", Message("file.not-reached", "{}", failure.message()));
   return fs::exists(status);
 }
 
@@ -228,8 +226,7 @@ Message whyNoPair(const RgbdListing& listing, const Unpaired& unpaired) {
 
 RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibration_file) {
   if (!isThere(folder) || !fs::is_directory(folder))
-    throw InputError(
-        Problem{{folder.string()}, "", Message("folder.none", "is not a folder"), "unpack an archive first"});
+    throw InputError({folder.string()}, "", Message("folder.none", "is not a folder"), "unpack an archive first");
   RgbdListing listing;
   Unpaired unpaired;
   if (isThere(folder / "associations.txt")) {
@@ -249,13 +246,11 @@ RgbdListing listRgbdFolder(const fs::path& folder, const std::string& calibratio
     listing.calibration = sevenScenesCalibration();
     listSevenScenes(folder, listing);
     if (listing.pairs.empty() && listing.unpaired == 0)
-      throw InputError(Problem{{folder.string()},
-                               "",
-                               Message("rgbd.unknown-format", "holds no RGB-D frames of a known format"),
-                               kKnownFormats});
+      throw InputError({folder.string()}, "", Message("rgbd.unknown-format", "holds no RGB-D frames of a known format"),
+                       kKnownFormats);
   }
   if (listing.pairs.empty())
-    throw InputError(Problem{{folder.string()}, "", whyNoPair(listing, unpaired), stampStepNote(unpaired.step_s)});
+    throw InputError({folder.string()}, "", whyNoPair(listing, unpaired), stampStepNote(unpaired.step_s));
   const fs::path recorded = folder / "calibration.yaml";
   const std::string calibration = calibration_file.empty() && isThere(recorded) ? recorded.string() : calibration_file;
   if (!calibration.empty()) common::config::YamlReader::fromFile(calibration).read(listing.calibration);

@@ -51,7 +51,9 @@ tl::expected<RgbdRecorder, FileError> RgbdRecorder::create(const std::filesystem
   for (const char* name : {"rgb", "depth"}) {
     std::error_code error;
     std::filesystem::create_directories(folder / name, error);
-    if (error) return tl::make_unexpected(FileError{(folder / name).string() + ": " + error.message()});
+    if (error)
+      return tl::make_unexpected(
+          FileError{common::Message("file.not-written", "{}: {}", (folder / name).string(), error.message())});
   }
   auto colors = AppendFile::create(folder / "rgb.txt");
   if (!colors) return tl::make_unexpected(colors.error());

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "common/localization.hpp"
+#include "common/message.hpp"
 #include "common/occupancy_grid.hpp"
 #include "perception/localization/localization_input.hpp"
 #include "perception/localization/localization_task.hpp"
@@ -73,8 +74,8 @@ class Localizer {
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  /// The reason why a map cannot be used for localization; empty if it can.
-  static std::string whyUnusable(const common::OccupancyGrid& map);
+  /// The reason why a map cannot be used for localization; nullopt if it can.
+  static std::optional<common::Message> whyUnusable(const common::OccupancyGrid& map);
 
   /// Starts localized at a given pose, which later scans may refute.
   void startAt(const common::Pose2& T_map_body, const Eigen::Matrix3d& covariance);

@@ -1,7 +1,5 @@
 // The check whether a map can be used for localization.
-#include <string>
-
-#include <fmt/format.h>
+#include <optional>
 
 #include "common/occupancy_grid.hpp"
 #include "perception/localization/localizer.hpp"
@@ -9,19 +7,21 @@
 
 namespace swiftlet::perception {
 
-std::string Localizer::whyUnusable(const common::OccupancyGrid& map) {
+std::optional<common::Message> Localizer::whyUnusable(const common::OccupancyGrid& map) {
   const common::CellRect known = common::knownExtent(map);
   if (static_cast<std::int64_t>(known.width()) * known.height() > MapField::kMaxCells)
-    return fmt::format("what is known of the map spans {} x {} cells: at most {} million can be localized in",
-                       known.width(), known.height(), MapField::kMaxCells / 1'000'000);
+    return common::Message("map.too-large",
+                           "what is known of the map spans {} x {} cells: at most {} million can be localized in",
+                           known.width(), known.height(), MapField::kMaxCells / 1'000'000);
   bool walls = false, free = false;
   map.forEachCell([&](common::CellIndex, common::occupancy::Cell cell) {
     walls |= common::occupancy::isOccupied(cell);
     free |= common::occupancy::isFree(cell);
   });
-  if (!free) return "the map has no free cells: a vehicle can be nowhere in it";
-  if (!walls) return "the map has no occupied cells: there is nothing to see in it";
-  return "";
+  if (!free) return common::Message("map.no-free-cells", "the map has no free cells: a vehicle can be nowhere in it");
+  if (!walls)
+    return common::Message("map.no-occupied-cells", "the map has no occupied cells: there is nothing to see in it");
+  return std::nullopt;
 }
 
 }  // namespace swiftlet::perception

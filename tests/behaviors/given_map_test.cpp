@@ -193,8 +193,9 @@ TEST(LoadMap, IsCheckedBeforeTheFlight) {
   limits.has_map = false;
   limits.map_problem = [](const std::string& map, const std::string& mission) -> std::optional<common::Problem> {
     if (map == "good.yaml") return std::nullopt;
-    if (map == "dull.yaml") return common::Problem{{"d.pgm", 3}, "width", "is 0", "1 would fit"};
-    return common::Problem{{}, "", map + " of " + mission + " does not exist", ""};
+    if (map == "dull.yaml")
+      return common::Problem{{"d.pgm", 3}, "width", common::Message("test.zero", "is 0"), "1 would fit"};
+    return common::Problem{{}, "", common::Message("test.none", "{} of {} does not exist", map, mission), ""};
   };
   EXPECT_THAT(problemsInside(R"(<LoadMap file="bad.yaml"/><TakeOff/><Localize/><Land/>)", limits),
               ElementsAre(At("3:20 LoadMap.file", "mission.map-unusable", "bad.yaml of m.xml")));

@@ -7,16 +7,15 @@
 #include "behaviors/mission_check.hpp"
 #include "tests/behaviors/check_text.hpp"
 #include "tests/behaviors/flight.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::behaviors::testing {
 namespace {
 
-using ::testing::AllOf;
+using test_support::ProblemIs;
 using ::testing::ElementsAre;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 const std::string kMissions = std::string(SWIFTLET_SOURCE_DIR) + "/missions/";
 
@@ -61,19 +60,23 @@ TEST(OperatorGoals, TakesOffAndWaits) {
 }
 
 TEST(FromFile, ThrowsEveryProblem) {
-  try {
-    Mission::fromText(
-        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><Takeoff/><Land "
-        "now=\"1\"/></Sequence></BehaviorTree></root>",
-        "m.xml");
-    FAIL();
-  } catch (const common::InputError& error) {
-    ASSERT_EQ(error.problems().size(), 2U);
-    EXPECT_THAT(toString(error.problems()[0]),
-                AllOf(StartsWith("m.xml:1:55: Takeoff: "), EndsWith("did you mean `TakeOff`? [M/Sequence/Takeoff]")));
-    EXPECT_THAT(toString(error.problems()[1]), AllOf(StartsWith("m.xml:1:71: Land: "), EndsWith(" [M/Sequence/Land]")));
-  }
+  const std::string text =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><Takeoff/><Land "
+      "now=\"1\"/></Sequence></BehaviorTree></root>";
+  EXPECT_THAT(
+      test_support::problemsOf([&] { Mission::fromText(text, "m.xml"); }),
+      ElementsAre(ProblemIs("tree.unknown-node", "m.xml:1:55: Takeoff", "did you mean `TakeOff`? [M/Sequence/Takeoff]"),
+                  ProblemIs("tree.unknown-port", "m.xml:1:71: Land", "[M/Sequence/Land]")));
   EXPECT_THROW(Mission::fromFile("/nonexistent.xml"), common::InputError);
+}
+
+TEST(Check, AProblemOfAnotherRoomKeepsItsName) {
+  const common::Problem problem{
+      {"s.yaml", 2}, "based_on", common::Message("profile.circle", "{} is based on itself", "a"), "h"};
+  const tree::Problem shown = toTree(problem);
+  EXPECT_EQ(shown.message.name(), "profile.circle");
+  EXPECT_THAT(toCommon({shown}),
+              ElementsAre(ProblemIs("profile.circle", "s.yaml:2: based_on", "a is based on itself, h")));
 }
 
 TEST(Check, AMissionThatNeverTakesOffIsAProblem) {

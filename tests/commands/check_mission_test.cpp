@@ -43,6 +43,11 @@ TEST_F(CheckMission, ProblemsHaveThePathToo) {
                                  "to 100 [Main/Sequence/TakeOff]\n"));
 }
 
+TEST_F(CheckMission, AMissionThatIsNotThereHasItsCodeToo) {
+  const auto json = nlohmann::json::parse(runSwiftlet({"check", "--json", path("none.xml")}).out);
+  EXPECT_EQ(json["problems"][0]["code"], "file.missing");
+}
+
 TEST_F(CheckMission, ADryRunTellsWhatHappens) {
   const std::string mission = write("mission.xml", missionWith(kHop));
   const std::string script = write("hop.script", "TakeOff: RUNNING x2, SUCCESS\n");

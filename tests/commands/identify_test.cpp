@@ -46,7 +46,7 @@ TEST_F(Identify, TellsWhatAFlightIsTooShortFor) {
 }
 
 TEST_F(Identify, RefusesWhatIsNoFlightOfThatVehicle) {
-  expectRefused(runSwiftlet({"identify", path("nowhere")}), "nowhere: is no folder of a run");
+  expectRefused(runSwiftlet({"identify", path("nowhere")}), "nowhere: is not a folder");
   fs::create_directory(path("empty"));
   expectRefused(runSwiftlet({"identify", path("empty")}), "empty: is not the folder of a run");
   const std::string run = hop("run");

@@ -63,7 +63,7 @@ TEST_F(LeafLibraries, AreRefusedWithTheReason) {
     EXPECT_EQ(end.exit_code, 2) << describe(end);
     return end.err;
   };
-  EXPECT_THAT(refusal("no.so"), HasSubstr("no.so: --leaves: there is no such file"));
+  EXPECT_THAT(refusal("no.so"), HasSubstr("no.so: --leaves: no such file"));
   EXPECT_THAT(refusal(write("text.so", "leaves")), HasSubstr("text.so: --leaves: cannot be loaded: "));
   EXPECT_THAT(refusal(library("no_entry")), HasSubstr("--leaves: has no entry `swiftlet_leaves`"));
   EXPECT_THAT(refusal(library("other_release")),

@@ -119,7 +119,7 @@ TEST_F(VehicleMemoryFile, EveryFlightOfATrialStartsFromItAndNoneWritesIt) {
   EXPECT_EQ(readText(path("out/hops-002/vehicle_memory_read.yaml")), read);
   EXPECT_TRUE(fs::exists(path("out/hops-002/vehicle_memory_learned.yaml")));
   expectRefused(runSwiftlet({"trial", trial, "--vehicle-memory", path("none.yaml"), "--out", path("run")}),
-                "none\\.yaml: --vehicle-memory: there is no such file");
+                "none\\.yaml: --vehicle-memory: no such file");
 }
 
 }  // namespace

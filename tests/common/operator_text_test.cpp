@@ -30,10 +30,13 @@ TEST(OperatorText, NamesFilesWithoutTheirFolders) {
 }
 
 TEST(OperatorText, LeavesOutHintsForTheCommandLine) {
-  const Problem no_map{
-      {"/srv/missions/find.xml", 4, 2}, "Localize", "the flight has no map", "give it one: fly --map M"};
+  const Problem no_map{{"/srv/missions/find.xml", 4, 2},
+                       "Localize",
+                       Message("test.no-map", "the flight has no map"),
+                       "give it one: fly --map M"};
   EXPECT_EQ(forOperator(no_map), "find.xml:4:2: Localize: the flight has no map");
-  const Problem typed{{"find.xml", 4, 2}, "height_m", "`0.1` is out of range", "did you mean `1.0`?"};
+  const Problem typed{
+      {"find.xml", 4, 2}, "height_m", Message("test.range", "`0.1` is out of range"), "did you mean `1.0`?"};
   EXPECT_EQ(forOperator(InputError(std::vector{typed, no_map})),
             "find.xml:4:2: height_m: `0.1` is out of range, did you mean `1.0`? (and 1 more)");
 }

@@ -35,7 +35,8 @@ TEST(Printable, InvalidUtf8IsEscaped) {
 TEST(Printable, LineBreaksCanBeKept) { EXPECT_EQ(printableLines("a\n\tb\r\x1b"), "a\n\tb\\r\\x1b"); }
 
 TEST(Printable, ProblemsAndTablesArePrintable) {
-  const Problem problem{{"a\x1b.xml", 3, 4}, "Fly\x1b", "`\x1b[2J` is no\nnumber", "did you mean `\x07`?"};
+  const Problem problem{
+      {"a\x1b.xml", 3, 4}, "Fly\x1b", Message("test.number", "`\x1b[2J` is no\nnumber"), "did you mean `\x07`?"};
   EXPECT_EQ(toString(problem), "a\\x1b.xml:3:4: Fly\\x1b: `\\x1b[2J` is no\\nnumber, did you mean `\\x07`?");
   EXPECT_STREQ(InputError(problem).what(), toString(problem).c_str());
   const Table table{"\x1b", {"a"}, {{{"b\x1b"}}}};

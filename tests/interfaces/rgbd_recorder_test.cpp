@@ -8,6 +8,7 @@
 #include "common/random.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "interfaces/rgbd/rgbd_recorder.hpp"
+#include "tests/support/problem_matchers.hpp"
 #include "tests/support/scratch.hpp"
 
 namespace swiftlet::interfaces {
@@ -70,7 +71,7 @@ TEST_F(RgbdRecorders, WhereNothingCanBeWrittenItSaysWhy) {
   write("rgbd/rgb", "a file where a folder is to be");
   const auto made = RgbdRecorder::create(folder_ / "rgbd");
   ASSERT_FALSE(made);
-  EXPECT_THAT(made.error().message.text(), testing::HasSubstr("rgbd/rgb: "));
+  EXPECT_THAT(made.error().message, test_support::MessageIs("file.not-written", "rgbd/rgb: "));
 }
 
 TEST_F(RgbdRecorders, AFrameThatWasCutShortIsLeftOutAndCounted) {

@@ -365,7 +365,7 @@ TEST(RunFolder, KeepsThe3DMapAndTheCamerasTrajectory) {
   run.wroteMap3d({{}, Time::fromSeconds(0.05)});
   run.wroteMap3d({});  // Of a cloud.
   EXPECT_FALSE(run.failure());
-  run.wroteMap3d({tl::unexpected(FileError{"cloud.ply: No space left on device"})});
+  run.wroteMap3d({tl::unexpected(FileError{common::Message("test.full", "cloud.ply: No space left on device")})});
   EXPECT_EQ(run.failure(), "cloud.ply: No space left on device");
   run.finish({});
   // The octree is still the first one, and the last snapshot was at 0.15 s.

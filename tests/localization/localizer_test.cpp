@@ -4,17 +4,21 @@
 #include <limits>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
 #include "perception/localization/localizer.hpp"
 #include "tests/localization/lost_cases.hpp"
+#include "tests/support/problem_matchers.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
 using common::Pose2;
 using common::Time;
+using test_support::MessageIs;
+using ::testing::Optional;
 
 /// A robot that moves through a building with an odometry of its own.
 struct Story {
@@ -328,13 +332,12 @@ TEST(Localizer, SupportsAGridThatIsRotatedInTheMap) {
 
 TEST(Localizer, RefusesMapsWithoutFreeCellsAndMapsThatAreTooLarge) {
   common::OccupancyGrid map = common::makeOccupancyGrid(0.05);
-  EXPECT_NE(Localizer::whyUnusable(map), "");
   map.set({0, 0}, common::occupancy::kMaxSteps);
-  EXPECT_NE(Localizer::whyUnusable(map).find("no free cells"), std::string::npos);
+  EXPECT_THAT(Localizer::whyUnusable(map), Optional(MessageIs("map.no-free-cells")));
   map.set({1, 0}, -common::occupancy::kMaxSteps);
-  EXPECT_EQ(Localizer::whyUnusable(map), "");
+  EXPECT_EQ(Localizer::whyUnusable(map), std::nullopt);
   map.set({39'999, 29'999}, -common::occupancy::kMaxSteps);
-  EXPECT_NE(Localizer::whyUnusable(map).find("40000 x 30000 cells"), std::string::npos);
+  EXPECT_THAT(Localizer::whyUnusable(map), Optional(MessageIs("map.too-large", "40000 x 30000 cells")));
 }
 
 /// Scans without points, points that are not numbers, time that goes back: nothing breaks, and no pose is invented.

@@ -38,7 +38,7 @@ std::optional<Origin> originOf(const Parts& parts) {
 }
 
 [[noreturn]] void fail(const std::string& text, const Message& message, const std::string& hint) {
-  throw common::InputError(common::Problem{{}, "--public-url", message.behind(fmt::format("`{}` ", text)), hint});
+  throw common::InputError({}, "--public-url", message.behind(fmt::format("`{}` ", text)), hint);
 }
 
 void checkScheme(const std::string& text, const Parts& parts) {

@@ -33,7 +33,7 @@ using common::Message;
 constexpr std::size_t kLeastTokenLength = 8;
 
 [[noreturn]] void fail(const char* element, Message message, const char* hint) {
-  throw common::InputError(common::Problem{{}, element, std::move(message), hint});
+  throw common::InputError({}, element, std::move(message), hint);
 }
 
 void checkOptions(const WebServer::Options& options) {

@@ -60,11 +60,10 @@ struct GrootServer::Socket {
 GrootServer::GrootServer(const std::string& address, int port) : socket_(std::make_unique<Socket>()) {
   const std::string endpoint = "tcp://" + address + ":" + (port == 0 ? "*" : std::to_string(port));
   if (zmq_bind(socket_->socket, endpoint.c_str()) != 0)
-    throw common::InputError(common::Problem{
-        {},
-        "--groot",
+    throw common::InputError(
+        {}, "--groot",
         common::Message("server.cannot-listen", "cannot listen on {}: {}", endpoint, zmq_strerror(zmq_errno())),
-        "choose another port above 1023; 0 picks a free one"});
+        "choose another port above 1023; 0 picks a free one");
   socket_->set(ZMQ_SNDTIMEO, 1000);
 }
 
@@ -93,10 +92,8 @@ bool hasGrootServer() { return false; }
 struct GrootServer::Socket {};
 
 GrootServer::GrootServer(const std::string&, int) {
-  throw common::InputError(common::Problem{{},
-                                           "--groot",
-                                           common::Message("groot.no-zeromq", "this build has no ZeroMQ"),
-                                           "install libzmq3-dev and build again"});
+  throw common::InputError({}, "--groot", common::Message("groot.no-zeromq", "this build has no ZeroMQ"),
+                           "install libzmq3-dev and build again");
 }
 
 GrootServer::~GrootServer() = default;
