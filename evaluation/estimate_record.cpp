@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
 namespace swiftlet::evaluation {
 namespace {
 
@@ -13,6 +16,13 @@ using common::Pose3;
 constexpr Duration kHistory = Duration::fromMilliseconds(1000);
 /// 20 Hz: at 1 m/s a pose every 5 cm.
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(50);
+
+/// nullopt where the covariance is none, as before a filter has started.
+std::optional<double> mahalanobisDistance(const Eigen::Vector2d& error_m, const Eigen::Matrix3d& covariance_m2) {
+  const Eigen::LLT<Eigen::Matrix2d> factor(covariance_m2.topLeftCorner<2, 2>());
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return std::sqrt(error_m.dot(factor.solve(error_m)));
+}
 
 }  // namespace
 
@@ -41,7 +51,11 @@ void EstimateRecord::compare(const common::VehicleState& estimate, const Pose3& 
   const Pose3 T_start_truth = T_world_start_.inverse() * T_world_body;
   const Eigen::Vector3d error_m = T_map_body.position_m - T_map_truth.position_m;
   horizontal_errors_m.push_back(error_m.head<2>().norm());
-  horizontal_errors_raw_m.push_back((T_map_body.position_m - T_start_truth.position_m).head<2>().norm());
+  const Eigen::Vector2d error_raw_m = (T_map_body.position_m - T_start_truth.position_m).head<2>();
+  horizontal_errors_raw_m.push_back(error_raw_m.norm());
+  const Eigen::Vector2d error_odom_m = Eigen::Rotation2Dd(-estimate.T_map_odom.yaw_rad) * error_raw_m;
+  if (const auto distance = mahalanobisDistance(error_odom_m, estimate.position_covariance_m2))
+    mahalanobis_distances.push_back(*distance);
   spatial_errors_m.push_back(error_m.norm());
   if (estimate.vertical_valid) greatest_height_error_m = std::max(greatest_height_error_m, std::abs(error_m.z()));
   yaw_errors_rad.push_back(

@@ -41,7 +41,10 @@ class EstimateRecord {
   std::vector<double> horizontal_errors_m, spatial_errors_m, yaw_errors_rad;
   double greatest_height_error_m = 0.0;         ///< While the height was said to be known.
   std::vector<double> horizontal_errors_raw_m;  ///< In FlightRecord::T_world_start.
-  common::Trajectory truth_map;                 ///< In the `map` frame, at 20 Hz, for pictures.
+  /// Mahalanobis distance of that error, by the covariance of the estimate: with two degrees of freedom, the mean of
+  /// its square is 2 if the covariance is right. An unknown mount of the laser is part of both.
+  std::vector<double> mahalanobis_distances;
+  common::Trajectory truth_map;  ///< In the `map` frame, at 20 Hz, for pictures.
 
  private:
   void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);

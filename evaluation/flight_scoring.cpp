@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/quantile.hpp"
+#include "common/square.hpp"
 #include "evaluation/figure_measures.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
@@ -143,6 +144,14 @@ void measureEstimate(const EstimateRecord& record, FlightScore& score) {
   score["estimate_spatial_rms_m"] = rmsOf(record.spatial_errors_m);
   if (!record.spatial_errors_m.empty()) score["height_error_m"] = record.greatest_height_error_m;
   score["estimate_yaw_rms_rad"] = rmsOf(record.yaw_errors_rad);
+  if (record.mahalanobis_distances.empty()) return;
+  // Exceeded by one in 450 where two degrees of freedom are Gaussian.
+  constexpr double kOutside = 3.5;
+  const auto outside = std::count_if(record.mahalanobis_distances.begin(), record.mahalanobis_distances.end(),
+                                     [](double distance) { return distance > kOutside; });
+  score["position_outside_share"] =
+      static_cast<double>(outside) / static_cast<double>(record.mahalanobis_distances.size());
+  score["position_mahalanobis_mean_square"] = common::square(*rmsOf(record.mahalanobis_distances));
 }
 
 void measureCourse(const FlightRecord& record, double wall_time_s, FlightScore& score) {

@@ -29,8 +29,9 @@ double DriftMonitor::add(const PositionFix& fix) {
   } else if (!fixed) {
     drift_m2_ = reference_drift_m2_ + grownSince(fix);
   }
-  if (fixed || fix.new_reference) covariance_m2_ = fix.covariance_odom_m2;
-  if (fix.new_reference) reference_drift_m2_ = drift_m2_;
+  const bool gathers = fix.new_reference && !fix.turns;
+  if (fixed || gathers) covariance_m2_ = fix.covariance_odom_m2;
+  if (gathers) reference_drift_m2_ = drift_m2_;
   while (static_cast<int>(key_drift_m2_.size()) <= fix.newest_key) key_drift_m2_.push_back(drift_m2_);
   return greatestSigma_m(drift_m2_);
 }

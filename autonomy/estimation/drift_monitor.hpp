@@ -21,13 +21,17 @@ struct PositionFix {
   common::Time stamp;
   Eigen::Matrix2d covariance_odom_m2;  ///< The filter's, of the horizontal position, after the scan.
   bool matched = false;
-  /// Unit vector along which a match does not fix the position; nullopt if it fixes every direction.
+  /// Unit vector along which the motion that a match does not show moves the position; nullopt if it fixes every
+  /// direction.
   std::optional<Eigen::Vector2d> unobservable_direction_odom;
   /// Later scans are matched to this one, so its error is theirs.
   bool new_reference = false;
   /// The key scan of the map to which the pose is relative, and the one of an earlier pass, if the scan was matched to
   /// that pass alone in every direction; -1: none. Key scans count up from 0.
   int newest_key = -1, known_key = -1;
+  /// What the match does not show is mostly a turn about some point. It moves the position by as much as the vehicle is
+  /// away from that point, so that what was gathered on the way out goes on the way back.
+  bool turns = false;
 };
 
 /// One thread. The ordinary error of matches that fix every direction, about a centimetre for each metre, is left out.

@@ -61,32 +61,37 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan, kMatchFloor_m, kMatchFloor_deg);
   step.measurement = perception::measuredRelativePose(track_.clone, relative->to, T_clone_body,
                                                       common::turned(covariance, track_.T_clone_reference.yaw_rad));
-  if (relative->unobservable_direction)
-    step.measurement->unobservable_direction =
-        unobservableDirection(Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unobservable_direction);
+  if (relative->unobservable_motion)
+    step.measurement->unobservable_motion =
+        unobservableMotion(common::turned(*relative->unobservable_motion, T_clone_body.yaw_rad), T_clone_body);
   if (!relative->reference_changed) return step;
 
   track_.T_clone_reference = T_clone_body;
-  if (relative->unobservable_direction) {
-    track_ = {relative->to, {}, Eigen::Rotation2Dd(-T_clone_body.yaw_rad) * *step.measurement->unobservable_direction};
+  if (relative->unobservable_motion) {
+    track_ = {relative->to, {}, common::turned(*step.measurement->unobservable_motion, -T_clone_body.yaw_rad)};
     step.clone_after = relative->to;
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
   const Eigen::Matrix3d covariance_to = common::turned(relative->covariance, -relative->T_from_to.yaw_rad);
-  step.covariance = common::withoutVarianceAlong(relative->unobservable_direction, covariance_to) +
+  step.covariance = common::withoutVarianceAlong(relative->unobservable_motion, covariance_to) +
                     tiltCovariance(scan, kDriftFloor_m, kDriftFloor_deg);
   return step;
 }
 
-/// The walls along which a vehicle flies do not turn, but each scan measures their direction a little differently. If
-/// the filter took each of these as exact, two of them would fix the position along the walls, which neither has seen.
-Eigen::Vector2d LaserPipeline::unobservableDirection(const Eigen::Vector2d& measured_clone) {
+/// The walls along which a vehicle flies stand still, but each scan measures the motion that they do not show a little
+/// differently. If the filter took each of these as exact, two of them would fix the position along the walls, which
+/// neither has seen.
+common::UnobservableMotion LaserPipeline::unobservableMotion(const common::UnobservableMotion& measured_clone,
+                                                             const Pose2& T_clone_body) {
   constexpr double kSameWalls_rad =
       5.0 * common::kRadPerDeg;  // Above the noise of a direction, below the least bend of a corridor.
-  const auto& last_clone = track_.unobservable_direction_clone;
-  if (!last_clone || std::abs(last_clone->dot(measured_clone)) < std::cos(kSameWalls_rad))
-    track_.unobservable_direction_clone = measured_clone;
-  return *track_.unobservable_direction_clone;
+  const Eigen::Vector2d from_clone_m = T_clone_body.position_m();
+  if (track_.unobservable_clone) {
+    const common::UnobservableMotion last_clone = common::movedBy(*track_.unobservable_clone, from_clone_m);
+    if (common::likeness(last_clone, measured_clone) >= std::cos(kSameWalls_rad)) return last_clone;
+  }
+  track_.unobservable_clone = common::movedBy(measured_clone, -from_clone_m);
+  return measured_clone;
 }
 
 /// Starts a local map with this scan. After an interruption the motion since the last match is unknown, so its

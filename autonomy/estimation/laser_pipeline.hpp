@@ -59,7 +59,8 @@ class LaserPipeline {
   common::Time clone() const { return track_.clone; }
 
  private:
-  Eigen::Vector2d unobservableDirection(const Eigen::Vector2d& measured_clone);
+  common::UnobservableMotion unobservableMotion(const common::UnobservableMotion& measured_clone,
+                                                const common::Pose2& T_clone_body);
   OdometryStep restart(const perception::RelativePose& relative, bool interrupted);
   Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan, double floor_m, double floor_deg) const;
 
@@ -73,8 +74,8 @@ class LaserPipeline {
   struct Track {
     common::Time clone;
     common::Pose2 T_clone_reference;
-    /// The unit vector along which a scan last did not fix the position, in the clone's level frame.
-    std::optional<Eigen::Vector2d> unobservable_direction_clone;
+    /// What the walls last did not show of the motion, as the change of a body at the clone, along its axes.
+    std::optional<common::UnobservableMotion> unobservable_clone;
   } track_;
 };
 

@@ -29,6 +29,7 @@ class PositionUncertainty {
 
  private:
   Eigen::Matrix2d horizontal_m2() const { return filter_.state().position_covariance_m2.topLeftCorner<2, 2>(); }
+  Eigen::Matrix3d planar() const;
 
   const perception::ErrorStateFilter& filter_;
   StepUncertainty step_;

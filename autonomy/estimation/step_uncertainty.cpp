@@ -6,29 +6,30 @@
 
 namespace swiftlet::autonomy {
 
-std::optional<Eigen::Vector2d> unobservableDirection(const OdometryStep& step, const common::Pose2& T_odom_body) {
-  if (!step.measurement || !step.measurement->unobservable_direction) return std::nullopt;
-  const double yaw_rad = T_odom_body.yaw_rad - step.measurement->pose.yaw_rad;
-  return Eigen::Rotation2Dd(yaw_rad) * *step.measurement->unobservable_direction;
+std::optional<common::UnobservableMotion> unobservableMotion(const OdometryStep& step,
+                                                             const common::Pose2& T_odom_body) {
+  if (!step.measurement || !step.measurement->unobservable_motion) return std::nullopt;
+  return common::turned(*step.measurement->unobservable_motion, T_odom_body.yaw_rad - step.measurement->pose.yaw_rad);
 }
 
 Eigen::Matrix3d StepUncertainty::add(const OdometryStep& step, const common::Pose2& T_odom_body,
-                                     const Eigen::Matrix2d& covariance_odom_m2) {
-  Eigen::Matrix3d unobserved = Eigen::Matrix3d::Zero();
-  unobserved.topLeftCorner<2, 2>() = unobserved_m2(covariance_odom_m2, unobservableDirection(step, T_odom_body));
-  return step.covariance + common::turned(unobserved, -T_odom_body.yaw_rad);
+                                     const Eigen::Matrix3d& covariance_odom) {
+  return step.covariance +
+         common::turned(unobserved(covariance_odom, unobservableMotion(step, T_odom_body)), -T_odom_body.yaw_rad);
 }
 
-/// By how much the filter's covariance has changed along the direction of this scan, or along that of the scans before,
-/// which this scan has corrected.
-Eigen::Matrix2d StepUncertainty::unobserved_m2(const Eigen::Matrix2d& covariance_odom_m2,
-                                               const std::optional<Eigen::Vector2d>& direction_odom) {
-  const std::optional<Eigen::Vector2d> along = direction_odom ? direction_odom : direction_odom_;
-  const Eigen::Matrix2d change_m2 = covariance_odom_m2 - covariance_odom_m2_;
-  covariance_odom_m2_ = covariance_odom_m2;
-  direction_odom_ = direction_odom;
-  if (!along) return Eigen::Matrix2d::Zero();
-  return std::abs(along->dot(change_m2 * *along)) * *along * along->transpose();
+/// By how much the filter's covariance has changed along what this scan does not show, or along what the scan before
+/// did not show, which this one has corrected.
+Eigen::Matrix3d StepUncertainty::unobserved(const Eigen::Matrix3d& covariance_odom,
+                                            const std::optional<common::UnobservableMotion>& motion_odom) {
+  const std::optional<common::UnobservableMotion> along = motion_odom ? motion_odom : unobservable_odom_;
+  const Eigen::Matrix3d change = covariance_odom - covariance_odom_;
+  covariance_odom_ = covariance_odom;
+  unobservable_odom_ = motion_odom;
+  if (!along) return Eigen::Matrix3d::Zero();
+  const Eigen::RowVector3d share = common::shareAlong(*along);
+  const double variance = std::abs((share * change * share.transpose()).value());
+  return variance * along->change * along->change.transpose();
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,4 +1,4 @@
-// How uncertain the motion between two scans is, also along a direction that they do not fix.
+// How uncertain the motion between two scans is, also along a motion that they do not show.
 //
 // Along a bare wall the filter moves by inertia. Its variance there grows by as much as the motion is uncertain; once a
 // scan fixes the position again it shrinks by the variance of the correction, which for the map is a motion too. A map
@@ -11,26 +11,28 @@
 
 #include "autonomy/estimation/odometry_step.hpp"
 #include "common/geometry.hpp"
+#include "common/unobservable_motion.hpp"
 
 namespace swiftlet::autonomy {
 
-/// Unit vector in odom along which the step did not fix the position; none if it fixed every direction.
-std::optional<Eigen::Vector2d> unobservableDirection(const OdometryStep& step, const common::Pose2& T_odom_body);
+/// The motion that the step did not show, along the axes of odom; none if it showed all.
+std::optional<common::UnobservableMotion> unobservableMotion(const OdometryStep& step,
+                                                             const common::Pose2& T_odom_body);
 
 /// One thread.
 class StepUncertainty {
  public:
-  /// For each scan that matched. `covariance_odom_m2`: the filter's, of the horizontal position, after the scan.
+  /// For each scan that matched. `covariance_odom`: the filter's, of (x_m, y_m, yaw_rad), after the scan.
   /// Returns the covariance of the motion since the last call, (x_m, y_m, yaw_rad) with the axes of the body.
   Eigen::Matrix3d add(const OdometryStep& step, const common::Pose2& T_odom_body,
-                      const Eigen::Matrix2d& covariance_odom_m2);
+                      const Eigen::Matrix3d& covariance_odom);
 
  private:
-  Eigen::Matrix2d unobserved_m2(const Eigen::Matrix2d& covariance_odom_m2,
-                                const std::optional<Eigen::Vector2d>& direction_odom);
+  Eigen::Matrix3d unobserved(const Eigen::Matrix3d& covariance_odom,
+                             const std::optional<common::UnobservableMotion>& motion_odom);
 
-  Eigen::Matrix2d covariance_odom_m2_ = Eigen::Matrix2d::Zero();  ///< The filter's, after the last scan.
-  std::optional<Eigen::Vector2d> direction_odom_;                 ///< Unobservable in the last scan.
+  Eigen::Matrix3d covariance_odom_ = Eigen::Matrix3d::Zero();    ///< The filter's, after the last scan.
+  std::optional<common::UnobservableMotion> unobservable_odom_;  ///< In the last scan.
 };
 
 }  // namespace swiftlet::autonomy

@@ -13,17 +13,16 @@ Progress PathManeuver::step(const ManeuverInput& input) {
   if (setup_.controller.state() != common::FlightState::kFlying) return cannot(purpose_, setup_.controller);
   watch(input);
   if (setup_.retreat.active()) return Progress::running();
+  // Nothing is reached, and nothing is out of reach, from a place that is not known.
+  if (!input.state.horizontal_valid) return Progress::running("the position is not known");
   Progress progress = fly(input);
   if (progress.state == common::IntentState::kFailed) progress.reason = doubt(input.drift_m) + progress.reason;
   return progress;
 }
 
-/// An error of the position as large as the room that the vehicle needs can close a door in the map, so the planner's
-/// reason would blame the goal.
-std::string PathManeuver::doubt(double drift_m) const {
-  const auto cost_map = setup_.desk.costMap();
-  if (!cost_map || drift_m < cost_map->footprint().radius_m()) return {};
-  return fmt::format("the position is uncertain by {:.1f} m: ", drift_m);
+/// An error of the position can close a door in the map, so the planner's reason would blame the goal.
+std::string PathManeuver::doubt(double drift_m) {
+  return drift_m <= kKnown_m ? std::string() : fmt::format("the position is uncertain by {:.1f} m: ", drift_m);
 }
 
 }  // namespace swiftlet::autonomy

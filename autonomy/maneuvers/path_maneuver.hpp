@@ -22,8 +22,11 @@ class PathManeuver : public Maneuver {
   virtual void watch(const ManeuverInput&) {}
   /// A step in flight without a retreat.
   virtual Progress fly(const ManeuverInput& input) = 0;
+  /// Up to this standard deviation the position counts as known: 95 % of such places are within 0.5 m of where they
+  /// are believed to be, which is about the radius of a hull with its clearance.
+  static constexpr double kKnown_m = 0.25;
   /// Names an uncertain position as the cause before the reason of a failure; empty if the position is known.
-  std::string doubt(double drift_m) const;
+  static std::string doubt(double drift_m);
 
   ManeuverSetup setup_;
   PathFlight flight_;

@@ -23,6 +23,8 @@ namespace {
 constexpr double kDragSigma_1_s = 0.2;
 /// Standard deviation of each component of the wind at the start.
 constexpr double kWindSigma_m_s = 0.3;
+/// Standard deviation of the drift of the AHRS's yaw, without a compass: indoors magnetic fields turn one.
+constexpr double kAhrsDriftSigma_deg_s = 0.05;
 /// Standard deviation up to which the velocity may be used for control. A corridor's axis is measured by the airframe's
 /// drag alone, which leaves half a metre per second in gusts (docs/decisions/fusion.md#018); with less the vehicle
 /// would come down in every corridor without features.
@@ -49,6 +51,8 @@ FilterState stateAtRest(const ErrorStateFilter::Config& config, const RestEstima
   diagonal.segment<3>(kGyroscopeBias).setConstant(square(rest.gyroscope_mean_sigma_rad_s) + 1e-8);
   diagonal(kDrag) = square(kDragSigma_1_s);
   diagonal.segment<2>(kWind).setConstant(square(kWindSigma_m_s));
+  diagonal(kAhrsOffset) = square(kUnknownYaw_rad);
+  diagonal(kAhrsDrift) = square(kAhrsDriftSigma_deg_s * common::kRadPerDeg);
   update(state, gravity(state, rest.specific_force_body_m_s2, config.gravity_m_s2,
                         square(rest.accelerometer_mean_sigma_m_s2) + 1e-6));
   return state;

@@ -21,10 +21,14 @@ inline constexpr int kAccelerometerBias = 9;
 inline constexpr int kGyroscopeBias = 12;
 inline constexpr int kDrag = 15;
 inline constexpr int kWind = 16;
-inline constexpr int kCore = 18;
+inline constexpr int kAhrsOffset = 18;  ///< The yaw of the AHRS less that in odom.
+inline constexpr int kAhrsDrift = 19;   ///< The rate at which that offset grows.
+inline constexpr int kCore = 20;
 inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
 inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
+/// Standard deviation of a yaw that may be any.
+inline constexpr double kUnknownYaw_rad = 1.8;
 /// What is not known of the laser: yaw, x and y of its mount in the body, and its clock.
 inline constexpr int kLaserSize = 4;
 
@@ -70,6 +74,8 @@ struct FilterState {
   Eigen::Vector3d gyroscope_bias_rad_s = Eigen::Vector3d::Zero();
   double drag_1_s = 0.0;  ///< Deceleration per airspeed, along the body's x and y.
   Eigen::Vector2d wind_odom_m_s = Eigen::Vector2d::Zero();
+  double ahrs_offset_rad = 0.0;
+  double ahrs_drift_rad_s = 0.0;
 
   DragStretch drag_stretch;
   std::array<ClonedPose, kMaxClones> clones;

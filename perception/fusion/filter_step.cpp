@@ -21,6 +21,8 @@ constexpr double kPredictedTiltSigma_deg = 5.0;
 constexpr double kDragWalk_1_s_rts = 0.002;
 /// Random walk of each component of the wind.
 constexpr double kWindWalk_m_s_rts = 0.001;
+/// Noise of a yaw of the AHRS, and the random walk of its error beside the drift (docs/decisions/fusion.md).
+constexpr double kAhrsYawSigma_deg = 0.2, kAhrsYawWalk_deg_rts = 0.05;
 /// Standard deviation of the specific force from gravity, by the vehicle's own acceleration.
 constexpr double kGravitySigma_m_s2 = 1.0;
 /// A specific force whose size differs from gravity by more is not taken for it (docs/decisions/fusion.md#075).
@@ -67,15 +69,13 @@ void widenHeight(FilterState& state, const Eigen::Matrix<double, 1, 1>& residual
   diagonal(kVelocity + 2) += jump2 / square(recovery_s);
 }
 
-/// The last row of the residual is the heading, those before it are the position or its part in one direction.
-template <int K>
-void widenPlanarPose(FilterState& state, const Eigen::Matrix<double, K, 1>& residual, double recovery_s,
-                     double gravity_m_s2) {
-  const double jump2 = residual.template head<K - 1>().squaredNorm();
+/// `off` is by how much the pose (x_m, y_m, yaw_rad) disagrees.
+void widenPlanarPose(FilterState& state, const Eigen::Vector3d& off, double recovery_s, double gravity_m_s2) {
+  const double jump2 = off.head<2>().squaredNorm();
   auto diagonal = state.covariance.diagonal();
   diagonal.segment<2>(kPosition).array() += jump2;
   diagonal.segment<2>(kVelocity).array() += jump2 / square(recovery_s);
-  diagonal(kAttitude + 2) += square(residual(K - 1));
+  diagonal(kAttitude + 2) += square(off.z());
   // The usual cause of a wrong velocity is a wrong roll or pitch.
   diagonal.segment<2>(kAttitude).array() += jump2 / square(square(recovery_s) * gravity_m_s2);
 }
@@ -115,6 +115,7 @@ FilterStep::FilterStep(const FusionConfig& config)
              config.gyroscope_bias_walk_rad_s2_rthz,
              kDragWalk_1_s_rts,
              kWindWalk_m_s_rts,
+             kAhrsYawWalk_deg_rts * kRadPerDeg,
              config.gravity_m_s2} {}
 
 void FilterStep::advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const {
@@ -186,23 +187,26 @@ void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) 
                 widenSpatialPose, alone);
     return;
   }
-  const auto widen = [this](FilterState& s, const auto& residual, double recovery_s) {
-    widenPlanarPose(s, residual, recovery_s, config_.gravity_m_s2);
-  };
-  if (m.unobservable_direction)
-    gatedUpdate(state, state.relative_gate,
-                relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_direction), kPoseRecovery_s,
-                widen);
-  else
-    gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), kPoseRecovery_s, widen);
+  if (!m.unobservable_motion)
+    return gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), kPoseRecovery_s,
+                       [this](FilterState& s, const Eigen::Vector3d& off, double recovery_s) {
+                         widenPlanarPose(s, off, recovery_s, config_.gravity_m_s2);
+                       });
+  gatedUpdate(
+      state, state.relative_gate, relativePoseAcross(state, clone, m.pose, m.covariance, *m.unobservable_motion),
+      kPoseRecovery_s, [&](FilterState& s, const Eigen::Vector2d& across_m, double recovery_s) {
+        widenPlanarPose(s, common::changeAcross(*m.unobservable_motion, across_m), recovery_s, config_.gravity_m_s2);
+      });
 }
 
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {
   if (!s.attitude_due) return;
-  if (s.predicted)
+  if (s.predicted) {
     update(state, upDirection(state, s.up_body, square(kPredictedTiltSigma_deg * kRadPerDeg)));
-  else if (config_.use_ahrs)
+  } else if (config_.use_ahrs) {
     updateByAhrs(state, s.up_body);
+    updateByAhrsYaw(state, s.ahrs_yaw_rad);
+  }
   if (config_.use_gravity && !s.predicted)
     updateByGravity(state, s);
   else if (usesDrag())
@@ -228,6 +232,19 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
     // N samples whose error has the correlation time tau contain as much information as samples of white noise of this
     // variance (integral of the autocorrelation).
     m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;
+  }
+  update(state, m);
+}
+
+/// An AHRS keeps its heading far longer than gyroscopes whose bias walks, but for a slow drift, which the laser shows
+/// where it sees the heading. A yaw that jumps has a new offset.
+void FilterStep::updateByAhrsYaw(FilterState& state, double yaw_rad) const {
+  const Linearized<1> m = ahrsYaw(state, yaw_rad, square(kAhrsYawSigma_deg * kRadPerDeg));
+  if (mahalanobis2(state, m) > square(kGateSigma)) {
+    state.covariance.row(kAhrsOffset).setZero();
+    state.covariance.col(kAhrsOffset).setZero();
+    state.by_laser.row(kAhrsOffset).setZero();
+    state.covariance(kAhrsOffset, kAhrsOffset) = square(kUnknownYaw_rad);
   }
   update(state, m);
 }

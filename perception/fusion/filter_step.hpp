@@ -18,6 +18,7 @@ namespace swiftlet::perception::fusion {
 struct Slot {
   ImuValue imu;
   Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();  ///< From the AHRS.
+  double ahrs_yaw_rad = 0.0;
   bool attitude_due = false;
   bool at_rest = false;
   bool predicted = false;  ///< From the commands, not measured.
@@ -44,6 +45,7 @@ class FilterStep {
   void apply(FilterState& state, const Measurement& measurement) const;
   void applySlot(FilterState& state, const Slot& slot) const;
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
+  void updateByAhrsYaw(FilterState& state, double yaw_rad) const;
   void accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const;
   void updateByGravity(FilterState& state, const Slot& s) const;
   /// Whether the specific force is taken for drag: not where it is taken for gravity.

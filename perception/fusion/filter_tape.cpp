@@ -32,11 +32,12 @@ struct Tell {
 };
 
 std::string lineOfPose(const Measurement& m) {
-  const Eigen::Vector2d unobservable = m.unobservable_direction.value_or(Eigen::Vector2d::Zero());
+  const Eigen::Vector3d along = m.unobservable_motion ? m.unobservable_motion->change : Eigen::Vector3d::Zero();
+  const double lever_m = m.unobservable_motion ? m.unobservable_motion->lever_m : 0.0;
   const Eigen::Matrix3d& c = m.covariance;
-  return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {}\n", m.from.nanoseconds(), m.stamp.nanoseconds(),
-                     m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2),
-                     m.unobservable_direction.has_value(), unobservable.x(), unobservable.y());
+  return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {} {} {}\n", m.from.nanoseconds(),
+                     m.stamp.nanoseconds(), m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
+                     c(1, 2), c(2, 2), m.unobservable_motion.has_value(), along.x(), along.y(), along.z(), lever_m);
 }
 
 std::string lineOfVertical(const Measurement& m) {
@@ -146,9 +147,10 @@ Measurement poseOf(Numbers& n) {
   T_from_to.yaw_rad = n.number();
   const Eigen::Matrix3d covariance = covarianceOf(n);
   const bool unobservable = n.number() != 0.0;
-  const double x = n.number(), y = n.number();
-  return measuredRelativePose(from, to, T_from_to, covariance,
-                              unobservable ? std::optional(Eigen::Vector2d(x, y)) : std::nullopt);
+  common::UnobservableMotion motion;
+  for (int i = 0; i < 3; ++i) motion.change(i) = n.number();
+  motion.lever_m = n.number();
+  return measuredRelativePose(from, to, T_from_to, covariance, unobservable ? std::optional(motion) : std::nullopt);
 }
 
 Measurement pose3Of(Numbers& n) {

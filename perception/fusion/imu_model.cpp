@@ -37,6 +37,7 @@ void applyToRows(const Blocks& f, Rows&& x) {
     velocity.col(column) += push + f.velocity_gyroscope * gyro;
     attitude.col(column) += f.velocity_accelerometer * gyro;
   }
+  x.row(kAhrsOffset) += f.dt_s * x.row(kAhrsDrift);
 }
 
 struct Midpoint {
@@ -76,6 +77,7 @@ void addNoise(FilterState& state, double dt_s, const ImuNoise& noise) {
   diagonal.segment<3>(kGyroscopeBias).array() += square(noise.gyroscope_walk_rad_s2_rthz) * dt_s;
   diagonal(kDrag) += square(noise.drag_walk_1_s_rts) * dt_s;
   diagonal.segment<2>(kWind).array() += square(noise.wind_walk_m_s_rts) * dt_s;
+  diagonal(kAhrsOffset) += square(noise.ahrs_yaw_walk_rad_rts) * dt_s;
 }
 
 }  // namespace
@@ -94,6 +96,7 @@ void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, c
   state.velocity_odom_m_s += m.dt_s * acceleration;
   state.rotation_odom_body =
       (state.rotation_odom_body * common::expSO3(m.dt_s * m.angular_velocity_body_rad_s)).normalized();
+  state.ahrs_offset_rad = common::wrapAngle(state.ahrs_offset_rad + m.dt_s * state.ahrs_drift_rad_s);
   state.yaw_rate_odom_rad_s = (m.rotation_odom_body * m.angular_velocity_body_rad_s).z();
   state.stamp = end.stamp;
 }

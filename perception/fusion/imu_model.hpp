@@ -20,8 +20,9 @@ struct ImuNoise {
   double gyroscope_rad_s_rthz = 0.0;
   double accelerometer_walk_m_s3_rthz = 0.0;
   double gyroscope_walk_rad_s2_rthz = 0.0;
-  double drag_walk_1_s_rts = 0.0;  ///< Random walk of the drag.
-  double wind_walk_m_s_rts = 0.0;  ///< Random walk of the wind.
+  double drag_walk_1_s_rts = 0.0;      ///< Random walk of the drag.
+  double wind_walk_m_s_rts = 0.0;      ///< Random walk of the wind.
+  double ahrs_yaw_walk_rad_rts = 0.0;  ///< Random walk of the AHRS's yaw, beside its drift.
   double gravity_m_s2 = common::kGravity_m_s2;
 };
 

@@ -26,22 +26,17 @@ bool isCovariance(const Eigen::Matrix<double, 6, 6>& m) {
   return m.allFinite() && m.isApprox(m.transpose(), 1e-6) && m.llt().info() == Eigen::Success;
 }
 
-bool isDirection(const Eigen::Vector2d& vector) {
-  constexpr double kUnitTolerance = 1e-3;  // NaN fails the comparison.
-  return std::abs(vector.norm() - 1.0) < kUnitTolerance;
-}
-
 }  // namespace
 
 Measurement poseClone(Time time) { return measurementOf(MeasurementKind::kClone, time); }
 
 Measurement measuredRelativePose(Time from, Time to, const common::Pose2& T_from_to, const Eigen::Matrix3d& covariance,
-                                 const std::optional<Eigen::Vector2d>& unobservable_direction) {
+                                 const std::optional<common::UnobservableMotion>& unobservable_motion) {
   Measurement m = measurementOf(MeasurementKind::kRelativePose, to);
   m.from = from;
   m.pose = T_from_to;
   m.covariance = covariance;
-  m.unobservable_direction = unobservable_direction;
+  m.unobservable_motion = unobservable_motion;
   return m;
 }
 
@@ -85,7 +80,7 @@ bool isValid(const Measurement& m) {
       return m.vertical.allFinite() && isCovariance(m.covariance);
     case MeasurementKind::kRelativePose:
       return isFinite(m.pose) && m.stamp > m.from && isCovariance(m.covariance) &&
-             (!m.unobservable_direction || isDirection(*m.unobservable_direction));
+             (!m.unobservable_motion || isValid(*m.unobservable_motion));
     case MeasurementKind::kRelativePose3:
       return isFinite(m.pose3) && m.stamp > m.from && isCovariance(m.covariance6);
     case MeasurementKind::kAbsolutePose:

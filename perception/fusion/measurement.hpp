@@ -8,6 +8,7 @@
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
+#include "common/unobservable_motion.hpp"
 #include "perception/fusion/fusion_types.hpp"
 
 namespace swiftlet::perception {
@@ -18,10 +19,11 @@ enum class MeasurementKind : std::uint8_t { kHeight, kVertical, kRelativePose, k
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;                                      ///< Of a relative pose: time of the cloned reference.
-  common::Pose2 pose;                                     ///< kRelativePose, kAbsolutePose.
-  std::optional<Eigen::Vector2d> unobservable_direction;  ///< kRelativePose: in the level frame at `from`.
-  double value = 0;                                       ///< kHeight: m.
+  common::Time from;   ///< Of a relative pose: time of the cloned reference.
+  common::Pose2 pose;  ///< kRelativePose, kAbsolutePose.
+  /// kRelativePose: change of the pose, along the axes of the level frame at `from`.
+  std::optional<common::UnobservableMotion> unobservable_motion;
+  double value = 0;  ///< kHeight: m.
   double common_variance_m2 = 0.0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();                           ///< kHeight: only (0, 0).
   Eigen::Vector3d vertical = Eigen::Vector3d::Zero();                             ///< kVertical: m, m/s, m/s^2.
@@ -33,12 +35,12 @@ struct Measurement {
 /// that, the least recently used one is dropped.
 Measurement poseClone(common::Time time);
 /// T_from_to in the level frame of the body at `from`, which must be cloned, with the covariance of (x, y, yaw). Along
-/// `unobservable_direction`, a unit vector in the frame at `from`, nothing was measured and nothing is used, whatever
-/// the pose and covariance say. Otherwise a guess repeated with each scan, however uncertain, would soon count as
+/// `unobservable_motion`, with the axes of the frame at `from`, nothing was measured and nothing is used, whatever the
+/// pose and covariance say. Otherwise a guess repeated with each scan, however uncertain, would soon count as
 /// certain.
 Measurement measuredRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
                                  const Eigen::Matrix3d& covariance,
-                                 const std::optional<Eigen::Vector2d>& unobservable_direction = std::nullopt);
+                                 const std::optional<common::UnobservableMotion>& unobservable_motion = std::nullopt);
 /// T_from_to of the body in space, whose pose at `from` must be cloned, with the covariance of its error (position,
 /// rotation vector) in the axes of the body at `to`. A direction in which nothing was measured has a large variance.
 Measurement measuredRelativePose3(common::Time from, common::Time to, const common::Pose3& T_from_to,

@@ -76,10 +76,9 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
 
 Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                                  const Eigen::Matrix3d& covariance,
-                                 const Eigen::Vector2d& unobservable_direction_clone) {
+                                 const common::UnobservableMotion& unobservable_clone) {
   const Linearized<3> whole = relativePose(state, clone, T_clone_body, covariance);
-  Eigen::Matrix<double, 2, 3> seen;
-  seen << -unobservable_direction_clone.y(), unobservable_direction_clone.x(), 0.0, 0.0, 0.0, 1.0;
+  const Eigen::Matrix<double, 2, 3> seen = common::rowsAcross(unobservable_clone);
   Linearized<2> m;
   m.residual = seen * whole.residual;
   m.jacobian = seen * whole.jacobian;
@@ -156,6 +155,13 @@ Linearized<2> upDirection(const FilterState& state, const Eigen::Vector3d& up_bo
   m.jacobian(0, kAttitude + 1) = -1.0;
   m.jacobian(1, kAttitude) = 1.0;
   m.noise *= variance_rad2;
+  return m;
+}
+
+Linearized<1> ahrsYaw(const FilterState& state, double yaw_rad, double variance_rad2) {
+  const double expected_rad = common::yawOf(state.rotation_odom_body) + state.ahrs_offset_rad;
+  Linearized<1> m = direct(kAhrsOffset, common::wrapAngle(yaw_rad - expected_rad), variance_rad2);
+  m.jacobian.block<1, 3>(0, kAttitude) = yawJacobian(state.rotation_odom_body);
   return m;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
+#include "common/unobservable_motion.hpp"
 #include "perception/fusion/filter_state.hpp"
 
 namespace swiftlet::perception::fusion {
@@ -22,11 +23,11 @@ struct Linearized {
 /// sheet: it measures E^-1 T E of a motion T, E being the error of its mount, at a time that its clock is off.
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance);
-/// Relative pose where the scene does not constrain the position along one direction (a unit vector in the level frame
-/// at the clone). Measures the position across it and the heading; along it nothing is measured.
+/// Relative pose where the scene does not show one motion (axes of the level frame at the clone). Measures what of the
+/// pose is across it, in metres (common::rowsAcross); along it nothing is measured.
 Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                                  const Eigen::Matrix3d& covariance,
-                                 const Eigen::Vector2d& unobservable_direction_clone);
+                                 const common::UnobservableMotion& unobservable_clone);
 /// Pose of the body relative to that at a clone. Residual and noise are errors (position, rotation vector) with the
 /// axes of the body now: T_clone_body * exp(error).
 Linearized<6> relativePose3(const FilterState& state, int clone, const common::Pose3& T_clone_body,
@@ -36,6 +37,8 @@ Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom
                            const Eigen::Matrix3d& covariance);
 /// Roll and pitch from the direction of "up" in the body frame; yaw is not measured.
 Linearized<2> upDirection(const FilterState& state, const Eigen::Vector3d& up_body, double variance_rad2);
+/// The yaw of the AHRS, which has an offset of its own (FilterState::ahrs_offset_rad).
+Linearized<1> ahrsYaw(const FilterState& state, double yaw_rad, double variance_rad2);
 /// The specific force, assumed to be due to gravity alone.
 Linearized<3> gravity(const FilterState& state, const Eigen::Vector3d& specific_force_body_m_s2, double gravity_m_s2,
                       double variance_m2_s4);

@@ -70,6 +70,7 @@ void StateHistory::push(const common::ImuSample& sample, bool at_rest, bool pred
   s.at_rest = at_rest;
   s.predicted = predicted;
   s.up_body = sample.rotation_ahrs_body.conjugate() * Eigen::Vector3d::UnitZ();
+  s.ahrs_yaw_rad = common::yawOf(sample.rotation_ahrs_body);
   s.attitude_due = (now - last_attitude_).seconds() >= attitude_period_s_ - 1e-6;
   if (s.attitude_due) last_attitude_ = now;
   dirty_from_ = std::min(dirty_from_, count_);

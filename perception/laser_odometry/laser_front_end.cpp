@@ -21,11 +21,11 @@ Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
   return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
 }
 
-/// A direction in the axes of the robot, turned into the axes of the reference.
-std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>& direction_robot,
-                                           const Pose2& T_reference_robot) {
-  if (!direction_robot) return std::nullopt;
-  return Eigen::Vector2d(Eigen::Rotation2Dd(T_reference_robot.yaw_rad) * *direction_robot);
+/// A motion in the axes of the robot, turned into the axes of the reference.
+std::optional<common::UnobservableMotion> atReference(const std::optional<common::UnobservableMotion>& motion_robot,
+                                                      const Pose2& T_reference_robot) {
+  if (!motion_robot) return std::nullopt;
+  return common::turned(*motion_robot, T_reference_robot.yaw_rad);
 }
 
 /// The scan at the time `now` of the clock, with exactly its stamp.
@@ -81,7 +81,7 @@ Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& r
     motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
   else if (relative && relative->from != relative->to)
     motion.correct(relative->T_from_to, relative->covariance,
-                   atReference(relative->unobservable_direction, relative->T_from_to));
+                   atReference(relative->unobservable_motion, relative->T_from_to));
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
   Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);

@@ -55,6 +55,12 @@ void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
   }
 }
 
+/// Whether mostly a translation is hidden. In a turn the guess drifts by what the gyroscopes drift, which the least
+/// window covers.
+bool hidesTranslation(const std::optional<common::UnobservableMotion>& motion) {
+  return motion && motion->change.head<2>().norm() > motion->lever_m * std::abs(motion->change.z());
+}
+
 /// At this many half windows from the guess, the guess no longer supports a match (measured:
 /// docs/decisions/scan_matching.md#023).
 constexpr double kFarWindows = 6.0;
@@ -148,7 +154,7 @@ struct LaserOdometry::Impl {
   LaserOdometryCounts counts;
   std::deque<KeyScan> key_scans;  ///< The last one is the reference.
   common::Time last_stamp, last_match;
-  common::Time last_seen_whole;  ///< The last match that fixed the position in all directions.
+  common::Time last_seen_whole;  ///< The last match that hid no translation.
   Pose2 last_T_odom_body;        ///< The predicted pose at the last match.
   Pose2 last_T_local_body;       ///< The matched pose at the last match.
   Pose2 held_T_local_body;       ///< The estimate's pose at that time, after the last match that it accepted.
@@ -195,7 +201,7 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
 SearchWindow LaserOdometry::Impl::usualWindow(common::Time now) const {
   const double elapsed_s = (now - last_match).seconds();
   const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
-  // Along an unobservable direction the guess has drifted. Once it is observable again, the true pose may be that far
+  // Along an unobservable translation the guess has drifted. Once it is observable again, the true pose may be that far
   // off.
   const double unseen_m = kUnseenDrift_m_s * (now - last_seen_whole).seconds();
   return {config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m,
@@ -214,7 +220,7 @@ LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now,
 double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const {
   if (match.failed) return -1.0;
   const auto isExpectedBy = [&](const Guess& by) { return by.covers(match.T_reference_body, std::numbers::sqrt2); };
-  if (config.widened_must_hold && match.unobservable_direction && !isExpectedBy(guess) && !isExpectedBy(about))
+  if (config.widened_must_hold && match.unobservable_motion && !isExpectedBy(guess) && !isExpectedBy(about))
     return -1.0;
   const Pose2 off = between(guess.T_local_body, match.T_reference_body);
   const double beyond =
@@ -287,9 +293,8 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
   relative.covariance = common::turned(
       propagated(reference.covariance_local, reference.T_local_body, match.T_reference_body, match.covariance),
       -reference.T_local_body.yaw_rad);
-  if (match.unobservable_direction)
-    relative.unobservable_direction =
-        Eigen::Rotation2Dd(-match.T_reference_body.yaw_rad) * *match.unobservable_direction;
+  if (match.unobservable_motion)
+    relative.unobservable_motion = common::turned(*match.unobservable_motion, -match.T_reference_body.yaw_rad);
   return relative;
 }
 
@@ -367,7 +372,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   }
   self.failures = 0;
   self.last_match = scan.stamp;
-  if (!match.unobservable_direction) self.last_seen_whole = scan.stamp;
+  if (!hidesTranslation(match.unobservable_motion)) self.last_seen_whole = scan.stamp;
   self.last_T_odom_body = otherwise ? other->T_odom_body : T_odom_body;
   self.last_T_local_body = match.T_reference_body;
   self.held_T_local_body = held_T_local_now;
@@ -376,11 +381,11 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   relative.otherwise = otherwise;
   if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
-    // Along its unobservable direction the key scan itself defines the map. Its guess may have drifted relative to
+    // Along its unobservable motion the key scan itself defines the map. Its guess may have drifted relative to
     // older key scans there, but scans matched to this one are not affected.
     self.addKeyScan(scan, match.T_reference_body,
                     self.config.matcher.only_seen
-                        ? common::withoutVarianceAlong(match.unobservable_direction, match.covariance)
+                        ? common::withoutVarianceAlong(match.unobservable_motion, match.covariance)
                         : match.covariance);
   }
   return relative;

@@ -29,9 +29,9 @@ struct RelativePose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
   bool reference_changed = false;
   bool otherwise = false;  ///< The match was found from the other guess.
-  /// Unit vector in the frame at `to` along which the scene does not fix the position. The position along it is that of
-  /// the guess.
-  std::optional<Eigen::Vector2d> unobservable_direction;
+  /// The change of the pose at `to`, along the axes of that frame, that the scene does not show. Along it the pose is
+  /// that of the guess.
+  std::optional<common::UnobservableMotion> unobservable_motion;
 };
 
 /// Another pose at which a scan may have been taken, and how far around it to search.

@@ -129,7 +129,7 @@ void MotionPrediction::follow(const Source& source) {
 }
 
 void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& covariance,
-                               const std::optional<Eigen::Vector2d>& unobservable_direction) {
+                               const std::optional<common::UnobservableMotion>& unobservable_motion) {
   const Eigen::Matrix<double, 6, 3> gain =
       now_.covariance.leftCols<3>() * (now_.covariance.topLeftCorner<3, 3>() + covariance).inverse();
   const Eigen::Vector3d off(matched.x_m - now_.pose.x_m, matched.y_m - now_.pose.y_m,
@@ -140,30 +140,31 @@ void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& cova
   now_.covariance -= gain * now_.covariance.topRows<3>();
   now_.covariance = 0.5 * (now_.covariance + now_.covariance.transpose()).eval();
 
-  std::optional<Eigen::Vector2d> unobservable_before;
-  if (unobservable_direction) unobservable_before = Eigen::Rotation2Dd(-before_.pose.yaw_rad) * *unobservable_direction;
+  std::optional<common::UnobservableMotion> unobservable_before;
+  if (unobservable_motion) unobservable_before = common::turned(*unobservable_motion, -before_.pose.yaw_rad);
   const Pose2 step = between(before_.pose, matched);
   learn(wheels_, step, unobservable_before);
   learn(inertia_, step, unobservable_before);
 }
 
 void MotionPrediction::learn(Source& source, const Pose2& step,
-                             const std::optional<Eigen::Vector2d>& unobservable) const {
+                             const std::optional<common::UnobservableMotion>& unobservable) const {
   if (!source.step) return;
-  Eigen::Vector2d error_m = step.position_m() - source.step->position_m();
+  const Eigen::Vector2d off_m = step.position_m() - source.step->position_m();
+  Eigen::Vector3d error(off_m.x(), off_m.y(), common::wrapAngle(step.yaw_rad - source.step->yaw_rad));
   double seen_axes = 2.0;
   if (unobservable) {
-    error_m -= *unobservable * unobservable->dot(error_m);
-    seen_axes = 1.0;
+    const Eigen::RowVector3d share = common::shareAlong(*unobservable);
+    seen_axes -= share.head<2>().dot(unobservable->change.head<2>());
+    error -= unobservable->change * share.dot(error);
   }
   const double share = 1.0 / kMemorySteps;
   const auto average = [&](double& variance, double error2, double least) {
     const double bounded = std::min(error2, square(kMaxSurprise) * std::max(variance, square(least)));
     variance += share * (bounded - variance);
   };
-  average(source.variance_m2, error_m.squaredNorm() / seen_axes, kLeastError_m);
-  average(source.variance_rad2, square(common::wrapAngle(step.yaw_rad - source.step->yaw_rad)),
-          kLeastError_deg * kRadPerDeg);
+  average(source.variance_m2, error.head<2>().squaredNorm() / seen_axes, kLeastError_m);
+  average(source.variance_rad2, square(error.z()), kLeastError_deg * kRadPerDeg);
 }
 
 void MotionPrediction::lose(double sought_m, double sought_rad) {

@@ -8,6 +8,7 @@
 
 #include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
+#include "common/unobservable_motion.hpp"
 
 namespace swiftlet::perception {
 
@@ -43,10 +44,10 @@ class MotionPrediction {
   /// Repeats the prediction with the other source, because it was right. There must be an alternative.
   void takeAlternative();
   /// Corrects the pose and the velocity by a match. `covariance` is that of the additive errors (x_m, y_m, yaw_rad) of
-  /// the matched pose, axes of the reference. `unobservable_direction_reference`: unit vector along which the match
-  /// does not fix the position.
+  /// the matched pose, axes of the reference. `unobservable_motion_reference`: the change of that pose, along the same
+  /// axes, that the match does not show.
   void correct(const common::Pose2& T_reference_robot, const Eigen::Matrix3d& covariance,
-               const std::optional<Eigen::Vector2d>& unobservable_direction_reference);
+               const std::optional<common::UnobservableMotion>& unobservable_motion_reference);
   /// Call when the scan did not match within this distance and rotation of the prediction. The velocity becomes
   /// uncertain. The pose becomes uncertain by the searched range, unless the wheels are the better source.
   void lose(double sought_m, double sought_rad);
@@ -73,7 +74,7 @@ class MotionPrediction {
   double sigma_rad(const Source& source) const;
   void follow(const Source& source);
   void learn(Source& source, const common::Pose2& step,
-             const std::optional<Eigen::Vector2d>& unobservable_direction) const;
+             const std::optional<common::UnobservableMotion>& unobservable) const;
 
   MotionPredictionConfig config_;
   Source wheels_, inertia_;

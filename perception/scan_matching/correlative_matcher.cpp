@@ -226,10 +226,9 @@ void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double l
                                                   const Eigen::Vector3d& step, const ExpectedPose& expected,
                                                   Peak& peak) const {
   peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
-  const common::SymmetricEigen<2> spread =
-      common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
-  if (!peak.unobservable_direction && spread.values(1) > kSurfaceUnobservableSigma_m * kSurfaceUnobservableSigma_m)
-    holdAlong(spread.vectors.col(1), expected, peak);
+  if (peak.unobservable_motion) return;
+  if (const auto spread = leastCertain(peak.covariance, step.x() / step.z(), kSurfaceUnobservableSigma_m))
+    holdAlong(*spread, expected, peak);
 }
 
 /// Variance (m^2) about `center` of the positions along `axis` that score nearly as well. The likelihood is tempered,
@@ -287,15 +286,19 @@ double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector
   return config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
 }
 
-/// A contour that faces only one direction constrains the position only across it. Along it the pose keeps the guess,
-/// or at least the covariance includes the spread of the positions that score as well.
+/// A contour that slides along itself, as a corridor along its axis or a round room about its middle, does not show
+/// that motion. Along it the pose keeps the guess, or at least the covariance includes the spread of the positions that
+/// score as well.
 void CorrelativeMatcher::Impl::distrustUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
                                                const SplitPoints& surface_points, const Pose2& finest,
                                                const ExpectedPose& expected, Peak& peak) {
-  const common::SymmetricEigen<2> normals = common::symmetricEigen(
-      normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
+  const double lever_m = leverOf_m(all_points.x_m, all_points.y_m);
+  const Eigen::Matrix3d spread =
+      motionSpread(all_points.x_m, all_points.y_m, lever_m, config.only_seen ? seen : std::vector<bool>{});
+  if (const auto sliding = slidingMotion(spread, lever_m, config.min_normal_spread))
+    holdAlong(common::turned(*sliding, finest.yaw_rad), expected, peak);
+  const common::SymmetricEigen<2> normals = common::symmetricEigen(Eigen::Matrix2d(spread.topLeftCorner<2, 2>()));
   const Eigen::Vector2d axis = Eigen::Rotation2Dd(finest.yaw_rad) * normals.vectors.col(0);
-  if (normals.values(0) < config.min_normal_spread) holdAlong(axis, expected, peak);
   if (config.profile_half_m > 0.0 && normals.values(0) < kProfiledSpread)
     peak.covariance.topLeftCorner<2, 2>() += profileVariance(surface_points, finest, axis) * axis * axis.transpose();
 }
@@ -340,7 +343,7 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   distrustUnfaced(all_points, seen, surface_points, finest, expected, peak);
 
   result.covariance = peak.covariance;
-  result.unobservable_direction = peak.unobservable_direction;
+  result.unobservable_motion = peak.unobservable_motion;
   result.T_reference_body = {finest.x_m + peak.offset.x(), finest.y_m + peak.offset.y(),
                              common::wrapAngle(finest.yaw_rad + peak.offset.z())};
   return result;

@@ -38,8 +38,8 @@ struct CorrelativeMatcherConfig {
   bool only_seen = true;
   double guess_weight = 0.1;
   double profile_half_m = 0.0;
-  double min_normal_spread =
-      0.01;  ///< A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
+  double min_normal_spread = 0.01;  ///< A motion that a smaller share of the contour faces is not observed: along a
+                                    ///< corridor's axis, or about the middle of a round room.
 
   void describe(common::config::Fields& fields);
   std::vector<common::Problem> validate() const;

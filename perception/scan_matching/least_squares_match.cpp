@@ -22,7 +22,8 @@ constexpr double kCovarianceScale = 2.0;
 constexpr double kAttitudeError_deg = 1.0;
 /// A direction less certain than this is not observed: the pose keeps the guess there.
 constexpr double kUnobservableSigma_m = 0.1;
-/// A direction that a smaller share of the contour faces is not observed, as a corridor's axis.
+/// A motion that a smaller share of the contour faces is not observed: along a corridor's axis, or about the middle of
+/// a round room.
 constexpr double kMinNormalSpread = 0.01;
 
 /// Lower limit on the residual of the end points.
@@ -30,8 +31,6 @@ constexpr double kMinResidual_m = 0.004;
 /// Residual assumed during the iterations to decide which directions are observable: the measured residual is then that
 /// of a misplaced scan.
 constexpr double kUnderwayResidual_m = 0.02;
-/// Least lever arm by which rotations are compared with translations, where all points are at the vehicle itself.
-constexpr double kLeastLever_m = 0.1;
 /// A pose within this distance of the window's edge, on either side, is at the edge. Farther outside, the match failed.
 constexpr double kEdge_m = 0.01;
 constexpr double kEdge_rad = 0.1 * kRadPerDeg;
@@ -48,27 +47,27 @@ void NormalEquations::addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2
 LeastSquaresMatch::LeastSquaresMatch(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window)
     : points_(orientedPoints(scan, kPoints, kMaxGap_m, ScanMatcher::kMaxRange_m)), guess_(guess), window_(window) {
   if (points_.empty()) return;
-  double lever2 = 0.0;
   std::vector<float> x_m, y_m;
   for (const OrientedPoint& p : points_) {
-    lever2 += p.point_m.squaredNorm();
     x_m.push_back(p.point_m.x());
     y_m.push_back(p.point_m.y());
   }
-  lever_m_ = std::max(kLeastLever_m, std::sqrt(lever2 / static_cast<double>(points_.size())));
-  const common::SymmetricEigen<2> normals = common::symmetricEigen(normalSpread(x_m, y_m));
-  if (normals.values(0) < kMinNormalSpread) held_level_ = normals.vectors.col(0);
+  lever_m_ = leverOf_m(x_m, y_m);
+  held_level_ = slidingMotion(motionSpread(x_m, y_m, lever_m_), lever_m_, kMinNormalSpread);
 }
 
-std::optional<Eigen::Vector2d> LeastSquaresMatch::heldDirection(double yaw_rad) const {
+std::optional<common::UnobservableMotion> LeastSquaresMatch::heldMotion(double yaw_rad) const {
   if (!held_level_) return std::nullopt;
-  return Eigen::Rotation2Dd(yaw_rad) * *held_level_;
+  return common::turned(*held_level_, yaw_rad);
 }
 
 Quadratic LeastSquaresMatch::quadraticAt(const NormalEquations& equations,
-                                         const std::optional<Eigen::Vector2d>& held) const {
+                                         const std::optional<common::UnobservableMotion>& held) const {
   Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
-  if (held) kept.topLeftCorner<2, 2>() -= *held * held->transpose();
+  if (held) {
+    const Eigen::Vector3d along = held->change.cwiseProduct(Eigen::Vector3d(1.0, 1.0, lever_m_)).normalized();
+    kept -= along * along.transpose();
+  }
   const NormalEquations& e = equations;
   Eigen::Matrix3d curvature;
   curvature << e.xx, e.xy, e.xt, e.xy, e.yy, e.yt, e.xt, e.yt, e.tt;
@@ -84,7 +83,7 @@ double LeastSquaresMatch::step(const NormalEquations& equations, double reach_m,
   scale.information_per_curvature = 1.0 / (kUnderwayResidual_m * kUnderwayResidual_m * kCovarianceScale);
   scale.unobservable_sigma_m = kUnobservableSigma_m;
   scale.reach_steps = reach_m;
-  const Quadratic quadratic = quadraticAt(equations, heldDirection(pose.yaw_rad));
+  const Quadratic quadratic = quadraticAt(equations, heldMotion(pose.yaw_rad));
   const Eigen::Vector3d offset = findPeak(quadratic, scale, expectedFrom(pose, guess_, window_)).offset;
   pose.x_m += offset.x();
   pose.y_m += offset.y();
@@ -113,8 +112,10 @@ double LeastSquaresMatch::leastSupport(const NormalEquations& equations, double 
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
   supported << equations.xx, equations.xy, equations.xy, equations.yy;
   supported = R.transpose() * supported * R;
-  if (held_level_) {
-    const Eigen::Vector2d seen = held_level_->unitOrthogonal();
+  const Eigen::Vector2d held = held_level_ ? Eigen::Vector2d(held_level_->change.head<2>()) : Eigen::Vector2d::Zero();
+  // A turn that is not seen leaves both directions to compare, a translation the one across.
+  if (held_level_ && held.norm() > lever_m_ * std::abs(held_level_->change.z())) {
+    const Eigen::Vector2d seen = held.unitOrthogonal();
     return seen.dot(supported * seen) / seen.dot(facing * seen);
   }
   return common::generalizedEigenvalues(supported, facing)(0);
@@ -139,13 +140,12 @@ MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double q
   scale.information_per_curvature = 1.0 / (std::max(residual2, kMinResidual_m * kMinResidual_m) * kCovarianceScale);
   scale.unobservable_sigma_m = kUnobservableSigma_m;
   scale.reach_steps = kSupport_m;
-  const std::optional<Eigen::Vector2d> held = heldDirection(pose.yaw_rad);
+  const std::optional<common::UnobservableMotion> held = heldMotion(pose.yaw_rad);
   const Peak peak = findPeak(quadraticAt(equations, held), scale, expectedFrom(pose, guess_, window_));
   // An attitude error moves all points together, so more points do not average it out.
   const Eigen::Matrix<double, 3, 2> shift = peak.peak_of_gradient * equations.tilt * (kAttitudeError_deg * kRadPerDeg);
   result.covariance = peak.covariance + shift * shift.transpose();
-  result.unobservable_direction = peak.unobservable_direction;
-  if (held) result.unobservable_direction = held;
+  result.unobservable_motion = held ? held : peak.unobservable_motion;
   result.T_reference_body.x_m += peak.offset.x();
   result.T_reference_body.y_m += peak.offset.y();
   result.T_reference_body.yaw_rad = common::wrapAngle(pose.yaw_rad + peak.offset.z());

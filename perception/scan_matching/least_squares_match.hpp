@@ -78,9 +78,9 @@ class LeastSquaresMatch {
                      const common::Pose2& pose) const;
 
  private:
-  Quadratic quadraticAt(const NormalEquations& equations, const std::optional<Eigen::Vector2d>& held) const;
-  /// The direction that no contour faces, along the reference axes; nullopt if there is none.
-  std::optional<Eigen::Vector2d> heldDirection(double yaw_rad) const;
+  Quadratic quadraticAt(const NormalEquations& equations, const std::optional<common::UnobservableMotion>& held) const;
+  /// The motion along which the contour slides along itself, along the reference axes; nullopt if there is none.
+  std::optional<common::UnobservableMotion> heldMotion(double yaw_rad) const;
   double leastSupport(const NormalEquations& equations, double yaw_rad) const;
   void judgeWindow(MatchResult& result) const;
 
@@ -88,7 +88,7 @@ class LeastSquaresMatch {
   common::Pose2 guess_;
   SearchWindow window_;
   double lever_m_ = 1.0;
-  std::optional<Eigen::Vector2d> held_level_;
+  std::optional<common::UnobservableMotion> held_level_;
 };
 
 }  // namespace swiftlet::perception

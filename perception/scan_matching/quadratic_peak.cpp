@@ -1,6 +1,7 @@
 #include "perception/scan_matching/quadratic_peak.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/small_matrices.hpp"
 
@@ -64,18 +65,26 @@ Peak findPeak(const Quadratic& q, const PeakScale& scale, const ExpectedPose& ex
   peak.covariance = step.asDiagonal() * covariance_steps * step.asDiagonal();
   peak.covariance.diagonal() +=
       Eigen::Vector3d(kFloorSigma_m * kFloorSigma_m, kFloorSigma_m * kFloorSigma_m, kFloorSigma_rad * kFloorSigma_rad);
-  const common::SymmetricEigen<2> translation =
-      common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
-  if (translation.values(1) > scale.unobservable_sigma_m * scale.unobservable_sigma_m)
-    peak.unobservable_direction = translation.vectors.col(1);
+  peak.unobservable_motion = leastCertain(peak.covariance, step.x() / step.z(), scale.unobservable_sigma_m);
   return peak;
 }
 
-void holdAlong(const Eigen::Vector2d& direction, const ExpectedPose& expected, Peak& peak) {
-  const Eigen::Vector2d axis = direction.normalized();
-  peak.offset.head<2>() += axis * axis.dot(expected.offset.head<2>() - peak.offset.head<2>());
-  peak.covariance.topLeftCorner<2, 2>() += kUnseenSigma_m * kUnseenSigma_m * axis * axis.transpose();
-  peak.unobservable_direction = axis;
+void holdAlong(const common::UnobservableMotion& motion, const ExpectedPose& expected, Peak& peak) {
+  const Eigen::Vector3d& change = motion.change;
+  peak.offset += change * common::shareAlong(motion).dot(expected.offset - peak.offset);
+  const double displaced_m = std::hypot(change.x(), change.y(), motion.lever_m * change.z());
+  const Eigen::Vector3d unseen = kUnseenSigma_m / displaced_m * change;
+  peak.covariance += unseen * unseen.transpose();
+  peak.unobservable_motion = motion;
+}
+
+std::optional<common::UnobservableMotion> leastCertain(const Eigen::Matrix3d& covariance, double lever_m,
+                                                       double sigma_m) {
+  const Eigen::Vector3d displaced(1.0, 1.0, lever_m);
+  const common::SymmetricEigen<3> eigen =
+      common::symmetricEigen(Eigen::Matrix3d(displaced.asDiagonal() * covariance * displaced.asDiagonal()));
+  if (!(eigen.values(2) > sigma_m * sigma_m)) return std::nullopt;
+  return common::UnobservableMotion{eigen.vectors.col(2).cwiseQuotient(displaced), lever_m};
 }
 
 }  // namespace swiftlet::perception

@@ -31,8 +31,8 @@ struct PeakScale {
 struct Peak {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad)
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector2d> unobservable_direction;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();          ///< Gradient of the quadratic, per step.
+  std::optional<common::UnobservableMotion> unobservable_motion;  ///< Along the axes of the reference.
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();             ///< Gradient of the quadratic, per step.
   Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< Derivative of the peak (m, m, rad) by that gradient.
 };
 
@@ -49,7 +49,10 @@ ExpectedPose expectedFrom(const common::Pose2& pose, const common::Pose2& guess,
 /// does not shift the position.
 Peak findPeak(const Quadratic& quadratic, const PeakScale& scale, const ExpectedPose& expected);
 
-/// Marks a direction as unobservable: along it the peak takes the expected offset, and the covariance becomes large.
-void holdAlong(const Eigen::Vector2d& direction, const ExpectedPose& expected, Peak& peak);
+/// Marks a motion as unobservable: along it the peak takes the expected offset, and the covariance becomes large.
+void holdAlong(const common::UnobservableMotion& motion, const ExpectedPose& expected, Peak& peak);
+/// The least certain motion of a covariance, if it displaces the points, whose lever this is, by more than `sigma_m`.
+std::optional<common::UnobservableMotion> leastCertain(const Eigen::Matrix3d& covariance, double lever_m,
+                                                       double sigma_m);
 
 }  // namespace swiftlet::perception

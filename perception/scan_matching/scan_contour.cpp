@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/small_matrices.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
@@ -131,12 +133,21 @@ std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> point
   return chosen;
 }
 
-Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m, const std::vector<bool>& counted) {
+double leverOf_m(std::span<const float> x_m, std::span<const float> y_m) {
+  constexpr double kLeast_m = 0.1;
+  double sum2 = 0.0;
+  for (std::size_t i = 0; i < x_m.size(); ++i)
+    sum2 += static_cast<double>(x_m[i]) * x_m[i] + static_cast<double>(y_m[i]) * y_m[i];
+  return std::max(kLeast_m, std::sqrt(sum2 / std::max<double>(1.0, static_cast<double>(x_m.size()))));
+}
+
+Eigen::Matrix3d motionSpread(std::span<const float> x_m, std::span<const float> y_m, double lever_m,
+                             const std::vector<bool>& counted) {
   // A normal is that of two points between 0.2 m and 2 m apart: over less, range noise of 1 cm turns it by more than 4
   // degrees; over more, the points may be on different walls.
   constexpr float kBaseline2_m2 = 0.04F;
   constexpr float kLongest2_m2 = 4.0F;
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double count = 0.0;
   std::size_t begin = 0;
   for (std::size_t end = 1; end < x_m.size(); ++end) {
@@ -149,10 +160,24 @@ Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> 
     if (length2 < kBaseline2_m2 || length2 > kLongest2_m2) continue;
     if (!counted.empty() && (!counted[begin] || !counted[end])) continue;
     const Eigen::Vector2d normal(y_m[begin] - y_m[end], x_m[end] - x_m[begin]);
-    sum += normal * normal.transpose() / static_cast<double>(length2);
+    const Eigen::Vector2d middle(0.5 * (x_m[begin] + x_m[end]), 0.5 * (y_m[begin] + y_m[end]));
+    const Eigen::Vector3d moved(normal.x(), normal.y(), (middle.x() * normal.y() - middle.y() * normal.x()) / lever_m);
+    sum += moved * moved.transpose() / static_cast<double>(length2);
     count += 1.0;
   }
-  return count > 0.0 ? Eigen::Matrix2d(sum / count) : Eigen::Matrix2d::Zero();
+  return count > 0.0 ? Eigen::Matrix3d(sum / count) : Eigen::Matrix3d::Zero();
+}
+
+std::optional<common::UnobservableMotion> slidingMotion(const Eigen::Matrix3d& spread, double lever_m,
+                                                        double least_share) {
+  // About a point so many levers away that the noise of the normals cannot tell it from one at infinity: the walls are
+  // straight, and a vehicle that flies along them keeps its direction.
+  constexpr double kFarMiddle = 12.0;
+  const common::SymmetricEigen<3> motions = common::symmetricEigen(spread);
+  if (!(motions.values(0) < least_share)) return std::nullopt;
+  Eigen::Vector3d least = motions.vectors.col(0);
+  if (least.head<2>().norm() > kFarMiddle * std::abs(least.z())) least.z() = 0.0;
+  return common::UnobservableMotion{least.cwiseQuotient(Eigen::Vector3d(1.0, 1.0, lever_m)), lever_m};
 }
 
 }  // namespace swiftlet::perception

@@ -1,5 +1,5 @@
 // The interface of all scan matchers: estimates the pose of a scan relative to a reference given before, with its
-// covariance, a quality that identifies failed matches, and the unobservable direction.
+// covariance, a quality that identifies failed matches, and the unobservable motion.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
+#include "common/unobservable_motion.hpp"
 #include "perception/projection/scan_projection.hpp"
 
 namespace swiftlet::perception {
@@ -27,8 +28,9 @@ struct MatchResult {
   bool failed = true;    ///< Do not use the pose.
   /// The best pose lies at the edge of the window; a wider window may contain a better one.
   bool at_window_edge = false;
-  /// Unit vector in the reference frame along which the scene does not constrain the position (a corridor's axis).
-  std::optional<Eigen::Vector2d> unobservable_direction;
+  /// The change of the pose, along the axes of the reference, that the scene does not show: along a corridor's axis,
+  /// about the middle of a round room.
+  std::optional<common::UnobservableMotion> unobservable_motion;
   /// The best pose of the finest grid, or the last step of a least-squares match, before any averaging.
   common::Pose2 finest_T_reference_body;
   int finest_score = 0;  ///< Integer score of that pose.

@@ -229,7 +229,7 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
                       graph.keys[static_cast<std::size_t>(key)].T_map_body);
   const double step_rad = kWideAngularResolution_deg * kRadPerDeg;
   const MatchResult match = fine.match(query_scan, *coarse, {1.5 * kWideResolution_m, 1.5 * step_rad});
-  if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
+  if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_motion) return std::nullopt;
   if (loopViolatesFreeSpace(graph, newest, match.T_reference_body * believed.inverse(), reference, config))
     return std::nullopt;
 

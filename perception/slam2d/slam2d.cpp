@@ -162,7 +162,7 @@ MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int
   if (newest == keys.begin()) return reference.match(graph, keys, scan, T_map_body(), window);
   std::vector<int> earlier(keys.cbegin(), newest);
   MatchResult match = earlier_reference.match(graph, earlier, scan, T_map_body(), window);
-  if (!match.failed && !match.unobservable_direction && match.overlap >= kLeastOverlap) {
+  if (!match.failed && !match.unobservable_motion && match.overlap >= kLeastOverlap) {
     keys = std::move(earlier);
     return match;
   }
@@ -200,7 +200,7 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
     update.key_scan = true;
     return true;
   }
-  if (!match.unobservable_direction && areOfTwoPasses(keys.back(), static_cast<int>(graph.keys.size()) - 1))
+  if (!match.unobservable_motion && areOfTwoPasses(keys.back(), static_cast<int>(graph.keys.size()) - 1))
     update.known_key = keys.back();
   const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
   const UncertainPose pose =

@@ -18,6 +18,7 @@ class Drift : public testing::Test {
     fix.covariance_odom_m2(0, 0) = variance_x_m2;
     fix.covariance_odom_m2(1, 1) = 7.0;  // It does not grow.
     if (matched && !sees_x) fix.unobservable_direction_odom = Eigen::Vector2d::UnitX();
+    fix.turns = turns_;
     return monitor_.add(fix);
   }
   /// `count` scans that see every direction; returns the drift after them.
@@ -39,6 +40,7 @@ class Drift : public testing::Test {
   DriftMonitor monitor_;
   double time_s_ = 0.0;
   int key_ = 0, known_key_ = -1;
+  bool turns_ = false;
 };
 
 TEST_F(Drift, DoesNotGrowWhileEveryDirectionIsSeen) {
@@ -49,6 +51,16 @@ TEST_F(Drift, DoesNotGrowWhileEveryDirectionIsSeen) {
 TEST_F(Drift, GrowsAlongTheUnseenDirectionOnly) {
   see(10, 0.01);
   EXPECT_NEAR(scan(1.01, true, false), 1.0, 1e-9);
+}
+
+/// In a round room the error of the position goes with the distance from its middle.
+TEST_F(Drift, OfAHiddenTurnGoesOnTheWayBack) {
+  see(10, 0.0);
+  turns_ = true;
+  for (int leg = 0; leg < 20; ++leg) {
+    EXPECT_NEAR(corridor(0.0, 0.09), 0.3, 1e-9) << leg;
+    EXPECT_NEAR(corridor(0.09, 0.01), 0.1, 1e-9) << leg;
+  }
 }
 
 TEST_F(Drift, TheErrorOfACorridorRemainsBehindIt) {

@@ -79,8 +79,9 @@ TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
   for (int i = 0; i < 80; ++i) {
     const OdometryStep step = see(corridor, {0.03 * i, 0.0, 0.004 * i});
     ASSERT_TRUE(step.matched) << i;
-    if (step.measurement && step.measurement->unobservable_direction) {
-      const Eigen::Vector2d& along = *step.measurement->unobservable_direction;
+    if (step.measurement && step.measurement->unobservable_motion) {
+      const Eigen::Vector3d& along = step.measurement->unobservable_motion->change;
+      EXPECT_EQ(along.z(), 0.0) << i;
       const double now_rad = std::atan2(along.y(), along.x()) + clone_yaw_rad;
       if (unseen++ > 0) {
         EXPECT_NEAR(std::sin(now_rad - axis_odom_rad), 0.0, 1e-9) << i;
@@ -95,6 +96,25 @@ TEST_F(LaserStory, ACorridorKeepsItsUnseenDirection) {
   EXPECT_GT(clones, 1) << "the direction must be carried to another clone";
 }
 
+/// The middle of a round room stands still: the turn about it is the same motion wherever the vehicle is.
+TEST_F(LaserStory, ARoundRoomKeepsItsMiddle) {
+  const test::PlanarWorld room = test::roundRoom(4.0);
+  filter.has_clone = true;
+  int unseen = 0;
+  for (int i = 0; i < 60; ++i) {
+    const OdometryStep step = see(room, {0.03 * i - 0.5, 0.3, 0.004 * i});
+    ASSERT_TRUE(step.matched) << i;
+    if (!step.measurement || !step.measurement->unobservable_motion) continue;
+    const common::UnobservableMotion& motion = *step.measurement->unobservable_motion;
+    const Eigen::Vector2d turned_m(motion.change.x(), motion.change.y());
+    // From the body to the point that the turn leaves where it is.
+    const Eigen::Vector2d to_middle_m = Eigen::Vector2d(-turned_m.y(), turned_m.x()) / motion.change.z();
+    EXPECT_NEAR(to_middle_m.norm(), Eigen::Vector2d(0.03 * i - 0.5, 0.3).norm(), 0.15) << i;
+    ++unseen;
+  }
+  EXPECT_GT(unseen, 50);
+}
+
 /// The covariance is given at the reference scan, the direction along the corridor at the new one; between the two the
 /// vehicle has turned.
 TEST_F(LaserStory, NothingIsAddedToTheDriftAlongACorridor) {
@@ -107,7 +127,7 @@ TEST_F(LaserStory, NothingIsAddedToTheDriftAlongACorridor) {
     const OdometryStep step = see(corridor, {0.0, 0.0, yaw_rad});
     ASSERT_TRUE(step.matched) << i;
     if (!step.measurement || step.covariance.isZero()) continue;
-    ASSERT_TRUE(step.measurement->unobservable_direction) << i;
+    ASSERT_TRUE(step.measurement->unobservable_motion) << i;
     ++references;
     const Eigen::Vector2d along_body(std::cos(yaw_rad), -std::sin(yaw_rad));
     EXPECT_LT(along_body.dot(step.covariance.topLeftCorner<2, 2>() * along_body), 1.1 * floor_m2) << i;

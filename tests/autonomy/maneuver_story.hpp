@@ -122,7 +122,7 @@ class ManeuverStory : public testing::Test {
             discs_,
             anybody_walks_,
             decision_,
-            0.0,
+            drift_m_,
             {},
             people_,
             seen_.points_map_m.empty() ? nullptr : &seen_,
@@ -147,6 +147,7 @@ class ManeuverStory : public testing::Test {
   std::string unready_;  ///< Why the sensors cannot carry a flight.
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
+  double drift_m_ = 0.0;
   bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.
   double ceiling_m_ = kHeight_m;  ///< Where taking off ends.
   std::vector<common::Event> events_;

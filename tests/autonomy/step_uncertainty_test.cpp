@@ -20,10 +20,10 @@ class StepUncertaintyTest : public testing::Test {
     step.covariance = 1e-4 * Eigen::Matrix3d::Identity();
     step.measurement.emplace();
     step.measurement->pose = {1.0, 2.0, yaw_rad};
-    if (!sees_x) step.measurement->unobservable_direction = Eigen::Vector2d::UnitX();
-    Eigen::Matrix2d covariance_m2 = 0.5 * Eigen::Matrix2d::Identity();
-    covariance_m2(0, 0) = variance_x_m2;
-    return uncertainty_.add(step, Pose2{3.0, 4.0, yaw_rad}, covariance_m2);
+    if (!sees_x) step.measurement->unobservable_motion.emplace();
+    Eigen::Matrix3d covariance = 0.5 * Eigen::Matrix3d::Identity();
+    covariance(0, 0) = variance_x_m2;
+    return uncertainty_.add(step, Pose2{3.0, 4.0, yaw_rad}, covariance);
   }
 
   StepUncertainty uncertainty_;

@@ -63,6 +63,25 @@ TEST(FlightRecorder, MeasuresErrorsInTheTrueMapFrame) {
   EXPECT_NEAR((record.estimate.truth_map[1].pose.position_m - Eigen::Vector3d(1, 0, 1)).norm(), 0, 1e-12);
 }
 
+/// The covariance has the axes of odom: it is known to 1 cm along x of odom, which is y of the map here, and to 10 cm
+/// across.
+TEST(FlightRecorder, ComparesTheErrorWithTheCovarianceOfTheEstimate) {
+  FlightRecorder recorder(kTakeOff);
+  common::VehicleState state = estimateAt(0.0, {2, 0, 1});
+  state.T_map_odom = {0.0, 0.0, M_PI_2};
+  state.position_covariance_m2 = Eigen::Vector3d(1e-4, 1e-2, 1.0).asDiagonal();
+  recorder.tick(truthAt(0.0, {0.0, 2.03, 1}), state);
+  state.stamp = Time::fromSeconds(0.1);
+  recorder.tick(truthAt(0.1, {0.3, 2.0, 1}), state);
+  state.position_covariance_m2.setZero();
+  state.stamp = Time::fromSeconds(0.2);
+  recorder.tick(truthAt(0.2, {0.3, 2.0, 1}), state);
+  const auto distances = recorder.finish().estimate.mahalanobis_distances;
+  ASSERT_EQ(distances.size(), 2u) << "without a covariance there is no distance";
+  EXPECT_NEAR(distances[0], 3.0, 1e-9);
+  EXPECT_NEAR(distances[1], 3.0, 1e-9);
+}
+
 TEST(FlightRecorder, IncludesTheCorrectionOfTheMapFrame) {
   FlightRecorder recorder(kTakeOff);
   common::VehicleState state = estimateAt(0.0, {2, 0, 1});

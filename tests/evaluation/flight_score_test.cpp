@@ -51,6 +51,16 @@ class FlightScoring : public testing::Test {
   simulation::RayCaster rays_{smallWorld(1.0F)};
 };
 
+/// Overconfident and inflated covariances miss their criteria.
+TEST_F(FlightScoring, TheCovarianceOfThePositionIsJudged) {
+  FlightRecord record = goodRecord();
+  record.estimate.mahalanobis_distances = {1.0, 1.0, 1.0, 4.0};
+  EXPECT_NEAR(*score(record).figure("position_outside_share"), 0.25, 1e-12);
+  EXPECT_NEAR(*score(record).figure("position_mahalanobis_mean_square"), 19.0 / 4.0, 1e-12);
+  record.estimate.mahalanobis_distances.clear();
+  EXPECT_FALSE(score(record).figure("position_outside_share"));
+}
+
 TEST_F(FlightScoring, AGoodFlightPasses) {
   Criteria criteria;
   criteria["coverage_min"] = 0.99;

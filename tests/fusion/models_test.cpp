@@ -102,7 +102,7 @@ TEST_P(Jacobians, RelativePoseByTheErrorsOfTheLaserIsTheNumericDerivative) {
 }
 TEST_P(Jacobians, RelativePoseAcrossIsTheNumericDerivative) {
   expectJacobian<2>(state, [](const FilterState& s) {
-    return relativePoseAcross(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity(), {0.6, 0.8});
+    return relativePoseAcross(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity(), {{0.6, 0.8, 0.3}, 2.0});
   });
 }
 /// At the pose that the state predicts: elsewhere the error of a rotation is not linear.
@@ -129,6 +129,9 @@ TEST_P(Jacobians, AbsolutePoseIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) {
     return absolutePose(s, {1.0, 2.0, 0.5}, Eigen::Matrix3d::Identity());
   });
+}
+TEST_P(Jacobians, AhrsYawIsTheNumericDerivative) {
+  expectJacobian<1>(state, [](const FilterState& s) { return ahrsYaw(s, 0.4, 0.01); });
 }
 TEST_P(Jacobians, GravityIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) { return gravity(s, {0.1, -0.2, 9.7}, 9.81, 1.0); });

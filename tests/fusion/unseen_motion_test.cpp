@@ -30,7 +30,7 @@ TEST(ErrorStateFilter, IgnoresAMeasurementInItsUnobservableDirection) {
       }
       if (i <= 150 || i % 20 != 0) continue;
       const Eigen::Matrix3d covariance = Eigen::Vector3d(1.0, 1e-4, 1e-6).asDiagonal();
-      const auto direction = unseen ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
+      const auto direction = unseen ? std::optional(common::UnobservableMotion{}) : std::nullopt;
       EXPECT_EQ(
           filter.add(measuredRelativePose(from, sample.stamps.measured, {along_m, 0.0, 0.0}, covariance, direction)),
           Insertion::kTaken);
@@ -43,6 +43,64 @@ TEST(ErrorStateFilter, IgnoresAMeasurementInItsUnobservableDirection) {
   EXPECT_LT(right.position_covariance_m2(1, 1), 1e-3);
   EXPECT_GT(right.position_covariance_m2(0, 0), 2.0 * believed.position_covariance_m2(0, 0));
   EXPECT_TRUE(right.horizontal_valid);
+}
+
+/// In a round room a matcher returns the guess of the turn about its middle, here 1 m to the left. Where the vehicle is
+/// between the middle and the wall is measured all the same.
+TEST(ErrorStateFilter, IgnoresATurnThatIsNotObservable) {
+  const Time from = Time::fromSeconds(0.7);
+  const auto fly = [&](double turned_rad, double nearer_m) {
+    ErrorStateFilter filter({});
+    for (int i = 0; i <= 2000; ++i) {
+      common::ImuSample sample;
+      sample.stamps.measured = sample.stamps.arrived = Time::fromSeconds(0.005 * i);
+      sample.specific_force_body_m_s2 = {0.0, 0.0, 9.81};
+      filter.predict(sample);
+      if (i == 130) {
+        EXPECT_TRUE(filter.initialize(0.15));
+      }
+      if (i == 150) {
+        EXPECT_EQ(filter.add(poseClone(from)), Insertion::kTaken);
+      }
+      if (i <= 150 || i % 20 != 0) continue;
+      // About (0, 1): the body at the origin moves along x.
+      const common::UnobservableMotion turn{{1.0, 0.0, 1.0}, 3.0};
+      const common::Pose2 pose{turned_rad, nearer_m, turned_rad};
+      EXPECT_EQ(filter.add(
+                    measuredRelativePose(from, sample.stamps.measured, pose, 1e-4 * Eigen::Matrix3d::Identity(), turn)),
+                Insertion::kTaken);
+    }
+    return filter.state();
+  };
+  const auto still = fly(0.0, 0.0), turned = fly(0.3, 0.0), nearer = fly(0.0, 0.05);
+  EXPECT_LT((still.T_odom_body.position_m - turned.T_odom_body.position_m).norm(), 1e-6);
+  EXPECT_LT(still.T_odom_body.rotation.angularDistance(turned.T_odom_body.rotation), 1e-6);
+  EXPECT_NEAR(nearer.T_odom_body.position_m.y(), 0.05, 0.01);
+}
+
+/// The gyroscopes drift by 0.3 deg/s more than they did at rest, and no scan shows the heading; the AHRS, which has an
+/// offset of its own, drifts by 0.05 deg/s.
+TEST(ErrorStateFilter, TheAhrsKeepsAHeadingThatNoScanShows) {
+  const auto headingAfter_deg = [](double seconds, bool use_ahrs) {
+    ErrorStateFilter::Config config;
+    config.use_ahrs = use_ahrs;
+    ErrorStateFilter filter(config);
+    for (int i = 0; i <= std::lround(200 * seconds); ++i) {
+      const double t = 0.005 * i;
+      common::ImuSample sample;
+      sample.stamps.measured = sample.stamps.arrived = Time::fromSeconds(t);
+      sample.specific_force_body_m_s2 = {0.0, 0.0, 9.81};
+      sample.angular_velocity_body_rad_s.z() = (i > 200 ? 0.3 : 0.0) * common::kRadPerDeg;
+      sample.rotation_ahrs_body = common::quaternionFrom({0.0, 0.0, 2.0 + 0.05 * common::kRadPerDeg * t});
+      filter.predict(sample);
+      if (i == 130) {
+        EXPECT_TRUE(filter.initialize(0.15));
+      }
+    }
+    return common::yawOf(filter.state().T_odom_body.rotation) / common::kRadPerDeg;
+  };
+  EXPECT_GT(headingAfter_deg(60.0, false), 15.0) << "by the gyroscopes alone";
+  EXPECT_LT(std::abs(headingAfter_deg(60.0, true)), 4.0);
 }
 
 /// 20 s at 0.7 m/s, of which the laser observes the first six: the drag learned there holds the speed afterwards. The

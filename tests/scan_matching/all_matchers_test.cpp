@@ -114,12 +114,12 @@ TEST_P(AllMatchers, AreAccurateInEveryScene) {
       const MatchResult match =
           matcher->match(scanAt(scene.world, truth, 2 * trial + 1), reference, {1.5 * far.x_m, 1.2 * far.yaw_rad});
       failed += match.failed ? 1 : 0;
-      hidden += match.unobservable_direction ? 1 : 0;
+      hidden += match.unobservable_motion ? 1 : 0;
       const Eigen::Vector3d error = errorOf(match.T_reference_body, truth);
       off_m.push_back(scene.hides_x ? std::abs(error.y()) : error.head<2>().norm());
       off_deg.push_back(std::abs(error.z()) / kRadPerDeg);
-      if (!scene.hides_x || !match.unobservable_direction) continue;
-      EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.98);
+      if (!scene.hides_x || !match.unobservable_motion) continue;
+      EXPECT_GT(std::abs(match.unobservable_motion->change.x()), 0.98);
       EXPECT_GT(match.covariance(0, 0), 0.09);
       EXPECT_NEAR(match.T_reference_body.x_m, reference.x_m, 0.01);  // The guess is returned.
     }
@@ -151,6 +151,25 @@ TEST_P(AllMatchers, ForwardIsTheInverseOfBackward) {
   }
 }
 
+/// What turns about the middle of a round room looks the same; how far from the middle the vehicle is, is measured.
+TEST_P(AllMatchers, ReportTheUnobservableTurnInARoundRoom) {
+  const test::PlanarWorld world = test::roundRoom(4.0);
+  for (const double yaw : {0.0, 0.7, -2.0}) {
+    const Pose2 reference{1.5, 0.5, yaw}, guess{1.5, 0.5, yaw + 0.01};
+    const Pose2 truth{1.53, 0.54, yaw + 0.03};
+    const MatchResult match =
+        matcherAt(scanAt(world, reference, 0), reference)->match(scanAt(world, truth, 1), guess, {0.1, 0.05});
+    ASSERT_FALSE(match.failed);
+    ASSERT_TRUE(match.unobservable_motion);
+    const Eigen::Vector3d& change = match.unobservable_motion->change;
+    const Eigen::Vector2d to_middle_m = Eigen::Vector2d(-change.y(), change.x()) / change.z();
+    EXPECT_LT((truth.position_m() + to_middle_m).norm(), 0.2) << "it is a turn about the middle";
+    EXPECT_NEAR(match.T_reference_body.yaw_rad, guess.yaw_rad, 0.01) << "the guess is returned";
+    EXPECT_NEAR(match.T_reference_body.position_m().norm(), truth.position_m().norm(), 0.01);
+    EXPECT_GT(match.covariance(2, 2), 0.01);
+  }
+}
+
 TEST_P(AllMatchers, ReportTheUnobservableDirectionOfACorridor) {
   const test::PlanarWorld world = test::corridor();
   for (const double yaw : {0.0, 0.7, -2.0}) {
@@ -159,8 +178,8 @@ TEST_P(AllMatchers, ReportTheUnobservableDirectionOfACorridor) {
     const MatchResult match =
         matcherAt(scanAt(world, reference, 0), reference)->match(scanAt(world, truth, 1), guess, {0.1, 0.03});
     ASSERT_FALSE(match.failed);
-    ASSERT_TRUE(match.unobservable_direction);
-    EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
+    ASSERT_TRUE(match.unobservable_motion);
+    EXPECT_GT(std::abs(match.unobservable_motion->change.x()), 0.99);
     EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
     EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, GetParam().tolerance.most_m);
     EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kRadPerDeg);

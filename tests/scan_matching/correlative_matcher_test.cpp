@@ -178,8 +178,8 @@ TEST(CorrelativeMatcher, NewSurfacesDoNotConstrainThePose) {
   const Pose2 truth{0.06, 0.13, 0.01}, guess{0.03, 0.10, 0.0};
   const MatchResult match = matcher.match(scanAt(furnished, truth, 1), guess, {0.1, 0.03});
   ASSERT_FALSE(match.failed);
-  ASSERT_TRUE(match.unobservable_direction);
-  EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
+  ASSERT_TRUE(match.unobservable_motion);
+  EXPECT_GT(std::abs(match.unobservable_motion->change.x()), 0.99);
   EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);
 }
 
@@ -205,7 +205,7 @@ TEST(CorrelativeMatcher, ReportsNoUnobservableDirectionInARoom) {
     CorrelativeMatcher matcher{{}};
     const Pose2 reference = poseInFlat(random);
     matcher.addReference(scanAt(world, reference, 0), reference);
-    EXPECT_FALSE(matcher.match(scanAt(world, reference, 1), reference, {0.05, 0.02}).unobservable_direction);
+    EXPECT_FALSE(matcher.match(scanAt(world, reference, 1), reference, {0.05, 0.02}).unobservable_motion);
   }
 }
 

@@ -95,7 +95,7 @@ TYPED_TEST(LeastSquaresMatchers, ReportNoUnobservableDirectionInARoom) {
     TypeParam matcher;
     const Pose2 reference = poseInFlat(random);
     matcher.addReference(scanAt(world, reference, 0), reference);
-    EXPECT_FALSE(matcher.match(scanAt(world, reference, 1), reference, {0.05, 0.02}).unobservable_direction);
+    EXPECT_FALSE(matcher.match(scanAt(world, reference, 1), reference, {0.05, 0.02}).unobservable_motion);
   }
 }
 

@@ -204,12 +204,15 @@ TEST(ScanContour, NormalsDistinguishACorridorFromARoom) {
       x.push_back(0.05F * static_cast<float>(i));
       y.push_back(static_cast<float>(side + random.gaussian(0.01)));
     }
-  EXPECT_LT(normalSpread(x, y)(0, 0), 0.02);
+  EXPECT_LT(motionSpread(x, y, leverOf_m(x, y))(0, 0), 0.02);
+  const auto sliding = slidingMotion(motionSpread(x, y, leverOf_m(x, y)), leverOf_m(x, y), 0.02);
+  ASSERT_TRUE(sliding);
+  EXPECT_EQ(sliding->change.z(), 0.0) << "straight walls turn about nothing";
   for (int i = 0; i < 40; ++i) {
     x.push_back(static_cast<float>(10.0 + random.gaussian(0.01)));
     y.push_back(1.0F - 0.05F * static_cast<float>(i));
   }
-  EXPECT_GT(normalSpread(x, y)(0, 0), 0.06);
+  EXPECT_GT(motionSpread(x, y, leverOf_m(x, y))(0, 0), 0.06);
 }
 
 TEST(ScoreSurface, FitsAQuadraticExactly) {

@@ -59,7 +59,7 @@ std::array<Agreement, 3> compareOn(interfaces::LaserLog& log, int stride) {
       ++agreement.answered;
       if (everywhere.failed || everywhere.at_window_edge) continue;
       ++agreement.compared;
-      if (match.unobservable_direction || everywhere.unobservable_direction) continue;
+      if (match.unobservable_motion || everywhere.unobservable_motion) continue;
       ++agreement.seen_whole;
       const double off_m = test::errorOf(match.T_reference_body, everywhere.T_reference_body).head<2>().norm();
       if (off_m > 0.05)

@@ -27,6 +27,19 @@ inline PlanarWorld corridor() {
   return world;
 }
 
+/// A round room about the origin, of 72 walls as a builder would make it.
+inline PlanarWorld roundRoom(double radius_m) {
+  constexpr int kWalls = 72;
+  std::vector<Eigen::Vector2d> corners;
+  for (int i = 0; i < kWalls; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / kWalls;
+    corners.emplace_back(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad));
+  }
+  PlanarWorld world;
+  world.addPolyline(corners, true);
+  return world;
+}
+
 /// A corridor with doors set back in their frames; behind each frame is a surface that the reference has not seen.
 inline PlanarWorld corridorWithDoors() {
   PlanarWorld world;

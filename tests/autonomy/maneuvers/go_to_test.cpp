@@ -243,6 +243,21 @@ TEST_F(GoToManeuver, ResendsAPathThatWasDroppedWithTheEstimate) {
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
+/// Nothing is reached while the position is not known, and a place whose own error is not known is not reached.
+TEST_F(GoToManeuver, DoesNotArriveWhereItDoesNotKnowThatItIs) {
+  want(to(3.0, 2.0));
+  runUntil([this] { return distanceTo_m({3.0, 2.0}) < 0.02; }, 15.0);
+  state_.horizontal_valid = false;
+  run(2.0);
+  EXPECT_FALSE(ended());
+  EXPECT_EQ(executor_.status().reason, "the position is not known");
+  state_.horizontal_valid = true;
+  drift_m_ = 0.4;
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason,
+            "the position is uncertain by 0.4 m: whether it has reached (3.00, 2.00) cannot be told");
+}
+
 /// The controller drops its path when the estimate is back, and starts from its present place.
 TEST_F(GoToManeuver, ResendsAPathThatWasSentWithoutAnEstimate) {
   want(to(6.5, 2.0));
