@@ -11,7 +11,8 @@ namespace swiftlet::tree {
 
 class Message {
  public:
-  /// The name says the kind, in kebab case with the subject first: "tree.unknown-node". A name has one text.
+  /// The name is a literal and says the kind, in kebab case with the subject first: "tree.unknown-node". A name has one
+  /// text.
   template <typename... A>
   Message(std::string_view name, fmt::format_string<A...> text, A&&... args)
       : name_(name), text_(fmt::format(text, std::forward<A>(args)...)) {}
@@ -24,7 +25,8 @@ class Message {
   bool operator==(const Message&) const = default;
 
  private:
-  std::string name_, text_;
+  std::string_view name_;
+  std::string text_;
 };
 
 }  // namespace swiftlet::tree

@@ -266,7 +266,8 @@ TEST_F(Localize, RefusesUnusableInput) {
   expectRefused({"localize", map, path("none.log")}, "none.log");
   expectRefused({"localize", map, write("empty.log", "ODOM 0 0 0 0 0 0 1.0 robot 1.0\n"), "--out", path("out")},
                 "no scan");
-  expectRefused({"localize", map, log, "--start", "1;2", "--out", path("out")}, "--start: `1;2` is not a place x;y;yaw");
+  expectRefused({"localize", map, log, "--start", "1;2", "--out", path("out")},
+                "--start: `1;2` is not a place x;y;yaw");
   for (const char* start : {"1e300;0;0", "-90;0;0", "0;200;0"})
     expectRefused({"localize", map, log, "--start", start, "--out", path("out")}, "lies outside the map");
   expectRefused({"localize", map, log, "--odometry", "wheels"}, "--odometry");
