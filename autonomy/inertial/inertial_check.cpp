@@ -27,14 +27,17 @@ namespace {
 /// within the window.
 constexpr double kRate_deg_s = 25.0;
 constexpr double kRateWindow_s = 0.1;
-/// Median specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is not
-/// used. Less force than that means that the vehicle sinks.
+/// Mean specific force along the rotors' axis beyond that of the given thrust from which the accelerometer is not used.
+/// Less force than that means that the vehicle sinks.
 constexpr double kAlong_m_s2 = 3.5;
+constexpr double kAlongWindow_s = 0.05;
+/// What contradicts the thrust for less time was a push: a hand's touch takes a tenth of a second.
+constexpr double kLongestPush_s = 0.2;
 /// Median specific force across the rotors' axis from which the accelerometer is not used: a tilt does not cause any,
 /// only drag and pushes do.
 constexpr double kAcross_m_s2 = 2.5;
 /// More than twice the push of a hand, so that its median does not see the push.
-constexpr double kForceWindow_s = 0.3;
+constexpr double kAcrossWindow_s = 0.3;
 constexpr double kPause_s = 0.1;  ///< After a pause the windows start over.
 /// Of the longest window: an IMU at 1 kHz over 0.3 s fits. A faster one allocates until its windows are full.
 constexpr std::size_t kUsualSamples = 320;
@@ -64,33 +67,49 @@ ImuSample InertialCheck::checked(const ImuSample& sample) {
   if (!isFinite(sample)) return sample;
   const Time now = sample.stamps.measured;
   const bool continues = last_ && now > *last_ && (now - *last_).seconds() < kPause_s;
+  const double dt_s = continues ? (now - *last_).seconds() : 0.0;
   const double expected_m_s2 = expectedForce_m_s2(now);
   last_ = now;
   if (!continues || !context_.airborne) window_.clear();
   if (!context_.airborne) {
-    rates_wrong_.reset(), force_wrong_.reset();
+    rates_wrong_.reset(), force_wrong_.reset(), pushed_.reset();
     fault_ = Fault::kNone;
     return sample;
   }
   window_.push_back({sample, expected_m_s2, context_.thrust_applies});
-  const double longest_s = std::max(kRateWindow_s, kForceWindow_s);
+  const double longest_s = std::max({kRateWindow_s, kAlongWindow_s, kAcrossWindow_s});
   const auto kept = std::find_if(window_.begin(), window_.end(), [&](const Compared& one) {
     return (now - one.sample.stamps.measured).seconds() <= longest_s + 0.02;
   });
   window_.erase(window_.begin(), kept);
   fault_ = Fault::kNone;
   rates_wrong_.update(ratesDiffer(), now);
-  force_wrong_.update(forcesDiffer(), now);
+  const bool differ = forcesDiffer();
+  if (force_wrong_.update(differ, now) == common::Edge::kEntered) withheld_m_s_.setZero();
   ImuSample used = sample;
   if (rates_wrong_.active()) used.angular_velocity_body_rad_s = ahrsRate_rad_s();
-  if (force_wrong_.active()) {
+  if (!differ && dt_s > 0.0 && wasPush(now)) {
+    used.specific_force_body_m_s2 += withheld_m_s_ / dt_s;
+    pushed_ = now;
+    force_wrong_.reset();
+  } else if (force_wrong_.active()) {
+    const Vector3d implied_m_s2(0.0, 0.0, context_.thrust_applies ? expected_m_s2 : common::kGravity_m_s2);
+    withheld_m_s_ += dt_s * (sample.specific_force_body_m_s2 - implied_m_s2);
     // A replaced value is off by a few percent of gravity for seconds, which is worth this much noise.
     spread_m_s2_ = spread_m_s2_ > 0.0 ? -kImpliedSpread_m_s2 : kImpliedSpread_m_s2;
-    used.specific_force_body_m_s2 =
-        Vector3d(0.0, 0.0, context_.thrust_applies ? expected_m_s2 : common::kGravity_m_s2) +
-        Vector3d::Constant(spread_m_s2_);
+    used.specific_force_body_m_s2 = implied_m_s2 + Vector3d::Constant(spread_m_s2_);
   }
   return used;
+}
+
+/// Forces that contradict the thrust only for a moment, and not again and again, are those of a push.
+bool InertialCheck::wasPush(Time now) const {
+  const bool once = !pushed_ || (now - *pushed_).seconds() > kTrustedAgain_s;
+  return once && force_wrong_.active() && force_wrong_.active_s(now) < kLongestPush_s;
+}
+
+bool InertialCheck::contradicted() const {
+  return rates_wrong_.active() || (last_ && force_wrong_.active_s(*last_) >= kLongestPush_s);
 }
 
 /// The ground carries what the thrust leaves of the weight, and no more.
@@ -131,17 +150,15 @@ std::string InertialCheck::fault() const {
                                : "the accelerometer contradicted the thrust a moment ago";
 }
 
-/// The median of a component of the specific force over the newest samples that span kForceWindow_s, along the rotors'
-/// axis without the force of the thrust: a push that is shorter than half of that leaves it as it is. nullopt if the
-/// samples do not span it yet.
+/// The median of a component across the rotors' axis over the newest samples that span kAcrossWindow_s: a push that is
+/// shorter than half of that leaves it as it is. nullopt if the samples do not span it yet.
 std::optional<double> InertialCheck::medianForce_m_s2(int component) {
   const Time newest = window_.back().sample.stamps.measured;
-  if ((newest - window_.front().sample.stamps.measured).seconds() < kForceWindow_s - 1e-6) return std::nullopt;
+  if ((newest - window_.front().sample.stamps.measured).seconds() < kAcrossWindow_s - 1e-6) return std::nullopt;
   sorted_m_s2_.clear();
   for (auto it = window_.rbegin(); it != window_.rend(); ++it) {
-    if ((newest - it->sample.stamps.measured).seconds() > kForceWindow_s - 1e-6) break;
-    const double thrust_m_s2 = component == 2 ? it->expected_m_s2 : 0.0;
-    sorted_m_s2_.push_back(it->sample.specific_force_body_m_s2[component] - thrust_m_s2);
+    if ((newest - it->sample.stamps.measured).seconds() > kAcrossWindow_s - 1e-6) break;
+    sorted_m_s2_.push_back(it->sample.specific_force_body_m_s2[component]);
   }
   const auto middle = sorted_m_s2_.begin() + static_cast<std::ptrdiff_t>(sorted_m_s2_.size() / 2);
   std::nth_element(sorted_m_s2_.begin(), middle, sorted_m_s2_.end());
@@ -170,7 +187,9 @@ bool InertialCheck::forcesDiffer() {
   if (x && y && std::hypot(*x, *y) > kAcross_m_s2) distrust(std::hypot(*x, *y), Fault::kAcross);
   const bool known = std::all_of(window_.begin(), window_.end(), [](const Compared& one) { return one.known; });
   if (!known) return differ;
-  const auto along = medianForce_m_s2(2);
+  const auto along = meanOver(window_, kAlongWindow_s, [](const Compared& one) {
+    return one.sample.specific_force_body_m_s2.z() - one.expected_m_s2;
+  });
   // Less force than the thrust gives means a sinking vehicle, by a weak motor or battery. More force is impossible.
   if (along && *along > kAlong_m_s2) distrust(*along, Fault::kAlong);
   return differ;

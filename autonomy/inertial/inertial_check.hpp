@@ -24,10 +24,10 @@ struct InertialContext {
 };
 
 /// A rotor pushes along the body's z axis and little else acts on a slow vehicle, so the specific force along it is
-/// gravity times the share of the hover thrust, whatever the tilt, and that across it is small. Rates are compared by
-/// their mean and forces by their median over a window: vibration is ten times as large as the bias of a good sensor,
-/// and a push is a true force. One thread. Once the windows are full,
-/// a sample allocates nothing.
+/// gravity times the share of the hover thrust, whatever the tilt, and that across it is small. Means and medians over
+/// windows are compared: vibration is ten times as large as the bias of a good sensor. What contradicts the thrust for
+/// a moment was a push: the velocity of its samples, which were withheld, is in the sample that follows. One thread.
+/// Once the windows are full, a sample allocates nothing.
 class InertialCheck {
  public:
   InertialCheck();
@@ -41,8 +41,8 @@ class InertialCheck {
   /// The sample to be used: unchanged, or with the rates of the AHRS, or with the specific force of
   /// the thrust. A sample that is not finite is returned unchanged and left out.
   common::ImuSample checked(const common::ImuSample& sample);
-  /// Samples are being replaced.
-  bool contradicted() const { return rates_wrong_.active() || force_wrong_.active(); }
+  /// Samples are being replaced, and not because of a push.
+  bool contradicted() const;
   /// What contradicts what, with figures, for people; empty while all fits.
   std::string fault() const;
 
@@ -57,6 +57,7 @@ class InertialCheck {
   double expectedForce_m_s2(common::Time now);
   Eigen::Vector3d ahrsRate_rad_s() const;
   std::optional<double> medianForce_m_s2(int component);
+  bool wasPush(common::Time now) const;
   bool ratesDiffer();
   bool forcesDiffer();
 
@@ -64,8 +65,9 @@ class InertialCheck {
   std::vector<Compared> window_;     ///< The last samples, oldest first, at most as long as the longest window.
   std::vector<double> sorted_m_s2_;  ///< Scratch of the median.
   double thrust_over_hover_ = 1.0;
-  double spread_m_s2_ = 0.0;  ///< Of the last force that was replaced.
-  std::optional<common::Time> last_;
+  double spread_m_s2_ = 0.0;                                ///< Of the last force that was replaced.
+  std::optional<common::Time> last_, pushed_;               ///< The last sample, and the end of the last push.
+  Eigen::Vector3d withheld_m_s_ = Eigen::Vector3d::Zero();  ///< Velocity by the samples that were replaced.
   common::Hysteresis rates_wrong_{0.0, kTrustedAgain_s}, force_wrong_{0.0, kTrustedAgain_s};
   /// What the last sample contradicts; kNone if it is left out only because of earlier ones.
   enum class Fault { kNone, kRates, kAcross, kAlong };
