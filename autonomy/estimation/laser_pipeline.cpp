@@ -54,28 +54,42 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   OdometryStep step;
   step.matched = true;
   if (!filter.has_clone) {
-    track_ = {relative->from, {}, std::nullopt};
+    track_ = {relative->from, {}, std::nullopt, {}};
     step.clone_before = relative->from;
   }
   const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
   const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan, kMatchFloor_m, kMatchFloor_deg);
   step.measurement = perception::measuredRelativePose(track_.clone, relative->to, T_clone_body,
                                                       common::turned(covariance, track_.T_clone_reference.yaw_rad));
-  if (relative->unobservable_motion)
-    step.measurement->unobservable_motion =
-        unobservableMotion(common::turned(*relative->unobservable_motion, T_clone_body.yaw_rad), T_clone_body);
+  const std::optional<common::UnobservableMotion> hidden_clone = hiddenMotion(*relative, T_clone_body);
+  step.measurement->unobservable_motion = hidden_clone;
   if (!relative->reference_changed) return step;
 
   track_.T_clone_reference = T_clone_body;
-  if (relative->unobservable_motion) {
-    track_ = {relative->to, {}, common::turned(*step.measurement->unobservable_motion, -T_clone_body.yaw_rad)};
+  std::optional<common::UnobservableMotion> hidden_body;
+  if (hidden_clone) {
+    hidden_body = common::turned(*hidden_clone, -T_clone_body.yaw_rad);
+    track_ = {relative->to, {}, hidden_body, track_.hidden_at};
     step.clone_after = relative->to;
   }
   // Within one reference the error does not grow; it accumulates from reference to reference.
   const Eigen::Matrix3d covariance_to = common::turned(relative->covariance, -relative->T_from_to.yaw_rad);
-  step.covariance = common::withoutVarianceAlong(relative->unobservable_motion, covariance_to) +
-                    tiltCovariance(scan, kDriftFloor_m, kDriftFloor_deg);
+  step.covariance =
+      common::withoutVarianceAlong(hidden_body, covariance_to) + tiltCovariance(scan, kDriftFloor_m, kDriftFloor_deg);
   return step;
+}
+
+/// What a scan does not show of the motion since the clone. Noise may let a single scan seem to show what those about
+/// it do not; if the filter took one of them, it would know the place along the walls for good.
+std::optional<common::UnobservableMotion> LaserPipeline::hiddenMotion(const perception::RelativePose& relative,
+                                                                      const Pose2& T_clone_body) {
+  constexpr double kWhole_s = 0.25;  // Ten scans of a laser at 40 Hz.
+  if (relative.unobservable_motion) {
+    track_.hidden_at = relative.to;
+    return unobservableMotion(common::turned(*relative.unobservable_motion, T_clone_body.yaw_rad), T_clone_body);
+  }
+  if (!track_.unobservable_clone || (relative.to - track_.hidden_at).seconds() > kWhole_s) return std::nullopt;
+  return common::movedBy(*track_.unobservable_clone, T_clone_body.position_m());
 }
 
 /// The walls along which a vehicle flies stand still, but each scan measures the motion that they do not show a little
@@ -97,7 +111,7 @@ common::UnobservableMotion LaserPipeline::unobservableMotion(const common::Unobs
 /// Starts a local map with this scan. After an interruption the motion since the last match is unknown, so its
 /// covariance is taken from the size of the search window.
 OdometryStep LaserPipeline::restart(const perception::RelativePose& relative, bool interrupted) {
-  track_ = {relative.to, {}, std::nullopt};
+  track_ = {relative.to, {}, std::nullopt, {}};
   OdometryStep step;
   step.matched = true;
   step.interrupted = interrupted;

@@ -59,6 +59,8 @@ class LaserPipeline {
   common::Time clone() const { return track_.clone; }
 
  private:
+  std::optional<common::UnobservableMotion> hiddenMotion(const perception::RelativePose& relative,
+                                                         const common::Pose2& T_clone_body);
   common::UnobservableMotion unobservableMotion(const common::UnobservableMotion& measured_clone,
                                                 const common::Pose2& T_clone_body);
   OdometryStep restart(const perception::RelativePose& relative, bool interrupted);
@@ -76,6 +78,7 @@ class LaserPipeline {
     common::Pose2 T_clone_reference;
     /// What the walls last did not show of the motion, as the change of a body at the clone, along its axes.
     std::optional<common::UnobservableMotion> unobservable_clone;
+    common::Time hidden_at;  ///< The last scan that did not show it.
   } track_;
 };
 

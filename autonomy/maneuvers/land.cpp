@@ -15,6 +15,7 @@
 #include <tl/expected.hpp>
 
 #include "autonomy/maneuvers/path_flight.hpp"
+#include "autonomy/maneuvers/path_maneuver.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "planning/costs/landing_place.hpp"
 
@@ -52,6 +53,7 @@ class Land final : public Maneuver {
  private:
   enum class Phase { kStops, kLooksBeyond, kFliesThere, kDescends };
 
+  static Progress onGround(double drift_m);
   void begin(const ManeuverInput& input);
   void choose(const ManeuverInput& input);
   void approach(const ManeuverInput& input);
@@ -72,7 +74,7 @@ Land::Land(const common::LandIntent&, const ManeuverSetup& setup)
 
 Progress Land::step(const ManeuverInput& input) {
   if (!since_) since_ = input.now;
-  if (!control::isAirborne(setup_.controller.state())) return Progress::done("on the ground");
+  if (!control::isAirborne(setup_.controller.state())) return onGround(input.drift_m);
   if (setup_.controller.state() != FlightState::kFlying) {
     if (phase_ != Phase::kDescends) descend(input.now, {});
   } else {
@@ -80,6 +82,12 @@ Progress Land::step(const ManeuverInput& input) {
     if (phase_ == Phase::kLooksBeyond || phase_ == Phase::kFliesThere) approach(input);
   }
   return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
+}
+
+/// A landing is a success only at a place that is known.
+Progress Land::onGround(double drift_m) {
+  if (drift_m <= PathManeuver::kKnown_m) return Progress::done("on the ground");
+  return Progress::failed(fmt::format("on the ground, at a place that is uncertain by {:.1f} m", drift_m));
 }
 
 /// Where the vehicle stops it looks for a place. Without a position it lands where it is.

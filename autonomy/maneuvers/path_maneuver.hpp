@@ -11,6 +11,10 @@ namespace swiftlet::autonomy {
 
 class PathManeuver : public Maneuver {
  public:
+  /// Up to this standard deviation the position counts as known: 95 % of such places are within 0.5 m of where they
+  /// are believed to be, which is about the radius of a hull with its clearance.
+  static constexpr double kKnown_m = 0.25;
+
   Progress step(const ManeuverInput& input) final;
   Aim aim(const common::VehicleState&) const override { return flight_.aim(); }
 
@@ -22,9 +26,6 @@ class PathManeuver : public Maneuver {
   virtual void watch(const ManeuverInput&) {}
   /// A step in flight without a retreat.
   virtual Progress fly(const ManeuverInput& input) = 0;
-  /// Up to this standard deviation the position counts as known: 95 % of such places are within 0.5 m of where they
-  /// are believed to be, which is about the radius of a hull with its clearance.
-  static constexpr double kKnown_m = 0.25;
   /// Names an uncertain position as the cause before the reason of a failure; empty if the position is known.
   static std::string doubt(double drift_m);
 

@@ -81,7 +81,8 @@ TEST(FilterTape, EveryInputReadsBackAsItWas) {
   flight.inputs.push_back(TapedPredicted{true});
   flight.inputs.push_back(knownVertical(Time::fromSeconds(1.5), {1.0, -0.25, 0.02, Eigen::Matrix3d::Identity()}));
   flight.inputs.push_back(measuredRelativePose(Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3},
-                                               Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)));
+                                               Eigen::Matrix3d::Identity(),
+                                               common::UnobservableMotion{{0.6, 0.8, -0.3}, 2.5}));
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   covariance(1, 4) = covariance(4, 1) = 0.1;
   flight.inputs.push_back(

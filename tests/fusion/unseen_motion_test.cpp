@@ -141,7 +141,7 @@ TEST(ErrorStateFilter, DragBoundsTheErrorOfAnUnobservedSpeed) {
         else if (i > 150)
           (void)filter.add(measuredRelativePose(reference, sample.stamps.measured, {},
                                                 Eigen::Vector3d(1, 2e-5, 1e-5).asDiagonal(),
-                                                Eigen::Vector2d(Eigen::Vector2d::UnitX())));
+                                                common::UnobservableMotion{}));
         (void)filter.add(measuredHeight(sample.stamps.measured, 0.15, 1e-4));
         if (i % 100 == 0 || reference == Time{}) {
           (void)filter.add(poseClone(sample.stamps.measured));

@@ -122,6 +122,13 @@ TEST_F(LandManeuver, WithoutAPositionItDescendsAtOnce) {
   EXPECT_EQ(controller_.state(), FlightState::kLanding);
 }
 
+TEST_F(LandManeuver, ALandingAtAPlaceThatIsNotKnownIsNoSuccess) {
+  drift_m_ = 0.6;
+  want(common::LandIntent{});
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "on the ground, at a place that is uncertain by 0.6 m");
+}
+
 TEST_F(LandManeuver, EndsARetreat) {
   retreat({-0.5, 0.0});
   run(0.5);
