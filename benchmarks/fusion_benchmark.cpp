@@ -89,10 +89,10 @@ void BM_Altitude(benchmark::State& state) {
       points[i] = {at + Eigen::Vector2d(0, 0.004 * static_cast<double>(i)),
                    1.5 - (table ? 0.77 : 0.0) + random.gaussian(0.01)};
     benchmark::DoNotOptimize(filter.update({.stamp = now,
-                                           .position_map_m = at,
-                                           .points = points,
-                                           .known = {1.5, 0.0, 0.0, 1e-4 * Eigen::Matrix3d::Identity()},
-                                           .climb = InertialClimb{0.0, 0.0, 0.02}}));
+                                            .position_map_m = at,
+                                            .points = points,
+                                            .known = {1.5, 0.0, 0.0, 1e-4 * Eigen::Matrix3d::Identity()},
+                                            .climb = InertialClimb{0.0, 0.0, 0.02}}));
   }
   state.counters["levels"] = static_cast<double>(filter.levels().levels.size());
 }

@@ -29,8 +29,6 @@ constexpr double kAhrsDriftSigma_deg_s = 0.05;
 /// drag alone, which leaves half a metre per second in gusts (docs/decisions/fusion.md#018); with less the vehicle
 /// would come down in every corridor without features.
 constexpr double kValidVelocitySigma_m_s = 0.7;
-/// Standard deviation up to which the height may be used for control.
-constexpr double kValidHeightSigma_m = 0.25;
 
 /// Position and yaw are zero by definition. Gravity shows only the sum of tilt and accelerometer bias: both start with
 /// a wide covariance, and one gravity measurement correlates them.
@@ -181,16 +179,15 @@ common::VehicleState ErrorStateFilter::state() const {
   out.velocity_odom_m_s = s.velocity_odom_m_s;
   out.angular_velocity_body_rad_s = newest.imu.angular_velocity_body_rad_s - s.gyroscope_bias_rad_s;
   out.position_covariance_m2 = s.covariance.block<3, 3>(kPosition, kPosition);
-  out.position_covariance_m2(2, 2) += s.height_common_variance_m2;
   out.velocity_covariance_m2_s2 = s.covariance.block<3, 3>(kVelocity, kVelocity);
   out.height_above_ground_m = s.position_odom_m.z();
 
   const auto velocity_sigma = out.velocity_covariance_m2_s2.diagonal().cwiseMax(0.0).cwiseSqrt().eval();
   out.horizontal_valid = !f.history.diverged() && f.horizontalFresh(newest) &&
                          velocity_sigma.head<2>().maxCoeff() <= kValidVelocitySigma_m_s;
-  out.vertical_valid = !f.history.diverged() && f.verticalFresh(newest) &&
-                       velocity_sigma.z() <= kValidVelocitySigma_m_s &&
-                       out.position_covariance_m2(2, 2) <= square(kValidHeightSigma_m);
+  // How high that lies which is measured below may be unknown: the vehicle keeps its height over it.
+  out.vertical_valid =
+      !f.history.diverged() && f.verticalFresh(newest) && velocity_sigma.z() <= kValidVelocitySigma_m_s;
   out.position_covariance_m2 += f.byLaser<3>(s, kPosition);
   out.velocity_covariance_m2_s2 += f.byLaser<3>(s, kVelocity);
   return out;

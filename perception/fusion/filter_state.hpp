@@ -78,6 +78,8 @@ struct FilterState {
   double ahrs_drift_rad_s = 0.0;
 
   DragStretch drag_stretch;
+  /// The mean of what drag measurements were off by lately, without outliers, along the body's x and y.
+  Eigen::Vector2d drag_excess_m_s2 = Eigen::Vector2d::Zero();
   std::array<ClonedPose, kMaxClones> clones;
   int clone_count = 0;
   /// As if the laser were known exactly; the gains are those of this covariance.
@@ -85,7 +87,6 @@ struct FilterState {
   LaserSensitivity by_laser = LaserSensitivity::Zero(kCore, kLaserSize);
   double yaw_rate_odom_rad_s = 0.0;  ///< Of the last step.
 
-  double height_common_variance_m2 = 0.0;  ///< Variance of the last height that averaging does not reduce.
   GateMemory relative_gate;
   GateMemory height_gate;
   GateMemory spatial_gate;  ///< Of relative poses in space.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/first_order_lag.hpp"
 #include "common/square.hpp"
 
 namespace swiftlet::perception::fusion {
@@ -51,6 +52,10 @@ constexpr double kAhrsGate = 3.0;
 constexpr double kOwnAcceleration_s = 0.5;
 /// Across a longer gap between samples the specific force is unknown.
 constexpr double kLongestDragStep_s = 0.05;
+/// The mean of what drag measurements were off by fades with this time: three times the push of a hand.
+constexpr double kDragExcess_s = 0.3;
+/// Of a single measurement no more than so many standard deviations count in it, so that a push hardly does.
+constexpr double kDragOutlier = 2.0;
 
 /// The greatest squared Mahalanobis distance of K degrees of freedom with about the tail probability of `kGateSigma` in
 /// one. With 3 sigma it is 14.0 for three and 21.5 for six; the quantiles of chi-squared are 14.2 and 20.1.
@@ -86,6 +91,14 @@ void widenSpatialPose(FilterState& state, const Eigen::Matrix<double, 6, 1>& res
   diagonal.segment<3>(kPosition).array() += jump2;
   diagonal.segment<3>(kVelocity).array() += jump2 / square(recovery_s);
   diagonal.segment<3>(kAttitude).array() += turn2;
+}
+
+/// An accelerometer whose bias has jumped by `jump_m_s2` since about `since_s` ago has misled the velocity, too.
+void widenAccelerometer(FilterState& state, double jump_m_s2, double since_s) {
+  auto diagonal = state.covariance.diagonal();
+  diagonal.segment<2>(kAccelerometerBias).array() += square(jump_m_s2);
+  diagonal.segment<2>(kVelocity).array() += square(jump_m_s2 * since_s);
+  diagonal.segment<2>(kPosition).array() += square(0.5 * jump_m_s2 * square(since_s));
 }
 
 void recover(FilterState& state) {
@@ -159,11 +172,9 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       state.clonePose();
       return;
     case MeasurementKind::kHeight:
-      state.height_common_variance_m2 = m.common_variance_m2;
       gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)), kRecovery_s, widenHeight);
       return;
     case MeasurementKind::kVertical:
-      state.height_common_variance_m2 = 0.0;
       if (replaceVertical(state, m.vertical, m.covariance)) state.height_gate.last_accepted = state.stamp;
       return;
     case MeasurementKind::kAbsolutePose:
@@ -187,6 +198,7 @@ void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) 
                 widenSpatialPose, alone);
     return;
   }
+  doubtAccelerometer(state, relativePose(state, clone, m.pose, m.covariance));
   if (!m.unobservable_motion)
     return gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), kPoseRecovery_s,
                        [this](FilterState& s, const Eigen::Vector3d& off, double recovery_s) {
@@ -197,6 +209,15 @@ void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) 
       kPoseRecovery_s, [&](FilterState& s, const Eigen::Vector2d& across_m, double recovery_s) {
         widenPlanarPose(s, common::changeAcross(*m.unobservable_motion, across_m), recovery_s, config_.gravity_m_s2);
       });
+}
+
+/// Where the laser and the drag both contradict the accelerometer, its bias has jumped.
+void FilterStep::doubtAccelerometer(FilterState& state, const Linearized<3>& pose) const {
+  const double jump_m_s2 = state.drag_excess_m_s2.norm();
+  const double sigma_m_s2 = config_.drag_noise_m_s2_rthz / std::sqrt(2.0 * kDragExcess_s);
+  if (jump_m_s2 < kGateSigma * sigma_m_s2 || mahalanobis2(state, pose) <= gateLimit2<3>(kGateSigma)) return;
+  widenAccelerometer(state, jump_m_s2, kDragExcess_s);
+  state.drag_excess_m_s2.setZero();
 }
 
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {
@@ -279,7 +300,11 @@ void FilterStep::accumulateDrag(FilterState& state, const Slot& before, const Sl
 void FilterStep::updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const {
   if (state.drag_stretch.seconds <= 0.0) return;
   const double noise_m_s2_rthz = std::max(config_.drag_noise_m_s2_rthz, accelerometer_noise_m_s2_rthz);
-  const Linearized<2> m = drag(state, square(noise_m_s2_rthz) / state.drag_stretch.seconds);
+  const double sigma_m_s2 = noise_m_s2_rthz / std::sqrt(state.drag_stretch.seconds);
+  const Linearized<2> m = drag(state, square(sigma_m_s2));
+  const Eigen::Vector2d off_m_s2 = m.residual.cwiseMax(-kDragOutlier * sigma_m_s2).cwiseMin(kDragOutlier * sigma_m_s2);
+  state.drag_excess_m_s2 +=
+      common::followedShare(state.drag_stretch.seconds, kDragExcess_s) * (off_m_s2 - state.drag_excess_m_s2);
   if (mahalanobis2(state, m) <= square(kGateSigma)) update(state, m);
   state.drag_stretch = {};
 }

@@ -43,6 +43,7 @@ class FilterStep {
 
  private:
   void apply(FilterState& state, const Measurement& measurement) const;
+  void doubtAccelerometer(FilterState& state, const Linearized<3>& pose) const;
   void applySlot(FilterState& state, const Slot& slot) const;
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
   void updateByAhrsYaw(FilterState& state, double yaw_rad) const;

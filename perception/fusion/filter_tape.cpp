@@ -72,7 +72,7 @@ struct Print {
     const std::int64_t time = m.stamp.nanoseconds();
     switch (m.kind) {
       case MeasurementKind::kHeight:
-        return fmt::format("height {} {} {} {}\n", time, m.value, m.covariance(0, 0), m.common_variance_m2);
+        return fmt::format("height {} {} {}\n", time, m.value, m.covariance(0, 0));
       case MeasurementKind::kVertical:
         return lineOfVertical(m);
       case MeasurementKind::kRelativePose:
@@ -171,8 +171,8 @@ FilterInput shortOf(std::string_view name, Numbers& n) {
   if (name == "predicted") return TapedPredicted{n.number() != 0.0};
   if (name == "clone") return poseClone(n.time());
   const Time time = n.time();
-  const double value = n.number(), variance = n.number();
-  return measuredHeight(time, value, variance, n.number());
+  const double value = n.number();
+  return measuredHeight(time, value, n.number());
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& wo
     std::size_t numbers;
   };
   constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1},   {"predicted", 1}, {"clone", 1},
-                             {"pose", 14}, {"pose3", 30}, {"height", 4}, {"vertical", 10}};
+                             {"pose", 16}, {"pose3", 30}, {"height", 3}, {"vertical", 10}};
   if (words.empty()) return std::nullopt;
   Numbers numbers(words);
   for (const Form& form : kForms) {

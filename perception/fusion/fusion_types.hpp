@@ -70,8 +70,8 @@ struct VerticalState {
   Eigen::Vector3d mean() const { return {height_m, velocity_m_s, bias_m_s2}; }
 };
 
-/// What the accelerometer says of the vertical motion over a time, with its bias in it, for a vehicle that was at rest
-/// at its beginning.
+/// What the accelerometer says of the vertical motion over a time, for a vehicle that was at rest at its beginning. The
+/// bias along the body's z is in it, those across it, which a tilted body feels, are not.
 struct InertialClimb {
   double height_m = 0.0;
   double velocity_m_s = 0.0;

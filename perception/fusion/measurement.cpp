@@ -49,11 +49,10 @@ Measurement measuredRelativePose3(Time from, Time to, const common::Pose3& T_fro
   return m;
 }
 
-Measurement measuredHeight(Time time, double height_m, double variance_m2, double common_variance_m2) {
+Measurement measuredHeight(Time time, double height_m, double variance_m2) {
   Measurement m = measurementOf(MeasurementKind::kHeight, time);
   m.value = height_m;
   m.covariance(0, 0) = variance_m2;
-  m.common_variance_m2 = common_variance_m2;
   return m;
 }
 
@@ -74,8 +73,7 @@ Measurement measuredAbsolutePose(Time time, const common::Pose2& T_odom_body, co
 bool isValid(const Measurement& m) {
   switch (m.kind) {
     case MeasurementKind::kHeight:
-      return std::isfinite(m.value) && std::isfinite(m.covariance(0, 0)) && m.covariance(0, 0) > 0.0 &&
-             std::isfinite(m.common_variance_m2) && m.common_variance_m2 >= 0.0;
+      return std::isfinite(m.value) && std::isfinite(m.covariance(0, 0)) && m.covariance(0, 0) > 0.0;
     case MeasurementKind::kVertical:
       return m.vertical.allFinite() && isCovariance(m.covariance);
     case MeasurementKind::kRelativePose:

@@ -23,8 +23,7 @@ struct Measurement {
   common::Pose2 pose;  ///< kRelativePose, kAbsolutePose.
   /// kRelativePose: change of the pose, along the axes of the level frame at `from`.
   std::optional<common::UnobservableMotion> unobservable_motion;
-  double value = 0;  ///< kHeight: m.
-  double common_variance_m2 = 0.0;
+  double value = 0;                                                               ///< kHeight: m.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();                           ///< kHeight: only (0, 0).
   Eigen::Vector3d vertical = Eigen::Vector3d::Zero();                             ///< kVertical: m, m/s, m/s^2.
   common::Pose3 pose3;                                                            ///< kRelativePose3.
@@ -45,9 +44,8 @@ Measurement measuredRelativePose(common::Time from, common::Time to, const commo
 /// rotation vector) in the axes of the body at `to`. A direction in which nothing was measured has a large variance.
 Measurement measuredRelativePose3(common::Time from, common::Time to, const common::Pose3& T_from_to,
                                   const Eigen::Matrix<double, 6, 6>& covariance);
-/// Height of the body origin above the take-off floor. `common_variance_m2` is the variance of the part of the error
-/// that does not change from one measurement to the next (that of the level below); it is not averaged out.
-Measurement measuredHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
+/// Height of the body origin above the take-off floor.
+Measurement measuredHeight(common::Time time, double height_m, double variance_m2);
 /// The height, vertical speed and accelerometer bias of an estimator that has used the same inertial samples: what the
 /// filter knows of the three is replaced, and what is correlated with them follows.
 Measurement knownVertical(common::Time time, const VerticalState& state);

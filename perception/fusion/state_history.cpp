@@ -162,7 +162,6 @@ std::optional<VerticalState> StateHistory::verticalAt(Time time) {
   constexpr int kVertical[] = {kPosition + 2, kVelocity + 2, kAccelerometerBias + 2};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) vertical.covariance(i, k) = state.covariance(kVertical[i], kVertical[k]);
-  vertical.covariance(0, 0) += state.height_common_variance_m2;
   return vertical;
 }
 
@@ -179,7 +178,9 @@ std::optional<InertialClimb> StateHistory::climb(Time from, Time to) {
     if (end <= begin) continue;
     const double dt_s = (end - begin).seconds();
     const Eigen::Vector3d up_body = s.state.rotation_odom_body.conjugate() * Eigen::Vector3d::UnitZ();
-    const double up_m_s2 = up_body.dot(s.imu.specific_force_body_m_s2) - step_.gravity_m_s2();
+    Eigen::Vector3d force_m_s2 = s.imu.specific_force_body_m_s2;
+    force_m_s2.head<2>() -= s.state.accelerometer_bias_m_s2.head<2>();
+    const double up_m_s2 = up_body.dot(force_m_s2) - step_.gravity_m_s2();
     climb.height_m += dt_s * (climb.velocity_m_s + 0.5 * dt_s * up_m_s2);
     climb.velocity_m_s += dt_s * up_m_s2;
     noise2 += dt_s * common::square(step_.accelerometerNoise_m_s2_rthz(s));

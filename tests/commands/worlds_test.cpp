@@ -67,7 +67,7 @@ TEST_F(Worlds, FoldersOfModelsThatAreNotThereAreRefused) {
   expectRefused(fly({"--model-path", path("my_modles")}),
                 "--model-path: there is no folder `.*my_modles`, did you mean `" + folder + "`");
   expectRefused(fly({"--model-path", path("my_modles/kitchen/")}), "did you mean `" + folder + "`");
-  expectRefused(fly({"--model-path", path("my_models/readme.txt")}), "readme.txt: --model-path: is a file, a folder");
+  expectRefused(fly({"--model-path", path("my_models/readme.txt")}), "readme.txt: --model-path: is not a folder");
   expectRefused(fly({"--model-path", ""}), "--model-path: there is no folder");
   expectRefused(fly({"--model-path", folder, "--start", "900;0;0"}), "start: at \\(900\\.00");
   const std::string trial = "mission: " + kMission + "\nscenario: {world: worlds/unb_case1.sdf, ";

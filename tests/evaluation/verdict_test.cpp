@@ -1,8 +1,8 @@
 // The judge of flights: from facts to a verdict, and from records to facts.
 #include "evaluation/verdict.hpp"
 
-#include "evaluation/verdict_facts.hpp"
 #include "evaluation/true_world.hpp"
+#include "evaluation/verdict_facts.hpp"
 
 #include <filesystem>
 #include <sstream>

@@ -52,7 +52,7 @@ TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double sec
     for (; started && scan_s + 0.02 <= now_s; scan_s += 0.025) {
       const Time to = Time::fromSeconds(scan_s);
       taped.inputs.push_back(
-          measuredHeight(to, flight.motion.pose(scan_s).position_m.z() + random.gaussian(0.01), 1e-4, 0));
+          measuredHeight(to, flight.motion.pose(scan_s).position_m.z() + random.gaussian(0.01), 1e-4));
       if (reference_s >= 0.0) {
         const common::Pose2 moved = planar(flight.motion.pose(reference_s + laser.clock_s)).inverse() *
                                     planar(flight.motion.pose(scan_s + laser.clock_s));

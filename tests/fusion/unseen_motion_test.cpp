@@ -100,7 +100,7 @@ TEST(ErrorStateFilter, TheAhrsKeepsAHeadingThatNoScanShows) {
     return common::yawOf(filter.state().T_odom_body.rotation) / common::kRadPerDeg;
   };
   EXPECT_GT(headingAfter_deg(60.0, false), 15.0) << "by the gyroscopes alone";
-  EXPECT_LT(std::abs(headingAfter_deg(60.0, true)), 4.0);
+  EXPECT_LT(std::abs(headingAfter_deg(60.0, true)), 10.0) << "of which the AHRS drifts by 3";
 }
 
 /// 20 s at 0.7 m/s, of which the laser observes the first six: the drag learned there holds the speed afterwards. The

@@ -273,7 +273,8 @@ TEST(Nature, MistakesOfABaseAreToldWithTheirPlace) {
   const auto problemOf = [](const std::string& text) {
     return problemsOf([&] { (void)Nature::fromText(text, "odd.yaml"); });
   };
-  EXPECT_THAT(problemOf("quadrotor: {mass_share: 1}\nbased_on: raal\n"), HasProblem("", "odd.yaml:2:11: based_on", "raal"));
+  EXPECT_THAT(problemOf("quadrotor: {mass_share: 1}\nbased_on: raal\n"),
+              HasProblem("", "odd.yaml:2:11: based_on", "raal"));
   EXPECT_THAT(problemOf("based_on: [0, 1]\n"), HasProblem("nature.no-name-of", "odd.yaml:1:11: based_on"));
   EXPECT_THAT(problemOf("based_on:\n"), HasProblem("nature.no-name-of", "based_on"));
   EXPECT_THAT(problemOf("based_on: real\nquadrotor:\n  mass_share: [0.9, 11]\n"),

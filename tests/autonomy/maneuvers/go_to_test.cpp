@@ -248,7 +248,7 @@ TEST_F(GoToManeuver, DoesNotArriveWhereItDoesNotKnowThatItIs) {
   want(to(3.0, 2.0));
   runUntil([this] { return distanceTo_m({3.0, 2.0}) < 0.02; }, 15.0);
   state_.horizontal_valid = false;
-  run(2.0);
+  run(0.8);
   EXPECT_FALSE(ended());
   EXPECT_EQ(executor_.status().reason, "the position is not known");
   state_.horizontal_valid = true;
