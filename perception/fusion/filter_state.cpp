@@ -69,8 +69,8 @@ void FilterState::inject(const ErrorVector& error) {
   gyroscope_bias_rad_s += error.segment<3>(kGyroscopeBias);
   drag_1_s += error(kDrag);
   wind_odom_m_s += error.segment<2>(kWind);
-  ahrs_offset_rad = common::wrapAngle(ahrs_offset_rad + error(kAhrsOffset));
-  ahrs_drift_rad_s += error(kAhrsDrift);
+  ahrs_yaw_off += error.segment<2>(kAhrsOffset);
+  ahrs_yaw_off.x() = common::wrapAngle(ahrs_yaw_off.x());
   for (int i = 0; i < clone_count; ++i) {
     common::Pose3& pose = clones[static_cast<std::size_t>(i)].T_odom_body;
     pose.position_m += error.segment<3>(kCore + kCloneSize * i);
@@ -81,7 +81,7 @@ void FilterState::inject(const ErrorVector& error) {
 bool FilterState::finite() const {
   return position_odom_m.allFinite() && velocity_odom_m_s.allFinite() && rotation_odom_body.coeffs().allFinite() &&
          accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() && std::isfinite(drag_1_s) &&
-         wind_odom_m_s.allFinite() && std::isfinite(ahrs_offset_rad) && std::isfinite(ahrs_drift_rad_s) &&
+         wind_odom_m_s.allFinite() && ahrs_yaw_off.allFinite() &&
          std::isfinite(covariance.sum());  // sum() is vectorized, allFinite() is not.
 }
 

@@ -74,8 +74,7 @@ struct FilterState {
   Eigen::Vector3d gyroscope_bias_rad_s = Eigen::Vector3d::Zero();
   double drag_1_s = 0.0;  ///< Deceleration per airspeed, along the body's x and y.
   Eigen::Vector2d wind_odom_m_s = Eigen::Vector2d::Zero();
-  double ahrs_offset_rad = 0.0;
-  double ahrs_drift_rad_s = 0.0;
+  Eigen::Vector2d ahrs_yaw_off = Eigen::Vector2d::Zero();  ///< rad, rad/s: offset of the AHRS's yaw, and its drift.
 
   DragStretch drag_stretch;
   /// The mean of what drag measurements were off by lately, without outliers, along the body's x and y.

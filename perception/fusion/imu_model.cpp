@@ -96,7 +96,7 @@ void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, c
   state.velocity_odom_m_s += m.dt_s * acceleration;
   state.rotation_odom_body =
       (state.rotation_odom_body * common::expSO3(m.dt_s * m.angular_velocity_body_rad_s)).normalized();
-  state.ahrs_offset_rad = common::wrapAngle(state.ahrs_offset_rad + m.dt_s * state.ahrs_drift_rad_s);
+  state.ahrs_yaw_off.x() = common::wrapAngle(state.ahrs_yaw_off.x() + m.dt_s * state.ahrs_yaw_off.y());
   state.yaw_rate_odom_rad_s = (m.rotation_odom_body * m.angular_velocity_body_rad_s).z();
   state.stamp = end.stamp;
 }

@@ -159,7 +159,7 @@ Linearized<2> upDirection(const FilterState& state, const Eigen::Vector3d& up_bo
 }
 
 Linearized<1> ahrsYaw(const FilterState& state, double yaw_rad, double variance_rad2) {
-  const double expected_rad = common::yawOf(state.rotation_odom_body) + state.ahrs_offset_rad;
+  const double expected_rad = common::yawOf(state.rotation_odom_body) + state.ahrs_yaw_off.x();
   Linearized<1> m = direct(kAhrsOffset, common::wrapAngle(yaw_rad - expected_rad), variance_rad2);
   m.jacobian.block<1, 3>(0, kAttitude) = yawJacobian(state.rotation_odom_body);
   return m;

@@ -37,7 +37,7 @@ Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom
                            const Eigen::Matrix3d& covariance);
 /// Roll and pitch from the direction of "up" in the body frame; yaw is not measured.
 Linearized<2> upDirection(const FilterState& state, const Eigen::Vector3d& up_body, double variance_rad2);
-/// The yaw of the AHRS, which has an offset of its own (FilterState::ahrs_offset_rad).
+/// The yaw of the AHRS, which has an offset of its own (FilterState::ahrs_yaw_off).
 Linearized<1> ahrsYaw(const FilterState& state, double yaw_rad, double variance_rad2);
 /// The specific force, assumed to be due to gravity alone.
 Linearized<3> gravity(const FilterState& state, const Eigen::Vector3d& specific_force_body_m_s2, double gravity_m_s2,
