@@ -30,6 +30,10 @@ bool isValid(const UnobservableMotion& motion) {
          motion.lever_m > 0.0;
 }
 
+bool isTranslation(const UnobservableMotion& motion) {
+  return motion.change.head<2>().norm() > motion.lever_m * std::abs(motion.change.z());
+}
+
 UnobservableMotion turned(const UnobservableMotion& motion, double yaw_rad) {
   UnobservableMotion result = motion;
   result.change.head<2>() = Eigen::Rotation2Dd(yaw_rad) * motion.change.head<2>();

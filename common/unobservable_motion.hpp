@@ -21,6 +21,8 @@ struct UnobservableMotion {
 
 /// Finite and not zero, with a lever.
 bool isValid(const UnobservableMotion& motion);
+/// Whether it moves the points more by its translation than by its turn.
+bool isTranslation(const UnobservableMotion& motion);
 
 /// The same motion along the axes of frame a; `yaw_rad` is the yaw of its present frame in a.
 UnobservableMotion turned(const UnobservableMotion& motion, double yaw_rad);

@@ -1,7 +1,5 @@
 #include "autonomy/estimation/position_uncertainty.hpp"
 
-#include <cmath>
-
 namespace swiftlet::autonomy {
 
 Eigen::Matrix3d PositionUncertainty::ofStep(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body) {
@@ -26,9 +24,8 @@ double PositionUncertainty::add(const OdometryStep& step, bool matched, const co
   // A restart of the odometry does not measure the motion before it.
   fix.matched = matched && !step.interrupted;
   if (const auto unobservable = unobservableMotion(step, T_odom_body)) {
-    const Eigen::Vector2d moved = unobservable->change.head<2>();
-    fix.unobservable_direction_odom = moved.stableNormalized();
-    fix.turns = moved.norm() < unobservable->lever_m * std::abs(unobservable->change.z());
+    fix.unobservable_direction_odom = unobservable->change.head<2>().stableNormalized();
+    fix.turns = !isTranslation(*unobservable);
   }
   fix.new_reference = matched && !step.covariance.isZero();
   if (map.at_key) fix.newest_key = map.at_key->key;

@@ -118,7 +118,7 @@ std::string GoTo::reached(const common::PlaceNames& names) const {
 Progress GoTo::fly(const ManeuverInput& input) {
   sees_heights_ = input.map3d != nullptr;
   if (flight_.arrived(input, place_map_m_, intent_.tolerance_m) && looksAsAsked(input.state)) {
-    if (input.drift_m <= kKnown_m) return Progress::done(reached(input.names));
+    if (input.drift_m <= ManeuverInput::kKnown_m) return Progress::done(reached(input.names));
     return Progress::failed("whether it has reached " + input.names.of(place_map_m_) + " cannot be told");
   }
   if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());

@@ -15,7 +15,6 @@
 #include <tl/expected.hpp>
 
 #include "autonomy/maneuvers/path_flight.hpp"
-#include "autonomy/maneuvers/path_maneuver.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "planning/costs/landing_place.hpp"
 
@@ -86,7 +85,7 @@ Progress Land::step(const ManeuverInput& input) {
 
 /// A landing is a success only at a place that is known.
 Progress Land::onGround(double drift_m) {
-  if (drift_m <= PathManeuver::kKnown_m) return Progress::done("on the ground");
+  if (drift_m <= ManeuverInput::kKnown_m) return Progress::done("on the ground");
   return Progress::failed(fmt::format("on the ground, at a place that is uncertain by {:.1f} m", drift_m));
 }
 

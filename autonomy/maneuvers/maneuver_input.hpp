@@ -22,6 +22,10 @@
 namespace swiftlet::autonomy {
 
 struct ManeuverInput {
+  /// Up to this standard deviation the position counts as known: 95 % of such places are within 0.5 m of where they
+  /// are believed to be, which is about the radius of a hull with its clearance.
+  static constexpr double kKnown_m = 0.25;
+
   common::Time now;
   common::VehicleState state;
   std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null; a snapshot that is not written to any more.
@@ -31,7 +35,7 @@ struct ManeuverInput {
   std::vector<common::Disc> discs;  ///< Present and predicted places of people, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
-  double drift_m = 0.0;                              ///< See DriftMonitor.
+  double drift_m = 0.0;                              ///< See DriftMonitor; up to kKnown_m the position is known.
   std::string take_off_refusal = {};                 ///< Why the vehicle must not take off; empty if it may.
   std::vector<common::DynamicObstacle> people = {};  ///< What the map does not explain, as last seen.
   const perception::SeenPoints* seen = nullptr;      ///< By the newest scan; null before the first one.

@@ -22,7 +22,8 @@ Progress PathManeuver::step(const ManeuverInput& input) {
 
 /// An error of the position can close a door in the map, so the planner's reason would blame the goal.
 std::string PathManeuver::doubt(double drift_m) {
-  return drift_m <= kKnown_m ? std::string() : fmt::format("the position is uncertain by {:.1f} m: ", drift_m);
+  return drift_m <= ManeuverInput::kKnown_m ? std::string()
+                                            : fmt::format("the position is uncertain by {:.1f} m: ", drift_m);
 }
 
 }  // namespace swiftlet::autonomy

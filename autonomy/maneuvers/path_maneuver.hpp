@@ -11,10 +11,6 @@ namespace swiftlet::autonomy {
 
 class PathManeuver : public Maneuver {
  public:
-  /// Up to this standard deviation the position counts as known: 95 % of such places are within 0.5 m of where they
-  /// are believed to be, which is about the radius of a hull with its clearance.
-  static constexpr double kKnown_m = 0.25;
-
   Progress step(const ManeuverInput& input) final;
   Aim aim(const common::VehicleState&) const override { return flight_.aim(); }
 

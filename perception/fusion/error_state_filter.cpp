@@ -23,7 +23,8 @@ namespace {
 constexpr double kDragSigma_1_s = 0.2;
 /// Standard deviation of each component of the wind at the start.
 constexpr double kWindSigma_m_s = 0.3;
-/// Standard deviation of the drift of the AHRS's yaw, without a compass: indoors magnetic fields turn one.
+/// Standard deviation of the drift of the AHRS's yaw, without a compass: indoors magnetic fields turn one
+/// (docs/decisions/fusion.md#113).
 constexpr double kAhrsDriftSigma_deg_s = 0.05;
 /// Standard deviation up to which the velocity may be used for control. A corridor's axis is measured by the airframe's
 /// drag alone, which leaves half a metre per second in gusts (docs/decisions/fusion.md#018); with less the vehicle

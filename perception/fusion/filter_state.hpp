@@ -27,7 +27,7 @@ inline constexpr int kCore = 20;
 inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
 inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
-/// Standard deviation of a yaw that may be any.
+/// Standard deviation of a yaw that may be any: pi / sqrt(3), that of the uniform distribution.
 inline constexpr double kUnknownYaw_rad = 1.8;
 /// What is not known of the laser: yaw, x and y of its mount in the body, and its clock.
 inline constexpr int kLaserSize = 4;

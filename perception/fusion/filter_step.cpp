@@ -22,7 +22,7 @@ constexpr double kPredictedTiltSigma_deg = 5.0;
 constexpr double kDragWalk_1_s_rts = 0.002;
 /// Random walk of each component of the wind.
 constexpr double kWindWalk_m_s_rts = 0.001;
-/// Noise of a yaw of the AHRS, and the random walk of its error beside the drift (docs/decisions/fusion.md).
+/// Noise of a yaw of the AHRS, and the random walk of its error beside the drift (docs/decisions/fusion.md#113).
 constexpr double kAhrsYawSigma_deg = 0.2, kAhrsYawWalk_deg_rts = 0.05;
 /// Standard deviation of the specific force from gravity, by the vehicle's own acceleration.
 constexpr double kGravitySigma_m_s2 = 1.0;
@@ -198,9 +198,10 @@ void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) 
                 widenSpatialPose, alone);
     return;
   }
-  doubtAccelerometer(state, relativePose(state, clone, m.pose, m.covariance));
+  const Linearized<3> whole = relativePose(state, clone, m.pose, m.covariance);
+  doubtAccelerometer(state, whole);
   if (!m.unobservable_motion)
-    return gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance), kPoseRecovery_s,
+    return gatedUpdate(state, state.relative_gate, whole, kPoseRecovery_s,
                        [this](FilterState& s, const Eigen::Vector3d& off, double recovery_s) {
                          widenPlanarPose(s, off, recovery_s, config_.gravity_m_s2);
                        });

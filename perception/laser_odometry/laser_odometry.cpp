@@ -55,12 +55,6 @@ void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
   }
 }
 
-/// Whether mostly a translation is hidden. In a turn the guess drifts by what the gyroscopes drift, which the least
-/// window covers.
-bool hidesTranslation(const std::optional<common::UnobservableMotion>& motion) {
-  return motion && motion->change.head<2>().norm() > motion->lever_m * std::abs(motion->change.z());
-}
-
 /// At this many half windows from the guess, the guess no longer supports a match (measured:
 /// docs/decisions/scan_matching.md#023).
 constexpr double kFarWindows = 6.0;
@@ -372,7 +366,8 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   }
   self.failures = 0;
   self.last_match = scan.stamp;
-  if (!hidesTranslation(match.unobservable_motion)) self.last_seen_whole = scan.stamp;
+  // In a hidden turn the guess drifts by what the gyroscopes drift, which the least window covers.
+  if (!match.unobservable_motion || !isTranslation(*match.unobservable_motion)) self.last_seen_whole = scan.stamp;
   self.last_T_odom_body = otherwise ? other->T_odom_body : T_odom_body;
   self.last_T_local_body = match.T_reference_body;
   self.held_T_local_body = held_T_local_now;

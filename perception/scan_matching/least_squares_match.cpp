@@ -112,10 +112,9 @@ double LeastSquaresMatch::leastSupport(const NormalEquations& equations, double 
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
   supported << equations.xx, equations.xy, equations.xy, equations.yy;
   supported = R.transpose() * supported * R;
-  const Eigen::Vector2d held = held_level_ ? Eigen::Vector2d(held_level_->change.head<2>()) : Eigen::Vector2d::Zero();
   // A turn that is not seen leaves both directions to compare, a translation the one across.
-  if (held_level_ && held.norm() > lever_m_ * std::abs(held_level_->change.z())) {
-    const Eigen::Vector2d seen = held.unitOrthogonal();
+  if (held_level_ && isTranslation(*held_level_)) {
+    const Eigen::Vector2d seen = held_level_->change.head<2>().unitOrthogonal();
     return seen.dot(supported * seen) / seen.dot(facing * seen);
   }
   return common::generalizedEigenvalues(supported, facing)(0);
