@@ -253,6 +253,7 @@ int fly(const FlyOptions& options) {
   simulated_flight::SimulatedSetup setup = setupOf(options);
   std::vector<flight::FlightMission> missions = simulated_flight::soundMissions(setup, !options.map.empty());
   showWarnings(missions, *setup.types, options.headless);
+  showNotes(flight::notesOfSensors(setup.system));
   if (!options.map.empty()) {
     setup.map = std::make_shared<const flight::FlightMap>(flight::readFlightMap(options.map));
     showNotes(setup.map->notes);

@@ -210,7 +210,7 @@ std::optional<Problem> noRoomAbove(const PlacedVehicle& drawn, const WorldModel&
     if (near.shape == Hit::kNothing) continue;
     return startProblem(
         drawn, world,
-        Message("start.no-room", "has no room for the take-off to {:g} m: {} is above it, {:.2f} m over the floor",
+        Message("start.no-room", "has no room for the take-off to {:g} m: {} is in the way, {:.2f} m over the floor",
                 flightHeight_m(drawn.scenario), described(world.shapes[static_cast<std::size_t>(near.shape)]),
                 near.point_world_m.z() - floor_m.z()),
         "move the start, or lower variation.flight_height_m");
