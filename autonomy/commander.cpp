@@ -226,7 +226,7 @@ common::Intent Commander::chooseIntent(const Supervision& supervision, const Nav
     endMission(supervision.land_reason);
     return SupervisorIntents::land();
   }
-  if (!missionOver()) tickMission(navigator.controller().state());
+  if (!missionOver()) tickMission(navigator);
   if (!airborne && !missionOver())
     return waitsToTakeOff(supervision) ? SupervisorIntents::hold() : context_.intent.value_or(common::Intent{});
   if (missionOver() && (!airborne || !supervisor_.sentHome())) return SupervisorIntents::land();
@@ -277,7 +277,7 @@ void Commander::endMission(const std::string& reason) {
   for (common::Event& event : std::exchange(context_.events, {})) log_.add(std::move(event));
 }
 
-void Commander::tickMission(FlightState flight) {
+void Commander::tickMission(const Navigator& navigator) {
   context_.intent.reset();
   context_.answers = requests_.takeAnswers(context_.now);
   const std::vector<common::OperatorCommand> asked = context_.commands;
@@ -294,7 +294,10 @@ void Commander::tickMission(FlightState flight) {
   status_.reason = result.reason;
   status_.question = missions_.mission().question();
   if (result.state != MissionState::kFailed) return;
-  if (flight == FlightState::kFlying && missions_.mission().fliesHomeOnFailure())
+  // Where no path is known, home is where the vehicle has just failed to get.
+  const FlightState flight = navigator.controller().state();
+  const bool knows_home = navigator.executor().desk().home_m().has_value();
+  if (flight == FlightState::kFlying && knows_home && missions_.mission().fliesHomeOnFailure())
     supervisor_.missionFailed(context_.now, result.reason);
   else if (control::isAirborne(flight))
     log_.warn(context_.now, "mission", "the mission has failed: the vehicle lands", result.reason,

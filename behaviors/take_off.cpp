@@ -37,8 +37,9 @@ tree::NodeManifest TakeOff::manifest() {
                     {.name = "home_on_failure",
                      .type = tree::PortType::kBool,
                      .default_value = "true",
-                     .description = "If the mission fails in flight, the vehicle flies home before it lands; `false`: "
-                                    "it lands where it is."}},
+                     .description =
+                         "If the mission fails in flight and a path home is known, it flies home to land; `false`: "
+                         "it lands where it is."}},
           .description = "Climbs from the floor to a height and hovers.",
           .ends = "SUCCESS when it hovers there",
           .traits = LeafTraits{.vehicle = VehicleUse::kTakesOff}};

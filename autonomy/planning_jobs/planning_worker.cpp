@@ -36,7 +36,8 @@ std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const p
 bool sees(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
   constexpr double kOutline_m = 0.3, kBeside_m = 0.15;  // What stands there has an outline of its own.
   const Eigen::Vector2d aside = kBeside_m * (to_map_m - from_map_m).unitOrthogonal();
-  for (const Eigen::Vector2d& end_map_m : {to_map_m, Eigen::Vector2d(to_map_m + aside), Eigen::Vector2d(to_map_m - aside)}) {
+  for (const Eigen::Vector2d& end_map_m :
+       {to_map_m, Eigen::Vector2d(to_map_m + aside), Eigen::Vector2d(to_map_m - aside)}) {
     const Eigen::Vector2d line = end_map_m - from_map_m;
     const double length_m = line.norm(), step_m = 0.5 * map.resolution_m();
     for (double at_m = 0.0; at_m < length_m - kOutline_m; at_m += step_m)
@@ -135,6 +136,9 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
 /// Brings the map up to date in which all that may go has gone. Returns what that is; nobody is tracked in that map.
 std::vector<MayGo> PlanningWorker::clear(const PlanningRequest& request, const planning::CostLayers& layers) {
   std::vector<MayGo> things = who_may_go_.in(map_, flown_map_m_);
+  // A goal beside a crate is not waited for: only what came may go from it.
+  if (!std::holds_alternative<ExploreRequest>(request.question))
+    std::erase_if(things, [](const MayGo& thing) { return !thing.came; });
   planning::CostLayers alone = layers;
   alone.discs = {};
   cleared_.update(gridWithout(things, *request.grid), map_.footprint(), alone);

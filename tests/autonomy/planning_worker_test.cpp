@@ -184,7 +184,7 @@ void stand(common::OccupancyGrid& grid, const Eigen::Vector2d& place_m) {
 TEST_F(Worker, NamesThePersonInTheDoorAndNotTheThinWall) {
   build(20);
   const Eigen::Vector2d door(4.0, 2.0);
-  common::DynamicObstacle person{7, door, 0.25, {0.3, 0.0}, true};
+  common::DynamicObstacle person{7, door, 0.25, {0.3, 0.0}, true, {}};
   people = {person};
   EXPECT_TRUE(ask(GoalRequest{{6.0, 2.0}, 0.05}).path->has_value());
   stand(*grid, door);
@@ -230,7 +230,7 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   auto answer = ask(ExploreRequest{});
   for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
     attempts.push_back(planning::attemptFrom(*answer.exploration->next));
-    answer = ask(ExploreRequest{std::nullopt, attempts});
+    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
   }
   ASSERT_TRUE(answer.exploration->done);
   ASSERT_TRUE(answer.blockage);

@@ -312,7 +312,9 @@ TEST(GridDrawing, AThinPoleStays) {
     scan.body_height_m = 1.0;
     map.draw(scan, {});
     const common::OccupancyGrid grid = map.atFlightHeight();
-    if (i > 20) ASSERT_TRUE(common::occupancy::isOccupied(grid.at(grid.cellAt(pole)))) << i;
+    if (i > 20) {
+      ASSERT_TRUE(common::occupancy::isOccupied(grid.at(grid.cellAt(pole)))) << i;
+    }
   }
 }
 
