@@ -70,7 +70,10 @@ void Commander::take(const common::OperatorCommand& asked, Time now, const commo
   const auto answered = [&](common::CommandResult result) { answer(command, std::move(result), now, names); };
   std::string refusal = supervisor_.refusal(command);
   const bool lands = std::holds_alternative<common::LandCommand>(command.kind);
-  if (refusal.empty() && missionOver() && !lands) refusal = "the mission has ended";
+  const bool holds = std::holds_alternative<common::HoldCommand>(command.kind) ||
+                     std::holds_alternative<common::ResumeCommand>(command.kind);
+  const bool flies_home = supervisor_.supervision().home > 0 || supervisor_.supervision().hold;
+  if (refusal.empty() && missionOver() && !lands && !(holds && flies_home)) refusal = "the mission has ended";
   if (refusal.empty()) refusal = resolvePlaces(command, world);
   if (!refusal.empty()) return answered({command.id, false, std::move(refusal)});
   if (auto result = takeMission(command, control::isAirborne(navigator.controller().state())))
@@ -165,6 +168,7 @@ const Decision& Commander::decide(const Percept& percept, const std::shared_ptr<
     decision_.take_off_refusal = supervisor_.supervision().take_off_refusal;
   }
   decision_.mission_over = missionOver();
+  if (world && world->energy) decision_.spare_s = spareTime_s(*world->energy, config_);
   decision_.pilot_flies = supervisor_.pilotFlies();
   decision_.unseen = supervisor_.supervision().unseen;
   return decision_;
@@ -222,15 +226,15 @@ common::Intent Commander::chooseIntent(const Supervision& supervision, const Nav
     endMission(supervision.land_reason);
     return SupervisorIntents::land();
   }
-  if (missionOver()) return SupervisorIntents::land();
-  tickMission(airborne);
-  if (!airborne)
+  if (!missionOver()) tickMission(navigator);
+  if (!airborne && !missionOver())
     return waitsToTakeOff(supervision) ? SupervisorIntents::hold() : context_.intent.value_or(common::Intent{});
-  if (missionOver()) return SupervisorIntents::land();
+  if (missionOver() && (!airborne || !supervisor_.sentHome())) return SupervisorIntents::land();
   const SupervisedFlight flight{context_.now, *context_.world, decision_.intent, navigator.executor().status(),
                                 navigator.executor().desk().home_m().has_value()};
   if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) return *intent;
-  if (missions_.waits() || (supervision.hold && status_.state != MissionState::kHeld)) return SupervisorIntents::hold();
+  if (missionOver() || missions_.waits() || (supervision.hold && status_.state != MissionState::kHeld))
+    return SupervisorIntents::hold();
   return context_.intent.value_or(common::Intent{});
 }
 
@@ -243,7 +247,7 @@ bool Commander::waitsToTakeOff(const Supervision& supervision) const {
 void Commander::tellWhoFlies(const Supervision& supervision, const common::Intent& intent, const Navigator& navigator) {
   const FlightState flight = navigator.controller().state();
   status_.flown_by = supervision.flown_by;
-  if (supervision.land || missionOver()) return;
+  if (supervision.land || (missionOver() && supervision.home == 0)) return;
   const bool asked = std::holds_alternative<common::LandIntent>(intent.kind) ||
                      std::holds_alternative<common::EmergencyLandIntent>(intent.kind);
   const bool lands = !asked && (flight == FlightState::kLanding || flight == FlightState::kEmergencyLanding);
@@ -273,7 +277,7 @@ void Commander::endMission(const std::string& reason) {
   for (common::Event& event : std::exchange(context_.events, {})) log_.add(std::move(event));
 }
 
-void Commander::tickMission(bool airborne) {
+void Commander::tickMission(const Navigator& navigator) {
   context_.intent.reset();
   context_.answers = requests_.takeAnswers(context_.now);
   const std::vector<common::OperatorCommand> asked = context_.commands;
@@ -289,7 +293,13 @@ void Commander::tickMission(bool airborne) {
   status_.phase = result.phase;
   status_.reason = result.reason;
   status_.question = missions_.mission().question();
-  if (result.state == MissionState::kFailed && airborne)
+  if (result.state != MissionState::kFailed) return;
+  // Where no path is known, home is where the vehicle has just failed to get.
+  const FlightState flight = navigator.controller().state();
+  const bool knows_home = navigator.executor().desk().home_m().has_value();
+  if (flight == FlightState::kFlying && knows_home && missions_.mission().fliesHomeOnFailure())
+    supervisor_.missionFailed(context_.now, result.reason);
+  else if (control::isAirborne(flight))
     log_.warn(context_.now, "mission", "the mission has failed: the vehicle lands", result.reason,
               common::Concern::kLanding);
 }

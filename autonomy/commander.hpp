@@ -80,7 +80,7 @@ class Commander {
   bool waitsToTakeOff(const Supervision& supervision) const;
   void tellWhoFlies(const Supervision& supervision, const common::Intent& intent, const Navigator& navigator);
   void endMission(const std::string& reason);
-  void tickMission(bool airborne);
+  void tickMission(const Navigator& navigator);
   void carryOut(const common::MissionRequest& request);
   void followMission();
 

@@ -136,8 +136,6 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.drift_m = uncertainty_.add(odometry, outcome.matched, T_odom_body, map);
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid(),
                  localizer_ ? localizer_->background(map_.T_map_odom()) : std::nullopt, flown_.below_map_m);
-  // Beams that pass below a beam do not show that it is gone.
-  if (outcome.matched && flown_.below_map_m == 0.0) map_.updateVacatedPlaces(outcome.scan, outcome.T_map_body);
   filter_.reportHealth(now, log_);
   return outcome;
 }

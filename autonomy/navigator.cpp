@@ -90,7 +90,7 @@ void Navigator::carryOut(const Decision& decision, const Percept& percept, const
   executor_.tick(decision.intent,
                  {percept.now, percept.state, camera_obstacles_.grid(), around.levels, std::move(surfaces),
                   estimator.people().discs(percept.now), estimator.people().anyMoves(), reactive_.decision(),
-                  percept.drift_m, decision.take_off_refusal, estimator.people().obstacles(),
+                  decision.spare_s, percept.drift_m, decision.take_off_refusal, estimator.people().obstacles(),
                   &estimator.people().seen(), keep_out.zones(), common::PlaceNames::in(around.T_map_given),
                   around.map3d, [&estimator, now = percept.now] { return estimator.whyUnready(now); }});
   // With more drift the walls are not where the map has them.

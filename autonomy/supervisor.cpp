@@ -84,6 +84,11 @@ void Supervisor::startHome(std::string reason, AtHome then) {
   operator_holds_ = false;
 }
 
+void Supervisor::missionFailed(Time now, std::string reason) {
+  log_.warn(now, "mission", "the mission has failed: the vehicle flies home", reason, common::Concern::kHome);
+  startHome("the mission has failed");
+}
+
 void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
   home_.active = false;
   if (!home_.reason.empty())

@@ -58,6 +58,8 @@ class Supervisor {
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
   /// Handles and answers home for a mission that does not fly it itself, and for a flight without a mission.
   common::CommandResult goHome(const common::OperatorCommand& command, AtHome then = AtHome::kHold);
+  /// The mission has failed in flight: the vehicle flies home and lands there.
+  void missionFailed(common::Time now, std::string reason);
   void homeEnded(common::Time now, bool reached, std::string reason);
   /// The flight back has reached the start of the trail, or failed. The vehicle lands if it still does not know its
   /// height or position.
@@ -78,9 +80,12 @@ class Supervisor {
   const Supervision& supervision() const { return supervision_; }
 
   bool landedByOperator() const { return landed_by_operator_; }
+  /// It flies home, or will when a hold ends, and lands there.
+  bool sentHome() const { return home_.forced(); }
 
  private:
-  /// A flight home, requested by the operator or, with a reason, for the charge. The latter ends in a landing.
+  /// A flight home, requested by the operator or, with a reason, for the charge or because the mission has failed. The
+  /// latter two end in a landing.
   struct FlightHome {
     bool active = false;
     std::string reason;

@@ -78,8 +78,10 @@ Status IntentLeaf::outcomeOf(tree::TickContext& context, common::IntentState sta
   switch (state) {
     case common::IntentState::kRunning:
       return Status::kRunning;
-    case common::IntentState::kSucceeded:
-      return Status::kSuccess;
+    case common::IntentState::kSucceeded: {
+      const std::string problem = problemWith(flightTick(context), reason);
+      return problem.empty() ? Status::kSuccess : fail(context, problem);
+    }
     case common::IntentState::kFailed:
       return fail(context, reason);
   }

@@ -55,6 +55,8 @@ class IntentLeaf : public FlightLeaf {
   using IntentOrProblem = tl::expected<common::IntentKind, std::string>;
   /// Called when an intent begins: at the start and after a suspension.
   virtual IntentOrProblem makeIntent(const FlightTick& tick) = 0;
+  /// Why an intent that has succeeded does not do; empty if it does.
+  virtual std::string problemWith(const FlightTick&, const std::string& /*reason*/) const { return {}; }
   /// The present intent is outdated and must be emitted again.
   virtual bool isOutdated(const FlightTick&) const { return false; }
 

@@ -199,4 +199,13 @@ std::optional<double> maxHeightOf_m(const tree::Tree& tree) {
   return greatest_m;
 }
 
+bool fliesHomeOnFailure(const tree::Tree& tree) {
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    if (traitsOf(record).vehicle != VehicleUse::kTakesOff) continue;
+    for (const tree::Value& value : tree.knownValues(record.node->id(), "home_on_failure"))
+      if (const auto* home = std::get_if<bool>(&value); home != nullptr && !*home) return false;
+  }
+  return true;
+}
+
 }  // namespace swiftlet::behaviors

@@ -17,5 +17,7 @@ std::vector<tree::Problem> limitProblems(const tree::Tree& tree, const MissionLi
 
 /// The greatest `max_height_m` of the tree's TakeOffs; nullopt if none names one.
 std::optional<double> maxHeightOf_m(const tree::Tree& tree);
+/// Whether the vehicle flies home before it lands if the mission fails: unless a TakeOff says otherwise.
+bool fliesHomeOnFailure(const tree::Tree& tree);
 
 }  // namespace swiftlet::behaviors

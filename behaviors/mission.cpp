@@ -139,6 +139,8 @@ void Mission::continueIntentsOf(const Mission& before) {
 
 std::optional<double> Mission::maxHeight_m() const { return maxHeightOf_m(impl_->tree); }
 
+bool Mission::fliesHomeOnFailure() const { return behaviors::fliesHomeOnFailure(impl_->tree); }
+
 std::vector<std::string> Mission::mapFiles() const { return mapFilesOf(impl_->tree); }
 
 bool Mission::acceptsGoals() const { return !impl_->takers.empty(); }

@@ -60,6 +60,8 @@ class Mission {
   std::string question() const;
   /// The greatest height that the mission allows above the take-off floor, if one of its TakeOffs names one.
   std::optional<double> maxHeight_m() const;
+  /// Whether the vehicle flies home before it lands if the mission fails.
+  bool fliesHomeOnFailure() const;
   /// The maps that its LoadMaps name, as they name them; each once.
   std::vector<std::string> mapFiles() const;
   /// What it was read with.

@@ -33,7 +33,13 @@ tree::NodeManifest TakeOff::manifest() {
                      .minimum = common::kLeastFlightHeight_m,
                      .maximum = 100.0,
                      .description = "Greatest height of the whole mission, for a building that is high enough; "
-                                    "without it that of the vehicle."}},
+                                    "without it that of the vehicle."},
+                    {.name = "home_on_failure",
+                     .type = tree::PortType::kBool,
+                     .default_value = "true",
+                     .description =
+                         "If the mission fails in flight and a path home is known, it flies home to land; `false`: "
+                         "it lands where it is."}},
           .description = "Climbs from the floor to a height and hovers.",
           .ends = "SUCCESS when it hovers there",
           .traits = LeafTraits{.vehicle = VehicleUse::kTakesOff}};

@@ -18,7 +18,6 @@ MapPipeline::MapPipeline(const perception::SlamMethodConfig& config, common::Dur
       slam_(makeSlam(config)),
       published_grid_(std::make_shared<common::OccupancyGrid>(slam_->snapshot())),
       published_keys_(std::make_shared<common::KeyPoses>()),
-      clears_vacated_places_(config.grid.glass_fade_scans == 1),
       log_(log) {}
 
 MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
@@ -47,9 +46,7 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
 
 std::shared_ptr<const common::OccupancyGrid> MapPipeline::grid() {
   if (published_grid_version_ != grid_version_) {
-    auto grid = std::make_shared<common::OccupancyGrid>(slam_->snapshot());
-    vacated_.clear(*grid, [this](common::CellIndex cell) { return slam_->isLowObstacle(cell); });
-    published_grid_ = std::move(grid);
+    published_grid_ = std::make_shared<common::OccupancyGrid>(slam_->snapshot());
     published_grid_version_ = grid_version_;
   }
   return published_grid_;

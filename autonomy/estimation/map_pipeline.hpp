@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include "autonomy/estimation/vacated_places.hpp"
 #include "common/event_log.hpp"
 #include "common/geometry.hpp"
 #include "common/jobs.hpp"
@@ -53,11 +52,6 @@ class MapPipeline {
 
   MapStep add(const MappedScan& mapped, common::Time now);
 
-  /// Clears places that something has left in grid(). Call it after add() with the same scan.
-  void updateVacatedPlaces(const perception::ProjectedScan& scan, const common::Pose2& T_map_body) {
-    if (clears_vacated_places_ && vacated_.update(scan, T_map_body, *published_grid_)) ++grid_version_;
-  }
-
   /// It jumps when the method corrects the odometry: by millimetres at a match, by more at a loop closure.
   common::Pose2 T_map_odom() const { return slam_->T_map_odom(); }
   /// Sets the height over the take-off floor at which grid() shows the map.
@@ -82,8 +76,6 @@ class MapPipeline {
   std::uint64_t grid_version_ = 0, keys_version_ = 0, published_grid_version_ = 0;
   std::shared_ptr<const common::OccupancyGrid> published_grid_;
   std::shared_ptr<const common::KeyPoses> published_keys_;
-  VacatedPlaces vacated_;
-  bool clears_vacated_places_;  ///< Not where the map keeps glass, which beams pass after they ended on it.
   common::EventLog& log_;
 };
 

@@ -1,6 +1,7 @@
 #include "autonomy/health/checks.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -188,6 +189,16 @@ constexpr Check kAllChecks[] = {
 };
 
 }  // namespace
+
+double spareTime_s(const common::EnergyLayer& energy, const SupervisorConfig& config) {
+  constexpr double kGivesUp_s = 5.0;  // So that the mission decides before the supervisor does.
+  const double land_share = std::max(config.battery_land_share, energy.land_share);
+  const double left = energy.battery_remaining - land_share;
+  if (!energy.seconds_left || !energy.home_share) return std::numeric_limits<double>::infinity();
+  if (!(left > 0.0)) return 0.0;
+  const double spare = left - config.home_reserve_share - kHomeNeedFactor * *energy.home_share;
+  return *energy.seconds_left * spare / left - kGivesUp_s;
+}
 
 std::span<const Check> checks() { return kAllChecks; }
 

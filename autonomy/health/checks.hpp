@@ -70,6 +70,10 @@ struct Check {
   common::Concern concern;  ///< Of the event at its beginning.
 };
 
+/// How long the vehicle may hover before it turns back for the charge, less what giving up takes; infinite while the
+/// consumption is not known.
+double spareTime_s(const common::EnergyLayer& energy, const SupervisorConfig& config);
+
 /// Those of the supervisor. Checks of the estimate itself belong to the flight controller, which works without one.
 std::span<const Check> checks();
 

@@ -4,26 +4,21 @@
 #include <utility>
 
 namespace swiftlet::autonomy {
-namespace {
-
-/// Longest time of going nearer or aside; a path is requested meanwhile (docs/decisions/planning.md#005).
-constexpr double kDetour_s = 15.0;
-
-}  // namespace
-
 using common::Time;
 
 Detour::Detour(const ManeuverSetup& setup, PathFlight& flight)
     : config_(setup.config), memory_(setup.memory), flight_(flight) {}
 
-bool Detour::due(Time stuck_since, Time now) const {
-  if (flight_.plan()) return false;
+bool Detour::due(Time stuck_since, Time now, bool may_go) const {
+  if (flight_.plan() || asked_ >= (may_go ? 1 : 2)) return false;
   return (now - std::max(stuck_since, since_.value_or(stuck_since))).seconds() >= config_.detour_after_s;
 }
 
-void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m) {
+void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m,
+                 const std::optional<Eigen::Vector2d>& blocked_map_m) {
   since_ = input.now;
-  flight_.ask(input, DetourRequest{goal_map_m});
+  ++asked_;
+  flight_.ask(input, DetourRequest{goal_map_m, blocked_map_m});
 }
 
 Progress Detour::begin(const DetourPlan& plan, std::string reason, Time now, const common::VehicleState& state) {
@@ -36,7 +31,7 @@ Progress Detour::begin(const DetourPlan& plan, std::string reason, Time now, con
 
 void Detour::endWhenOver(const ManeuverInput& input) {
   if (!active_) return;
-  if (const planning::Path* path = flight_.plan(); path && (input.now - *since_).seconds() <= kDetour_s) {
+  if (const planning::Path* path = flight_.plan()) {
     const Eigen::Vector2d left_m = path->points_map_m.back() - input.position_map_m();
     if (left_m.norm() > kViewpointTolerance_m) return;
   }
@@ -46,6 +41,7 @@ void Detour::endWhenOver(const ManeuverInput& input) {
 }
 
 void Detour::breakOff() {
+  asked_ = 0;
   if (std::exchange(active_, false)) flight_.release();
 }
 

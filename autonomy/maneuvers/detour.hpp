@@ -16,26 +16,25 @@ inline constexpr double kViewpointTolerance_m = 0.15;
 ///
 ///            ask, then begin with the answer
 ///   waiting ---------------------------------> active: its path is flown, the maneuver asks for its own from time to
-///     ^      there (endWhenOver), too long        time
-///     |      (endWhenOver), no path left,         |
+///     ^      there, or no path left               time
+///     |      (endWhenOver),                       |
 ///     |      or a path was found (breakOff)       |
 ///     +-------------------------------------------+
 class Detour {
  public:
-  /// Period at which a maneuver asks for its own path while a detour is flown (docs/decisions/planning.md#005).
-  static constexpr double kAskAgain_s = 1.0;
-
   /// `flight` is the maneuver's own flight, which the detour borrows.
   Detour(const ManeuverSetup& setup, PathFlight& flight);
 
   bool active() const { return active_; }
   /// Whether a detour is due: there has been no path and no flight since then, and the last detour ended (or was
-  /// requested) long enough ago.
-  bool due(common::Time stuck_since, common::Time now) const;
-  void ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m);
+  /// requested) long enough ago. To wait for what may go, one is enough; what will not go is looked at from two places.
+  bool due(common::Time stuck_since, common::Time now, bool may_go) const;
+  /// `blocked_map_m` is where something that may go stands; nullopt if nothing does.
+  void ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m,
+           const std::optional<Eigen::Vector2d>& blocked_map_m);
   /// `reason` says why there is no path. Returns the progress meanwhile: "detour: moves closer to look".
   Progress begin(const DetourPlan& plan, std::string reason, common::Time now, const common::VehicleState& state);
-  /// Call it once a tick. Stops when the detour has arrived, took too long, or lost its path.
+  /// Call it once a tick. Stops when the detour has arrived, or lost its path.
   void endWhenOver(const ManeuverInput& input);
   /// A path was found: the vehicle flies on, and the next plan that is offered is flown.
   void breakOff();
@@ -45,6 +44,7 @@ class Detour {
   FlightMemory& memory_;
   PathFlight& flight_;
   bool active_ = false;
+  int asked_ = 0;                      ///< Since the last path of the maneuver's own.
   std::optional<common::Time> since_;  ///< When the last detour was requested, or ended.
 };
 

@@ -12,7 +12,6 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("clearance_m", clearance_m, {0.0, 2.0}, "Distance between hull and obstacle where an intent names none.");
   fields("detour_after_s", detour_after_s, kPositive,
          "Without a path for this long the vehicle goes nearer to look, or aside to make room.");
-  fields("give_up_s", give_up_s, kPositive, "Without a path to the goal for this long the intent fails.");
 }
 
 }  // namespace swiftlet::autonomy

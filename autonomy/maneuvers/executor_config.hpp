@@ -9,7 +9,6 @@ namespace swiftlet::autonomy {
 struct ExecutorConfig {
   PlanningConfig planning;  ///< Its keys are at this level of the file.
   double clearance_m = 0.10;
-  double give_up_s = 60.0;
   double detour_after_s = 2.5;
 
   void describe(common::config::Fields& fields);

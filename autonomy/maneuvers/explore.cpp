@@ -1,4 +1,6 @@
-// Explore: flies from viewpoint to viewpoint until every remaining frontier has a reason why it is left.
+// Explore: flies from viewpoint to viewpoint until every remaining frontier has a reason why it is left. What is
+// blocked only for now, by a person in a door, is no such reason: it waits where it sees the blockage, as long as the
+// charge allows, and fails as incomplete then.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,6 +12,7 @@
 
 #include "autonomy/maneuvers/detour.hpp"
 #include "autonomy/maneuvers/path_maneuver.hpp"
+#include "autonomy/maneuvers/patience.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "common/hysteresis.hpp"
 #include "common/segment.hpp"
@@ -25,9 +28,6 @@ constexpr double kLook_s = 0.5;
 constexpr double kViewpointTolerance_deg = 12.0;
 /// Least time between choices of the next viewpoint, in seconds and as a share of the flight time to the present one.
 constexpr double kExplorePeriod_s = 0.5, kExplorePeriodShare = 0.15;
-/// A person seen within this time may block what could not be reached, or may have been mapped there. Then a detour is
-/// made, but not forever (docs/decisions/planning.md#005).
-constexpr double kLately_s = 30.0, kLookInto_s = 30.0;
 /// The last scans may not be in the map yet. Exploring is done only after this many equal answers while the vehicle
 /// stands still.
 constexpr int kDoneAnswers = 2;
@@ -44,10 +44,11 @@ class Explore final : public PathManeuver {
   /// True if it has looked long enough from the viewpoint, which is then finished.
   bool look(const ManeuverInput& input);
   void goOn(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state);
-  Progress nothingOpen(const planning::ExplorationResult& result, common::Time now);
+  Progress waitFor(const planning::ExplorationResult& result, const std::optional<Blockage>& blockage,
+                   common::Time now);
+  Progress lookThrough(common::Time now);
   Progress explored(const planning::ExplorationResult& result, common::Time now);
-  /// The longest frontier that a recently seen person may hide.
-  std::optional<Eigen::Vector2d> blockedFrontier(const planning::ExplorationResult& result, common::Time now) const;
+  void tellLeft(common::Time now) const;
 
   common::ExploreIntent intent_;
   Detour detour_;
@@ -55,10 +56,10 @@ class Explore final : public PathManeuver {
   std::optional<common::Time> asked_;
   std::optional<planning::Viewpoint> viewpoint_;
   common::Hysteresis looks_{kLook_s};  ///< From the viewpoint, with the right heading.
-  common::Hysteresis shut_in_;         ///< Frontiers are open, but there is no path to any.
-  common::Hysteresis nothing_open_;    ///< The answers are without an open frontier.
-  int done_answers_ = 0;               ///< Those of them that came while the vehicle stood still.
-  std::optional<Eigen::Vector2d> blocked_frontier_map_m_;
+  Patience patience_;                  ///< It is shut in, or what is left is behind something that may go.
+  int done_answers_ = 0;               ///< Those without an open frontier that came while the vehicle stood still.
+  std::optional<Eigen::Vector2d> gap_map_m_;  ///< PlanningAnswer::gap_map_m of the last answer.
+  std::vector<common::Frontier> left_;        ///< The frontiers of the last answer.
 };
 
 Explore::Explore(const common::ExploreIntent& intent, const ManeuverSetup& setup)
@@ -74,16 +75,25 @@ Aim Explore::aim(const common::VehicleState& state) const {
 }
 
 Progress Explore::fly(const ManeuverInput& input) {
-  if (shut_in_.active_s(input.now) > setup_.config.give_up_s) return Progress::failed(reason_);
+  const bool gives_up = patience_.over(input.now, input.spare_s);
+  if (gives_up && !gap_map_m_) {
+    tellLeft(input.now);
+    return Progress::failed(reason_);
+  }
   const bool replan = flight_.keep(input);
   const bool looked = look(input);
   detour_.endWhenOver(input);
-  const double period_s = detour_.active() ? Detour::kAskAgain_s : reconsiderAfter_s();
-  const bool due = !asked_ || (input.now - *asked_).seconds() >= period_s || looked || (replan && !flight_.plan());
-  if (!due || !flight_.mayAsk()) return Progress::running();
-  if (blocked_frontier_map_m_ && detour_.due(nothing_open_.since(), input.now)) {
-    detour_.ask(input, *blocked_frontier_map_m_);
-  } else {
+  const auto& blockage = patience_.blockage();
+  const auto looks_at = blockage ? std::optional(blockage->place_map_m) : gap_map_m_;
+  setup_.controller.lookAt(patience_.waits() && !flight_.plan() ? looks_at : std::nullopt);
+  const bool due =
+      !asked_ || looked || gives_up ||
+      (patience_.waits() ? patience_.due(input.now, setup_.desk.opened())
+                         : (input.now - *asked_).seconds() >= reconsiderAfter_s() || (replan && !flight_.plan()));
+  if (!flight_.mayAsk()) return Progress::running();
+  if (looks_at && patience_.waits() && !gives_up && detour_.due(patience_.since(), input.now, true)) {
+    detour_.ask(input, *looks_at, looks_at);
+  } else if (due) {
     asked_ = input.now;
     flight_.ask(input, ExploreRequest{viewpoint_, setup_.memory.attempts, intent_.bounds, setup_.memory.lost_map_m,
                                       intent_.leave_building});
@@ -118,14 +128,15 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
   if (!answer.exploration) return Progress::running();
   const planning::ExplorationResult& result = *answer.exploration;
   reason_ = result.reason;
-  if (result.next || result.done) shut_in_.reset();
   if (result.next) {
     goOn(answer, now, state);
   } else if (!detour_.active()) {
     viewpoint_.reset();
     flight_.abandon();
-    if (result.done) return nothingOpen(result, now);
-    shut_in_.update(true, now);
+    gap_map_m_ = answer.gap_map_m;
+    if (!result.done || answer.blockage) return waitFor(result, answer.blockage, now);
+    if (gap_map_m_ && !patience_.over(now)) return lookThrough(now);
+    if (setup_.controller.stopped() && ++done_answers_ >= kDoneAnswers) return explored(result, now);
   }
   return Progress::running(reason_);
 }
@@ -133,8 +144,8 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
 void Explore::goOn(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
   const planning::ExplorationResult& result = *answer.exploration;
   done_answers_ = 0;
-  nothing_open_.reset();
-  blocked_frontier_map_m_.reset();
+  patience_.reset();
+  gap_map_m_.reset();
   detour_.breakOff();
   if (!result.kept_current) {
     viewpoint_ = result.next;
@@ -145,36 +156,43 @@ void Explore::goOn(const PlanningAnswer& answer, Time now, const common::Vehicle
   flight_.offer(**answer.path, now, state);
 }
 
-Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time now) {
-  nothing_open_.update(true, now);
-  blocked_frontier_map_m_ = blockedFrontier(result, now);
-  if (blocked_frontier_map_m_)
-    reason_ = "a person may block the path";
-  else if (setup_.controller.stopped() && ++done_answers_ >= kDoneAnswers)
-    return explored(result, now);
-  return Progress::running(reason_);
+/// It is shut in, or what is left to explore is behind something that may go.
+Progress Explore::waitFor(const planning::ExplorationResult& result, const std::optional<Blockage>& blockage,
+                          Time now) {
+  done_answers_ = 0;
+  left_ = result.frontiers;
+  if (blockage) {
+    reason_ = fmt::format("incomplete, {} blocked by {}", blockage->frontiers, blockage->who);
+    if (!patience_.waits()) setup_.memory.log.info(now, kFlightSource, "waits to explore on", reason_);
+  }
+  patience_.failed(now, blockage);
+  return Progress::running("waiting: " + reason_);
 }
 
-std::optional<Eigen::Vector2d> Explore::blockedFrontier(const planning::ExplorationResult& result, Time now) const {
-  const auto& people_seen = setup_.memory.people_seen;
-  const bool people = people_seen && (now - *people_seen).seconds() < kLately_s;
-  if (!people || nothing_open_.active_s(now) >= kLookInto_s) return std::nullopt;
-  const common::Frontier* longest = nullptr;
-  for (const common::Frontier& f : result.frontiers)
-    if (f.reason == common::FrontierReason::kUnreachable && (!longest || f.length_m > longest->length_m)) longest = &f;
-  return longest ? std::optional(longest->centroid_map_m) : std::nullopt;
+/// Somebody in a door leaves a gap beside him, and so does what is left in the map of who has gone.
+Progress Explore::lookThrough(Time now) {
+  if (!patience_.waits())
+    setup_.memory.log.info(now, kFlightSource, "looks once more at what is behind a gap",
+                           setup_.desk.costMap()->names().of(*gap_map_m_));
+  patience_.failed(now, std::nullopt);
+  return Progress::running("looks at what is behind a gap");
 }
 
 Progress Explore::explored(const planning::ExplorationResult& result, Time now) {
-  for (const common::Frontier& frontier : result.frontiers)
+  left_ = result.frontiers;
+  tellLeft(now);
+  setup_.memory.attempts.clear();
+  return Progress::done(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason",
+                                    result.explored_area_m2, result.frontiers.size()));
+}
+
+void Explore::tellLeft(Time now) const {
+  for (const common::Frontier& frontier : left_)
     setup_.memory.log.info(
         now, kFlightSource,
         fmt::format("frontier of {:.2f} m at {} left: {}", frontier.length_m,
                     setup_.desk.costMap()->names().of(frontier.centroid_map_m), toString(frontier.reason)),
         frontier.explanation);
-  setup_.memory.attempts.clear();
-  return Progress::done(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason",
-                                    result.explored_area_m2, result.frontiers.size()));
 }
 
 }  // namespace

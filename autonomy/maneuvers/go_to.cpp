@@ -1,6 +1,7 @@
 // GoTo: flies to a place of the map; done on arrival. Where that place is not free, it waits, and then flies to a free
 // place beside it as far as the intent's `shift_m` allows, which may be beyond the tolerance. Without a path it waits
-// and makes detours, and finally fails with the planner's reason. Going home is a GoTo with the home pose.
+// where it sees what is in the way, as long as the charge allows, and fails with the planner's reason. Going home is a
+// GoTo with the home pose.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "autonomy/maneuvers/detour.hpp"
 #include "autonomy/maneuvers/path_maneuver.hpp"
+#include "autonomy/maneuvers/patience.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "common/geometry.hpp"
 #include "common/goal.hpp"
@@ -71,22 +73,25 @@ class GoTo final : public PathManeuver {
   Progress fly(const ManeuverInput& input) override;
   void lookAlongBlockedPath();
   void tellLaserAlone(common::Time now, const planning::PlanFailure& failure);
-  Progress waitFor(const planning::PlanFailure& failure, common::Time now);
+  Progress waitFor(const planning::PlanFailure& failure, const std::optional<Blockage>& blockage, common::Time now);
   bool shiftsAtOnce() const { return intent_.shift_after_s <= 0.0; }
   /// After the goal has not been free for long enough, a free place beside it is accepted.
   void shiftWhenDue(common::Time now);
-  /// How long to wait without a path.
-  double patience_s() const;
+  bool isDue(common::Time now) const;
+  bool givesUp(const ManeuverInput& input) const;
+  /// Why there is no path, and who is in the way.
+  std::string whyNot() const;
 
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
+  Patience patience_;
   common::Hysteresis goal_taken_;               ///< The goal itself is not free.
+  bool asked_shifted_ = false;                  ///< `shifted_` at the last request.
   bool shifted_;                                ///< Whether a free place beside the goal is accepted.
   bool sees_heights_ = false;                   ///< Whether there is a 3D map.
   Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
   std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.
-  common::Time asked_;                          ///< When the path to the goal was last requested.
 };
 
 GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
@@ -124,16 +129,16 @@ Progress GoTo::fly(const ManeuverInput& input) {
   if (!detour_.active() && flight_.plan()) ahead_map_m_ = pointAhead(flight_.remaining_map_m());
   const bool replan = flight_.keep(input);
   shiftWhenDue(input.now);
-  if (no_path_ && (input.now - no_path_->since).seconds() > patience_s())
-    return Progress::failed(no_path_->failure.text);
+  if (no_path_ && givesUp(input)) return Progress::failed(whyNot());
   detour_.endWhenOver(input);
   lookAlongBlockedPath();
   if (!flight_.mayAsk()) return Progress::running();
-  if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now)) {
-    detour_.ask(input, intent_.goal_map_m);
-  } else if (detour_.active() ? (input.now - asked_).seconds() >= Detour::kAskAgain_s : replan) {
-    asked_ = input.now;
+  const auto& blockage = patience_.blockage();
+  if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now, blockage.has_value())) {
+    detour_.ask(input, intent_.goal_map_m, blockage ? std::optional(blockage->place_map_m) : std::nullopt);
+  } else if (no_path_ ? isDue(input.now) : replan) {
     flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m, shifted_ ? intent_.shift_m : 0.0});
+    asked_shifted_ = shifted_;
   }
   return Progress::running();
 }
@@ -144,10 +149,23 @@ void GoTo::shiftWhenDue(Time now) {
   shifted_ = goal_taken_.active_s(now) > after_s;
 }
 
-double GoTo::patience_s() const {
-  if (mayPass(no_path_->failure)) return setup_.config.give_up_s;
+/// A map that does not reach the goal may be about to grow: that shows in no cell at the edge of what is reached. With a
+/// 3D map each request tries another height.
+bool GoTo::isDue(Time now) const {
+  return !mayPass(no_path_->failure) || sees_heights_ || shifted_ != asked_shifted_ ||
+         patience_.due(now, setup_.desk.opened());
+}
+
+bool GoTo::givesUp(const ManeuverInput& input) const {
+  if (mayPass(no_path_->failure)) return patience_.over(input.now, input.spare_s);
   // The second time for the answer about a place beside the goal.
-  return shifted_ && !shiftsAtOnce() ? 2.0 * kGrowing_s : kGrowing_s;
+  const double patience_s = shifted_ && !shiftsAtOnce() ? 2.0 * kGrowing_s : kGrowing_s;
+  return (input.now - no_path_->since).seconds() > patience_s;
+}
+
+std::string GoTo::whyNot() const {
+  const auto& blockage = patience_.blockage();
+  return (blockage ? blockage->who + " is in the way: " : std::string()) + no_path_->failure.text;
 }
 
 /// A laser sees one plane: what blocks the path in it may be a beam with room for the hull below.
@@ -163,14 +181,16 @@ void GoTo::tellLaserAlone(Time now, const planning::PlanFailure& failure) {
 /// would never see that the path is free.
 void GoTo::lookAlongBlockedPath() {
   const bool waits = no_path_ && !flight_.plan();
-  setup_.controller.lookAt(waits ? ahead_map_m_ : std::nullopt);
+  const auto& blockage = patience_.blockage();
+  setup_.controller.lookAt(!waits ? std::nullopt : blockage ? std::optional(blockage->place_map_m) : ahead_map_m_);
 }
 
 Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
-  if (answer.detour && no_path_) return detour_.begin(*answer.detour, "waiting: " + no_path_->failure.text, now, state);
+  if (answer.detour && no_path_) return detour_.begin(*answer.detour, "waiting: " + whyNot(), now, state);
   if (!answer.path) return Progress::running();
-  if (!*answer.path) return waitFor(answer.path->error(), now);
+  if (!*answer.path) return waitFor(answer.path->error(), answer.blockage, now);
   no_path_.reset();
+  patience_.reset();
   detour_.breakOff();
   const Eigen::Vector2d& end_map_m = (*answer.path)->points_map_m.back();
   // A place at the edge of the tolerance leaves the controller no tolerance: there the place is the goal.
@@ -184,16 +204,17 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
   return Progress::running("flying to " + placeOf(intent_, answer.cost_map->names()));
 }
 
-Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
-  if (!no_path_) {
-    setup_.memory.log.warn(now, kFlightSource, "no path to the goal at present", failure.text);
+Progress GoTo::waitFor(const planning::PlanFailure& failure, const std::optional<Blockage>& blockage, Time now) {
+  const bool begins = !no_path_;
+  no_path_ = NoPath{begins ? now : no_path_->since, failure};
+  patience_.failed(now, blockage);
+  if (begins) {
+    setup_.memory.log.warn(now, kFlightSource, "no path to the goal at present", whyNot());
     tellLaserAlone(now, failure);
-    no_path_ = NoPath{now, failure};
   }
-  no_path_->failure = failure;
   // While a place beside the goal is accepted, another failure says nothing about the goal itself.
   if (const bool taken = isGoalTaken(failure); taken || !shifted_) goal_taken_.update(taken, now);
-  return Progress::running("waiting: " + failure.text);
+  return Progress::running("waiting: " + whyNot());
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ PlanningRequest planningRequest(const ManeuverInput& input, const PlanningClient
   request.grid = input.grid;
   request.levels = input.levels;
   request.discs = input.discs;
+  request.people = input.people;
   if (left_out != nullptr) {
     request.grid = std::make_shared<const common::OccupancyGrid>(
         perception::mapWithout(*left_out, input.now, *input.grid, input.seen));

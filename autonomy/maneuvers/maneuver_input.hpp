@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ struct ManeuverInput {
   std::vector<common::Disc> discs;  ///< Present and predicted places of people, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
+  /// How long it may hover before the charge is needed for the flight home and the landing; see spareTime_s.
+  double spare_s = std::numeric_limits<double>::infinity();
   double drift_m = 0.0;                              ///< See DriftMonitor; up to kKnown_m the position is known.
   std::string take_off_refusal = {};                 ///< Why the vehicle must not take off; empty if it may.
   std::vector<common::DynamicObstacle> people = {};  ///< What the map does not explain, as last seen.

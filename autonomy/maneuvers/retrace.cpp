@@ -12,6 +12,7 @@
 
 #include "autonomy/maneuvers/maneuver.hpp"
 #include "autonomy/maneuvers/path_flight.hpp"
+#include "autonomy/maneuvers/patience.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "common/segment.hpp"
 
@@ -78,17 +79,19 @@ Progress Retrace::step(const ManeuverInput& input) {
   if (following_ && setup_.controller.follower().finished())
     return cut_ ? Progress::failed("stopped before a keep-out zone") : Progress::done("back where it came from");
   if (isStuck(input))
-    return Progress::failed(fmt::format("something is in the way for {:.0f} s", setup_.config.give_up_s));
+    return Progress::failed(fmt::format("something is in the way for {:.0f} s", (input.now - moved_->at).seconds()));
   if (!setup_.controller.follower().followsPath()) follow(input);
   return Progress::running("flying back along the trail");
 }
 
-/// Without a plan there is no detour: an obstacle on the trail, a closed door for example, stops the vehicle forever.
+/// Without a plan there is no detour: an obstacle on the trail, a closed door for example, stops the vehicle as long as
+/// the charge allows. A vehicle that does not know its place does not wait: it drifts.
 bool Retrace::isStuck(const ManeuverInput& input) {
   constexpr double kMoved_m = 0.3;  // More than a hover sways.
   if (!moved_ || (input.position_map_m() - moved_->to_map_m).norm() > kMoved_m)
     moved_ = Moved{input.now, input.position_map_m()};
-  return (input.now - moved_->at).seconds() > setup_.config.give_up_s;
+  const bool waits = input.spare_s > 0.0 && input.state.horizontal_valid && input.drift_m <= ManeuverInput::kKnown_m;
+  return !waits && (input.now - moved_->at).seconds() > Patience::kPasses_s;
 }
 
 /// A zone may be newer than the trail that leads through it. Of a zone that the vehicle is in, the path leads out.

@@ -57,6 +57,7 @@ void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {
     explored_area_m2_ = answer.exploration->explored_area_m2;
   }
   home_m_ = answer.home_m;
+  opened_ = answer.opened;
   use_ = answer.use;
   deliver_(answer, now);
 }

@@ -50,6 +50,8 @@ class PlanningDesk {
   double exploredArea_m2() const { return explored_area_m2_; }
   /// Length of the path home, as planned a few answers ago; nullopt without a path.
   const std::optional<double>& home_m() const { return home_m_; }
+  /// PlanningAnswer::opened of the last answer.
+  bool opened() const { return opened_; }
   /// The planner and the explorer in use, with the number of their results so far.
   const PlanningUse& use() const { return use_; }
 
@@ -67,6 +69,7 @@ class PlanningDesk {
   std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
   double explored_area_m2_ = 0.0;
   std::optional<double> home_m_;
+  bool opened_ = false;
   PlanningUse use_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/disc.hpp"
+#include "common/dynamic_obstacle.hpp"
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/level_map.hpp"
@@ -44,11 +45,12 @@ struct ExploreRequest {
   std::vector<Eigen::Vector2d> lost_map_m = {};
   bool leave_building = false;
 };
-/// Asks for a place to fly to while there is no path to a goal. If a person blocks the path, it is a wide place far
-/// away over free space, so that the person can pass. Otherwise it is the last free place before the blockage, to see
+/// Asks for a place to wait at while there is no path to a goal. If something that may go blocks the path, it is a wide
+/// place that sees it, so that a person can pass. Otherwise it is the last free place before the blockage, to see
 /// whether the mapped obstacle is still there; if that is too near, it is a wide place, too.
 struct DetourRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> blocked_map_m = std::nullopt;  ///< Blockage::place_map_m, if there is one.
 };
 
 /// std::monostate requests only an update of the cost map.
@@ -59,6 +61,7 @@ struct PlanningRequest {
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::shared_ptr<const common::LevelMap> levels;
   std::vector<common::Disc> discs;
+  std::vector<common::DynamicObstacle> people;
   std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null without zones.
   planning::Footprint footprint;
   std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without one: paths then keep their height.

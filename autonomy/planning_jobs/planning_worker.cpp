@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/segment.hpp"
 #include "planning/exploration/held_path.hpp"
 #include "planning/search/admission.hpp"
 #include "planning/search/goal_map.hpp"
@@ -14,6 +15,36 @@ namespace {
 constexpr double kFlownSpacing_m = 0.1;
 /// Greatest detour that is flown instead of flying lower, in metres of path (docs/decisions/planning.md#082).
 constexpr double kLowerDetour_m = 10.0;
+/// Area that must be expected behind something that never moved, and has only the size of a person, to wait for it.
+constexpr double kWorthWaiting_m2 = 1.0;
+/// Views of what is this near to something that may go were views past it.
+constexpr double kPast_m = 2.0;
+
+/// The first place of the path where the vehicle cannot be.
+std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const planning::Path& path) {
+  const double step_m = 0.5 * map.resolution_m();
+  for (std::size_t i = std::max<std::size_t>(1, path.escape_points + 1); i < path.points_map_m.size(); ++i) {
+    const Eigen::Vector2d &from = path.points_map_m[i - 1], &to = path.points_map_m[i];
+    const int steps = std::max(1, static_cast<int>((to - from).norm() / step_m));
+    for (int k = 1; k <= steps; ++k)
+      if (const Eigen::Vector2d at = from + (to - from) * k / steps; isLethalAt(map, at)) return at;
+  }
+  return std::nullopt;
+}
+
+/// Whether what stands at the second place can be looked at from the first one, not only past an edge.
+bool sees(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
+  constexpr double kOutline_m = 0.3, kBeside_m = 0.15;  // What stands there has an outline of its own.
+  const Eigen::Vector2d aside = kBeside_m * (to_map_m - from_map_m).unitOrthogonal();
+  for (const Eigen::Vector2d& end_map_m :
+       {to_map_m, Eigen::Vector2d(to_map_m + aside), Eigen::Vector2d(to_map_m - aside)}) {
+    const Eigen::Vector2d line = end_map_m - from_map_m;
+    const double length_m = line.norm(), step_m = 0.5 * map.resolution_m();
+    for (double at_m = 0.0; at_m < length_m - kOutline_m; at_m += step_m)
+      if (map.states().at(map.cellAt(from_map_m + line * at_m / length_m)) != planning::CellState::kFree) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -27,20 +58,24 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   if (request.keep_out) layers.keep_out = *request.keep_out;
   map_.update(*request.grid, request.footprint, layers);
   map_.name(request.names);
+  who_may_go_.remember(request.people, map_);
 
   PlanningAnswer answer;
   answer.intent_id = request.intent_id;
   answer.cost_map = std::make_shared<const planning::CostMap>(map_);
+  answer.opened = std::any_of(edge_.begin(), edge_.end(),
+                              [&](common::CellIndex cell) { return map_.costAt(cell) != planning::CostMap::kLethal; });
   if (const auto* goal = std::get_if<GoalRequest>(&request.question)) {
     if (!goal->height.isLower() || !request.map3d) answer.path = goTo(*goal, request.T_map_body.position_m());
     goLower(request, *goal, layers, answer);
+    if (answer.path && !*answer.path) findBlockage(request, *goal, layers, answer);
   } else if (const auto* blocked = std::get_if<DetourRequest>(&request.question)) {
-    answer.detour = detour(*blocked, request.discs, request.T_map_body.position_m());
+    answer.detour = detour(*blocked, request.T_map_body.position_m());
   } else if (const auto* explore_request = std::get_if<ExploreRequest>(&request.question)) {
-    explore(request, *explore_request, answer);
+    explore(request, *explore_request, layers, answer);
   }
   answer.home_m = pathHome_m(here);
-  answer.use = {planner_->name(), paths_, toString(explorer_.kind), viewpoints_};
+  answer.use = use_;
   return answer;
 }
 
@@ -51,7 +86,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
 std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
   constexpr int kEach = 8, kBelieved = 10;
   if (answers_++ % kEach != 0) return home_m_;
-  const auto place = goalPlace({Eigen::Vector2d::Zero(), 0.0, common::kHomeShift_m});
+  const auto place = goalPlace(map_, {Eigen::Vector2d::Zero(), 0.0, common::kHomeShift_m});
   std::optional<double> length_m;
   if (place)
     if (const auto path = home_planner_.plan(map_, position_map_m, *place)) length_m = path->length_m;
@@ -66,7 +101,8 @@ std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position
   return home_m_;
 }
 
-void PlanningWorker::explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer) {
+void PlanningWorker::explore(const PlanningRequest& request, const ExploreRequest& question,
+                             const planning::CostLayers& layers, PlanningAnswer& answer) {
   planning::ExplorationInput input;
   input.cost_map = answer.cost_map;
   input.pose_map = request.T_map_body;
@@ -87,25 +123,162 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
     input.lost_map_m.push_back(result.next->target_map_m);
     input.current.reset();
   }
-  if (result.next && !result.kept_current) ++viewpoints_;
+  if (result.next && !result.kept_current) ++use_.viewpoints;
   if (result.next && !*answer.path) {
     result.reason = "no path to the viewpoint: " + answer.path->error().text;
     result.next.reset();
   }
+  const bool done = result.done;
   answer.exploration = std::move(result);
+  if (done) findBlockage(request, std::move(input), layers, answer);
+}
+
+/// Brings the map up to date in which all that may go has gone. Returns what that is; nobody is tracked in that map.
+std::vector<MayGo> PlanningWorker::clear(const PlanningRequest& request, const planning::CostLayers& layers) {
+  std::vector<MayGo> things = who_may_go_.in(map_, flown_map_m_);
+  // A goal beside a crate is not waited for: only what came may go from it.
+  if (!std::holds_alternative<ExploreRequest>(request.question))
+    std::erase_if(things, [](const MayGo& thing) { return !thing.came; });
+  planning::CostLayers alone = layers;
+  alone.discs = {};
+  cleared_.update(gridWithout(things, *request.grid), map_.footprint(), alone);
+  return things;
+}
+
+/// What is in the way of the path that there would be; nullopt if there would be none either.
+std::optional<Blockage> PlanningWorker::blockageTo(const Eigen::Vector2d& goal_map_m,
+                                                   const Eigen::Vector2d& position_map_m,
+                                                   const std::vector<MayGo>& things) {
+  const auto path = planning::Wavefront().plan(cleared_, position_map_m, goal_map_m);
+  if (!path) return std::nullopt;
+  const auto place_map_m = firstLethal(map_, *path);
+  if (!place_map_m) return std::nullopt;
+  const auto off_m = [&](const MayGo& thing) { return (thing.disc.center_map_m - *place_map_m).norm(); };
+  const auto nearest = std::min_element(things.begin(), things.end(), [&](const MayGo& a, const MayGo& b) {
+    return off_m(a) - a.disc.radius_m < off_m(b) - b.disc.radius_m;
+  });
+  const bool stands = nearest != things.end() &&
+                      off_m(*nearest) <= nearest->disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
+  // Otherwise the discs of someone who is tracked are in the way.
+  const Eigen::Vector2d at_map_m = stands ? nearest->disc.center_map_m : *place_map_m;
+  return Blockage{at_map_m, named(stands ? *nearest : MayGo{{at_map_m, 0.0}, "a person"}), 0};
+}
+
+/// "a person at (4.00, 2.00)".
+std::string PlanningWorker::named(const MayGo& thing) const {
+  return std::string(thing.who) + " at " + map_.names().of(thing.disc.center_map_m);
+}
+
+void PlanningWorker::findBlockage(const PlanningRequest& request, const GoalRequest& goal,
+                                  const planning::CostLayers& layers, PlanningAnswer& answer) {
+  const Eigen::Vector2d here = request.T_map_body.position_m();
+  (void)rememberEdge(here);
+  const std::vector<MayGo> things = clear(request, layers);
+  if (const auto place = goalPlace(cleared_, goal)) answer.blockage = blockageTo(*place, here, things);
+}
+
+/// Explores the map as if all that may go had gone: what is open there, and only there, is behind it.
+void PlanningWorker::findBlockage(const PlanningRequest& request, planning::ExplorationInput input,
+                                  const planning::CostLayers& layers, PlanningAnswer& answer) {
+  const Eigen::Vector2d here = request.T_map_body.position_m();
+  const planning::CostField reached = rememberEdge(here);
+  const std::vector<MayGo> things = clear(request, layers);
+  std::erase_if(input.attempts, [&](const planning::ExplorationAttempt& attempt) {
+    return std::any_of(things.begin(), things.end(), [&](const MayGo& thing) {
+      return (attempt.target_map_m - thing.disc.center_map_m).norm() < kPast_m;
+    });
+  });
+  input.cost_map = std::make_shared<const planning::CostMap>(cleared_);
+  input.current.reset();
+  const planning::ExplorationResult behind = planning::explore(input, explorer_);
+  if (behind.next) answer.blockage = blockageOf(*behind.next, here, things);
+  if (answer.blockage)
+    answer.blockage->frontiers = static_cast<int>(std::count_if(
+        behind.frontiers.begin(), behind.frontiers.end(),
+        [](const common::Frontier& frontier) { return frontier.reason == common::FrontierReason::kOpen; }));
+  else
+    answer.gap_map_m = gapBefore(reached);
+}
+
+std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& viewpoint, const Eigen::Vector2d& here,
+                                                   const std::vector<MayGo>& things) {
+  const Eigen::Vector2d place_map_m = viewpoint.pose_map.position_m();
+  auto blockage = blockageTo(place_map_m, here, things);
+  // It may stand in the view from there, and not in the way.
+  const auto thing = std::find_if(things.begin(), things.end(), [&](const MayGo& one) {
+    const Eigen::Vector2d& at = one.disc.center_map_m;
+    return blockage ? at == blockage->place_map_m
+                    : common::segmentDistance(at, place_map_m, viewpoint.target_map_m) <= one.disc.radius_m;
+  });
+  if (!blockage && thing == things.end()) return std::nullopt;
+  if (!blockage) blockage = Blockage{thing->disc.center_map_m, named(*thing), 0};
+  const bool came = thing == things.end() || thing->came;
+  return came || viewpoint.gain_m2 >= kWorthWaiting_m2 ? blockage : std::nullopt;
+}
+
+/// Walks through free cells from those that can be reached on. The gap is where the way to the farthest of the others
+/// leaves the former.
+std::optional<Eigen::Vector2d> PlanningWorker::gapBefore(const planning::CostField& reached) const {
+  constexpr double kBehind_m = 0.6, kArea_m2 = 0.2;  // More than the margin along a wall, and than pinholes in it.
+  const int width = map_.rect().width();
+  const auto count = static_cast<int>(map_.costs().size());
+  std::vector<int> from(map_.costs().size(), -1), steps(map_.costs().size(), 0), open;
+  for (int i = 0; i < count; ++i)
+    if (reached.reached(i)) {
+      from[static_cast<std::size_t>(i)] = i;
+      open.push_back(i);
+    }
+  int behind = 0, farthest = -1;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const int at = open[k];
+    const int step = steps[static_cast<std::size_t>(at)];
+    if (step * map_.resolution_m() > kBehind_m) {
+      ++behind;
+      farthest = at;
+    }
+    for (const int next : {at - 1, at + 1, at - width, at + width}) {
+      if (next < 0 || next >= count || from[static_cast<std::size_t>(next)] >= 0) continue;
+      if (map_.states()[next] != planning::CellState::kFree || map_.isKeptOut(next)) continue;
+      from[static_cast<std::size_t>(next)] = at;
+      steps[static_cast<std::size_t>(next)] = step + 1;
+      open.push_back(next);
+    }
+  }
+  if (behind * map_.resolution_m() * map_.resolution_m() < kArea_m2) return std::nullopt;
+  int gap = farthest;
+  while (steps[static_cast<std::size_t>(gap)] > 0) gap = from[static_cast<std::size_t>(gap)];
+  return map_.centerOf(map_.cellOf(gap));
+}
+
+/// The cells beside those that the vehicle can reach: only where one of them becomes free a path may appear.
+planning::CostField PlanningWorker::rememberEdge(const Eigen::Vector2d& position_map_m) {
+  edge_.clear();
+  planning::CostField field;
+  const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
+  field.spread(map_, escape ? escape->back() : map_.cellAt(position_map_m));
+  if (!escape) return field;
+  for (int i = 0; i < static_cast<int>(map_.costs().size()); ++i) {
+    if (!field.reached(i)) continue;
+    const common::CellIndex cell = map_.cellOf(i);
+    for (const common::CellIndex next : {common::CellIndex{cell.x + 1, cell.y}, common::CellIndex{cell.x - 1, cell.y},
+                                         common::CellIndex{cell.x, cell.y + 1}, common::CellIndex{cell.x, cell.y - 1}})
+      if (map_.costAt(next) == planning::CostMap::kLethal) edge_.push_back(next);
+  }
+  return field;
 }
 
 tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::plan(const Eigen::Vector2d& from_map_m,
                                                                          const Eigen::Vector2d& to_map_m) {
   auto path = planner_->plan(map_, from_map_m, to_map_m);
-  if (path) ++paths_;
+  if (path) ++use_.paths;
   return path;
 }
 
-tl::expected<Eigen::Vector2d, planning::PlanFailure> PlanningWorker::goalPlace(const GoalRequest& goal) const {
-  const planning::CostGoalMap goals(map_);
+tl::expected<Eigen::Vector2d, planning::PlanFailure> PlanningWorker::goalPlace(const planning::CostMap& map,
+                                                                               const GoalRequest& goal) {
+  const planning::CostGoalMap goals(map);
   const auto place = common::judgeGoal(
-      {goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m, goal.shift_m, map_.names()}, {},
+      {goal.goal_map_m, std::nullopt, goal.tolerance_m, map.footprint().clearance_m, goal.shift_m, map.names()}, {},
       &goals);
   if (!place) return tl::make_unexpected(planning::failureOf(place.error()));
   return *place;
@@ -113,7 +286,7 @@ tl::expected<Eigen::Vector2d, planning::PlanFailure> PlanningWorker::goalPlace(c
 
 tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const GoalRequest& goal,
                                                                          const Eigen::Vector2d& position_map_m) {
-  const auto place = goalPlace(goal);
+  const auto place = goalPlace(map_, goal);
   if (!place) return tl::make_unexpected(place.error());
   return plan(position_map_m, *place);
 }
@@ -134,27 +307,24 @@ void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& 
   answer.heights = lower_.maps();
   if (lower && direct && *direct && lower->cost_m + kLowerDetour_m > (*direct)->cost_m) return;
   if (!lower && direct) return;
-  if (lower) ++paths_;
+  if (lower) ++use_.paths;
   answer.path = std::move(lower);
 }
 
-std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,
-                                                 const Eigen::Vector2d& position_map_m) {
+std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const Eigen::Vector2d& position_map_m) {
   // Nearer, the laser has seen the blockage as well as it can: flying there shows no more
   // (docs/decisions/planning.md#005).
   constexpr double kWorth_m = 1.5;
-  const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
-  // A keep-out zone stays, however near the vehicle looks at it.
-  if (blocked && map_.isKeptOut(map_.indexOf(blocked->first_lethal))) return std::nullopt;
-  const bool person_blocks = blocked && std::any_of(people.begin(), people.end(), [&](const common::Disc& disc) {
-                               const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
-                               return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
-                             });
   DetourPlan result;
   std::optional<Eigen::Vector2d> place;
-  if (blocked && !person_blocks) place = map_.centerOf(blocked->outlook);
+  if (!request.blocked_map_m) {
+    const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
+    // A keep-out zone stays, however near the vehicle looks at it.
+    if (blocked && map_.isKeptOut(map_.indexOf(blocked->first_lethal))) return std::nullopt;
+    if (blocked) place = map_.centerOf(blocked->outlook);
+  }
   if (!place || (*place - position_map_m).norm() < kWorth_m) {
-    place = roomyPlace(position_map_m);
+    place = roomyPlace(position_map_m, request.blocked_map_m);
     result.makes_room = true;
   }
   if (!place) return std::nullopt;
@@ -167,9 +337,12 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 /// The reachable place with the highest score among those where the laser knows the position: its path cost from here,
 /// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (docs/decisions/planning.md#005).
 /// Beyond the length of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of
-/// path.
-std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
-  constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
+/// path. If what is in the way should be seen from there, so that the vehicle can stay until it has gone, a place is
+/// the better the farther it is from it, up to kLooksFrom_m, where the height of a beam is known to a slice of the map;
+/// if no place sees it, it counts as if it need not be seen.
+std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m,
+                                                          const std::optional<Eigen::Vector2d>& seen_map_m) const {
+  constexpr double kReach_m = 6.0, kLooksFrom_m = 3.0, kPerMetreOfWidth = 3.0;
   constexpr int kEvery = 10;  // Where the best place is not held, cells this far apart are compared.
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
   if (!escape) return std::nullopt;
@@ -182,17 +355,19 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
     const common::CellIndex cell = map_.cellOf(i);
     // The cost of a path into a corner is high, and would count as far away.
     if (!hasRoomToStop(map_, cell)) continue;
-    const double away_m = std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
+    if (seen_map_m && !sees(map_, map_.centerOf(cell), *seen_map_m)) continue;
+    const double away_m = seen_map_m ? std::min((map_.centerOf(cell) - *seen_map_m).norm(), kLooksFrom_m)
+                                     : std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
     const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(cell);
     if (score > best.first) best = {score, i};
     if (cell.x % kEvery == 0 && cell.y % kEvery == 0) others.emplace_back(score, i);
   }
   const auto placeOf = [&](int index) { return map_.centerOf(map_.cellOf(index)); };
-  if (planning::isHeld(map_, placeOf(best.second))) return placeOf(best.second);
+  if (best.first > 0.0 && planning::isHeld(map_, placeOf(best.second))) return placeOf(best.second);
   std::stable_sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [score, index] : others)
     if (planning::isHeld(map_, placeOf(index))) return placeOf(index);
-  return std::nullopt;
+  return seen_map_m ? roomyPlace(position_map_m, std::nullopt) : std::nullopt;
 }
 
 }  // namespace swiftlet::autonomy

@@ -12,10 +12,6 @@ constexpr int kSightings = 2;
 constexpr double kKept_s = 30.0;
 /// A tilt lasts for some tenths of a second; a hit after this time is from another tilt.
 constexpr double kApart_s = 0.5;
-/// Beams this many slices below the top go through; nearer ones may pass above, as their height is not known better.
-constexpr int kThrough = 2;
-/// It is gone after this many scans whose beams went through, without one that ended here.
-constexpr int kGone = 6;
 /// This many beams at the height of the laser in a row are no error of their heights.
 constexpr int kLevel = 3;
 
@@ -27,10 +23,9 @@ bool LowObstacles::hit(common::CellIndex cell, int slice, common::Time now) {
   const Cell old = cells_.at(cell);
   Cell next = old;
   next.met = now;
-  next.through = 0;
   if (old.sightings == 0) {
     next.sightings = 1;
-    next.bottom = next.top = static_cast<std::int16_t>(slice);
+    next.top = static_cast<std::int16_t>(slice);
     next.passed = false;
   } else {
     // From another place or distance the same edge is drawn into the cell beside.
@@ -42,7 +37,6 @@ bool LowObstacles::hit(common::CellIndex cell, int slice, common::Time now) {
         sightings = std::max(sightings, again ? near.sightings + 1 : static_cast<int>(near.sightings));
       }
     next.sightings = static_cast<std::uint8_t>(std::min(sightings, 255));
-    next.bottom = std::min<std::int16_t>(old.bottom, static_cast<std::int16_t>(slice));
     next.top = std::max<std::int16_t>(old.top, static_cast<std::int16_t>(slice));
     next.passed = false;
   }
@@ -59,9 +53,6 @@ bool LowObstacles::passed(common::CellIndex cell, int slice, common::Time now) {
   } else if (slice > old.top) {
     next.passed = true;
     next.level = 0;
-  } else if (slice >= old.bottom && slice <= old.top - kThrough) {
-    // Below a table top, beams pass under it. Between the heights at which it was hit, they go through it.
-    if (++next.through >= kGone) next = Cell{};
   } else {
     return false;
   }
@@ -75,6 +66,10 @@ void LowObstacles::reachesUp(common::CellIndex cell) {
   Cell next = old;
   if (++next.level >= kLevel) next = Cell{};
   cells_.set(cell, next);
+}
+
+void LowObstacles::forget(common::CellIndex cell) {
+  if (cells_.at(cell).sightings > 0) cells_.set(cell, {});
 }
 
 std::optional<int> LowObstacles::top(common::CellIndex cell) const {

@@ -25,6 +25,8 @@ class LowObstacles {
   void reachesUp(common::CellIndex cell);
   /// A beam crossed the cell at that height. Returns true if top() of the cell has changed.
   bool passed(common::CellIndex cell, int slice, common::Time now);
+  /// What was in the cell has gone.
+  void forget(common::CellIndex cell);
 
   /// The height up to which something certainly stands in the cell.
   std::optional<int> top(common::CellIndex cell) const;
@@ -44,10 +46,8 @@ class LowObstacles {
  private:
   struct Cell {
     common::Time met;            ///< When a beam last ended here.
-    std::int16_t bottom = 0;     ///< The lowest slice that a beam ended in.
     std::int16_t top = 0;        ///< The highest slice that a beam ended in.
     std::uint8_t sightings = 0;  ///< Times that it was met, with beams that passed above it in between.
-    std::uint8_t through = 0;    ///< Scans whose beams went through it, between bottom and top, since it was met.
     std::uint8_t level = 0;      ///< Beams that ended here at the height of the laser since others passed above.
     bool passed = false;         ///< Beams have passed above it since it was met.
   };

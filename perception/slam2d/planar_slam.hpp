@@ -89,9 +89,6 @@ class PlanarSlam {
   virtual bool setFlightHeight(double height_m) = 0;
   /// What may touch the hull at flight height, as known now. Shares its tiles with the method's own map.
   virtual common::OccupancyGrid snapshot() = 0;
-  /// Whether something that ends below the plane of the laser certainly stands in the cell, whatever beams pass above
-  /// it. Always false for a method whose map has no heights.
-  virtual bool isLowObstacle(common::CellIndex) const { return false; }
 
   virtual const SlamCounts& counts() const = 0;
 

@@ -171,8 +171,6 @@ bool ScanToMapSlam::setFlightHeight(double height_m) {
   return impl_->map.setFlightHeight(height_m);
 }
 
-bool ScanToMapSlam::isLowObstacle(common::CellIndex cell) const { return impl_->map.isLowObstacle(cell); }
-
 common::OccupancyGrid ScanToMapSlam::snapshot() { return impl_->map.atFlightHeight(); }
 const SlamCounts& ScanToMapSlam::counts() const { return impl_->counts; }
 const Eigen::Matrix3d& ScanToMapSlam::covariance() const { return impl_->pose.covariance; }

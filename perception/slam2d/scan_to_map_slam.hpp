@@ -53,7 +53,6 @@ class ScanToMapSlam final : public PlanarSlam {
   std::vector<KeyPose> keyPoses() const override;
   bool setFlightHeight(double height_m) override;
   common::OccupancyGrid snapshot() override;
-  bool isLowObstacle(common::CellIndex cell) const override;
   const SlamCounts& counts() const override;
 
   /// The covariance of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose, axes of the map. It is relative

@@ -286,8 +286,6 @@ bool Slam2d::setFlightHeight(double height_m) {
   return impl_->map.setFlightHeight(height_m);
 }
 
-bool Slam2d::isLowObstacle(common::CellIndex cell) const { return impl_->map.isLowObstacle(cell); }
-
 common::OccupancyGrid Slam2d::snapshot() {
   Impl& self = *impl_;
   if (!self.config.live_map) {

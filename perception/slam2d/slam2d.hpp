@@ -36,7 +36,6 @@ class Slam2d final : public PlanarSlam {
   std::vector<KeyPose> keyPoses() const override;
   bool setFlightHeight(double height_m) override;
   common::OccupancyGrid snapshot() override;
-  bool isLowObstacle(common::CellIndex cell) const override;
   const SlamCounts& counts() const override;
 
   std::span<const SlamEdge> edges() const override;

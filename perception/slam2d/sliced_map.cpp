@@ -25,9 +25,22 @@ constexpr double kSlowFadeHeight_m = 0.25;
 /// Scans of which one lets slices up to kSlowFadeHeight_m away fade.
 constexpr int kSlowFadeScans = 4;
 
-/// A mark counts the beams that crossed a cell in its low half and the beams that ended there in its high half.
+/// Longest time for which one scan stands: what happened in a longer gap between two was not seen.
+constexpr double kLasts_s = 0.3;
+/// The height of a beam is known to this share of its range: 1 deg of the attitude.
+constexpr double kHeightShare = 0.02;
+/// Beams this many slices below the top of a low obstacle go through; nearer ones may pass above.
+constexpr int kThrough = 2;
+/// A beam that crosses less of a cell than this, in cells, may pass beside something thin that stands in it.
+constexpr double kInside_cells = 0.5;
+/// A beam that ends nearer behind a cell may have been meant to end there: noise in range, and walls at 10 deg to it.
+constexpr double kBeyond_m = 0.30;
+
+/// A mark counts the beams that crossed a cell in its low half and the beams that ended there above it. Its highest bit
+/// says that one crossed it well inside.
 constexpr std::uint32_t kCrossed = 1;
-constexpr std::uint32_t kEnded = 1 << 16;
+constexpr std::uint32_t kEnded = 1U << 16;
+constexpr std::uint32_t kInside = 1U << 31;
 /// A smaller change of the flight height is ignored.
 constexpr double kHeightHysteresis_m = 0.10;
 
@@ -49,13 +62,13 @@ Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share, float from_m)
 /// the outermost of them within reach, as long as none is farther from the next than a step in depth.
 Incidence incidenceAt(const std::vector<Eigen::Vector2f>& points_level_m, std::size_t i) {
   // With the ranges' noise of a centimetre, such a line is right within some 5 deg.
-  constexpr float kReach_m = 0.10F, kLeast_m = 0.12F, kStep_m = 0.06F;
+  constexpr float kBeside_m = 0.10F, kLeast_m = 0.12F, kStep_m = 0.06F;
   constexpr float kAlong = 0.985F, kAslant = 0.87F;  // Cosines of 10 and 30 deg.
   constexpr std::size_t kMostBeams = 40;             // Bounds the time where the beams are dense.
   const Eigen::Vector2f& hit = points_level_m[i];
   const auto near = [&](std::size_t from, std::size_t to) {
     return (points_level_m[to] - points_level_m[from]).squaredNorm() < kStep_m * kStep_m &&
-           (points_level_m[to] - hit).squaredNorm() < kReach_m * kReach_m;
+           (points_level_m[to] - hit).squaredNorm() < kBeside_m * kBeside_m;
   };
   std::size_t low = i, high = i;
   while (low > 0 && i - low < kMostBeams && near(low, low - 1)) --low;
@@ -111,21 +124,26 @@ SlicedMap::SlicedMap(const GridDrawingConfig& config)
     : config_(config),
       combined_(common::makeOccupancyGrid(config.resolution_m)),
       glass_(config.resolution_m),
-      low_(config.resolution_m) {}
+      low_(config.resolution_m),
+      columns_(config.resolution_m) {}
 
 SlicedMap SlicedMap::snapshot() {
   for (auto& [slice, grid] : slices_) grid = grid.snapshot();
   combined_ = combined_.snapshot();
   glass_ = glass_.snapshot();
   low_ = low_.snapshot();
+  columns_ = columns_.snapshot();
   return *this;
 }
 
 void SlicedMap::draw(const DrawnScan& scan, const common::Pose2& T_map_body) {
   if (highest_ < lowest_) (void)setFlightHeight(scan.body_height_m);
+  const double since_s = drawn_ > 0 ? (scan.stamp - drawn_stamp_).seconds() : 0.0;
+  scan_.lasts = common::Duration::fromSeconds(std::clamp(since_s, 0.0, kLasts_s));
+  drawn_stamp_ = scan.stamp;
   ++drawn_;
   split(scan, T_map_body);
-  for (const auto& [slice, rays] : rays_)
+  for (const auto& [slice, rays] : scan_.rays)
     if (!rays.empty()) drawSlice(slice, rays, scan.stamp);
 }
 
@@ -147,11 +165,11 @@ bool SlicedMap::setFlightHeight(double height_m) {
 
 /// Cuts each ray where it passes from one slice into the next.
 void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
-  for (auto& [slice, rays] : rays_) rays.clear();
+  for (auto& [slice, rays] : scan_.rays) rays.clear();
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
-  const Eigen::Vector2d body = body_ = T_map_body.position_m() / config_.resolution_m;
+  const Eigen::Vector2d body = scan_.body = T_map_body.position_m() / config_.resolution_m;
   const double laser_m = scan.body_height_m + static_cast<double>(scan.laser_height_m);
-  laser_slice_ = sliceAt(laser_m);
+  scan_.laser_slice = sliceAt(laser_m);
   const auto inCells = [&](const Eigen::Vector3f& end) {
     return Eigen::Vector2d((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
                            (T_map_body.y_m + s * end.x() + c * end.y()) / config_.resolution_m);
@@ -160,28 +178,28 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
                        Incidence incidence = Incidence::kUnknown) {
     const double rise_m = scan.body_height_m + height_m - laser_m;
     const int last = sliceAt(laser_m + rise_m);
-    const int step = last > laser_slice_ ? 1 : -1;
+    const int step = last > scan_.laser_slice ? 1 : -1;
     Eigen::Vector2d from = body;
-    for (int slice = laser_slice_; slice != last; slice += step) {
+    for (int slice = scan_.laser_slice; slice != last; slice += step) {
       const double boundary_m = (slice + 0.5 * step) * kSliceHeight_m - laser_m;
       const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / rise_m, 0.0, 1.0);
-      rays_[slice].push_back({from, cut});
+      scan_.rays[slice].push_back({from, cut, (to - cut).norm()});
       from = cut;
     }
-    rays_[last].push_back({from, to, ended, incidence});
+    scan_.rays[last].push_back({from, to, 0.0, ended, incidence});
   };
   for (const Eigen::Vector3f& end : scan.free_level_m) add(inCells(end), end.z(), false);
-  ended_.clear();
+  scan_.ended.clear();
   for (std::size_t i = 0; i < scan.hits_level_m.size(); ++i) {
     const Eigen::Vector3f& end = scan.hits_level_m[i];
     const Eigen::Vector2d to = inCells(end);
-    ended_.push_back(cellOf(to));
+    scan_.ended.push_back(cellOf(to));
     // Level beams hit moving people too, and see when the place is free again; a tilted beam leaves a trace below.
     const bool moves = i < scan.moves.size() && scan.moves[i];
-    if (moves && sliceAt(scan.body_height_m + static_cast<double>(end.z())) < laser_slice_) continue;
+    if (moves && sliceAt(scan.body_height_m + static_cast<double>(end.z())) < scan_.laser_slice) continue;
     add(to, end.z(), true, i < scan.incidences.size() ? scan.incidences[i] : Incidence::kUnknown);
   }
-  std::sort(ended_.begin(), ended_.end(), rowByRow);
+  std::sort(scan_.ended.begin(), scan_.ended.end(), rowByRow);
   for (const Eigen::Vector3f& end : scan.no_returns_level_m) {
     const Eigen::Vector2d to = inCells(end);
     const Eigen::Vector2d seen = beforeWall(body, to, [&](CellIndex cell) { return isWall(cell); });
@@ -191,7 +209,8 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
 }
 
 bool SlicedMap::isWall(CellIndex cell) const {
-  return occupancy::isOccupied(combined_.at(cell)) || std::binary_search(ended_.begin(), ended_.end(), cell, rowByRow);
+  return occupancy::isOccupied(combined_.at(cell)) ||
+         std::binary_search(scan_.ended.begin(), scan_.ended.end(), cell, rowByRow);
 }
 
 /// A cell in which some beams of a scan end and others cross gains confidence if at least as many end there, so that
@@ -206,71 +225,120 @@ void SlicedMap::drawSlice(int slice, const std::vector<SliceRay>& rays, common::
       rect.end = {std::max(rect.end.x, c.x + 1), std::max(rect.end.y, c.y + 1)};
     }
   }
-  marks_.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), 0);
+  scan_.marks.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), 0);
   const auto markAt = [&](CellIndex c) -> std::uint32_t& {
-    return marks_[static_cast<std::size_t>(c.y - rect.begin.y) * static_cast<std::size_t>(rect.width()) +
-                  static_cast<std::size_t>(c.x - rect.begin.x)];
+    return scan_.marks[static_cast<std::size_t>(c.y - rect.begin.y) * static_cast<std::size_t>(rect.width()) +
+                       static_cast<std::size_t>(c.x - rect.begin.x)];
   };
   for (const SliceRay& ray : rays) {
-    visitCrossed(ray.from, ray.to, [&](const CellIndex& cell, double, double) {
-      markAt(cell) += kCrossed;
+    const double length = std::max((ray.to - ray.from).norm(), 1e-9), inside = kInside_cells / length;
+    const double far_enough = 1.0 - (kBeyond_m / config_.resolution_m - ray.beyond) / length;
+    visitCrossed(ray.from, ray.to, [&](const CellIndex& cell, double enters, double leaves) {
+      std::uint32_t& mark = markAt(cell);
+      mark += kCrossed;
+      if (leaves - enters >= inside && leaves <= far_enough) mark |= kInside;
       return true;
     });
     markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
-    if (ray.ended) glass_.hit(cellOf(ray.to), ray.to - body_, ray.incidence);
+    if (ray.ended) glass_.hit(cellOf(ray.to), ray.to - scan_.body, ray.incidence);
   }
   common::OccupancyGrid& grid =
       slices_.try_emplace(slice, common::makeOccupancyGrid(config_.resolution_m)).first->second;
-  const std::uint32_t* mark = marks_.data();
+  const std::uint32_t* mark = scan_.marks.data();
   for (int y = rect.begin.y; y < rect.end.y; ++y) {
     for (int x = rect.begin.x; x < rect.end.x; ++x, ++mark) {
-      const std::uint32_t ended = *mark >> 16, crossed = *mark & 0xFFFF;
-      if (*mark != 0 && (ended == 0 || ended >= crossed)) apply(slice, grid, {x, y}, ended > 0, stamp);
+      const std::uint32_t ended = (*mark & ~kInside) >> 16, crossed = *mark & 0xFFFF;
+      if (ended > 0 && ended >= crossed) apply(slice, grid, {x, y}, Met::kEnded, stamp);
+      if (*mark != 0 && ended == 0)
+        apply(slice, grid, {x, y}, (*mark & kInside) != 0 ? Met::kPassedInside : Met::kPassed, stamp);
     }
   }
 }
 
-void SlicedMap::apply(int slice, common::OccupancyGrid& grid, CellIndex cell, bool ended, common::Time stamp) {
+void SlicedMap::apply(int slice, common::OccupancyGrid& grid, CellIndex cell, Met met, common::Time stamp) {
+  const bool ended = met == Met::kEnded;
   if (!ended && isGlass(cell)) return;
   const Cell old = grid.at(cell);
   const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended ? config_.hit_steps : -config_.free_steps);
   const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
-  const bool low_changed = ended ? meetLow(slice, cell, stamp) : low_.passed(cell, slice, stamp);
-  if (!ended) fadeAround(slice, cell);
+  // A single end may be noise of a height or a range.
+  const bool confirmed = ended && value > config_.hit_steps;
+  const bool low_changed = ended ? confirmed && meetLow(slice, cell, stamp) : low_.passed(cell, slice, stamp);
+  if (ended)
+    columns_.ended(cell, confirmed ? Columns::Extent{slice, slice, slice - unsureSlices(cell)} : Columns::Extent{});
   // An unchanged cell is not written, so that its tile stays shared with the snapshots.
   if (value != old) grid.set(cell, value);
   if (low_changed)
     combine(cell);
   else if (value != old && isCombined(slice))
     combine(cell, old, value);
+  if (!ended) pass(slice, cell, met);
 }
 
 /// Whether the beams of this scan that cross the cell do not clear it. What is no glass, such as a person
 /// who has left, is cleared by beams along its normal, and slowly by all others.
 bool SlicedMap::isGlass(CellIndex cell) const {
   if (drawn_ % config_.glass_fade_scans == 0 || !occupancy::isOccupied(combined_.at(cell))) return false;
-  return glass_.passesThrough(cell, Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5) - body_);
+  return glass_.passesThrough(cell, Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5) - scan_.body);
 }
 
 /// Beams ended in the cell in that slice. Returns true if what is known of low obstacles there has changed. The outline
 /// of what reaches up, a wall or a person, is met in the cells beside, too.
 bool SlicedMap::meetLow(int slice, CellIndex cell, common::Time stamp) {
-  if (slice >= laser_slice_) {
+  if (slice >= scan_.laser_slice) {
     low_.reachesUp(cell);
     return false;
   }
-  const auto level = slices_.find(laser_slice_);
+  const auto level = slices_.find(scan_.laser_slice);
   for (int dy = -1; level != slices_.end() && dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
       if (occupancy::isOccupied(level->second.at({cell.x + dx, cell.y + dy}))) return false;
   return low_.hit(cell, slice, stamp);
 }
 
+/// By how many slices the height of a beam in the cell may be off.
+int SlicedMap::unsureSlices(CellIndex cell) const {
+  const double range_m = (Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5) - scan_.body).norm() * config_.resolution_m;
+  return static_cast<int>(std::lround(kHeightShare * range_m / kSliceHeight_m));
+}
+
+/// Beams passed the cell in that slice. Only a cell that is occupied at flight height matters to the hull.
+void SlicedMap::pass(int slice, CellIndex cell, Met met) {
+  if (!occupancy::isOccupied(combined_.at(cell))) return;
+  forgetLow(cell, columns_.surelyAround(cell));
+  if (met != Met::kPassedInside || !hasGone(slice, cell)) fadeAround(slice, cell);
+}
+
+/// The outline of what reaches up, a wall or a person, is met in the cells beside, too.
+void SlicedMap::forgetLow(CellIndex cell, int surely) {
+  const auto top = low_.top(cell);
+  if (!top || surely <= *top) return;
+  low_.forget(cell);
+  combine(cell);
+}
+
+/// Frees the slices of what stood in the cell, if beams have passed where they would have hit it for long enough.
+/// Returns true if it did.
+bool SlicedMap::hasGone(int slice, CellIndex cell) {
+  const int unsure = unsureSlices(cell);
+  const Columns::Pass pass{static_cast<std::uint16_t>(drawn_), slice - unsure, slice + unsure, scan_.lasts};
+  if (const auto top = low_.top(cell); top && pass.highest > *top - kThrough) return false;
+  const auto gone = columns_.passed(cell, pass);
+  if (!gone) return false;
+  low_.forget(cell);
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) forgetLow({cell.x + dx, cell.y + dy}, gone->surely);
+  const int reach = static_cast<int>(std::lround(kSlowFadeHeight_m / kSliceHeight_m));
+  for (auto near = slices_.lower_bound(gone->bottom - reach); near != slices_.end() && near->first <= gone->top + reach;
+       ++near)
+    if (occupancy::isOccupied(near->second.at(cell))) near->second.set(cell, 0);
+  combine(cell);
+  return true;
+}
+
 /// Most things are upright: a free cell is weak evidence that the cells above and below it are free. This removes the
 /// traces of people who have passed.
 void SlicedMap::fadeAround(int slice, CellIndex cell) {
-  // Only a cell that is occupied at flight height matters to the hull, so only such a cell fades.
-  if (!occupancy::isOccupied(combined_.at(cell))) return;
   const bool slow = drawn_ % kSlowFadeScans == 0;
   const double height_m = slow ? kSlowFadeHeight_m : kFadeHeight_m;
   const int reach = static_cast<int>(std::lround(height_m / kSliceHeight_m));

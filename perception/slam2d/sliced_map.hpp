@@ -13,6 +13,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/columns.hpp"
 #include "perception/slam2d/glass_memory.hpp"
 #include "perception/slam2d/grid_drawing_config.hpp"
 #include "perception/slam2d/low_obstacles.hpp"
@@ -36,6 +37,7 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
 /// A beam's part in one slice, in cells, with fractions.
 struct SliceRay {
   Eigen::Vector2d from, to;
+  double beyond = 0.0;  ///< How much farther than `to` the beam was free.
   /// Whether the beam ended here on something.
   bool ended = false;
   Incidence incidence = Incidence::kUnknown;
@@ -44,7 +46,8 @@ struct SliceRay {
 /// In each slice, cells where beams end gain confidence and cells that beams cross lose it, each at most once a scan. A
 /// beam without return crosses cells only up to the first one that is occupied at flight height, or in which another
 /// beam of its scan ended. A wall that is dark, or hit at a grazing angle, returns no beam, so nothing is known behind
-/// it. What may be glass is cleared only slowly by beams that would go through it. Not thread-safe; a snapshot may go
+/// it. What may be glass is cleared only slowly by beams that would go through it. What beams have passed for long
+/// enough, at a height at which it was hit, is gone at all of its heights (Columns). Not thread-safe; a snapshot may go
 /// to another thread.
 class SlicedMap {
  public:
@@ -58,21 +61,34 @@ class SlicedMap {
   /// What may touch the hull at flight height. A cell is occupied where any of the slices is, and free where at least
   /// one is free and none is occupied.
   common::OccupancyGrid atFlightHeight() { return combined_.snapshot(); }
-  /// Whether the cell is occupied by something that ends below the plane of the laser.
-  bool isLowObstacle(common::CellIndex cell) const { return low_.top(cell).has_value(); }
   /// A copy that shares its tiles.
   SlicedMap snapshot();
 
  private:
+  /// What beams of one scan did to one cell in one slice.
+  enum class Met { kEnded, kPassedInside, kPassed };
+  /// Of the scan being drawn.
+  struct Scan {
+    int laser_slice = 0;     ///< The slice of the laser.
+    common::Duration lasts;  ///< Since the one before, or less.
+    std::map<int, std::vector<SliceRay>> rays;
+    std::vector<common::CellIndex> ended;            ///< Cells that its beams ended in, at any height; sorted.
+    Eigen::Vector2d body = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
+    std::vector<std::uint32_t> marks;
+  };
   int sliceAt(double height_m) const;
   bool isCombined(int slice) const { return slice >= lowest_ && slice <= highest_; }
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
   bool isWall(common::CellIndex cell) const;
   void drawSlice(int slice, const std::vector<SliceRay>& rays, common::Time stamp);
-  void apply(int slice, common::OccupancyGrid& grid, common::CellIndex cell, bool ended, common::Time stamp);
+  void apply(int slice, common::OccupancyGrid& grid, common::CellIndex cell, Met met, common::Time stamp);
   bool isGlass(common::CellIndex cell) const;
   bool meetLow(int slice, common::CellIndex cell, common::Time stamp);
+  void pass(int slice, common::CellIndex cell, Met met);
   void fadeAround(int slice, common::CellIndex cell);
+  bool hasGone(int slice, common::CellIndex cell);
+  void forgetLow(common::CellIndex cell, int surely);
+  int unsureSlices(common::CellIndex cell) const;
   void combine(common::CellIndex cell);
   void combineAll();
   void combine(common::CellIndex cell, common::occupancy::Cell before, common::occupancy::Cell now);
@@ -82,16 +98,13 @@ class SlicedMap {
   common::OccupancyGrid combined_;
   GlassMemory glass_;
   LowObstacles low_;
+  Columns columns_;
   double flight_height_m_ = 0.0;
   int lowest_ = 0;  ///< Range of the slices that are combined; empty before the first scan.
   int highest_ = -1;
-  int drawn_ = 0;  ///< Number of drawn scans.
-  // Working memory for the scan being drawn.
-  int laser_slice_ = 0;  ///< The slice of the laser.
-  std::map<int, std::vector<SliceRay>> rays_;
-  std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
-  Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
-  std::vector<std::uint32_t> marks_;
+  int drawn_ = 0;             ///< Number of drawn scans.
+  common::Time drawn_stamp_;  ///< Of the last one.
+  Scan scan_;                 ///< Working memory.
 };
 
 }  // namespace swiftlet::perception

@@ -122,6 +122,7 @@ class ManeuverStory : public testing::Test {
             discs_,
             anybody_walks_,
             decision_,
+            spare_s_,
             drift_m_,
             {},
             people_,
@@ -147,6 +148,7 @@ class ManeuverStory : public testing::Test {
   std::string unready_;  ///< Why the sensors cannot carry a flight.
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
+  double spare_s_ = 1000.0;
   double drift_m_ = 0.0;
   bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.
   double ceiling_m_ = kHeight_m;  ///< Where taking off ends.
@@ -159,7 +161,6 @@ class ManeuverStory : public testing::Test {
     ExecutorConfig config;
     config.planning.planner.kind = choices.planner;
     config.planning.explorer.kind = choices.explorer;
-    config.give_up_s = 12.0;
     return config;
   }
 

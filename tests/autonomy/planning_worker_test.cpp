@@ -21,9 +21,10 @@ std::shared_ptr<common::OccupancyGrid> room() {
 }
 
 struct Worker : testing::Test {
-  PlanningAnswer ask(decltype(PlanningRequest::question) question, std::vector<common::Disc> people = {}) {
+  PlanningAnswer ask(decltype(PlanningRequest::question) question, std::vector<common::Disc> discs = {}) {
     PlanningRequest request;
-    request.discs = std::move(people);
+    request.discs = std::move(discs);
+    request.people = people;
     request.grid = std::make_shared<const common::OccupancyGrid>(grid->snapshot());
     request.footprint = {0.275, 0.10};
     request.T_map_body = pose;
@@ -37,6 +38,8 @@ struct Worker : testing::Test {
         grid->set({80, y}, common::occupancy::kMaxSteps);
   }
   common::Pose2 pose{2.0, 2.0, 0.0};
+  std::vector<common::DynamicObstacle> people;
+  std::vector<planning::ExplorationAttempt> attempts;
   std::shared_ptr<common::OccupancyGrid> grid = room();
   PlanningWorker worker{PlanningConfig{}, 0.05};
 };
@@ -120,7 +123,7 @@ TEST_F(Worker, MakesRoomForAPersonInTheDoor) {
   build(20);
   const Eigen::Vector2d door(4.0, 2.0);
   pose.x_m = 3.0;
-  const auto answer = ask(DetourRequest{{6.0, 2.0}}, {{door, 0.5}});
+  const auto answer = ask(DetourRequest{{6.0, 2.0}, door}, {{door, 0.5}});
   ASSERT_TRUE(answer.detour);
   EXPECT_TRUE(answer.detour->makes_room);
   EXPECT_GT((answer.detour->path.points_map_m.back() - door).norm(), 1.5);
@@ -132,7 +135,7 @@ TEST_F(Worker, MakesRoomWhereThePositionIsKnown) {
   for (int y = -150; y < 230; ++y)
     for (int x = -300; x < 0; ++x) grid->set({x, y}, -common::occupancy::kMaxSteps);
   for (int y = 25; y < 55; ++y) grid->set({0, y}, -common::occupancy::kMaxSteps);
-  const auto answer = ask(DetourRequest{{6.0, 2.0}}, {{{4.0, 2.0}, 0.5}});
+  const auto answer = ask(DetourRequest{{6.0, 2.0}, Eigen::Vector2d(4.0, 2.0)}, {{{4.0, 2.0}, 0.5}});
   ASSERT_TRUE(answer.detour);
   EXPECT_TRUE(answer.detour->makes_room);
   EXPECT_GT(answer.detour->path.points_map_m.back().x(), 0.0);
@@ -164,6 +167,75 @@ TEST_F(Worker, ApproachesABlockedGoalAndThenMakesRoom) {
   const auto next = ask(DetourRequest{goal});
   ASSERT_TRUE(next.detour);
   EXPECT_TRUE(next.detour->makes_room);
+}
+
+/// Draws the outline of somebody who stands there, unknown inside.
+void stand(common::OccupancyGrid& grid, const Eigen::Vector2d& place_m) {
+  for (double x_m = -0.3; x_m <= 0.3; x_m += 0.02)
+    for (double y_m = -0.3; y_m <= 0.3; y_m += 0.02) {
+      const double off_m = std::hypot(x_m, y_m);
+      if (off_m > 0.25) continue;
+      grid.set(grid.cellAt(place_m + Eigen::Vector2d(x_m, y_m)),
+               off_m > 0.2 ? common::occupancy::kMaxSteps : common::occupancy::kUnknown);
+    }
+}
+
+/// The wall is thinner than a person, so that a path through it would meet fewer occupied cells.
+TEST_F(Worker, NamesThePersonInTheDoorAndNotTheThinWall) {
+  build(20);
+  const Eigen::Vector2d door(4.0, 2.0);
+  common::DynamicObstacle person{7, door, 0.25, {0.3, 0.0}, true, {}};
+  people = {person};
+  EXPECT_TRUE(ask(GoalRequest{{6.0, 2.0}, 0.05}).path->has_value());
+  stand(*grid, door);
+  people.clear();  // Who stands still is part of the map, and not tracked any more.
+  const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
+  ASSERT_FALSE(answer.path->has_value());
+  ASSERT_TRUE(answer.blockage);
+  EXPECT_EQ(answer.blockage->who, "a person at (4.00, 2.00)");
+  EXPECT_FALSE(answer.opened);
+  EXPECT_FALSE(ask({}).opened) << "nothing has changed";
+  grid = room();
+  build(20);
+  EXPECT_TRUE(ask({}).opened);
+  EXPECT_TRUE(ask(GoalRequest{{6.0, 2.0}, 0.05}).path->has_value());
+}
+
+TEST_F(Worker, AWalledGoalIsNotBlockedForNow) {
+  build(0);
+  const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
+  ASSERT_FALSE(answer.path->has_value());
+  EXPECT_FALSE(answer.blockage);
+}
+
+/// A door that it flew through has closed behind it.
+TEST_F(Worker, WhatStandsWhereItFlewCameLater) {
+  build(20);
+  for (; pose.x_m < 6.0; pose.x_m += 0.1) (void)ask({});
+  build(0);
+  const auto answer = ask(GoalRequest{{2.0, 2.0}, 0.05});
+  ASSERT_FALSE(answer.path->has_value());
+  ASSERT_TRUE(answer.blockage);
+  EXPECT_TRUE(answer.blockage->who.starts_with("something that was not there before at")) << answer.blockage->who;
+}
+
+/// Somebody who stood in the only door before the vehicle came, and was never seen to move.
+TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
+  for (int y = 0; y < 80; ++y)
+    for (int x = 81; x < 160; ++x) grid->set({x, y}, common::occupancy::kUnknown);
+  build(20);
+  stand(*grid, {4.0, 2.0});
+  for (double side_m : {-0.4, 0.4})  // Seen past him.
+    for (double x_m = 4.0; x_m < 6.5; x_m += 0.02) grid->set(grid->cellAt(x_m, 2.0 + side_m), -100);
+  auto answer = ask(ExploreRequest{});
+  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
+    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
+    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
+  }
+  ASSERT_TRUE(answer.exploration->done);
+  ASSERT_TRUE(answer.blockage);
+  EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at (4.0")) << answer.blockage->who;
+  EXPECT_GE(answer.blockage->frontiers, 1);
 }
 
 /// A room around the take-off place and another one; the door between them is at (2, 0).

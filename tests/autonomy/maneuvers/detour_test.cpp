@@ -11,7 +11,7 @@ class DetourTest : public ManeuverWorkbench {
  protected:
   common::Time in(double seconds) const { return now_ + common::Duration::fromSeconds(seconds); }
   void begin() {
-    detour_.ask(input(), {6.0, 2.0});
+    detour_.ask(input(), {6.0, 2.0}, std::nullopt);
     deliver();
     detour_.begin({straight(position_m(), {3.0, 2.0}), false}, "a wall", now_, state_);
   }
@@ -20,22 +20,22 @@ class DetourTest : public ManeuverWorkbench {
 };
 
 TEST_F(DetourTest, IsDueAfterSomeTimeWithoutAPathOrAFlownPlan) {
-  EXPECT_FALSE(detour_.due(now_, in(2.4)));
-  EXPECT_TRUE(detour_.due(now_, in(2.6)));
+  EXPECT_FALSE(detour_.due(now_, in(2.4), false));
+  EXPECT_TRUE(detour_.due(now_, in(2.6), false));
   flight_.offer(straight(position_m(), {3.0, 2.0}), now_, state_);
-  EXPECT_FALSE(detour_.due(now_, in(2.6)));
+  EXPECT_FALSE(detour_.due(now_, in(2.6), false));
 }
 
 TEST_F(DetourTest, IsRequestedFromTheDeskAndNotRepeatedAtOnce) {
   answers_.clear();
-  detour_.ask(input(), {6.0, 2.0});
+  detour_.ask(input(), {6.0, 2.0}, std::nullopt);
   EXPECT_FALSE(flight_.mayAsk());
   deliver();
   ASSERT_EQ(answers_.size(), 1U);
   EXPECT_TRUE(answers_[0].detour);
   EXPECT_FALSE(detour_.active()) << "the maneuver begins it with the answer";
-  EXPECT_FALSE(detour_.due(now_, in(2.4))) << "even where there was nowhere to go";
-  EXPECT_TRUE(detour_.due(now_, in(2.6)));
+  EXPECT_FALSE(detour_.due(now_, in(2.4), false)) << "even where there was nowhere to go";
+  EXPECT_TRUE(detour_.due(now_, in(2.6), false));
 }
 
 TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
@@ -52,19 +52,28 @@ TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
       10.0);
   EXPECT_LT(distanceTo_m({3.0, 2.0}), 0.16);
   EXPECT_FALSE(flight_.plan());
-  EXPECT_FALSE(detour_.due(now_, in(2.4))) << "the next one counts from its end";
+  EXPECT_FALSE(detour_.due(now_, in(2.4), false)) << "the next one counts from its end";
 }
 
-TEST_F(DetourTest, EndsWhenItTakesTooLongOrLosesItsPath) {
+TEST_F(DetourTest, EndsWhenItLosesItsPath) {
   follows_ = false;
   begin();
-  now_ += common::Duration::fromSeconds(15.1);
   detour_.endWhenOver(input());
-  EXPECT_FALSE(detour_.active());
-  begin();
+  EXPECT_TRUE(detour_.active());
   controller_.hold();
   detour_.endWhenOver(input());
   EXPECT_FALSE(detour_.active());
+}
+
+TEST_F(DetourTest, OneIsEnoughToWaitForWhatMayGo) {
+  EXPECT_TRUE(detour_.due(now_, in(10.0), true));
+  begin();
+  controller_.hold();
+  detour_.endWhenOver(input());
+  EXPECT_FALSE(detour_.due(now_, in(10.0), true));
+  EXPECT_TRUE(detour_.due(now_, in(10.0), false)) << "what will not go is looked at from two places";
+  detour_.breakOff();
+  EXPECT_TRUE(detour_.due(now_, in(10.0), true)) << "there was a path since";
 }
 
 TEST_F(DetourTest, SwitchesToAPathToTheGoalWithoutStopping) {

@@ -127,43 +127,30 @@ TEST_F(ExploreManeuver, EndsWhenTheExplorerReportsDoneTwiceAtRest) {
   EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExploreManeuver, MakesRoomForAPersonWhoBlocksThePath) {
+TEST_F(ExploreManeuver, WaitsForAPersonWhoBlocksTheWayAndGoesOn) {
   buildPassage();
-  anybody_walks_ = true;
   discs_ = {personInThePassage()};
   want(common::ExploreIntent{});
   run(2.0);
-  EXPECT_EQ(executor_.status().reason, "a person may block the path");
+  EXPECT_EQ(executor_.status().reason.substr(0, 45), "waiting: incomplete, 1 blocked by a person at");
   EXPECT_EQ(timesSaid("moves aside to make room"), 0);
-  run(1.5);
-  EXPECT_EQ(timesSaid("moves aside to make room"), 1);
+  run(100.0);
+  EXPECT_EQ(timesSaid("moves aside to make room"), 1) << "it does not shuttle";
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   discs_.clear();
   runUntil([this] { return distanceTo_m({6.0, 2.0}) < 0.6; }, 20.0);
   EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the path is free: " << executor_.status().reason;
 }
 
-TEST_F(ExploreManeuver, DoesNotWaitForEverForAPersonWhoBlocksThePath) {
+TEST_F(ExploreManeuver, WhatIsBlockedWhenTheChargeIsNeededIsIncomplete) {
   buildPassage();
-  anybody_walks_ = true;
   discs_ = {personInThePassage()};
   want(common::ExploreIntent{});
-  run(29.0);
+  run(60.0);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
-  EXPECT_EQ(runToTheEnd(30.0), IntentState::kSucceeded);
-}
-
-TEST_F(ExploreManeuver, MakesNoRoomWhenNobodyWalkedRecently) {
-  buildPassage();
-  discs_ = {personInThePassage()};
-  anybody_walks_ = true;
-  run(1.0);
-  anybody_walks_ = false;
-  run(30.1);
-  want(common::ExploreIntent{});
-  EXPECT_LT(runUntil([this] { return ended(); }, 20.0), 2.0);
-  EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
-  EXPECT_EQ(timesSaid("moves aside to make room"), 0);
+  spare_s_ = 0.0;
+  EXPECT_EQ(runToTheEnd(1.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason.substr(0, 36), "incomplete, 1 blocked by a person at");
 }
 
 TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {

@@ -22,10 +22,21 @@ TEST_F(ManeuverInFlight, ARetraceFailsWhereSomethingIsInTheWayForLong) {
   run(1.5);
   decision_.speed_limit_m_s = 0.0;
   executor_.react(decision_, state_);
-  run(10.0);
-  EXPECT_FALSE(ended());
-  EXPECT_EQ(runToTheEnd(5.0), IntentState::kFailed);
-  EXPECT_EQ(executor_.status().reason, "something is in the way for 12 s");
+  run(60.0);
+  EXPECT_FALSE(ended()) << "the charge allows to wait";
+  spare_s_ = 0.0;
+  EXPECT_EQ(runToTheEnd(1.0), IntentState::kFailed);
+  EXPECT_TRUE(executor_.status().reason.starts_with("something is in the way for 6")) << executor_.status().reason;
+}
+
+TEST_F(ManeuverInFlight, ARetraceDoesNotWaitAtAPlaceThatIsNotKnown) {
+  const Eigen::Vector2d here = state_.T_map_body_planar().position_m();
+  want(common::RetraceIntent{{here, here + Eigen::Vector2d(2.0, 0.0)}, {}});
+  run(1.5);
+  decision_.speed_limit_m_s = 0.0;
+  executor_.react(decision_, state_);
+  drift_m_ = 1.2;
+  EXPECT_EQ(runToTheEnd(12.0), IntentState::kFailed);
 }
 
 TEST_F(ManeuverInFlight, ARetraceWithoutAPathIsDoneAtOnce) {

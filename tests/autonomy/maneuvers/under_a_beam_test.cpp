@@ -70,7 +70,7 @@ TEST_F(UnderABeam, WhileItIsLowerTheMapStaysAtTheHeightOfFlight) {
 TEST_F(UnderABeam, ABeamTooLowForTheHullIsNotFlownUnder) {
   see(0.65);
   want(to(6.5, 2.0));
-  EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
+  EXPECT_EQ(runToTheEnd(40.0), IntentState::kFailed);
   EXPECT_LT(position_m().x(), 3.7);
 }
 
@@ -79,16 +79,16 @@ TEST_F(UnderABeam, WhatNobodyHasSeenBelowItIsNotFlownThrough) {
   room.draw({0.2, 0.2, 0.1}, {3.9, 3.8, 1.35}, VoxelRoom::kSeenFree);
   map3d_ = room.layer();
   want(to(6.5, 2.0));
-  EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
+  EXPECT_EQ(runToTheEnd(40.0), IntentState::kFailed);
   EXPECT_LT(position_m().x(), 3.7);
 }
 
 TEST_F(UnderABeam, WithALaserAloneItIsUnknownAndSaidOnce) {
   want(to(6.5, 2.0));
-  EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
+  EXPECT_EQ(runToTheEnd(40.0), IntentState::kFailed);
   EXPECT_EQ(timesSaid("room below the obstacle on the path is unknown"), 1);
   want(to(6.5, 3.0));
-  EXPECT_EQ(runToTheEnd(20.0), IntentState::kFailed);
+  EXPECT_EQ(runToTheEnd(40.0), IntentState::kFailed);
   EXPECT_EQ(timesSaid("room below the obstacle on the path is unknown"), 1);
 }
 

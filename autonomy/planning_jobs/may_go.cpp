@@ -1,0 +1,146 @@
+#include "autonomy/planning_jobs/may_go.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::CellIndex;
+using common::CellRect;
+using planning::CellState;
+
+/// The outline of a person in the map: shoulders are 0.5 m at most (Pheasant 1996), with a cell of noise at each side;
+/// of one who stands sideways a laser sees half of it.
+constexpr double kLeastWidth_m = 0.25, kMostWidth_m = 0.65;
+/// Behind somebody a laser sees nothing: without the person there is room for a hull, as far as is known.
+constexpr double kBehind_m = 0.55;
+/// Far more than the people of one flight.
+constexpr std::size_t kMostPeople = 64;
+
+bool anythingIn(const planning::CostMap& map, const common::Disc& disc) {
+  const Eigen::Vector2d corner = Eigen::Vector2d::Constant(disc.radius_m);
+  const CellIndex low = map.cellAt(disc.center_map_m - corner), high = map.cellAt(disc.center_map_m + corner);
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x)
+      if (disc.covers(map.centerOf({x, y})) && map.states().at({x, y}) == CellState::kOccupied) return true;
+  return false;
+}
+
+/// Occupied cells that touch each other, with their extent.
+struct Thing {
+  CellRect rect;
+  bool too_large = false;
+};
+
+/// Of all that stands by itself, what is as wide as a person.
+class StandingAlone {
+ public:
+  explicit StandingAlone(const planning::CostMap& map)
+      : map_(map), seen_(map.costs().size(), 0), most_cells_(kMostWidth_m / map.resolution_m()) {}
+
+  std::vector<common::Disc> find() {
+    std::vector<common::Disc> discs;
+    for (int i = 0; i < static_cast<int>(seen_.size()); ++i) {
+      if (seen_[static_cast<std::size_t>(i)] != 0 || map_.states()[i] != CellState::kOccupied) continue;
+      const Thing thing = spread(i);
+      const double width_m = std::max(thing.rect.width(), thing.rect.height()) * map_.resolution_m();
+      if (thing.too_large || width_m < kLeastWidth_m) continue;
+      const Eigen::Vector2d low = map_.centerOf(thing.rect.begin);
+      const Eigen::Vector2d high = map_.centerOf({thing.rect.end.x - 1, thing.rect.end.y - 1});
+      discs.push_back(
+          {0.5 * (low + high), std::max(0.5 * (high - low).norm() + map_.resolution_m(), common::kPersonHalfWidth_m)});
+    }
+    return discs;
+  }
+
+ private:
+  Thing spread(int seed) {
+    const CellIndex first = map_.cellOf(seed);
+    Thing thing{{first, {first.x + 1, first.y + 1}}};
+    open_.assign(1, seed);
+    seen_[static_cast<std::size_t>(seed)] = 1;
+    while (!open_.empty()) {
+      const CellIndex at = map_.cellOf(open_.back());
+      open_.pop_back();
+      thing.rect.begin = {std::min(thing.rect.begin.x, at.x), std::min(thing.rect.begin.y, at.y)};
+      thing.rect.end = {std::max(thing.rect.end.x, at.x + 1), std::max(thing.rect.end.y, at.y + 1)};
+      thing.too_large = thing.rect.width() > most_cells_ || thing.rect.height() > most_cells_;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const CellIndex next{at.x + dx, at.y + dy};
+          if (!map_.rect().contains(next) || map_.states().at(next) != CellState::kOccupied) continue;
+          const int index = map_.indexOf(next);
+          if (seen_[static_cast<std::size_t>(index)] != 0) continue;
+          seen_[static_cast<std::size_t>(index)] = 1;
+          open_.push_back(index);
+        }
+    }
+    return thing;
+  }
+
+  const planning::CostMap& map_;
+  std::vector<std::uint8_t> seen_;
+  std::vector<int> open_;
+  double most_cells_;
+};
+
+}  // namespace
+
+void WhoMayGo::remember(std::span<const common::DynamicObstacle> people, const planning::CostMap& map) {
+  for (const common::DynamicObstacle& person : people) {
+    if (!person.moving) continue;
+    std::erase_if(people_, [&](const Person& known) { return known.id == person.id; });
+    if (people_.size() >= kMostPeople) people_.erase(people_.begin());
+    people_.push_back({person.id, person.center_map_m});
+  }
+  const auto tracked = [&](const Person& known) {
+    return std::any_of(people.begin(), people.end(), [&](const auto& person) { return person.id == known.id; });
+  };
+  std::erase_if(people_, [&](const Person& known) {
+    return !tracked(known) && !anythingIn(map, {known.place_map_m, common::kPersonInMap_m});
+  });
+}
+
+std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Eigen::Vector2d> flown_map_m) const {
+  std::vector<MayGo> things;
+  const auto known = [&](const Eigen::Vector2d& place_map_m) {
+    return std::any_of(things.begin(), things.end(), [&](const MayGo& t) { return t.disc.covers(place_map_m); });
+  };
+  for (const Person& person : people_) things.push_back({{person.place_map_m, common::kPersonInMap_m}, "a person"});
+  const int reach = static_cast<int>(map.footprint().hull_radius_m / map.resolution_m());
+  for (const Eigen::Vector2d& place_map_m : flown_map_m) {
+    const CellIndex middle = map.cellAt(place_map_m);
+    for (int y = middle.y - reach; y <= middle.y + reach; ++y)
+      for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
+        const Eigen::Vector2d cell_map_m = map.centerOf({x, y});
+        if (map.states().at({x, y}) != CellState::kOccupied || known(cell_map_m)) continue;
+        if ((cell_map_m - place_map_m).norm() > map.footprint().hull_radius_m) continue;
+        things.push_back({{cell_map_m, common::kPersonInMap_m}, "something that was not there before"});
+      }
+  }
+  for (const common::Disc& disc : StandingAlone(map).find())
+    if (!known(disc.center_map_m)) things.push_back({disc, "something as wide as a person", false});
+  return things;
+}
+
+common::OccupancyGrid gridWithout(std::span<const MayGo> things, const common::OccupancyGrid& grid) {
+  common::OccupancyGrid without = grid;
+  without = without.snapshot();
+  for (const MayGo& thing : things) {
+    const common::Disc shadow{thing.disc.center_map_m, thing.disc.radius_m + kBehind_m};
+    const Eigen::Vector2d corner = Eigen::Vector2d::Constant(shadow.radius_m);
+    const CellIndex low = grid.cellAt(shadow.center_map_m - corner), high = grid.cellAt(shadow.center_map_m + corner);
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) {
+        const bool unknown = common::occupancy::isUnknown(grid.at({x, y}));
+        const common::Disc& goes = unknown ? shadow : thing.disc;
+        if (goes.covers(grid.centerOf({x, y})) && !common::occupancy::isFree(grid.at({x, y})))
+          without.set({x, y}, -common::occupancy::kMaxSteps);
+      }
+  }
+  return without;
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,45 @@
+// What blocks a path today and may be gone tomorrow: people, and what came to where the vehicle flew before. A map
+// without it tells a way that is blocked for now from one that is walled.
+//
+//   grid, people, trail --> things that may go --> the grid as if they had gone --> a path only there: blocked for now
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/disc.hpp"
+#include "common/dynamic_obstacle.hpp"
+#include "common/occupancy_grid.hpp"
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::autonomy {
+
+struct MayGo {
+  common::Disc disc;     ///< All that is mapped in it goes with it.
+  const char* who = "";  ///< "a person".
+  bool came = true;      ///< It was not there before; else it has only the size of a person.
+};
+
+/// Remembers where people went who are not tracked any more: who stands still is soon part of the map. Not thread-safe.
+class WhoMayGo {
+ public:
+  /// Once for each update of the map.
+  void remember(std::span<const common::DynamicObstacle> people, const planning::CostMap& map);
+
+  /// What may go in that map. `flown_map_m` is the vehicle's trail: what stands in it came later.
+  std::vector<MayGo> in(const planning::CostMap& map, std::span<const Eigen::Vector2d> flown_map_m) const;
+
+ private:
+  struct Person {
+    int id = 0;
+    Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
+  };
+  std::vector<Person> people_;  ///< Where they last moved, the newest last.
+};
+
+/// The grid as if all of them had gone, with room for a hull in what they hide.
+common::OccupancyGrid gridWithout(std::span<const MayGo> things, const common::OccupancyGrid& grid);
+
+}  // namespace swiftlet::autonomy

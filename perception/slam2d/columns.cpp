@@ -1,0 +1,47 @@
+#include "perception/slam2d/columns.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::perception {
+namespace {
+
+/// Longer than a beam misses the edge of something while the vehicle sways, shorter than two walkers follow each other
+/// (docs/decisions/grid_map.md#059).
+constexpr int kGone_ms = 2000;
+
+}  // namespace
+
+void Columns::ended(common::CellIndex cell, const Extent& confirmed) {
+  const Cell old = cells_.at(cell);
+  Cell now = old;
+  now.passed_ms = 0;
+  if (confirmed.top >= confirmed.bottom) {
+    const bool empty = old.top < old.bottom;
+    now.bottom = static_cast<std::int16_t>(empty ? confirmed.bottom : std::min<int>(old.bottom, confirmed.bottom));
+    now.top = static_cast<std::int16_t>(empty ? confirmed.top : std::max<int>(old.top, confirmed.top));
+    now.surely = static_cast<std::int16_t>(std::max<int>(old.surely, confirmed.surely));
+  }
+  // An unchanged cell is not written, so that its tile stays shared with the snapshots.
+  if (now != old) cells_.set(cell, now);
+}
+
+int Columns::surelyAround(common::CellIndex cell) const {
+  int surely = INT16_MIN;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) surely = std::max<int>(surely, cells_.at({cell.x + dx, cell.y + dy}).surely);
+  return surely;
+}
+
+std::optional<Columns::Extent> Columns::passed(common::CellIndex cell, const Pass& pass) {
+  const Cell old = cells_.at(cell);
+  if (pass.highest > old.top || pass.lowest < old.bottom || old.scan == pass.scan) return std::nullopt;
+  Cell now = old;
+  now.scan = pass.scan;
+  now.passed_ms = static_cast<std::uint16_t>(
+      std::min<std::int64_t>(kGone_ms, old.passed_ms + pass.lasts.nanoseconds() / 1'000'000));
+  const bool gone = now.passed_ms >= kGone_ms;
+  cells_.set(cell, gone ? Cell{} : now);
+  return gone ? std::optional(Extent{old.bottom, old.top, old.surely}) : std::nullopt;
+}
+
+}  // namespace swiftlet::perception

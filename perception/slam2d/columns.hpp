@@ -1,0 +1,51 @@
+// Remembers at which heights beams ended in each cell of the map, and for how long beams have passed there since. What
+// has gone is free at all of its heights, however long it was there: it could not have been passed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/tiled_grid.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception {
+
+/// Heights are numbers of slices. Not thread-safe; a snapshot may go to another thread.
+class Columns {
+ public:
+  /// Beams of one scan that passed a cell, and would have hit what is there between the two heights.
+  struct Pass {
+    std::uint16_t scan = 0;  ///< Its number; a scan counts once.
+    int lowest = 0, highest = 0;
+    common::Duration lasts;  ///< The time for which the scan stands.
+  };
+  /// From bottom to top; up to `surely` it reaches whatever the errors of heights were.
+  struct Extent {
+    int bottom = 0, top = -1, surely = INT16_MIN;
+  };
+
+  explicit Columns(double resolution_m) : cells_(resolution_m) {}
+
+  /// A beam ended in the cell. Heights are its own if it is confirmed, and none otherwise.
+  void ended(common::CellIndex cell, const Extent& confirmed);
+  /// Extent::surely of the cells around.
+  int surelyAround(common::CellIndex cell) const;
+  /// Returns where something was, if that has gone now: it has been passed for long enough since a beam last ended.
+  std::optional<Extent> passed(common::CellIndex cell, const Pass& pass);
+
+  Columns snapshot() {
+    cells_ = cells_.snapshot();
+    return *this;
+  }
+
+ private:
+  struct Cell {
+    std::int16_t bottom = 0, top = -1, surely = INT16_MIN;
+    std::uint16_t passed_ms = 0;
+    std::uint16_t scan = 0;  ///< That was counted last.
+    bool operator==(const Cell&) const = default;
+  };
+  common::TiledGrid<Cell> cells_;
+};
+
+}  // namespace swiftlet::perception
