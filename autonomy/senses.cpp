@@ -18,18 +18,22 @@ Senses::Senses(const AutonomyConfig& config, const AutonomySetup& setup, common:
                  setup.vertical_laser),
       stamps_(log),
       scans_(config.scans, 1.0 / setup.laser.rate_hz),
-      scan_watch_(log),
+      scan_watch_(1.0 / setup.laser.rate_hz, log),
       inertial_(config.control.position.attitude_lag_s, log),
       given_map_(setup.given, log),
       battery_check_(log),
       consumption_(config.energy, setup.vehicle, control::ThrustTable::kVoltageExponent) {}
 
 bool Senses::sense(const common::SensorEvent& event) {
+  if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
+    const auto timed = scan_watch_.take(*scan);
+    if (timed == nullptr || !stamps_.accepts(timed)) return false;
+    take(timed);
+    return true;
+  }
   if (!stamps_.accepts(event)) return false;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
     if (const auto sample = inertial_.take(estimator_.withAttitude(*imu))) estimator_.addImu(*sample);
-  } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
-    take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
     if (estimator_.addFrame(*frame)) frames_.push_back({*frame, estimator_.state()});
   } else if (const auto* sweep = std::get_if<std::shared_ptr<const common::VerticalScan>>(&event)) {
@@ -93,7 +97,6 @@ Percept Senses::start(const Feedback& standing) {
 std::vector<SeenScan> Senses::processScans(Time now) {
   std::vector<SeenScan> seen;
   while (const auto scan = scans_.take(now)) {
-    if (scan_watch_.repeats(*scan)) continue;
     if (auto outcome = estimator_.addScan(*scan, now))
       seen.push_back({std::move(*outcome), estimator_.state(), estimator_.people().obstacles()});
   }

@@ -8,7 +8,9 @@
 namespace swiftlet::control {
 namespace {
 
-constexpr double kHorizontalLoss_s = 1.0;  ///< Without a horizontal estimate for this long the vehicle lands.
+/// Without a horizontal estimate for this long the vehicle lands, and while its velocity is known: what keeps the laser
+/// from measuring may be over within 3 s.
+constexpr double kHorizontalLoss_s = 1.0, kCarriedLoss_s = 3.0;
 /// Without a vertical estimate for this long the emergency descent begins.
 constexpr double kVerticalLoss_s = 0.3;
 /// The emergency descent begins when inertial samples that cannot be used have been noticed for this long.
@@ -30,8 +32,15 @@ const Failsafe* EstimateWatch::active(common::Time now, FlightPhase phase, bool 
   if (diverged) found[count++] = FindingKind::kEstimateDiverged;
   if (vertical_lost_.active_s(now) >= kVerticalLoss_s) found[count++] = FindingKind::kHeightLost;
   if (inertial_lost_.active_s(now) >= kInertialLoss_s) found[count++] = FindingKind::kInertialUnusable;
-  if (horizontal_lost_.active_s(now) >= kHorizontalLoss_s) found[count++] = FindingKind::kHorizontalLost;
+  if (horizontal_lost_.active_s(now) >= horizontalLoss_s()) found[count++] = FindingKind::kHorizontalLost;
   return activeFailsafe(std::span(found.data(), count), phase);
+}
+
+double EstimateWatch::horizontalLoss_s() const { return carried_ ? kCarriedLoss_s : kHorizontalLoss_s; }
+
+common::Edge EstimateWatch::observeHorizontal(common::Time now, bool valid, bool carried) {
+  carried_ = carried;
+  return horizontal_lost_.update(!valid, now);
 }
 
 std::string EstimateWatch::reason(FindingKind finding) const {
@@ -43,7 +52,7 @@ std::string EstimateWatch::reason(FindingKind finding) const {
     case FindingKind::kInertialUnusable:
       return fmt::format("{} for {:.1f} s", inertial_fault_, kInertialLoss_s);
     case FindingKind::kHorizontalLost:
-      return fmt::format("no horizontal estimate for {:.1f} s", kHorizontalLoss_s);
+      return fmt::format("no horizontal estimate for {:.1f} s", horizontalLoss_s());
     default:
       return std::string(toString(finding));
   }

@@ -20,8 +20,8 @@ class EstimateWatch {
   /// Height and inertial samples, in each tick. `inertial_fault` is empty while the inertial samples can be used.
   void observe(common::Time now, bool vertical_valid, std::string_view inertial_fault);
   /// The horizontal part, in each tick of a controlled flight: kEntered when it is lost. What was lost in one flight
-  /// stays lost until it is seen in the next.
-  common::Edge observeHorizontal(common::Time now, bool valid) { return horizontal_lost_.update(!valid, now); }
+  /// stays lost until it is seen in the next. `carried`: the velocity is known although the position may not be.
+  common::Edge observeHorizontal(common::Time now, bool valid, bool carried);
 
   /// The row of the table for what is lost now, `diverged` included; null if nothing follows from it.
   const Failsafe* active(common::Time now, FlightPhase phase, bool diverged) const;
@@ -31,6 +31,9 @@ class EstimateWatch {
   const std::string& inertialFault() const { return inertial_fault_; }
 
  private:
+  double horizontalLoss_s() const;
+
+  bool carried_ = false;
   common::Hysteresis horizontal_lost_, vertical_lost_, inertial_lost_;
   std::string inertial_fault_;
   common::EventLog& log_;

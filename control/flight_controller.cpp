@@ -231,7 +231,7 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
     escape_.end();
     follower_.stop();
   }
-  const common::Edge edge = watch_.observeHorizontal(now, tick.state.horizontal_valid);
+  const common::Edge edge = watch_.observeHorizontal(now, tick.state.horizontal_valid, isVelocityCarried(tick));
   if (edge == common::Edge::kEntered) escape();
   if (edge != common::Edge::kLeft) return;
   // The present height, not the reference, which may be far away.
@@ -254,6 +254,11 @@ void FlightController::escape() {
   follower_.setVelocity({velocity_m_s.x(), velocity_m_s.y(), 0.0}, BlindEscape::kAcceleration_m_s2, bodyYaw_odom_rad());
   log_.warn(clock_.now(), kFlight, "horizontal estimate lost",
             fmt::format("flying {:.1f} m away from the walls", *length_m), common::Concern::kPosition);
+}
+
+/// The vehicle can hover for a moment without a position.
+bool FlightController::isVelocityCarried(const FlightTick& tick) const {
+  return velocityIsKnown() && !tick.fusion_diverged && tick.inertial_fault.empty();
 }
 
 bool FlightController::velocityIsKnown() const {
@@ -346,8 +351,7 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
 /// A velocity that is measured no longer would be damped beyond its end.
 Horizontal FlightController::horizontalFor(const FlightTick& tick) const {
   if (tick.state.horizontal_valid) return Horizontal::kPosition;
-  const bool damped = velocityIsKnown() && !tick.fusion_diverged && tick.inertial_fault.empty();
-  return damped ? Horizontal::kVelocity : Horizontal::kLevel;
+  return isVelocityCarried(tick) ? Horizontal::kVelocity : Horizontal::kLevel;
 }
 
 // ------------------------------------------------------------------------------------------------ changes of the state

@@ -170,6 +170,7 @@ class FlightController {
   common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
   /// The part of the horizontal state that may be used.
   Horizontal horizontalFor(const FlightTick& tick) const;
+  bool isVelocityCarried(const FlightTick& tick) const;
   bool velocityIsKnown() const;
   double bodyYaw_odom_rad() const;
 

@@ -11,8 +11,9 @@ namespace swiftlet::simulation {
 namespace {
 
 /// In the order of FaultKind.
-const std::vector<std::string> kKinds{"silent",  "nan",   "repeat", "late",    "stuck",      "bias",       "mirror",
-                                      "blocked", "black", "white",  "flipped", "other_size", "clock_jump", "lost_cell"};
+const std::vector<std::string> kKinds{"silent",  "nan",        "repeat",     "late",        "stuck",
+                                      "bias",    "mirror",     "blocked",    "black",       "white",
+                                      "flipped", "other_size", "clock_jump", "clock_drift", "lost_cell"};
 
 using common::Message;
 
@@ -73,6 +74,8 @@ void FaultConfig::describe(common::config::Fields& fields) {
   fields("to_deg", to_deg, {-180, 180}, "For kind blocked: angle of the last blocked beam; at least from_deg.");
   fields("jump_s", jump_s, {-10, 10},
          "For kind clock_jump: what the clock of the measurements' stamps is ahead while the fault lasts; not 0.");
+  fields("drift_s_s", drift_s_s, {-0.5, 0.5},
+         "For kind clock_drift: seconds that the clock of the stamps gains in each second of the fault; not 0.");
 }
 
 std::vector<common::Problem> FaultConfig::validate() const {
@@ -93,6 +96,8 @@ std::vector<common::Problem> FaultConfig::validate() const {
                Message("fault.of-battery", "lost_cell is a fault of the battery alone"))
       .require(kind != FaultKind::kClockJump || jump_s != 0.0, "jump_s",
                Message("fault.no-jump", "is missing: how far does the clock jump?"))
+      .require(kind != FaultKind::kClockDrift || drift_s_s != 0.0, "drift_s_s",
+               Message("fault.no-drift", "is missing: how fast does the clock drift?"))
       .problems();
 }
 

@@ -11,20 +11,21 @@
 namespace swiftlet::simulation {
 
 enum class FaultKind {
-  kSilent,     ///< No measurement arrives.
-  kNan,        ///< Every number is NaN.
-  kRepeat,     ///< The last good measurement is repeated, with new stamps.
-  kLate,       ///< Measurements arrive `late_s` later.
-  kStuck,      ///< Of the IMU: the attitude of the AHRS stays as it was, rates and specific force live.
-  kBias,       ///< Of the IMU: rates and specific force are off by a constant on every axis.
-  kMirror,     ///< Of the laser: the beams that the mirror deflects down return nothing.
-  kBlocked,    ///< Of the laser: the beams between two angles return nothing.
-  kBlack,      ///< Of a camera: colours are black, as without light; depth stays.
-  kWhite,      ///< Of a camera: colours are white and nothing has depth, as in the sun.
-  kFlipped,    ///< Of a camera: left and right of the pictures are exchanged.
-  kOtherSize,  ///< Of a camera: pictures have half the width and half the height that they should have.
-  kClockJump,  ///< The clock that stamps the measurements is off by `jump_s`.
-  kLostCell,   ///< Of the battery itself: one of its cells is short, from then on.
+  kSilent,      ///< No measurement arrives.
+  kNan,         ///< Every number is NaN.
+  kRepeat,      ///< The last good measurement is repeated, with new stamps.
+  kLate,        ///< Measurements arrive `late_s` later.
+  kStuck,       ///< Of the IMU: the attitude of the AHRS stays as it was, rates and specific force live.
+  kBias,        ///< Of the IMU: rates and specific force are off by a constant on every axis.
+  kMirror,      ///< Of the laser: the beams that the mirror deflects down return nothing.
+  kBlocked,     ///< Of the laser: the beams between two angles return nothing.
+  kBlack,       ///< Of a camera: colours are black, as without light; depth stays.
+  kWhite,       ///< Of a camera: colours are white and nothing has depth, as in the sun.
+  kFlipped,     ///< Of a camera: left and right of the pictures are exchanged.
+  kOtherSize,   ///< Of a camera: pictures have half the width and half the height that they should have.
+  kClockJump,   ///< The clock that stamps the measurements is off by `jump_s`.
+  kClockDrift,  ///< It gains `drift_s_s` in each second from the beginning of the fault on.
+  kLostCell,    ///< Of the battery itself: one of its cells is short, from then on.
 };
 /// Whether it is a fault of a camera's pictures.
 bool isOfPictures(FaultKind kind);
@@ -46,6 +47,7 @@ struct FaultConfig {
   double from_deg = -45.0;
   double to_deg = 45.0;
   double jump_s = 0.0;
+  double drift_s_s = 0.0;
 
   /// Begins at a place or in a phase, and not at a time.
   bool isTriggered() const { return !place_world_m.empty() || !phase.empty(); }

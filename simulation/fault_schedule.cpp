@@ -10,8 +10,8 @@ using common::Time;
 
 namespace {
 
-/// The prediction of a filter bridges shorter faults.
-constexpr double kLasting_s = 1.0;
+/// The prediction of a filter bridges shorter faults, and that of one with inertial samples those of the laser.
+constexpr double kLasting_s = 1.0, kLaserLasting_s = 3.0;
 /// Less than twice the delay of the slowest shipped nature, 0.2 s.
 constexpr double kBridged_s = 0.4;
 /// Stamps that are off by less move a scan by at most 5 cm at 0.5 m/s and 6 deg at 1 rad/s.
@@ -20,12 +20,14 @@ constexpr double kClockOff_s = 0.1;
 constexpr double kNarrow_deg = 90.0;
 
 /// Whether the vehicle lacks what the sensor is for while the fault lasts.
-bool takesAway(const FaultConfig& fault) {
+bool takesAway(const FaultConfig& fault, double lasts_s) {
   switch (fault.kind) {
     case FaultKind::kLate:  // The charge changes slowly.
       return fault.sensor != Sensor::kBattery && fault.late_s >= kBridged_s;
     case FaultKind::kClockJump:
       return fault.sensor != Sensor::kBattery && std::abs(fault.jump_s) >= kClockOff_s;
+    case FaultKind::kClockDrift:
+      return fault.sensor != Sensor::kBattery && std::abs(fault.drift_s_s) * lasts_s >= kClockOff_s;
     case FaultKind::kBlocked:
       return fault.to_deg - fault.from_deg >= kNarrow_deg;
     default:
@@ -78,10 +80,11 @@ bool FaultSchedule::isDue(const FaultConfig& fault, Time now, const Eigen::Vecto
                                             [&](const std::string& word) { return word.starts_with(fault.phase); });
 }
 
-const FaultConfig* FaultSchedule::of(Sensor sensor, Time time) const {
+std::optional<ActiveFault> FaultSchedule::of(Sensor sensor, Time time) const {
   for (const Scheduled& fault : faults_)
-    if (fault.config.sensor == sensor && !isOfBattery(fault.config.kind) && fault.activeAt(time)) return &fault.config;
-  return nullptr;
+    if (fault.config.sensor == sensor && !isOfBattery(fault.config.kind) && fault.activeAt(time))
+      return ActiveFault{fault.config, *fault.begin};
+  return std::nullopt;
 }
 
 bool FaultSchedule::anyActive(Time time) const {
@@ -96,10 +99,12 @@ int FaultSchedule::lostCells(Time time) const {
 
 std::optional<Sensor> FaultSchedule::failedForFlight(Time time) const {
   for (const Sensor sensor : {Sensor::kImu, Sensor::kLaser, Sensor::kBattery})
-    for (const Scheduled& fault : faults_)
-      if (fault.config.sensor == sensor && fault.activeAt(time) &&
-          (*fault.end - *fault.begin).seconds() >= kLasting_s && takesAway(fault.config))
-        return sensor;
+    for (const Scheduled& fault : faults_) {
+      if (fault.config.sensor != sensor || !fault.activeAt(time)) continue;
+      const double lasts_s = (*fault.end - *fault.begin).seconds();
+      const bool lasting = sensor == Sensor::kLaser ? lasts_s > kLaserLasting_s : lasts_s >= kLasting_s;
+      if (lasting && takesAway(fault.config, lasts_s)) return sensor;
+    }
   return std::nullopt;
 }
 

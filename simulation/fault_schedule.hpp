@@ -13,6 +13,11 @@
 
 namespace swiftlet::simulation {
 
+struct ActiveFault {
+  const FaultConfig& config;  ///< Of the schedule.
+  common::Time begin;
+};
+
 class FaultSchedule {
  public:
   explicit FaultSchedule(std::vector<FaultConfig> faults);
@@ -22,14 +27,15 @@ class FaultSchedule {
   /// Call at each step, in the order of time.
   void step(common::Time now, const Eigen::Vector2d& position_world_m);
 
-  /// The first fault of the sensor's measurements that is active at this time; null without one.
-  const FaultConfig* of(Sensor sensor, common::Time time) const;
+  /// The first fault of the sensor's measurements that is active at this time.
+  std::optional<ActiveFault> of(Sensor sensor, common::Time time) const;
   bool anyActive(common::Time time) const;
   /// How many cells the battery has lost by this time.
   int lostCells(common::Time time) const;
   /// The sensor without which no vehicle flies on: the IMU, the laser or the battery's, if one of their faults that
-  /// lasts for a second is active and takes away what the sensor is for. Delays below 0.4 s, clocks that are less than
-  /// 0.1 s off and a blocked sector narrower than 90 deg do not count; a lost cell does.
+  /// lasts for a second, of the laser for more than three, is active and takes away what the sensor is for. Delays
+  /// below 0.4 s, clocks that go wrong by less than 0.1 s and a blocked sector narrower than 90 deg do not count; a
+  /// lost cell does.
   std::optional<Sensor> failedForFlight(common::Time time) const;
 
  private:

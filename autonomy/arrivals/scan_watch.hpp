@@ -1,8 +1,10 @@
-// Notices a laser that repeats its last scan with new stamps.
+// Judges the scans as they arrive: a laser that repeats its last scan, scans that are late, a clock that is wrong.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "autonomy/arrivals/laser_clock.hpp"
 #include "common/event_log.hpp"
 #include "common/hysteresis.hpp"
 #include "common/sensor_event.hpp"
@@ -14,15 +16,24 @@ namespace swiftlet::autonomy {
 /// noise; it never counts as repeated.
 class ScanWatch {
  public:
-  explicit ScanWatch(common::EventLog& log) : log_(log) {}
+  using Scan = std::shared_ptr<const common::LaserScan>;
 
-  /// Whether this scan repeats the one before it.
-  bool repeats(const common::LaserScan& scan);
+  /// `period_s`: time from one scan of the laser to the next.
+  ScanWatch(double period_s, common::EventLog& log) : clock_(period_s), log_(log) {}
+
+  /// The scan with the stamp that the laser's clock as it was at first would have given it; null for one that repeats
+  /// the last, that is too old, or of which nobody knows when it was measured.
+  Scan take(Scan scan);
 
  private:
   /// A single scan given twice is a hiccup of a link and needs no event; the next one is measured later than this.
   static constexpr double kHiccup_s = 1e-3;
 
+  void sayTiming(common::Time now);
+  bool repeats(const common::LaserScan& scan);
+
+  LaserClock clock_;
+  ScanTiming said_ = ScanTiming::kUsual;
   std::vector<float> last_ranges_m_;
   common::Hysteresis repeats_{kHiccup_s};
   common::EventLog& log_;

@@ -17,8 +17,9 @@ namespace swiftlet::autonomy {
 /// Without sight of the surroundings the vehicle holds after this time. A laser at 10 Hz may lose two scans in a row
 /// on its link, not three.
 inline constexpr double kUnseenHold_s = 0.3;
-/// The same after which it lands: it drifts by 0.3 to 0.5 m/s at worst then.
-inline constexpr double kUnseenLand_s = 1.0;
+/// The same after which it lands. What keeps a driver or a link from giving scans is over within 3 s; the rest is for
+/// the first scans after it. Meanwhile the vehicle hovers by its inertial samples, and leaves walls that are near.
+inline constexpr double kUnseenLand_s = 3.3;
 /// Standard deviation of the position, gathered where the laser did not fix it, at which the vehicle flies back. Half
 /// of a door's width is 0.45 m, and a map of walls that are off by more is no map to fly by
 /// (docs/decisions/fail_safes.md#029).

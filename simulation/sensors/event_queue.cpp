@@ -26,7 +26,7 @@ void EventQueue::send(Sensor sensor, std::uint64_t frame, common::Time ready, Se
   if (!arrived) return;
   const common::Time measured = stampsOf(event).measured;
   event = restamped(std::move(event), {measured, *arrived});
-  if (const FaultConfig* fault = faults_.of(sensor, measured)) {
+  if (const auto fault = faults_.of(sensor, measured)) {
     auto faulty = withFault(*fault, event, last_good_[index], laser_);
     if (!faulty) return;
     event = std::move(*faulty);

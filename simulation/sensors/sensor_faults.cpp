@@ -98,8 +98,9 @@ SensorEvent restamped(SensorEvent event, const common::Stamps& stamps) {
   return event;
 }
 
-std::optional<SensorEvent> withFault(const FaultConfig& fault, const SensorEvent& event,
+std::optional<SensorEvent> withFault(const ActiveFault& active, const SensorEvent& event,
                                      const std::optional<SensorEvent>& last_good, const common::LaserConfig& laser) {
+  const FaultConfig& fault = active.config;
   common::Stamps stamps = stampsOf(event);
   switch (fault.kind) {
     case FaultKind::kSilent:
@@ -113,6 +114,9 @@ std::optional<SensorEvent> withFault(const FaultConfig& fault, const SensorEvent
       return restamped(event, stamps);
     case FaultKind::kClockJump:
       stamps.measured += common::Duration::fromSeconds(fault.jump_s);
+      return restamped(event, stamps);
+    case FaultKind::kClockDrift:
+      stamps.measured += common::Duration::fromSeconds(fault.drift_s_s * (stamps.measured - active.begin).seconds());
       return restamped(event, stamps);
     case FaultKind::kStuck:
       return withStuckAttitude(std::get<common::ImuSample>(event), last_good);

@@ -5,7 +5,7 @@
 
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
-#include "simulation/fault_config.hpp"
+#include "simulation/fault_schedule.hpp"
 
 namespace swiftlet::simulation {
 
@@ -14,7 +14,7 @@ common::SensorEvent restamped(common::SensorEvent event, const common::Stamps& s
 
 /// The measurement as it arrives, or nullopt. The event's kind belongs to the fault's sensor, and its stamps
 /// are set. `last_good` is the sensor's last measurement without a fault, if there was one.
-std::optional<common::SensorEvent> withFault(const FaultConfig& fault, const common::SensorEvent& event,
+std::optional<common::SensorEvent> withFault(const ActiveFault& active, const common::SensorEvent& event,
                                              const std::optional<common::SensorEvent>& last_good,
                                              const common::LaserConfig& laser);
 

@@ -2,9 +2,15 @@
 #include "autonomy/autonomy.hpp"
 
 #include <cmath>
-#include <limits>
-
 #include <cstdio>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -324,20 +330,84 @@ TEST(Autonomy, AStoppedAhrsBeginsAnEmergencyDescentWithinHalfASecond) {
       "the attitude of the AHRS is frozen");
 }
 
+using Scan = std::shared_ptr<const common::LaserScan>;
+
+/// Replaces each scan by what `change` makes of it; null drops it.
+HandledVehicle::Hand scans(std::function<Scan(const Scan&)> change) {
+  return [change = std::move(change)](common::SensorEvent& event) {
+    if (!isScan(event)) return true;
+    const Scan changed = change(std::get<Scan>(event));
+    if (changed == nullptr) return false;
+    event = changed;
+    return true;
+  };
+}
+
+Scan stamped(const Scan& scan, const common::Stamps& stamps) {
+  auto copy = std::make_shared<common::LaserScan>(*scan);
+  copy->stamps = stamps;
+  return copy;
+}
+
+HandledVehicle::Hand repeated() {
+  return scans([last = Scan()](const Scan& scan) mutable {
+    if (!last) last = scan;
+    return stamped(last, scan->stamps);
+  });
+}
+
+HandledVehicle::Hand late(double late_s) {
+  return scans([late_s, waiting = std::deque<Scan>()](const Scan& scan) mutable {
+    waiting.push_back(scan);
+    const Scan oldest = waiting.front();
+    if ((scan->stamps.measured - oldest->stamps.measured).seconds() < late_s) return Scan();
+    waiting.pop_front();
+    return stamped(oldest, {oldest->stamps.measured, scan->stamps.arrived});
+  });
+}
+
+HandledVehicle::Hand clockAhead(double jump_s, double drift_s_s) {
+  return scans([=, begin = std::optional<common::Time>()](const Scan& scan) mutable {
+    common::Stamps stamps = scan->stamps;
+    if (!begin) begin = stamps.measured;
+    const double ahead_s = jump_s + drift_s_s * (stamps.measured - *begin).seconds();
+    stamps.measured += common::Duration::fromSeconds(ahead_s);
+    return stamped(scan, stamps);
+  });
+}
+
+TEST(Autonomy, AfterThreeSecondsOfAFaultOfTheLaserTheFlightGoesOn) {
+  const std::vector<std::pair<std::string, HandledVehicle::Hand>> faults{
+      {"the laser repeats its last scan", repeated()},
+      {"the laser's scans are late", late(0.3)},
+      {"the laser's scans are late", late(0.7)},
+      {"the laser's scans are late", late(1.5)},
+      {"", [](common::SensorEvent& event) { return !isScan(event); }},
+      {"the laser's clock has jumped", clockAhead(0.3, 0.0)},
+      {"the laser's clock has jumped", clockAhead(-0.3, 0.0)},
+      {"the laser's clock drifts", clockAhead(0.0, 0.05)},
+      {"the laser's clock drifts", clockAhead(0.0, -0.05)}};
+  for (const auto& [name, fault] : faults) {
+    SCOPED_TRACE(name);
+    AutonomyStory story(R"(<TakeOff height_m="1.0"/><MoveToGoal goal="2.5;-2.0"/><MoveToGoal goal="0;0"/><Land/>)");
+    ASSERT_TRUE(story.isFlying());
+    ASSERT_TRUE(story.fly(2.0));
+    story.hand = fault;
+    ASSERT_TRUE(story.fly(3.0));
+    story.hand = [](common::SensorEvent&) { return true; };
+    EXPECT_TRUE(story.until([&] { return story.autonomy().finished(); }, 60.0)) << "it does not end";
+    EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kDone) << story.autonomy().missionStatus().reason;
+    EXPECT_TRUE(name.empty() || story.event("laser", name) != story.events.end());
+    EXPECT_EQ(story.event("supervisor", "land"), story.events.end());
+  }
+}
+
 TEST(Autonomy, ALaserThatRepeatsItsScanIsASilentOne) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());
   ASSERT_TRUE(story.fly(1.0));
   const common::Time since = story.now();
-  story.hand = [last = std::shared_ptr<const common::LaserScan>()](common::SensorEvent& event) mutable {
-    auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event);
-    if (scan == nullptr) return true;
-    if (!last) last = *scan;
-    auto copy = std::make_shared<common::LaserScan>(*last);
-    copy->stamps = (*scan)->stamps;
-    *scan = copy;
-    return true;
-  };
+  story.hand = repeated();
   ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 30.0));
   const auto said = story.event("laser", "the laser repeats its last scan"), land = story.event("supervisor", "land");
   ASSERT_NE(said, story.events.end());

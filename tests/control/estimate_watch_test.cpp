@@ -50,13 +50,23 @@ TEST(EstimateWatch, InertialSamplesThatCannotBeUsedAreNamed) {
 TEST(EstimateWatch, ALostPositionLandsAfterASecond) {
   common::EventLog log;
   EstimateWatch watch(log);
-  EXPECT_EQ(watch.observeHorizontal(at(1.0), true), Edge::kNone);
-  EXPECT_EQ(watch.observeHorizontal(at(2.0), false), Edge::kEntered);
-  EXPECT_EQ(watch.observeHorizontal(at(2.9), false), Edge::kNone);
+  EXPECT_EQ(watch.observeHorizontal(at(1.0), true, false), Edge::kNone);
+  EXPECT_EQ(watch.observeHorizontal(at(2.0), false, false), Edge::kEntered);
+  EXPECT_EQ(watch.observeHorizontal(at(2.9), false, false), Edge::kNone);
   EXPECT_EQ(followsAt(2.9, watch), "");
   EXPECT_EQ(followsAt(3.0, watch), "land: no horizontal estimate for 1.0 s");
-  EXPECT_EQ(watch.observeHorizontal(at(3.1), true), Edge::kLeft);
+  EXPECT_EQ(watch.observeHorizontal(at(3.1), true, false), Edge::kLeft);
   EXPECT_EQ(followsAt(9.0, watch), "");
+}
+
+TEST(EstimateWatch, WhileTheVelocityIsKnownALostPositionLandsAfterThreeSeconds) {
+  common::EventLog log;
+  EstimateWatch watch(log);
+  EXPECT_EQ(watch.observeHorizontal(at(2.0), false, true), Edge::kEntered);
+  EXPECT_EQ(followsAt(4.9, watch), "");
+  EXPECT_EQ(followsAt(5.0, watch), "land: no horizontal estimate for 3.0 s");
+  EXPECT_EQ(watch.observeHorizontal(at(4.5), false, false), Edge::kNone);
+  EXPECT_EQ(followsAt(4.5, watch), "land: no horizontal estimate for 1.0 s");
 }
 
 }  // namespace

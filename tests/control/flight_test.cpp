@@ -315,8 +315,9 @@ TEST(Flight, ASilentLaserLeadsToHoldAndThenToLanding) {
   flight.run(3.0);
   flight.horizontal_valid = false;
   flight.run(0.8);
-  EXPECT_EQ(flight.controller.state(), FlightState::kFlying);
   EXPECT_LT(flight.model.velocity_m_s.head<2>().norm(), 0.35);
+  flight.run(2.0);
+  EXPECT_EQ(flight.controller.state(), FlightState::kFlying);
   flight.run(0.4);
   EXPECT_EQ(flight.controller.state(), FlightState::kLanding);
   EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));

@@ -154,6 +154,20 @@ TEST(Faults, AClockThatJumpsShiftsTheStampsUntilItIsSetRight) {
   }
 }
 
+TEST(Faults, AClockThatDriftsMovesTheStampsFromTheBeginningOfTheFaultOn) {
+  FaultConfig fault{Sensor::kLaser, FaultKind::kClockDrift, 1.0, 2.0};
+  fault.drift_s_s = -0.1;
+  const auto drifting = eventsOf<Scan>(withFault(fault));
+  const auto sound = eventsOf<Scan>(withFault({Sensor::kLaser, FaultKind::kSilent, 9.0, 9.0}));
+  ASSERT_EQ(drifting.size(), sound.size());
+  for (std::size_t i = 0; i < drifting.size(); ++i) {
+    const double t = sound[i]->stamps.measured.seconds();
+    EXPECT_NEAR((drifting[i]->stamps.measured - sound[i]->stamps.measured).seconds(),
+                t >= 1.0 && t < 2.0 ? -0.1 * (t - 1.0) : 0.0, 1e-8);
+    EXPECT_EQ(drifting[i]->stamps.arrived, sound[i]->stamps.arrived);
+  }
+}
+
 TEST(Faults, ALostCellTakesAThirdOfTheVoltageAndStaysLost) {
   Scenario scenario;  // Three cells, by 12.6 V.
   scenario.sensors.battery_noise_v = 0.0;
@@ -182,9 +196,9 @@ TEST(Faults, ALostCellTakesAThirdOfTheVoltageAndStaysLost) {
 TEST(Faults, ALostCellLeavesOtherFaultsOfTheBatteryAsTheyAre) {
   const FaultSchedule schedule(
       {{Sensor::kBattery, FaultKind::kLostCell, 1.0}, {Sensor::kBattery, FaultKind::kNan, 2.0, 3.0}});
-  EXPECT_EQ(schedule.of(Sensor::kBattery, Time::fromSeconds(1.5)), nullptr);
-  ASSERT_NE(schedule.of(Sensor::kBattery, Time::fromSeconds(2.5)), nullptr);
-  EXPECT_EQ(schedule.of(Sensor::kBattery, Time::fromSeconds(2.5))->kind, FaultKind::kNan);
+  EXPECT_FALSE(schedule.of(Sensor::kBattery, Time::fromSeconds(1.5)));
+  ASSERT_TRUE(schedule.of(Sensor::kBattery, Time::fromSeconds(2.5)));
+  EXPECT_EQ(schedule.of(Sensor::kBattery, Time::fromSeconds(2.5))->config.kind, FaultKind::kNan);
   EXPECT_EQ(schedule.lostCells(Time::fromSeconds(0.5)), 0);
   EXPECT_EQ(schedule.lostCells(Time::fromSeconds(1e6)), 1);
 }
@@ -216,8 +230,11 @@ TEST(Faults, BeginAtAPlace) {
 TEST(Faults, BeginInAPhaseThatAnObserverTells) {
   FaultConfig fault;
   fault.phase = "go to";
+  fault.sensor = Sensor::kImu;
   fault.lasts_s = 2.0;
   Scenario scenario;
+  scenario.faults.push_back(fault);
+  scenario.faults.back().sensor = Sensor::kLaser;
   scenario.faults.push_back(fault);
   SimulatedVehicle vehicle(boxRoom(), scenario);
   std::vector<common::SensorEvent> events;
@@ -226,7 +243,7 @@ TEST(Faults, BeginInAPhaseThatAnObserverTells) {
   EXPECT_FALSE(vehicle.truth().failed_sensor);
   vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
   EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(2.5), events));
-  EXPECT_EQ(vehicle.truth().failed_sensor, Sensor::kLaser) << "it lasts for two seconds";
+  EXPECT_EQ(vehicle.truth().failed_sensor, Sensor::kImu) << "without the laser it flies on for two seconds";
   vehicle.tellPhase({"flying", "hold"});
   EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(5.0), events));
   vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
@@ -246,7 +263,7 @@ std::string failedBy(Sensor sensor, FaultKind kind, double late_s = 0.5, double 
   fault.to_s = 100.0;
   const FaultSchedule schedule({fault});
   EXPECT_FALSE(schedule.failedForFlight(Time::fromSeconds(1.5)));
-  fault.to_s = 2.9;
+  fault.to_s = sensor == Sensor::kLaser ? 5.0 : 2.9;
   EXPECT_FALSE(FaultSchedule({fault}).failedForFlight(Time::fromSeconds(2.5))) << "it is soon over";
   const auto failed = schedule.failedForFlight(Time::fromSeconds(5.0));
   return failed ? toString(*failed) : "";
@@ -346,6 +363,8 @@ TEST(Faults, ContradictionsAreRefused) {
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kBlack, 1.0, 2.0}).size(), 1U);
   EXPECT_THAT(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kClockJump, 1.0, 2.0}),
               test_support::HasProblem("fault.no-jump", "jump_s"));
+  EXPECT_THAT(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kClockDrift, 1.0, 2.0}),
+              test_support::HasProblem("fault.no-drift", "drift_s_s"));
   EXPECT_TRUE(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0}).empty());
   EXPECT_THAT(common::config::problemsOf(FaultConfig{Sensor::kBattery, FaultKind::kLostCell, 1.0, 2.0}),
               test_support::HasProblem("fault.lost-for-good", "to_s"));

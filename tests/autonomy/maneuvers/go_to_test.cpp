@@ -25,11 +25,11 @@ TEST_F(ManeuverInFlight, AGoalAfterALandingFailsWithTheReasonOfTheLanding) {
   state_.horizontal_valid = false;
   want(to(6.0, 2.0));
   EXPECT_EQ(runToTheEnd(5.0), IntentState::kFailed);
-  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal: landing because no horizontal estimate for 1.0 s");
+  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal: landing because no horizontal estimate for 3.0 s");
   runUntil([this] { return controller_.state() == FlightState::kLanded; }, 10.0);
   want(to(6.0, 2.0));
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
-  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal: landed because no horizontal estimate for 1.0 s");
+  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal: landed because no horizontal estimate for 3.0 s");
 }
 
 class GoToManeuver : public ManeuverInFlight {
