@@ -30,7 +30,7 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
           .max_height_m = setup.vehicle.max_height_m,
           .measured_height_m = measuredHeight_m(setup.laser),
           .least_measured_height_m = leastMeasuredHeight_m(setup.laser),
-          .has_camera = setup.camera != nullptr,
+          .has_camera = setup.camera != nullptr && !setup.camera->isStereo(),
           .target_names = config.estimator.targets.names(),
           .has_map = setup.given != nullptr,
           .map_problem = [&maps](const std::string& map, const std::string&) -> std::optional<common::Problem> {

@@ -28,11 +28,12 @@ function(swiftlet_library name)
   swiftlet_publish(${name} "${folder}")
 endfunction()
 
-# swiftlet_link_opencv(NAME)
-#   Links OpenCV by its smallest part, of 4 packages, in the sources: what find_package(OpenCV) reads comes with 58.
+# swiftlet_link_opencv(NAME [MODULE...])
+#   Links OpenCV by its smallest part, of 4 packages, in the sources, and further modules: what find_package(OpenCV) reads
+#   comes with 58.
 function(swiftlet_link_opencv name)
   find_path(SWIFTLET_OPENCV_HEADERS opencv2/imgproc.hpp PATH_SUFFIXES opencv4 REQUIRED)
-  target_link_libraries(swiftlet_${name} PRIVATE opencv_imgproc opencv_core)
+  target_link_libraries(swiftlet_${name} PRIVATE ${ARGN} opencv_imgproc opencv_core)
   target_include_directories(swiftlet_${name} SYSTEM PRIVATE "${SWIFTLET_OPENCV_HEADERS}")
 endfunction()
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -58,13 +59,15 @@ struct DepthImage {
 /// Whether the depth is a measured distance.
 inline bool isMeasured(float depth_m) { return depth_m > 0.0F && std::isfinite(depth_m); }
 
-/// One frame of an RGB-D camera. The depth is registered to the colour image, and both have the size of `camera`.
+/// One frame of an RGB-D camera. The depth is registered to the colour image, and both have the size of `camera`. A
+/// stereo camera sends a pair of pictures instead, from which vision/stereo_matcher makes such a frame.
 struct RgbdFrame {
   Stamps stamps;      ///< `measured` is the time of the first image row.
   Duration row_time;  ///< Between two rows; 0 for a global shutter.
   PinholeCamera camera;
-  Image color;
-  DepthImage depth;
+  Image color;       ///< Of a pair: the picture of the left camera as it was taken, with the errors of its lens.
+  DepthImage depth;  ///< Of a pair: empty.
+  std::shared_ptr<const Image> right = {};  ///< Of a pair: the picture of the right camera. Null otherwise.
 };
 
 }  // namespace swiftlet::common

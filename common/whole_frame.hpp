@@ -27,4 +27,13 @@ inline bool isWhole(const RgbdFrame& frame) {
          sizeIsOf(frame.color) && sizeIsOf(frame.depth);
 }
 
+/// Whether both pictures of a stereo camera are there and have its size.
+inline bool isWholePair(const RgbdFrame& frame) {
+  const auto isPicture = [&](const Image& image) {
+    return isWhole(image) && image.width_px == frame.camera.width_px && image.height_px == frame.camera.height_px;
+  };
+  return frame.camera.fx_px > 0.0 && frame.camera.fy_px > 0.0 && isPicture(frame.color) && frame.right &&
+         isPicture(*frame.right);
+}
+
 }  // namespace swiftlet::common

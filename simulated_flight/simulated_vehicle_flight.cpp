@@ -20,7 +20,7 @@ evaluation::FlightRecorder recorderOf(const SimulatedSetup& setup, const simulat
 }
 
 std::unique_ptr<VisualOdometrySink> visualOdometryOf(const SimulatedSetup& setup) {
-  if (!setup.visual_odometry_alone || !setup.system.rgbd_camera) return nullptr;
+  if (!setup.visual_odometry_alone || !setup.system.rgbd_camera || setup.system.rgbd_camera->isStereo()) return nullptr;
   return std::make_unique<VisualOdometrySink>(setup.system.config.autonomy.estimator.rgbd.mapper,
                                               setup.system.rgbd_camera->mount.pose());
 }

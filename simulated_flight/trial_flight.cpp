@@ -41,7 +41,8 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   truth.rays = &vehicle.rays();
   truth.vehicle = vehicle.scenario().vehicle;
   truth.laser = vehicle.scenario().laser;
-  if (truth.rgbd_camera = vehicle.scenario().rgbd_camera; truth.rgbd_camera) {
+  if (const auto& camera = vehicle.scenario().rgbd_camera; camera && !camera->isStereo()) {
+    truth.rgbd_camera = camera;
     const simulation::RgbdErrorsConfig& errors = vehicle.scenario().sensors.rgbd_errors;
     truth.T_body_camera = errors.T_body_camera(truth.rgbd_camera->mount);
     truth.camera_clock_offset_s = errors.clock_offset_s + 1e-6 * errors.clock_drift_ppm * record.flight_time_s;

@@ -8,15 +8,17 @@ using common::Time;
 
 SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera,
                            const common::LaserConfig* vertical_laser, common::JobRunner& jobs, common::EventLog& log)
-    : rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs, log) : nullptr),
+    : rgbd_(camera && !camera->isStereo() ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs, log) : nullptr),
+      stereo_(camera && camera->isStereo() ? std::make_unique<StereoPipeline>(*camera, jobs, log) : nullptr),
       vertical_laser_(vertical_laser && !camera
                           ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs, log)
                           : nullptr),
-      targets_(camera && !config.targets.classes.empty()
+      targets_(rgbd_ && !config.targets.classes.empty()
                    ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m, log)
                    : nullptr) {}
 
 bool SpaceSensors::add(std::shared_ptr<const common::RgbdFrame> frame) {
+  if (stereo_) stereo_->add(frame, frame->stamps.arrived);
   if (!rgbd_ || !rgbd_->add(frame)) return false;
   if (targets_) targets_->add(std::move(frame));
   return true;
@@ -27,9 +29,18 @@ void SpaceSensors::add(std::shared_ptr<const common::VerticalScan> sweep) {
 }
 
 std::optional<CameraStep> SpaceSensors::takeStep(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
+  if (stereo_) {
+    stereo_->watch(now);
+    return stereo_->take();
+  }
   if (!rgbd_) return std::nullopt;
   rgbd_->watch(keys, now);
   return rgbd_->steps().take();
+}
+
+void SpaceSensors::forgetClone() {
+  if (stereo_) stereo_->forgetClones();
+  if (rgbd_) rgbd_->steps().forgetClone();
 }
 
 void SpaceSensors::map(const MapSituation& situation, Time now) {

@@ -1,5 +1,6 @@
 // The sensors of the third dimension, an RGB-D camera or else an upright laser: each frame and sweep waits until the
-// pose of its own time is known, then makes the 3D map; in frames coloured targets are looked for too.
+// pose of its own time is known, then makes the 3D map; in frames coloured targets are looked for too. Pairs of a
+// stereo camera measure the motion alone.
 #pragma once
 
 #include <memory>
@@ -9,6 +10,7 @@
 #include "autonomy/estimation/odometry_step.hpp"
 #include "autonomy/estimation/pose_track.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/stereo_pipeline.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
 #include "autonomy/estimation/vertical_laser_pipeline.hpp"
 #include "common/event_log.hpp"
@@ -47,18 +49,18 @@ class SpaceSensors {
   SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser,
                common::JobRunner& jobs, common::EventLog& log);
 
-  /// Whether the frame can be used; false without a camera.
+  /// Whether the frame can be used; false without a camera, and for a pair of a stereo camera, which has no depths yet.
   [[nodiscard]] bool add(std::shared_ptr<const common::RgbdFrame> frame);
   /// Without an upright laser the sweep is ignored.
   void add(std::shared_ptr<const common::VerticalScan> sweep);
 
-  bool hasCamera() const { return rgbd_ != nullptr; }
-  /// Mount and clock; only with a camera.
+  bool hasCamera() const { return rgbd_ || stereo_; }
+  /// Mount and clock; only with an RGB-D camera.
   common::CameraEstimate camera() const { return rgbd_->camera(); }
   /// The measurement of the camera for the filter, at every tick before `map`; nullopt without a new one.
   std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   /// See CameraSteps::forgetClone.
-  void forgetClone() { rgbd_->steps().forgetClone(); }
+  void forgetClone();
   /// Something contradicted the camera then: its measurements are not used for kCameraDoubted_s.
   void doubtCamera(common::Time now) { camera_doubted_ = now; }
   bool isCameraDoubted(common::Time now) const {
@@ -83,9 +85,10 @@ class SpaceSensors {
   void lookForTargets(const MapSituation& situation, common::Time now);
   void mapSweeps(const MapSituation& situation, common::Time now);
 
-  std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera.
+  std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera, and with a stereo camera.
+  std::unique_ptr<StereoPipeline> stereo_;                 ///< Null without a stereo camera.
   std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
-  std::unique_ptr<TargetPipeline> targets_;                ///< Null without a camera, and without targets to look for.
+  std::unique_ptr<TargetPipeline> targets_;  ///< Null without an RGB-D camera, and without targets to look for.
   std::optional<common::Time> camera_doubted_;
 };
 

@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 
 #include "mapping3d/odometry/found_place.hpp"
-#include "mapping3d/odometry/point_registration.hpp"
 #include "optimization/bundle_adjustment.hpp"
+#include "vision/point_registration.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {

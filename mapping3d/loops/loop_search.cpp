@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "mapping3d/odometry/frame_pyramid.hpp"
-#include "mapping3d/odometry/point_registration.hpp"
+#include "vision/point_registration.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {

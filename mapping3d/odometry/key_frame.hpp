@@ -8,15 +8,11 @@
 #include "common/time.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 #include "mapping3d/odometry/reference_points.hpp"
-#include "vision/binary_descriptor.hpp"
+#include "vision/point_registration.hpp"
 
 namespace swiftlet::mapping3d {
 
-/// A point that can be recognized by its surroundings in the picture.
-struct DescribedPoint {
-  Eigen::Vector3d point_camera_m;
-  vision::BinaryDescriptor descriptor;
-};
+using vision::DescribedPoint;
 
 /// What was seen; where it was seen from is in the KeyFrameMap.
 struct KeyFrame {

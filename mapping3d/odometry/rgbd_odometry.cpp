@@ -9,7 +9,7 @@
 
 #include "common/config_fields.hpp"
 #include "mapping3d/odometry/found_place.hpp"
-#include "mapping3d/odometry/point_registration.hpp"
+#include "vision/point_registration.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {

@@ -7,6 +7,9 @@ namespace swiftlet::perception {
 using common::config::kPositive;
 
 void FusionConfig::describe(common::config::Fields& fields) {
+  fields.choice("odometry_choice", odometry_choice, {"all", "best"},
+                "Which relative poses are used: all of laser and camera, or those of the sensor with the smallest "
+                "covariance alone.");
   fields("accelerometer_noise_m_s2_rthz", accelerometer_noise_m_s2_rthz, kPositive,
          "Least noise density of the accelerometer; what the samples show counts where it is more.");
   fields("gyroscope_noise_rad_s_rthz", gyroscope_noise_rad_s_rthz, kPositive, "Noise density of the gyroscope.");

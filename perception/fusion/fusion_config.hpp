@@ -6,10 +6,12 @@
 
 #include "common/config_fwd.hpp"
 #include "common/gravity.hpp"
+#include "perception/fusion/odometry_choice.hpp"
 
 namespace swiftlet::perception {
 
 struct FusionConfig {
+  OdometryRule odometry_choice = OdometryRule::kAll;
   double gravity_m_s2 = common::kGravity_m_s2;  ///< Magnitude of gravity.
   double accelerometer_noise_m_s2_rthz = 0.02;
   double gyroscope_noise_rad_s_rthz = 0.002;

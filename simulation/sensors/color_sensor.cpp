@@ -13,18 +13,42 @@ ColorSensor::ColorSensor(const RgbdErrorsConfig& errors, double period_s, std::u
     : errors_(errors), period_s_(period_s), seed_(seed) {}
 
 common::Image ColorSensor::take(std::uint64_t number, const SeenImage& seen) {
-  if (!seen.motion_px.empty()) blur(seen);
-  const std::vector<Eigen::Array4f>& light = seen.motion_px.empty() ? seen.light : blurred_;
+  const std::vector<Eigen::Array4f>& light = blurred(seen);
   adjustExposure(light);
+  return expose(number, seen, light);
+}
+
+common::Image ColorSensor::takeAs(const ColorSensor& leader, std::uint64_t number, const SeenImage& seen) {
+  gain_ = leader.gain_;
+  return expose(number, seen, blurred(seen));
+}
+
+double ColorSensor::exposure_s() const {
+  const double wanted_s = errors_.exposure_s * static_cast<double>(gain_);
+  return errors_.longest_exposure_s > errors_.exposure_s && gain_ > 0.0F
+             ? std::min(wanted_s, errors_.longest_exposure_s)
+             : errors_.exposure_s;
+}
+
+common::Image ColorSensor::expose(std::uint64_t number, const SeenImage& seen,
+                                  const std::vector<Eigen::Array4f>& light) const {
   common::Image image{seen.width_px, seen.height_px, std::vector<std::uint8_t>(3 * seen.pixels())};
-  // What amplifies the light amplifies the noise.
-  PixelNoise noise(errors_.pixel_noise * std::max(1.0F, gain_), common::RandomStream(seed_, "rgbd color", number));
+  // What amplifies the light amplifies the noise; a longer exposure does not.
+  const double by_shutter = errors_.exposure_s > 0.0 ? exposure_s() / errors_.exposure_s : 1.0;
+  const auto amplified = std::max(1.0F, gain_ / static_cast<float>(by_shutter));
+  PixelNoise noise(errors_.pixel_noise * amplified, common::RandomStream(seed_, "rgbd color", number));
   std::uint8_t* byte = image.rgb.data();
   for (const Eigen::Array4f& one : light) {
     const Eigen::Array4f value = 255.0F * gain_ * one + noise.next();
     for (int channel = 0; channel < 3; ++channel) *byte++ = toPixelByte(value[channel]);
   }
   return image;
+}
+
+const std::vector<Eigen::Array4f>& ColorSensor::blurred(const SeenImage& seen) {
+  if (seen.motion_px.empty()) return seen.light;
+  blur(seen);
+  return blurred_;
 }
 
 // The mean of the light along the motion of the surface. It takes as many samples as the motion has pixels, because
@@ -67,7 +91,10 @@ void ColorSensor::adjustExposure(const std::vector<Eigen::Array4f>& light) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < light.size(); i += kEvery, ++count) sum += light[i];
   const float mean = sum.head<3>().sum() / static_cast<float>(3 * count);
-  const float wanted = std::clamp(kMiddleGrey / std::max(mean, 1e-3F), kLeastGain, kMostGain);
+  // Until the shutter is open for longest, nothing is amplified.
+  const auto by_shutter = static_cast<float>(
+      errors_.exposure_s > 0.0 ? std::max(1.0, errors_.longest_exposure_s / errors_.exposure_s) : 1.0);
+  const float wanted = std::clamp(kMiddleGrey / std::max(mean, 1e-3F), kLeastGain, kMostGain * by_shutter);
   const auto share = static_cast<float>(common::followedShare(period_s_, errors_.exposure_lag_s));
   gain_ = gain_ == 0.0F ? wanted : gain_ + share * (wanted - gain_);
 }

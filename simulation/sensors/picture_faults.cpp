@@ -62,6 +62,11 @@ std::optional<common::SensorEvent> withPictureFault(FaultKind kind, const common
   auto copy = std::make_shared<common::RgbdFrame>(**frame);
   spoil(kind, copy->color);
   spoil(kind, copy->depth);
+  if (copy->right) {
+    auto right = std::make_shared<common::Image>(*copy->right);
+    spoil(kind, *right);
+    copy->right = std::move(right);
+  }
   return std::shared_ptr<const common::RgbdFrame>(std::move(copy));
 }
 

@@ -119,6 +119,9 @@ void RgbdErrorsConfig::describe(common::config::Fields& fields) {
   fields("pixel_noise", pixel_noise, {0, 100},
          "Standard deviation of a pixel, in grey levels of 255; it grows with the exposure's gain.");
   fields("exposure_s", exposure_s, {0, 0.1}, "How long the shutter is open, which blurs what moves.");
+  fields("longest_exposure_s", longest_exposure_s, {0, 0.1},
+         "How long the shutter is open at most in the dark, before the picture is amplified; in brighter light it is "
+         "open for less than exposure_s. Not above exposure_s: it is always open for that.");
   fields("exposure_lag_s", exposure_lag_s, {0, 60},
          "Time constant in which the exposure follows the brightness of the view; 0: the exposure is fixed.");
   fields("clock_offset_s", clock_offset_s, {-0.1, 0.1}, "What the camera's clock is ahead of the computer's at first.");

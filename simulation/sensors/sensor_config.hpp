@@ -1,6 +1,7 @@
 // Properties of the sensors that only the simulator knows: errors, rates, and the latency and loss of their links.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -88,11 +89,13 @@ struct RgbdErrorsConfig {
   double edge_hole_rate = 0.0;
   double pixel_noise = 2.0;
   double exposure_s = 0.0;
+  double longest_exposure_s = 0.0;
   double exposure_lag_s = 0.0;
   double clock_offset_s = 0.0;
   double clock_drift_ppm = 0.0;
 
   void describe(common::config::Fields& fields);
+  double longestExposure_s() const { return std::max(exposure_s, longest_exposure_s); }
   /// The true pose of a camera that its data sheet mounts so.
   common::Pose3 T_body_camera(const common::MountConfig& sheet) const;
 };

@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "common/random.hpp"
-#include "mapping3d/odometry/point_registration.hpp"
 #include "mapping3d/odometry/surface_fit.hpp"
 #include "tests/rgbd_odometry/textured_room.hpp"
+#include "vision/point_registration.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
 
 using common::Pose3;
+using vision::rigidTransform;
 
 TEST(SurfaceFit, OfAWallHasItsNormalAndIsLessNoisyThanItsPixels) {
   const TexturedRoom room;

@@ -1,0 +1,50 @@
+#include "perception/fusion/odometry_choice.hpp"
+
+#include <cmath>
+
+#include "common/small_matrices.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+/// The other sensor is used when its standard deviation is below this share of that of the present one, so half its
+/// variance: two that are alike do not take turns.
+constexpr double kClearlyBetter = 0.7;
+/// Without a measurement for so long a sensor measures nothing: two periods of the slowest camera, at 3 Hz, and the
+/// jitter of its link. Within it two scans of a laser at 10 Hz may be lost.
+constexpr double kSilent_s = 0.7;
+
+}  // namespace
+
+const char* toString(OdometrySource source) { return source == OdometrySource::kLaser ? "laser" : "vision"; }
+
+double deviation_m(const Measurement& measurement) {
+  constexpr double kArm_m = 1.0;
+  if (measurement.kind == MeasurementKind::kRelativePose3) {
+    const auto& covariance = measurement.covariance6;
+    const Eigen::Vector2d position_m2 = common::symmetricEigenvalues(Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()));
+    return std::sqrt(position_m2[1] + kArm_m * kArm_m * covariance(5, 5));
+  }
+  if (measurement.unobservable_motion) return OdometryChoice::kNothing;
+  const Eigen::Vector2d position_m2 =
+      common::symmetricEigenvalues(Eigen::Matrix2d(measurement.covariance.topLeftCorner<2, 2>()));
+  return std::sqrt(position_m2[1] + kArm_m * kArm_m * measurement.covariance(2, 2));
+}
+
+double OdometryChoice::presentDeviation_m(OdometrySource source, common::Time now) const {
+  const Sensor& sensor = sensors_[static_cast<std::size_t>(source)];
+  return sensor.at && (now - *sensor.at).seconds() <= kSilent_s ? sensor.deviation_m : kNothing;
+}
+
+std::optional<OdometrySwitch> OdometryChoice::measured(OdometrySource source, double deviation_m, common::Time now) {
+  sensors_[static_cast<std::size_t>(source)] = {deviation_m, now};
+  if (rule_ == OdometryRule::kAll) return std::nullopt;
+  const OdometrySource other = used_ == OdometrySource::kLaser ? OdometrySource::kVision : OdometrySource::kLaser;
+  const double used_m = presentDeviation_m(used_, now), other_m = presentDeviation_m(other, now);
+  if (!std::isfinite(other_m) || other_m >= kClearlyBetter * used_m) return std::nullopt;
+  const OdometrySwitch change{used_, other, used_m, other_m};
+  used_ = other;
+  return change;
+}
+
+}  // namespace swiftlet::perception

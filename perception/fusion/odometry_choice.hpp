@@ -1,0 +1,66 @@
+// Which odometry the filter uses: all that there are, or the best alone.
+//
+// Tomic 2012, "Visual Odometry": under bad conditions a sensor's measurements have outliers that no gate finds, so its
+// covariance is not valid, and the sensor with the smallest covariance is taken for the one that suits the
+// surroundings.
+//
+//            vision clearly better, or the laser measures nothing
+//   laser  ------------------------------------------------------>  vision
+//          <------------------------------------------------------
+//            laser clearly better, or vision measures nothing
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/time.hpp"
+#include "perception/fusion/measurement.hpp"
+
+namespace swiftlet::perception {
+
+/// `best` is the paper's rule. With `all`, ours, the filter weighs both by their covariances.
+enum class OdometryRule { kAll, kBest };
+enum class OdometrySource { kLaser, kVision };
+inline constexpr std::size_t kOdometrySources = 2;
+const char* toString(OdometrySource source);
+
+/// The standard deviation of a relative pose, by which sensors are compared: that of the horizontal position along its
+/// least certain direction, in metres, with the yaw counted as what it moves at 1 m. Infinite where the scene hides a
+/// motion. `measurement` is a relative pose, planar or in space; in space the axes are those of the body.
+double deviation_m(const Measurement& measurement);
+
+/// A change of the sensor.
+struct OdometrySwitch {
+  OdometrySource from, to;
+  double from_m, to_m;  ///< Standard deviations; infinite for a sensor that measures nothing.
+};
+
+/// One thread. Plain data.
+class OdometryChoice {
+ public:
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+  explicit OdometryChoice(OdometryRule rule) : rule_(rule) {}
+
+  /// A sensor has measured with that standard deviation, or nothing (kNothing), in its turn. The switch that follows.
+  std::optional<OdometrySwitch> measured(OdometrySource source, double deviation_m, common::Time now);
+  /// Whether the filter uses it.
+  bool uses(OdometrySource source) const { return rule_ == OdometryRule::kAll || source == used_; }
+
+ private:
+  struct Sensor {
+    double deviation_m = kNothing;
+    std::optional<common::Time> at;
+  };
+  double presentDeviation_m(OdometrySource source, common::Time now) const;
+
+  OdometryRule rule_;
+  OdometrySource used_ = OdometrySource::kLaser;  ///< A flight begins with it: near the ground cameras see too little.
+  std::array<Sensor, kOdometrySources> sensors_;
+};
+
+}  // namespace swiftlet::perception

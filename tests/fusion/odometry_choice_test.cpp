@@ -1,0 +1,88 @@
+// Which odometry the filter uses, as a story of Tomic 2012, Fig. 9.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "perception/fusion/odometry_choice.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Time;
+
+constexpr auto kLaser = OdometrySource::kLaser, kVision = OdometrySource::kVision;
+constexpr double kNothing = OdometryChoice::kNothing;
+
+TEST(OdometryChoice, TheFlightThroughTheWindowSwitchesAsInThePaper) {
+  OdometryChoice choice(OdometryRule::kBest);
+  const auto at = [](double s) { return Time::fromSeconds(s); };
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(0.0)));
+  EXPECT_FALSE(choice.measured(kVision, kNothing, at(0.1))) << "too near to the ground";
+  EXPECT_TRUE(choice.uses(kLaser));
+  EXPECT_FALSE(choice.uses(kVision));
+
+  const auto up = choice.measured(kVision, 0.003, at(0.4));
+  ASSERT_TRUE(up) << "at 0.7 m the depths become available";
+  EXPECT_EQ(up->from, kLaser);
+  EXPECT_EQ(up->to, kVision);
+  EXPECT_DOUBLE_EQ(up->from_m, 0.006);
+  EXPECT_DOUBLE_EQ(up->to_m, 0.003);
+  EXPECT_FALSE(choice.uses(kLaser));
+
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(0.5)));
+  const auto blurred = choice.measured(kVision, kNothing, at(0.65));
+  ASSERT_TRUE(blurred) << "the pictures are blurred";
+  EXPECT_EQ(blurred->to, kLaser);
+  EXPECT_TRUE(std::isinf(blurred->from_m));
+
+  ASSERT_TRUE(choice.measured(kVision, 0.004, at(0.9))) << "behind the window";
+  EXPECT_FALSE(choice.measured(kLaser, kNothing, at(1.0))) << "the sun blinds the laser";
+  EXPECT_FALSE(choice.measured(kVision, 0.02, at(1.1))) << "poor, but there is no other";
+  EXPECT_TRUE(choice.uses(kVision));
+}
+
+TEST(OdometryChoice, TwoThatAreAlikeDoNotTakeTurns) {
+  OdometryChoice choice(OdometryRule::kBest);
+  int switches = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Time now = Time::fromSeconds(0.1 * i);
+    switches += choice.measured(kLaser, 0.005 * (1.0 + 0.1 * std::sin(i)), now) ? 1 : 0;
+    switches += choice.measured(kVision, 0.005 * (1.0 + 0.1 * std::cos(i)), now) ? 1 : 0;
+  }
+  EXPECT_EQ(switches, 0);
+}
+
+TEST(OdometryChoice, ASensorThatFallsSilentIsLeft) {
+  OdometryChoice choice(OdometryRule::kBest);
+  choice.measured(kLaser, 0.01, Time::fromSeconds(0.0));
+  ASSERT_TRUE(choice.measured(kVision, 0.002, Time::fromSeconds(0.1)));
+  std::optional<OdometrySwitch> change;
+  double left_s = 0.0;
+  for (int i = 2; i < 20 && !change; ++i) change = choice.measured(kLaser, 0.01, Time::fromSeconds(left_s = 0.1 * i));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->to, kLaser);
+  EXPECT_NEAR(left_s, 0.8, 0.11);
+}
+
+TEST(OdometryChoice, AllUsesBothAndSwitchesNever) {
+  OdometryChoice choice(OdometryRule::kAll);
+  EXPECT_FALSE(choice.measured(kLaser, 1.0, Time::fromSeconds(0.0)));
+  EXPECT_FALSE(choice.measured(kVision, 0.001, Time::fromSeconds(0.0)));
+  EXPECT_TRUE(choice.uses(kLaser));
+  EXPECT_TRUE(choice.uses(kVision));
+}
+
+TEST(OdometryChoice, ComparesTheHorizontalPartOfBothKinds) {
+  const Time from = Time::fromSeconds(1.0), to = Time::fromSeconds(1.1);
+  Eigen::Matrix3d planar = Eigen::Vector3d(9e-6, 4e-6, 16e-6).asDiagonal();
+  EXPECT_NEAR(deviation_m(measuredRelativePose(from, to, {}, planar)), 0.005, 1e-9);
+  Eigen::Matrix<double, 6, 6> spatial = Eigen::Matrix<double, 6, 6>::Identity();
+  spatial.diagonal() << 4e-6, 9e-6, 1.0, 1.0, 1.0, 16e-6;
+  EXPECT_NEAR(deviation_m(measuredRelativePose3(from, to, {}, spatial)), 0.005, 1e-9);
+  common::UnobservableMotion along;
+  along.change = Eigen::Vector3d(1.0, 0.0, 0.0);
+  EXPECT_TRUE(std::isinf(deviation_m(measuredRelativePose(from, to, {}, planar, along))));
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
