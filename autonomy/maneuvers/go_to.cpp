@@ -149,8 +149,8 @@ void GoTo::shiftWhenDue(Time now) {
   shifted_ = goal_taken_.active_s(now) > after_s;
 }
 
-/// A map that does not reach the goal may be about to grow: that shows in no cell at the edge of what is reached. With a
-/// 3D map each request tries another height.
+/// A map that does not reach the goal may be about to grow: that shows in no cell at the edge of what is reached. With
+/// a 3D map each request tries another height.
 bool GoTo::isDue(Time now) const {
   return !mayPass(no_path_->failure) || sees_heights_ || shifted_ != asked_shifted_ ||
          patience_.due(now, setup_.desk.opened());

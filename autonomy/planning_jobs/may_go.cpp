@@ -14,6 +14,9 @@ using planning::CellState;
 /// The outline of a person in the map: shoulders are 0.5 m at most (Pheasant 1996), with a cell of noise at each side;
 /// of one who stands sideways a laser sees half of it.
 constexpr double kLeastWidth_m = 0.25, kMostWidth_m = 0.65;
+/// What is mapped this near to the middle of somebody is of the person, and not of a wall beside: half the shoulders
+/// and two cells.
+constexpr double kBody_m = common::kPersonHalfWidth_m + 0.10;
 /// Behind somebody a laser sees nothing: without the person there is room for a hull, as far as is known.
 constexpr double kBehind_m = 0.55;
 /// Far more than the people of one flight.
@@ -99,7 +102,7 @@ void WhoMayGo::remember(std::span<const common::DynamicObstacle> people, const p
     return std::any_of(people.begin(), people.end(), [&](const auto& person) { return person.id == known.id; });
   };
   std::erase_if(people_, [&](const Person& known) {
-    return !tracked(known) && !anythingIn(map, {known.place_map_m, common::kPersonInMap_m});
+    return !tracked(known) && !anythingIn(map, {known.place_map_m, common::kPersonHalfWidth_m});
   });
 }
 
@@ -108,7 +111,7 @@ std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Ei
   const auto known = [&](const Eigen::Vector2d& place_map_m) {
     return std::any_of(things.begin(), things.end(), [&](const MayGo& t) { return t.disc.covers(place_map_m); });
   };
-  for (const Person& person : people_) things.push_back({{person.place_map_m, common::kPersonInMap_m}, "a person"});
+  for (const Person& person : people_) things.push_back({{person.place_map_m, kBody_m}, "a person"});
   const int reach = static_cast<int>(map.footprint().hull_radius_m / map.resolution_m());
   for (const Eigen::Vector2d& place_map_m : flown_map_m) {
     const CellIndex middle = map.cellAt(place_map_m);

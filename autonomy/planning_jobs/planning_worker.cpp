@@ -17,6 +17,8 @@ constexpr double kFlownSpacing_m = 0.1;
 constexpr double kLowerDetour_m = 10.0;
 /// Area that must be expected behind something that never moved, and has only the size of a person, to wait for it.
 constexpr double kWorthWaiting_m2 = 1.0;
+/// As much farther off people keep the planner (DynamicObstacles::kKeepOut_m), with a cell.
+constexpr double kKeptOff_m = 0.30;
 /// Views of what is this near to something that may go were views past it.
 constexpr double kPast_m = 2.0;
 
@@ -157,8 +159,8 @@ std::optional<Blockage> PlanningWorker::blockageTo(const Eigen::Vector2d& goal_m
   const auto nearest = std::min_element(things.begin(), things.end(), [&](const MayGo& a, const MayGo& b) {
     return off_m(a) - a.disc.radius_m < off_m(b) - b.disc.radius_m;
   });
-  const bool stands = nearest != things.end() &&
-                      off_m(*nearest) <= nearest->disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
+  const bool stands =
+      nearest != things.end() && off_m(*nearest) <= nearest->disc.radius_m + map_.footprint().radius_m() + kKeptOff_m;
   // Otherwise the discs of someone who is tracked are in the way.
   const Eigen::Vector2d at_map_m = stands ? nearest->disc.center_map_m : *place_map_m;
   return Blockage{at_map_m, named(stands ? *nearest : MayGo{{at_map_m, 0.0}, "a person"}), 0};

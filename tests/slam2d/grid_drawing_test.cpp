@@ -227,10 +227,10 @@ class Watching {
   double now_s_ = 0.0;
 };
 
-/// Beams that reach the wall and are 25 cm below the body where the obstacle stood.
+/// Beams that reach the wall and are 30 cm below the body where the obstacle stood.
 DrawnScan through() {
   DrawnScan scan = over(0.0, 1.0);
-  for (Eigen::Vector3f& p : scan.hits_level_m) p.z() = -0.5F;
+  for (Eigen::Vector3f& p : scan.hits_level_m) p.z() = -0.6F;
   return scan;
 }
 

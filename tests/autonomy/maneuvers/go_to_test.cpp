@@ -77,7 +77,7 @@ TEST_F(GoToManeuver, AGoalIsShiftedOnlyAfterItHasNotBeenFreeForAWhile) {
   constexpr common::CellRect kBeside{{122, 60}, {126, 70}};  // 0.1 m beside the goal.
   fill(grid_, kBeside, kWallCell);
   want(goal);
-  run(4.5);
+  run(2.0);
   EXPECT_THAT(executor_.status().reason, HasSubstr("waiting: goal (6.00, 3.20) is too close"));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
   EXPECT_THAT(executor_.status().reason, HasSubstr("beside the goal, which is not free"));
