@@ -43,6 +43,7 @@ class LaserClock {
   double medianLag_s() const;
   void learn(double lag_s);
   void judge();
+  bool isSteady() const;
   bool isByClock() const;
   double tolerance_s() const;
 
