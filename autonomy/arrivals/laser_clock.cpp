@@ -18,6 +18,8 @@ constexpr double kScatter = 2.0;
 /// them decide.
 constexpr double kRecent_s = 0.25;
 constexpr std::size_t kLeastScans = 5;
+/// So many scans in a row agree when the way or the clock has changed for good.
+constexpr std::ptrdiff_t kAgreeing = 3;
 /// The usual lag is the median of the first scans, those of a second at 40 Hz.
 constexpr std::uint64_t kFirstScans = 40;
 /// Scans over which the period and the scatter are averaged.
@@ -71,7 +73,7 @@ void LaserClock::judge() {
   const double median_s = medianLag_s();
   if (learned_ < kFirstScans) usual_s_ = median_s;
   shift_s_ = median_s - usual_s_;
-  if (std::abs(shift_s_) > tolerance_s() && timing_ == ScanTiming::kUsual) {
+  if (std::abs(shift_s_) > tolerance_s() && timing_ == ScanTiming::kUsual && isSteady()) {
     if (isByClock())
       timing_ = was_usual_ ? ScanTiming::kClockJumped : ScanTiming::kClockDrifts;
     else if (shift_s_ > 0.0)
@@ -87,6 +89,15 @@ void LaserClock::judge() {
   ++learned_;
   scatter_s_ +=
       (std::abs(recent_.back().lag_s - usual_s_) - scatter_s_) / static_cast<double>(std::min(learned_, kMean));
+}
+
+/// Whether the newest scans all show the shift. When scans are late no more, those on their way come between the
+/// others.
+bool LaserClock::isSteady() const {
+  return std::all_of(recent_.rbegin(), recent_.rbegin() + std::min(kAgreeing, std::ssize(recent_)),
+                     [this](const Arrival& one) {
+                       return (one.lag_s - usual_s_) * shift_s_ > 0.5 * tolerance_s() * std::abs(shift_s_);
+                     });
 }
 
 /// Whether the stamps have left the turns by more than half of what the lag has changed. A jump may be one of whole

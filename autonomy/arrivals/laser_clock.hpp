@@ -42,6 +42,7 @@ class LaserClock {
   };
   double medianLag_s() const;
   void judge();
+  bool isSteady() const;
   bool isByClock() const;
   double tolerance_s() const;
 
