@@ -52,8 +52,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       localizer_(given, config.localization, jobs, log),
       space_({config.rgbd, config.vertical_laser, config.targets}, camera, vertical_laser, jobs, log),
       poses_(*filter_),
-      uncertainty_(*filter_),
-      choice_(config.fusion.odometry_choice) {}
+      uncertainty_(*filter_) {}
 
 // ----------------------------------------------------------------------------------------------------- what arrives
 
@@ -203,24 +202,13 @@ OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
   return laser_.match(scan, view);
 }
 
-/// Whether the filter uses the relative pose of a sensor; nullopt: the sensor measured none, in its turn.
-bool Estimator::isChosen(perception::OdometrySource source, const std::optional<perception::Measurement>& measurement,
-                         Time now) {
-  const double deviation_m = measurement ? perception::deviation_m(*measurement) : perception::OdometryChoice::kNothing;
-  if (const auto change = choice_.measured(source, deviation_m, now))
-    log_.info(now, "fusion", fmt::format("odometry switched to {}", toString(change->to)),
-              fmt::format("standard deviations: {} {:.1f} mm, {} {:.1f} mm", toString(change->to), 1e3 * change->to_m,
-                          toString(change->from), 1e3 * change->from_m));
-  return measurement && choice_.uses(source);
-}
-
 /// True when the step matched and the filter accepts it, or need not.
 bool Estimator::fuse(const OdometryStep& step, Time now) {
   if (step.clone_before) filter_.tell(perception::poseClone(*step.clone_before));
   bool taken = step.matched;
   // The scan with which a reference begins measures no motion, and is none that measures nothing.
   const bool measures = step.measurement || !step.matched;
-  if (measures && isChosen(perception::OdometrySource::kLaser, step.measurement, now)) {
+  if (measures && filter_.uses(perception::OdometrySource::kLaser, step.measurement, now, log_)) {
     taken = filter_.tell(*step.measurement) == perception::Insertion::kTaken;
     laser_.refused(filter_->refusesRelativePoses());
   }
@@ -274,7 +262,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
   using perception::Insertion;
   // What was measured from before a correction of the height on would take it back.
   if (space_.isCameraDoubted(now)) return space_.forgetClone();
-  if (isChosen(perception::OdometrySource::kVision, step.measurement, now)) {
+  if (filter_.uses(perception::OdometrySource::kVision, step.measurement, now, log_)) {
     const auto taken = filter_.tell(*step.measurement);
     if (taken == Insertion::kTaken) {
       const CameraSupport support = supportOf(filter_->state());

@@ -41,7 +41,6 @@
 #include "control/emergency_descent.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"
-#include "perception/fusion/odometry_choice.hpp"
 #include "perception/people/people_tracker.hpp"
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/slam_method.hpp"
@@ -163,8 +162,6 @@ class Estimator {
   bool isWithheld(const perception::ProjectedScan& scan);
   OdometryStep match(const perception::ProjectedScan& scan);
   bool fuse(const OdometryStep& step, common::Time now);
-  bool isChosen(perception::OdometrySource source, const std::optional<perception::Measurement>& measurement,
-                common::Time now);
   void fuse(const AltitudeStep& step, common::Time stamp);
   void fuse(const CameraStep& step, common::Time now);
   void localize(const LocatedScan& located, common::Time now);
@@ -182,7 +179,6 @@ class Estimator {
   SpaceSensors space_;
   PoseTrack poses_;
   PositionUncertainty uncertainty_;
-  perception::OdometryChoice choice_;
   HorizonOffset horizon_;
   Feedback flown_;  ///< In the last tick.
   Seen seen_;

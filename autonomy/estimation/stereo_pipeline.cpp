@@ -12,8 +12,8 @@ using common::Duration;
 using common::Message;
 using common::Time;
 
-/// Declared time for a pair: four times what one of 376 x 240 takes (docs/decisions/cameras_and_lasers.md#118).
-constexpr Duration kStereoLatency = Duration::fromMilliseconds(100);
+/// Declared time for a pair: four times what one of 376 x 240 takes (docs/decisions/cameras_and_lasers.md#119).
+constexpr Duration kStereoLatency = Duration::fromMilliseconds(50);
 /// A camera that sends no usable pair for this long is silent: four pairs at 3 Hz, the slowest that is flown.
 constexpr double kPairsSilent_s = 1.5;
 /// Visual odometry counts as unavailable, and as available again, when it has been for two pairs at 3 Hz.
