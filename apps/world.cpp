@@ -245,7 +245,7 @@ class WorldMaker {
       if (open && radius < most) continue;
       tellHeights();
       tell(fmt::format("holes of up to {:.2f} m are closed", 2 * radius * voxel_m));
-      if (open) tell("note: the free space at the start is open to the outside: walls are assumed around all points");
+      if (open) tell("note: the free space at the start reaches the edge of the cloud, where walls are assumed");
       return;
     }
   }

@@ -117,6 +117,19 @@ class FloorGrower {
     return std::nullopt;
   }
 
+  /// The highest layer of a column that is not free; nullopt if it is well below the ceiling that is expected.
+  std::optional<int> roofOf(int x, int y, int expected) const {
+    for (int z = space_.free.height() - 1; z >= std::max(0, expected - step_); --z)
+      if (!space_.free.at(x, y, z)) return z;
+    return std::nullopt;
+  }
+  /// The first measured layer from one on.
+  std::optional<int> ceilingFrom(int x, int y, int layer) const {
+    for (int z = layer; z < space_.measured.height(); ++z)
+      if (space_.measured.at(x, y, z)) return z;
+    return std::nullopt;
+  }
+
   /// The floor in a column beside one that has it; nullopt in a wall, and too far from a measured floor.
   std::optional<FloorColumn> continued(int x, int y, const FloorColumn& from) const {
     FloorColumn column{.floor = from.floor, .assumed = from.assumed + 1};
@@ -138,9 +151,10 @@ class FloorGrower {
       }
       column.carve_begin = unknown_below ? column.floor : z;
       column.open = unknown_below && end - z >= open_;
-      if (!space_.open_below)
-        while (end < free.height() && !measured.at(x, y, end)) ++end;
-      column.ceiling = end < free.height() ? end : from.ceiling;
+      if (space_.open_below)
+        column.ceiling = roofOf(x, y, from.ceiling < 0 ? end : from.ceiling).value_or(from.ceiling);
+      else
+        column.ceiling = ceilingFrom(x, y, end).value_or(from.ceiling);
       return column;
     }
     return std::nullopt;

@@ -119,7 +119,7 @@ TEST_F(World, OfAFloorPlanHasItsWalls) {
 TEST_F(World, OfATurnedFloorPlanIsTurned) {
   const ProgramEnd end = make(plan("1.5708"), {"--start", "-2.1;0.9;90", "--height", "3"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
-  expectDistances({2.0, 2.0, 1.0, 2.0}, 1e-3);
+  expectDistances({2.1, 1.9, 1.0, 2.0}, 1e-3);
 }
 
 TEST_F(World, OfAnOctreeHasItsFloorAndCeiling) {
@@ -156,8 +156,8 @@ TEST_F(World, OfACloudWithoutAFloorIsRefusedUntilOneIsGiven) {
 }
 
 TEST_F(World, AStartWithoutRoomNamesTheNearestPlaceWithRoom) {
-  const ProgramEnd end = make(plan(), {"--start", "-0.95;0"});
-  expectRefused(end, "--start: at \\(-0\\.95, 0\\.00, 0\\.00\\) is inside or touches .*the nearest place with room");
+  const ProgramEnd end = make(plan(), {"--start", "-0.8;0"});
+  expectRefused(end, "--start: at \\(-0\\.80, 0\\.00, 0\\.00\\) is inside or touches .*the nearest place with room");
   const std::size_t begin = end.err.find("--start \"") + 9;
   const std::string place = end.err.substr(begin, end.err.find('"', begin) - begin);
   EXPECT_EQ(make(plan(), {"--start", place}).exit_code, 0) << place;

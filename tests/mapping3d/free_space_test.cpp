@@ -9,6 +9,7 @@
 #include <random>
 #include <tuple>
 
+#include "mapping3d/voxels/floor_growth.hpp"
 #include "mapping3d/voxels/free_surface.hpp"
 #include "mapping3d/voxels/standing_place.hpp"
 
@@ -164,7 +165,7 @@ TEST(StandingPlace, IsOnTheFloorThatIsMeantAndHasRoom) {
   FreeSpace space = spaceAround(hollowBox(0.1), 0.1, 4);
   closeHoles(space, 1);  // Rounding leaves a voxel without a point here and there.
   const StandingRoom room;
-  const auto inside = floorAt(space, {2.0, 1.5}, room, std::nullopt);
+  const auto inside = floorAt(space, {1.25, 1.05}, room, std::nullopt);
   ASSERT_TRUE(inside);
   EXPECT_NEAR(inside->floor_m.z(), 0.1, 0.051) << "the top of the voxel";
   EXPECT_NEAR(inside->ceiling_m, 2.0, 0.051);
@@ -174,6 +175,62 @@ TEST(StandingPlace, IsOnTheFloorThatIsMeantAndHasRoom) {
   EXPECT_GT(beside_wall->floor_m.x(), room.radius_m);
   EXPECT_LT(beside_wall->floor_m.x(), room.radius_m + 0.35);
   EXPECT_FALSE(nearestStandingPlace(space, {2.0, 1.5}, {.radius_m = 1.6, .height_m = 1.0, .feet_radius_m = 0.2}));
+}
+
+/// A hall of 8 x 4 m, its floor at 0.5 m with a hole of a metre, a table, and a wall at x = 6 m with a gap on the
+/// floor.
+std::vector<common::SurfacePoint> hall() {
+  std::vector<common::SurfacePoint> points;
+  const auto add = [&](int x, int y, int z) {
+    points.emplace_back().position_m = (Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5) * 0.1).cast<float>();
+  };
+  for (int x = 0; x < 80; ++x) {
+    for (int y = 0; y < 40; ++y) {
+      const bool hole = x >= 15 && x < 25 && y >= 15 && y < 25;
+      if (!hole) add(x, y, (x + y) % 7 == 0 ? 5 : 4);  // With the noise of a scan.
+      if (x >= 40 && x < 45 && y >= 15 && y < 25) add(x, y, 12);
+      add(x, y, 30);
+      for (int z = 5; z < 30; ++z)
+        if (x == 0 || y == 0 || x == 79 || y == 39 || (x == 60 && z > 8)) add(x, y, z);
+    }
+  }
+  return points;
+}
+
+TEST(FloorGrowth, FillsAHoleLevelsNoiseAndKeepsWhatStandsOnTheFloor) {
+  FreeSpace space = spaceAround(hall(), 0.1, 4);
+  ASSERT_TRUE(growFloor(space, {2.0, 2.0}, {}, 0.25, std::nullopt));
+  const auto voxel = [&](double x_m, double y_m, double z_m) {
+    const Eigen::Vector3d at = (Eigen::Vector3d(x_m, y_m, z_m) - space.corner_m) / 0.1;
+    return space.free.at(static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z()));
+  };
+  for (double x_m = 0.45; x_m < 5.6; x_m += 0.1) {
+    for (double y_m = 0.45; y_m < 3.6; y_m += 0.1) {
+      const bool below_table = x_m > 3.9 && x_m < 4.6 && y_m > 1.4 && y_m < 2.6;
+      EXPECT_TRUE(below_table || voxel(x_m, y_m, 0.55)) << x_m << ' ' << y_m;
+      EXPECT_FALSE(voxel(x_m, y_m, 0.45)) << x_m << ' ' << y_m;
+    }
+  }
+  EXPECT_FALSE(voxel(4.25, 2.05, 1.25)) << "the table";
+  EXPECT_TRUE(voxel(4.25, 2.05, 1.35));
+  EXPECT_FALSE(keepConnected(space, {15, 15, 15}));
+  EXPECT_FALSE(growFloor(space, {50.0, 2.0}, {}, 0.25, std::nullopt)) << "no floor there";
+}
+
+TEST(FloorGrowth, IsFreeBelowWhatAnOctreeKnowsToBeFree) {
+  common::VoxelMap map(0.1);
+  for (int x = 0; x < 60; ++x)
+    for (int y = 0; y < 60; ++y)
+      for (int z = 0; z < 25; ++z) {
+        // A scanner at a height of 1 m sees nothing of a cone below it.
+        const bool seen = std::hypot(x - 30, y - 30) >= 10 - z;
+        if (seen) map.set({x, y, z}, static_cast<std::int8_t>(z == 0 || z == 24 ? 70 : -40));
+      }
+  FreeSpace space = freeSpaceOf(map);
+  const auto floor_m = [&] { return floorAt(space, {3.0, 3.0}, {}, std::nullopt)->floor_m.z(); };
+  EXPECT_GT(floor_m(), 0.8);
+  ASSERT_TRUE(growFloor(space, {3.0, 3.0}, {}, 0.25, std::nullopt));
+  EXPECT_NEAR(floor_m(), 0.1, 1e-9);
 }
 
 TEST(StandingPlace, IsNowhereWithoutAFloor) {
