@@ -41,7 +41,7 @@ using mapping3d::StandingPlace;
 
 /// Of the walls of a floor plan: a usual room's.
 constexpr double kUsualHeight_m = 2.5;
-/// Rectangles of a world: a gigabyte of mesh, and 3 GB while it is loaded.
+/// Rectangles of a world: a gigabyte of mesh.
 constexpr std::size_t kMostFaces = 10'000'000;
 /// Finer voxels than those of the maps that flights leave add nothing.
 constexpr double kFinestVoxel_m = 0.05;
