@@ -25,5 +25,6 @@ void addIdentify(Command& program);
 void addPapers(Command& program);
 void addTune(Command& program);
 void addConsistency(Command& program);
+void addWorld(Command& program);
 
 }  // namespace swiftlet::apps

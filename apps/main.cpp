@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
   apps::addPapers(top);
   apps::addTune(top);
   apps::addConsistency(top);
+  apps::addWorld(top);
 
   try {
     const auto [run, exit_code] = program.parse(argc, argv);

@@ -28,7 +28,7 @@ constexpr std::uint64_t kMean = 1000;
 constexpr double kPilesUp_s = 5.0;
 
 /// A clock that leaves the turns by more than this share of one within one does not drift, but jumps.
-constexpr double kJump = 0.25;
+constexpr double kClockJump = 0.25;
 
 double seconds(common::Duration duration) { return duration.seconds(); }
 
@@ -62,7 +62,7 @@ double LaserClock::medianLag_s() const {
     lags_s.push_back(one->lag_s - drifted_s);
     if (std::next(one) == recent_.rend()) break;
     const double off_s = one->off_turns_s - std::next(one)->off_turns_s;
-    if (std::abs(off_s) < kJump * period_s_) drifted_s += off_s;
+    if (std::abs(off_s) < kClockJump * period_s_) drifted_s += off_s;
   }
   const auto middle = lags_s.begin() + static_cast<std::ptrdiff_t>(lags_s.size() / 2);
   std::nth_element(lags_s.begin(), middle, lags_s.end());

@@ -73,6 +73,9 @@ FoundPicture findPicture(const fs::path& yaml_file, const std::string& named, co
   std::error_code failure, ignored;
   if (fs::exists(there, failure)) return {there, {}};
   if (fs::exists(meant, ignored)) return {meant, {}};
+  for (const char* packed : {".gz", ".bz2", ".xz"})
+    if (const fs::path file = there.string() + packed; !named.empty() && fs::is_regular_file(file, ignored))
+      return {file, {}};
   for (const fs::path& link : {there, meant, folder / name})
     if (auto problem = common::problemOfLink(link)) throw common::InputError(*std::move(problem));
   if (!name.empty() && fs::is_regular_file(folder / name, ignored))

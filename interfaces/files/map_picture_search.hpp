@@ -16,8 +16,8 @@ struct FoundPicture {
 };
 
 /// The picture that a YAML names: relative to the YAML, from the root, from `~` or as a file:// address. If it is
-/// missing, the file of that name beside the YAML. `location`: of the name, for messages. Throws InputError, with
-/// the picture that is probably meant.
+/// missing, the same file packed (.gz, .bz2, .xz behind its name), or the file of that name beside the YAML.
+/// `location`: of the name, for messages. Throws InputError, with the picture that is probably meant.
 FoundPicture findPicture(const std::filesystem::path& yaml_file, const std::string& named,
                          const common::SourceLocation& location);
 

@@ -19,6 +19,7 @@
 #include "common/validation.hpp"
 #include "interfaces/files/map_picture.hpp"
 #include "interfaces/files/map_picture_search.hpp"
+#include "interfaces/files/unpacked_stream.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -309,7 +310,7 @@ StoredMap readMap(const std::filesystem::path& yaml_file) {
   std::vector<Problem> notes = readYaml(reader, yaml);
   const FoundPicture found = findPicture(yaml_file, yaml.image, reader.locationOf("image"));
   if (found.note) notes.push_back(*found.note);
-  const MapPicture picture = parsePicture(common::readBytes(found.file), found.file.string());
+  const MapPicture picture = parsePicture(readUnpacked(found.file), found.file.string());
   for (Problem& note : oddities(yaml, picture)) {
     note.location = reader.locationOf(note.element);
     notes.push_back(std::move(note));

@@ -66,6 +66,13 @@ TEST(MapServer, ReadsBackAMapOfAnyName) {
   EXPECT_THAT(toMapYaml(smallGrid(), "it's.pgm"), HasSubstr("image: 'it''s.pgm'\n"));
 }
 
+TEST(MapServer, APictureMayBePacked) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(writeMap(folder, "map", smallGrid()));
+  ASSERT_EQ(std::system(("gzip '" + (folder / "map.pgm").string() + "'").c_str()), 0);
+  EXPECT_TRUE(sameKinds(readMap(folder / "map.yaml").grid, smallGrid()));
+}
+
 TEST(MapServer, AnEmptyMapIsOneUnknownPixel) {
   const ScratchFolder folder;
   ASSERT_TRUE(writeMap(folder, "map", common::makeOccupancyGrid(0.1)));
