@@ -37,6 +37,14 @@ function(swiftlet_link_opencv name)
   target_include_directories(swiftlet_${name} SYSTEM PRIVATE "${SWIFTLET_OPENCV_HEADERS}")
 endfunction()
 
+# swiftlet_link_apriltag(NAME)
+#   Links libapriltag in the sources. What Debian installs for CMake names no folder of headers.
+function(swiftlet_link_apriltag name)
+  find_path(SWIFTLET_APRILTAG_HEADERS apriltag/apriltag.h REQUIRED)
+  target_link_libraries(swiftlet_${name} PRIVATE apriltag)
+  target_include_directories(swiftlet_${name} SYSTEM PRIVATE "${SWIFTLET_APRILTAG_HEADERS}")
+endfunction()
+
 # swiftlet_rooms(NAME ROOM...)
 #   The interface target swiftlet_NAME, alias swiftlet::NAME, over the libraries of the rooms of a folder.
 function(swiftlet_rooms name)
