@@ -19,7 +19,7 @@ constexpr double kLeastCurveArea_px2 = 36.0;
 /// Longer curves are not shapes of a pattern, but networks.
 constexpr double kMostCurveShare = 0.5;
 /// Ratio of the axes of the ellipse with the same moments; a disc seen from 80 degrees has 6.
-constexpr double kGreatestAspect = 8.0;
+constexpr double kGreatestSlant = 8.0;
 
 /// Appends the curves of a mask of 0 and 255.
 void appendCurves(const cv::Mat& mask, std::vector<ClosedCurve>& curves) {
@@ -38,7 +38,7 @@ void appendCurves(const cv::Mat& mask, std::vector<ClosedCurve>& curves) {
     const double half_trace = 0.5 * (xx + yy);
     const double half_difference = std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
     const double larger = half_trace + half_difference, smaller = half_trace - half_difference;
-    if (!(smaller > 0.0) || larger > kGreatestAspect * kGreatestAspect * smaller) continue;
+    if (!(smaller > 0.0) || larger > kGreatestSlant * kGreatestSlant * smaller) continue;
     // The inverse of the symmetric square root: (S + sqrt(det) I)^-1 * sqrt(trace + 2 sqrt(det)).
     const double root = std::sqrt(larger * smaller);
     Eigen::Matrix2d adjugate;

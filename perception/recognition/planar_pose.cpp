@@ -33,8 +33,8 @@ Eigen::Matrix3d rotationTo(const Eigen::Vector2d& ray) {
       .toRotationMatrix();
 }
 
-constexpr int kIterations = 15;
-constexpr double kConverged = 1e-10;
+constexpr int kPoseIterations = 15;
+constexpr double kPoseConverged = 1e-10;
 
 double squaredError(const common::PinholeCamera& camera, std::span<const PlanarMatch> matches, const PlanarPose& pose) {
   double sum = 0.0;
@@ -168,7 +168,7 @@ std::optional<std::array<PlanarPose, 2>> infinitesimalPoses(const common::Pinhol
 FittedPose fitPose(const common::PinholeCamera& camera, std::span<const PlanarMatch> matches, const PlanarPose& start) {
   FittedPose fitted{start, {}, 0.0};
   double error = squaredError(camera, matches, start), damping = 1e-6;
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kPoseIterations; ++i) {
     Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
     Eigen::Matrix<double, 6, 1> g = Eigen::Matrix<double, 6, 1>::Zero();
     for (const PlanarMatch& match : matches) {
@@ -183,7 +183,7 @@ FittedPose fitPose(const common::PinholeCamera& camera, std::span<const PlanarMa
     const PlanarPose next = moved(fitted.pose, damped.ldlt().solve(g));
     const double next_error = squaredError(camera, matches, next);
     if (next_error < error) {
-      const bool is_done = error - next_error < kConverged * error;
+      const bool is_done = error - next_error < kPoseConverged * error;
       fitted.pose = next;
       error = next_error;
       damping *= 0.1;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kAngles = static_cast<std::size_t>(kPatchAngles);
 /// Standard deviation of a patch, in grey levels, at least: less is noise.
-constexpr float kLeastSigma = 4.0F;
+constexpr float kPlainPatch = 4.0F;
 
 struct Direction {
   double cosine, sine;
@@ -69,7 +69,7 @@ std::optional<PolarPatch> polarPatch(const vision::GrayImage& gray, const Closed
     patch.disc_sigma[r] = std::sqrt(std::max(0.0F, squares / count - patch.disc_mean[r] * patch.disc_mean[r]));
     patch.rings = ring + 1;
   }
-  if (patch.rings < kLeastRings || patch.disc_sigma[static_cast<std::size_t>(patch.rings - 1)] < kLeastSigma)
+  if (patch.rings < kLeastRings || patch.disc_sigma[static_cast<std::size_t>(patch.rings - 1)] < kPlainPatch)
     return std::nullopt;
   return patch;
 }
