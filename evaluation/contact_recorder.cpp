@@ -25,6 +25,7 @@ bool ContactRecorder::mayStand() const {
 
 void ContactRecorder::tick(const simulation::Truth& truth) {
   followCharge(truth);
+  followMotion(truth);
   const Eigen::Vector3d& position = truth.T_world_body.position_m;
   const bool stands = !truth.airborne, means_to_fly = !mayStand();
   if (stands && !means_to_fly) {
@@ -49,6 +50,15 @@ void ContactRecorder::followCharge(const simulation::Truth& truth) {
     charges_.pop_front();
 }
 
+/// People who come or go make another crowd: what was before cannot be compared with it.
+void ContactRecorder::followMotion(const simulation::Truth& truth) {
+  if (!motion_.empty() && motion_.back().people_world_m.size() != people_world_m_.size()) motion_.clear();
+  const Eigen::Vector3d& position = truth.T_world_body.position_m;
+  motion_.push_back(
+      {truth.stamp, position, truth.velocity_world_m_s, position.z() - next_.stood_world_m.z(), people_world_m_});
+  while ((truth.stamp - motion_.front().stamp).seconds() > ContactReplay::kBefore_s) motion_.pop_front();
+}
+
 void ContactRecorder::begin(const simulation::Truth& truth, std::string what) {
   if (contact_) return;
   contact_ = next_;
@@ -56,6 +66,10 @@ void ContactRecorder::begin(const simulation::Truth& truth, std::string what) {
   contact_->truth = truth;
   contact_->flight = flight_;
   contact_->motors_off = !motors_on_;
+  if (truth.by_walker) {
+    const std::vector<ReplayTick> ticks(motion_.begin(), motion_.end());
+    contact_->replay = replay(ticks);
+  }
   contact_->charge_before = charges_.empty() ? truth.battery_remaining : charges_.front().remaining;
   contact_->lost_cells_before = charges_.empty() ? truth.lost_cells : charges_.front().lost_cells;
 }

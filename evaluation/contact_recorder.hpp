@@ -5,12 +5,15 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "common/intent.hpp"
 #include "common/time.hpp"
 #include "common/world/flight_state.hpp"
+#include "evaluation/contact_replay.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -28,6 +31,7 @@ struct ContactRecord {
   int lost_cells_before = 0;                  ///< At the same time.
   double take_off_height_m = 0.0;             ///< Of the body over the floor, as last requested; 0: no take-off was.
   Eigen::Vector3d stood_world_m = {0, 0, 0};  ///< The body, where the vehicle last stood as it meant to.
+  ContactReplay replay;                       ///< Of the kBefore_s before it.
   double floor_s = 0.0;                       ///< How long it stood with motors on where it had meant to fly.
 
   static constexpr double kLanding_s =
@@ -39,6 +43,8 @@ class ContactRecorder {
  public:
   /// Call before tick(): whether the setpoint has the motors on.
   void motors(bool on) { motors_on_ = on; }
+  /// Call before tick(): the true places of the people, the same people at each tick.
+  void people(std::vector<Eigen::Vector2d> people_world_m) { people_world_m_ = std::move(people_world_m); }
   void tick(const simulation::Truth& truth);
   void intent(const common::Intent& intent);
   void world(const common::World& world);
@@ -50,6 +56,7 @@ class ContactRecorder {
  private:
   bool mayStand() const;
   void followCharge(const simulation::Truth& truth);
+  void followMotion(const simulation::Truth& truth);
   void begin(const simulation::Truth& truth, std::string what);
 
   ContactRecord next_;  ///< What a contact at the next tick takes over.
@@ -64,7 +71,9 @@ class ContactRecorder {
     double remaining;
     int lost_cells;
   };
-  std::deque<Charge> charges_;  ///< Of the last kLanding_s in the air.
+  std::deque<Charge> charges_;     ///< Of the last kLanding_s in the air.
+  std::deque<ReplayTick> motion_;  ///< Of the last ContactReplay::kBefore_s.
+  std::vector<Eigen::Vector2d> people_world_m_;
   common::Time last_tick_;
 };
 

@@ -26,10 +26,9 @@ Text thrustLost(const ContactFacts& facts) {
 Text unseenGlass(const ContactFacts& facts) { return textIf(facts.unseen_glass, "glass that never returned a beam"); }
 
 Text suddenPerson(const ContactFacts& facts) {
-  if (!facts.by_person || !facts.yielding) return std::nullopt;
+  if (!facts.by_person || !facts.remains) return std::nullopt;
   if (facts.motors_off) return "a person, who walked into it while its motors were off";
-  if (!facts.person_in_field_s) return "a person, who walked into it and never was in the field of its laser";
-  if (*facts.person_in_field_s >= kNotice_s) return std::nullopt;
+  if (!facts.person_in_field_s || *facts.person_in_field_s >= kNotice_s) return std::nullopt;
   return fmt::format("a person, who walked into it {:.1f} s after coming into the field of its laser",
                      *facts.person_in_field_s);
 }
@@ -42,8 +41,10 @@ constexpr Excuse<ContactFacts> kOfContacts[] = {
      "a margin.",
      thrustLost},
     {"Glass that never returned a beam cannot be told from air.", unseenGlass},
-    {"A person walks into a vehicle that stands still or moves away, within 0.6 s of first being in the field of its "
-     "laser, or while its motors are off: nobody notices and evades in less.",
+    {"A person walks into it within 0.6 s of first being in the field of its laser, or while its motors are off, and "
+     "would have, too, had it stood or landed from 2 s before: nobody notices and evades in less. A person who never "
+     "was "
+     "in the field came from where it did not look.",
      suddenPerson},
 };
 

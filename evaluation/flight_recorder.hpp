@@ -88,7 +88,10 @@ class FlightRecorder {
   /// Call at every scan that arrives.
   void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
   /// Call before tick(): the true places of the people, the person to be followed first.
-  void people(std::vector<Eigen::Vector2d> people_world_m) { behaviors_.people(std::move(people_world_m)); }
+  void people(std::vector<Eigen::Vector2d> people_world_m) {
+    contact_.people(people_world_m);
+    behaviors_.people(std::move(people_world_m));
+  }
   /// Call before tick(): whether the setpoint has the motors on.
   void motors(bool on) { contact_.motors(on); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second

@@ -157,6 +157,7 @@ ContactFacts contactFacts(const ContactRecord& contact, const TrueWorld& world) 
   facts.what = contact.what;
   facts.by_person = truth.by_walker;
   facts.yielding = truth.yielding;
+  facts.remains = contact.replay.standing && contact.replay.landing;
   facts.person_in_field_s = truth.walker_in_field_s;
   facts.motors_off = contact.motors_off;
   facts.unseen_glass = truth.unseen_glass;

@@ -15,8 +15,10 @@ struct ContactFacts {
   bool by_person = false;                        ///< A walker touched it.
   bool yielding = false;                         ///< It stood still or moved away when the walker touched it.
   std::optional<double> person_in_field_s = {};  ///< For how long the laser could have seen the walker; nullopt: never.
-  bool motors_off = false;                       ///< By the last setpoint.
-  bool unseen_glass = false;                     ///< It touched glass that had never returned a beam.
+  /// The person would have touched it, too, if it had stood, and if it had landed, from 2 s before.
+  bool remains = false;
+  bool motors_off = false;       ///< By the last setpoint.
+  bool unseen_glass = false;     ///< It touched glass that had never returned a beam.
   bool room_to_take_off = true;  ///< If it was taking off: the hull fits up to the height that was requested.
   double thrust_margin = 10.0;   ///< Greatest thrust over the weight.
   /// The same at the last time at which a landing could still have been begun.

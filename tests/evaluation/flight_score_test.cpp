@@ -199,6 +199,8 @@ TEST_F(FlightScoring, AWalkerIsBlamedForHittingAVehicleThatCouldNotEvade) {
   FlightRecord record = goodRecord();
   record.contact.emplace().what = "touched `walker_0`";
   record.contact->truth.by_walker = record.contact->truth.yielding = true;
+  record.contact->truth.walker_in_field_s = 0.3;
+  record.contact->replay = {true, true};
   const FlightScore result = score(record);
   EXPECT_EQ(result.collisions, 1) << "it is reported all the same";
   EXPECT_EQ(result.avoidable_collisions, 0);
@@ -206,6 +208,7 @@ TEST_F(FlightScoring, AWalkerIsBlamedForHittingAVehicleThatCouldNotEvade) {
   Criteria criteria;
   criteria.mission_done = false;
   EXPECT_THAT(score(record, criteria).failures, IsEmpty()) << "it is not the vehicle's collision";
+  record.contact->replay = {false, false};
   record.contact->truth.yielding = false;
   EXPECT_EQ(score(record).avoidable_collisions, 1);
   record.contact->truth.yielding = true;

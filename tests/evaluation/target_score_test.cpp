@@ -17,11 +17,11 @@ common::Target reported(const std::string& name, double x_m, double y_m, bool fo
 
 const std::vector<TrueTarget> kTruth = {{"red", {2.0, 1.0, 0.1}}, {"red", {2.0, 1.5, 0.1}}, {"blue", {5.0, 0.0, 0.1}}};
 /// The flight began at (1, 0) in the world.
-const common::Pose3 kStart = common::lifted({1.0, 0.0, 0.0}, 0.0);
+const common::Pose3 kTargetStart = common::lifted({1.0, 0.0, 0.0}, 0.0);
 
 FlightScore measured(const std::vector<common::Target>& targets, const std::vector<TrueTarget>& truth = kTruth) {
   FlightScore score;
-  measureTargets(targets, truth, kStart, score);
+  measureTargets(targets, truth, kTargetStart, score);
   return score;
 }
 

@@ -123,15 +123,18 @@ TEST(VerdictsOnContacts, GlassAndATakeOffWithoutRoomForceThem) {
 TEST(VerdictsOnContacts, APersonIsToBlameWhoComesTooSuddenlyToEvade) {
   ContactFacts contact{.what = "touched `walker 1`", .by_person = true, .person_in_field_s = 0.3};
   EXPECT_EQ(judgeContact(contact).verdict, Verdict::kCrashed) << "it flew into the person";
-  contact.yielding = true;
+  contact.yielding = contact.remains = true;
   EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced);
+  contact.remains = false;
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kStruck) << "standing, or landing, would have avoided it";
+  contact.remains = true;
   contact.person_in_field_s = 0.7;
   EXPECT_EQ(judgeContact(contact).verdict, Verdict::kStruck);
   contact.motors_off = true;
   EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced);
   contact.motors_off = false;
   contact.person_in_field_s.reset();
-  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kForced) << "the person came from where it cannot see";
+  EXPECT_EQ(judgeContact(contact).verdict, Verdict::kStruck) << "it did not look where the person came from";
 }
 
 TEST(Verdicts, AreAcceptableWhenNothingBetterCouldBeDone) {
