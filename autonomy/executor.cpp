@@ -35,7 +35,7 @@ Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& ve
       controller_(controller),
       desk_(config.planning, vehicle, grid_resolution_m, jobs,
             [this](const PlanningAnswer& answer, Time now) { receive(answer, now); }),
-      retreat_(controller),
+      retreat_(controller, camera != nullptr),
       memory_(log) {
   begin({});
 }

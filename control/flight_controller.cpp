@@ -281,9 +281,13 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
 /// The vehicle flies behind its reference, by 6 deg of an orbit of 1.4 m at 0.5 m/s. Moved by that lag, the point is
 /// seen from the reference where the vehicle sees it.
 std::optional<Eigen::Vector2d> FlightController::pointToFace() const {
-  if (!look_at_map_m_) return std::nullopt;
+  // Near its end a path may ask for a heading, for which the intent waits.
+  constexpr double kNearEnd_m = 0.3;
+  const bool arrives = follower_.followsPath() && follower_.remaining_m() < kNearEnd_m;
+  const auto& point_map_m = look_at_map_m_[0] || arrives ? look_at_map_m_[0] : look_at_map_m_[1];
+  if (!point_map_m) return std::nullopt;
   const Eigen::Vector3d lag_m = follower_.reference().position_odom_m - last_state_.T_odom_body.position_m;
-  return last_state_.T_map_odom.inverse() * *look_at_map_m_ + Eigen::Vector2d(lag_m.head<2>());
+  return last_state_.T_map_odom.inverse() * *point_map_m + Eigen::Vector2d(lag_m.head<2>());
 }
 
 common::Setpoint FlightController::descend(const FlightTick& tick) {

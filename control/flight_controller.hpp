@@ -2,6 +2,8 @@
 // "Action"). Ticked each kControlPeriod; returns the setpoint for the autopilot.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -109,8 +111,12 @@ class FlightController {
                                                  double yaw_map_rad, double climb_m_s = 0.0);
   /// Stops as fast as the flight mode allows and holds.
   void hold();
-  /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat.
-  void lookAt(const std::optional<Eigen::Vector2d>& point_map_m) { look_at_map_m_ = point_map_m; }
+  /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat. The point of
+  /// the intent counts before that of the reactive layer.
+  enum class Looks { kForIntent, kForReactive };
+  void lookAt(const std::optional<Eigen::Vector2d>& point_map_m, Looks looks = Looks::kForIntent) {
+    look_at_map_m_[static_cast<std::size_t>(looks)] = point_map_m;
+  }
   /// The displacement, in `map`, that the vehicle flies by its velocity alone if the horizontal estimate is lost now,
   /// at most BlindEscape::kReach_m long; zero to brake and stay. While it is flown, paths and velocities are refused.
   void setEscape(const Eigen::Vector2d& displacement_map_m) { escape_.plan(displacement_map_m); }
@@ -184,8 +190,8 @@ class FlightController {
   OscillationGuard oscillation_;
   EstimateWatch watch_;
   TickClock clock_;
-  common::VehicleState last_state_;  ///< The last finite one.
-  std::optional<Eigen::Vector2d> look_at_map_m_;
+  common::VehicleState last_state_;                              ///< The last finite one.
+  std::array<std::optional<Eigen::Vector2d>, 2> look_at_map_m_;  ///< By Looks.
   std::string grounded_reason_;
   common::EventLog& log_;
 };

@@ -1,4 +1,5 @@
-// Flies the decisions of the reactive layer: its speed limit, and its retreat, which overrides every intent.
+// Flies the decisions of the reactive layer: its speed limit, where it looks, and its retreat, which overrides every
+// intent.
 #pragma once
 
 #include <optional>
@@ -17,7 +18,9 @@ namespace swiftlet::autonomy {
 ///     +-----------------------------------------------------------------------+
 class RetreatFlight {
  public:
-  explicit RetreatFlight(control::FlightController& controller) : controller_(controller) {}
+  /// `camera_ahead`: a camera looks where the vehicle flies to, so it turns away only in a retreat.
+  explicit RetreatFlight(control::FlightController& controller, bool camera_ahead = false)
+      : controller_(controller), camera_ahead_(camera_ahead) {}
 
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
   /// Without sight of the surroundings the vehicle holds: what it would retreat into is unknown.
@@ -25,7 +28,10 @@ class RetreatFlight {
   bool active() const { return yaw_map_rad_.has_value(); }
 
  private:
+  void look(const planning::AvoidanceDecision& decision, const common::Pose2& T_map_body);
+
   control::FlightController& controller_;
+  bool camera_ahead_;
   std::optional<double> yaw_map_rad_;  ///< The heading during the retreat.
 };
 

@@ -21,8 +21,9 @@ constexpr int kMinPoints = 3;
 constexpr double kMaxRadius_m = 0.6;
 /// The laser sees the near side of a body, whose centre is assumed this much behind it.
 constexpr double kAssumedDepth_m = 0.10;
-/// An obstacle that is no longer seen is kept for this long.
-constexpr double kTimeToLive_s = 2.0;
+/// An obstacle that is no longer seen is kept for this long; one that moves for longer: who walks behind the vehicle or
+/// a pillar has not gone, and comes out again.
+constexpr double kTimeToLive_s = 2.0, kWalkerToLive_s = 4.0;
 /// An obstacle that is not seen for this long where beams pass is gone.
 constexpr double kRefutedAfter_s = 0.2;
 /// Nothing is assumed to move faster than this.
@@ -208,7 +209,7 @@ void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const 
   tracks_.insert(tracks_.end(), fresh.begin(), fresh.end());
   std::erase_if(tracks_, [&](const Track& track) {
     const double age_s = (stamp - track.obstacle.last_seen).seconds();
-    return age_s > kTimeToLive_s ||
+    return age_s > (track.obstacle.moving ? kWalkerToLive_s : kTimeToLive_s) ||
            (age_s > kRefutedAfter_s && violatesFreeSpace(track.obstacle, age_s, scan.points_map_m, scan.from_map_m));
   });
   obstacles_.clear();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/occupied_near.hpp"
+#include "common/possible_walks.hpp"
 #include "common/resampling.hpp"
 #include "perception/people/dynamic_obstacles.hpp"
 
@@ -59,7 +60,7 @@ HiddenPerson::HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vect
     const double x = random_.gaussian(sigma);
     return Eigen::Vector2d(mean + Eigen::Vector2d(x, random_.gaussian(sigma)));
   };
-  const bool stands = velocity_map_m_s.norm() < kStands_m_s;
+  const bool stands = velocity_map_m_s.norm() < common::kStands_m_s;
   for (int i = 0; i < kParticles; ++i) {
     const Eigen::Vector2d place = scattered(place_map_m, kPlaceSigma_m);
     const Eigen::Vector2d velocity = scattered(velocity_map_m_s, kVelocitySigma_m_s);

@@ -26,8 +26,6 @@ struct Sight {
 /// One thread. In the `map` frame.
 class HiddenPerson {
  public:
-  static constexpr double kStands_m_s = 0.25;  ///< A person who is slower than this stands.
-
   /// The person was last seen at that place and time with that velocity. `before` is the map before the person stood
   /// there.
   HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,

@@ -1,35 +1,17 @@
 #include "perception/people/person_watch.hpp"
 
 #include <algorithm>
-#include <array>
-#include <numbers>
 
-#include <Eigen/Geometry>
-
-#include "common/geometry.hpp"
+#include "common/possible_walks.hpp"
 #include "perception/people/dynamic_obstacles.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-/// Directions in which a standing person may set off; others differ from the nearest one by less than half a metre in a
-/// second at the speeds of people indoors.
-constexpr int kDirectionsFromRest = 6;
-/// Turns of a person in sight who does not go on straight, and their shares: a bend, and a corner or a turn around.
-struct Turn {
-  double angle_deg;
-  double share;
-};
-constexpr std::array kTurns{Turn{50.0, 0.3}, Turn{-50.0, 0.3}, Turn{100.0, 0.2}, Turn{-100.0, 0.2}};
 /// The trail has a point every 0.2 m, which is less than a person is wide, for the 8 m that are in view at most behind
 /// the person: tracked 6 m away, followed at 2 m.
 constexpr double kTrailSpacing_m = 0.2;
 constexpr std::size_t kTrailPoints = 40;
-
-/// Probability that a person in sight goes on as before in the next seconds: straight on, or standing.
-constexpr double kGoesOnShare = 0.5;
-/// Speed at which a person who stands is expected to set off.
-constexpr double kSetsOff_m_s = 0.5;
 
 /// A track that was not seen for longer has ended.
 constexpr double kFresh_s = 0.3;
@@ -49,16 +31,6 @@ const common::DynamicObstacle* withId(std::span<const common::DynamicObstacle> o
   return found == obstacles.end() ? nullptr : &*found;
 }
 
-std::vector<common::PossibleWalk> walksFromRest(const Eigen::Vector2d& place_map_m) {
-  std::vector<common::PossibleWalk> walks{{place_map_m, {0.0, 0.0}, kGoesOnShare}};
-  for (int i = 0; i < kDirectionsFromRest; ++i) {
-    const Eigen::Rotation2Dd turn(2.0 * std::numbers::pi / kDirectionsFromRest * i);
-    walks.push_back(
-        {place_map_m, turn * Eigen::Vector2d(kSetsOff_m_s, 0.0), (1.0 - kGoesOnShare) / kDirectionsFromRest});
-  }
-  return walks;
-}
-
 }  // namespace
 
 void PersonWatch::choose(std::span<const common::DynamicObstacle> obstacles, const Eigen::Vector2d& here_map_m) {
@@ -76,7 +48,7 @@ void PersonWatch::update(std::span<const common::DynamicObstacle> obstacles, con
   if (!last_) return;
   const common::DynamicObstacle* same = withId(obstacles, last_->id);
   const bool seen = same != nullptr && (now - same->last_seen).seconds() <= kFresh_s;
-  if (!grid_while_walking_ || (seen && same->believedVelocity_map_m_s().norm() > HiddenPerson::kStands_m_s))
+  if (!grid_while_walking_ || (seen && same->believedVelocity_map_m_s().norm() > common::kStands_m_s))
     grid_while_walking_ = sight.grid;
   if (seen) return see(*same);
   if (!hidden_ && !remembered_)
@@ -140,13 +112,7 @@ Eigen::Vector2d PersonWatch::velocity_map_m_s() const {
 
 std::vector<common::PossibleWalk> PersonWatch::walks(common::Time now) const {
   if (hidden()) return hidden_->walks();
-  const Eigen::Vector2d place_map_m = this->place_map_m(now), velocity_map_m_s = this->velocity_map_m_s();
-  if (velocity_map_m_s.norm() < HiddenPerson::kStands_m_s) return walksFromRest(place_map_m);
-  std::vector<common::PossibleWalk> walks{{place_map_m, velocity_map_m_s, kGoesOnShare}};
-  for (const Turn& turn : kTurns)
-    walks.push_back({place_map_m, Eigen::Rotation2Dd(turn.angle_deg * common::kRadPerDeg) * velocity_map_m_s,
-                     turn.share * (1.0 - kGoesOnShare)});
-  return walks;
+  return common::possibleWalks(place_map_m(now), velocity_map_m_s());
 }
 
 void PersonWatch::see(const common::DynamicObstacle& obstacle) {

@@ -1,6 +1,7 @@
 #include "planning/avoidance/avoidance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "planning/avoidance/contact_risk.hpp"
 #include "planning/avoidance/retreat.hpp"
 #include "planning/avoidance/retreat_rules.hpp"
 
@@ -17,23 +19,22 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Step of predictions: at 1.5 m/s a person moves by 15 cm, less than the outline of a body.
-constexpr double kTimeStep_s = 0.1;
 /// A slower velocity has no direction.
 constexpr double kStill_m_s = 1e-3;
 /// A return this near to the outline of a tracked person is the person: an arm, or half a stride ahead of the track.
 constexpr double kSameBody_m = 0.3;
-/// Something moving that would arrive within this time makes the vehicle retreat.
-constexpr double kContactTime_s = 1.8;
+/// Beyond this range a person does not come near within the 3 s of ContactRisk.
+constexpr double kPersonRange_m = 6.0;
+/// The vehicle leaves its path, or its place, where that lowers the probability of meeting a person by this much.
+constexpr double kWorthLeaving = 0.04;
+/// It slows down on its path where that lowers the probability by this much.
+constexpr double kWorthSlowing = 0.02;
 /// An obstacle that approaches more slowly than this does not count as moving.
 constexpr double kClosingSpeed_m_s = 0.15;
 /// A return this near to something mapped or unknown is not unmapped.
 constexpr double kMappedWithin_m = 0.15;
 /// A retreat ends this long after the danger.
 constexpr double kCalm_s = 0.6;
-/// While retreating the vehicle turns until the danger and its course are this far within the field of view (decision
-/// 009).
-constexpr double kViewMargin_deg = 30.0;
 /// A door of 0.8 m leaves a hull of 0.55 m this much on either side, less 2 cm.
 constexpr double kDoor_m = 0.105;
 
@@ -62,7 +63,8 @@ double stoppingSpeed_m_s(double gap_m, double deceleration_m_s2, double delay_s)
   return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
 }
 
-Avoidance::Avoidance(const Config& config, double hull_radius_m) : config_(config), hull_radius_m_(hull_radius_m) {}
+Avoidance::Avoidance(const Config& config, double hull_radius_m)
+    : config_(config), hull_radius_m_(hull_radius_m), lookout_(config.field_of_view_deg, hull_radius_m) {}
 
 AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   // Since the scan the vehicle has flown on, as it will until the command acts.
@@ -79,36 +81,43 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   shorten(config_, input.map3d_points_level_m, sectors);
   const auto seen_points = static_cast<std::ptrdiff_t>(points.size());
   points.insert(points.end(), input.keep_out_points_level_m.begin(), input.keep_out_points_level_m.end());
-  const std::vector<Threat> around = threats(input, sectors);
-  for (const Threat& threat : around) {
-    if (!threat.dangerous) continue;
-    danger_stamp_ = input.stamp;
-    danger_ = threat.why;
-    retreating_ = true;
-    break;
-  }
-  if (retreating_ && (input.stamp - danger_stamp_).seconds() > kCalm_s) {
-    retreating_ = false;
-    last_retreat_level_.setZero();
-  }
+  std::vector<Threat> around = threats(input, sectors);
+  const std::vector<NearPerson> walking = people(input);
+  const ContactRisk risk(hull_radius_m_, walking);
 
   AvoidanceDecision decision;
   const double speed_m_s = input.velocity_level_m_s.norm();
   const bool moves = input.wanted_level_m_s.norm() > kStill_m_s;
   const Point& course = moves ? input.wanted_level_m_s : input.velocity_level_m_s;
   decision.speed_limit_m_s = config_.max_speed_m_s;
+  double intended_m_s = 0.0;
+  Point ahead = Point::Zero();
   if (course.norm() > kStill_m_s) {
     decision.speed_limit_m_s = speedLimit(course.normalized(), points, latency_s + config_.lag_s);
-    const double intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
-    const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around, latency_s);
-    if (yielding_m_s < intended_m_s) decision.speed_limit_m_s = yielding_m_s;
+    intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
+    ahead = course.normalized();
   }
+  const Slowed slowed = slowedFor(risk, input.velocity_level_m_s, ahead, intended_m_s, latency_s);
+  if (slowed.speed_m_s < intended_m_s) decision.speed_limit_m_s = slowed.speed_m_s;
+
+  const RetreatChoice choice = retreat(input, points, around, walking, risk, latency_s);
+  const bool leaves = slowed.contact - choice.contact > (retreating_ ? 0.5 : 1.0) * kWorthLeaving;
+  if (leaves) danger_ = whyLeaving(walking);
+  const auto danger = std::ranges::find_if(around, &Threat::dangerous);
+  if (danger != around.end()) danger_ = danger->why;
+  if (leaves || danger != around.end()) {
+    danger_stamp_ = input.stamp;
+    retreating_ = true;
+  } else if (retreating_ && (input.stamp - danger_stamp_).seconds() > kCalm_s) {
+    retreating_ = false;
+  }
+  last_retreat_level_ = retreating_ ? choice.velocity_level_m_s : Point(Point::Zero());
   if (retreating_) {
-    last_retreat_level_ = retreat(input, points, around, latency_s);
     decision.retreat_velocity_level_m_s = last_retreat_level_;
-    decision.retreat_acceleration_m_s2 = config_.deceleration_m_s2;
-    decision.turn_rad = turnToSee(around, last_retreat_level_);
+    decision.retreat_acceleration_m_s2 =
+        config_.retreat_rule == RetreatRule::kClearCourse ? kRetreatAcceleration_m_s2 : config_.deceleration_m_s2;
   }
+  look(input, around, walking, decision);
 
   common::AvoidanceStatus& status = decision.status;
   status.nearest_m = kInfinity;
@@ -148,16 +157,10 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
                   to_level * velocity_map_m_s, false, ""};
     const double gap_m = threat.gapTo(hull_radius_m_, Point::Zero(), 0.0);
     const bool leaving = moving && threat.velocity_m_s.dot(threat.center_m) > 0.0;
-    double least_m = gap_m;
-    for (double t = kTimeStep_s; t <= kContactTime_s * slack; t += kTimeStep_s)
-      least_m = std::min(least_m, threat.gapTo(hull_radius_m_, Point::Zero(), t));
-    const bool near = gap_m < config_.retreat_distance_m * slack;
-    const bool closing = moving && least_m < config_.contact_gap_m * slack;
-    threat.dangerous = (near || closing) && !leaving;
+    threat.dangerous = gap_m < config_.retreat_distance_m * slack && !leaving;
     if (threat.dangerous)
       threat.why =
-          fmt::format("{} {:.2f} m off the hull at {}", closing ? "something closing in," : "something unmapped", gap_m,
-                      bearingInWords(threat.center_m));
+          fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(threat.center_m));
     result.push_back(threat);
   }
   if (input.cost_map == nullptr) return result;
@@ -206,75 +209,81 @@ bool Avoidance::isSeen(const Point& direction) const {
          0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0;
 }
 
-double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,
-                                const std::vector<Threat>& threats, double latency_s) const {
-  // Within the horizon a person at 1.5 m/s walks 3.75 m.
-  constexpr double kStep_m_s = 0.1, kHorizon_s = 2.5;
-  const double a = config_.deceleration_m_s2;
-  const auto leastGap = [&](const Threat& threat, double v) {
-    double moved_m = 0.0, now_m_s = speed_m_s, least_m = kInfinity;
-    for (double time_s = 0.0; time_s <= kHorizon_s; time_s += kTimeStep_s) {
-      least_m = std::min(least_m, threat.gapTo(hull_radius_m_, moved_m * direction, time_s));
-      if (time_s >= latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
-      moved_m += now_m_s * kTimeStep_s;
-    }
-    return least_m;
-  };
-  double result_m_s = intended_m_s;
-  for (const Threat& threat : threats) {
-    if (threat.velocity_m_s.isZero()) continue;
-    // An obstacle inside the gap may come no nearer than it would if the vehicle stopped at once.
-    const double enough_m = std::min(config_.release_factor * config_.contact_gap_m, leastGap(threat, 0.0) - 1e-6);
-    while (result_m_s > 0.0 && leastGap(threat, result_m_s) < enough_m) result_m_s -= kStep_m_s;
+std::vector<NearPerson> Avoidance::people(const AvoidanceInput& input) const {
+  std::vector<NearPerson> result;
+  const common::Pose2 T_level_map = input.T_map_level.inverse();
+  for (const common::DynamicObstacle& o : input.obstacles) {
+    if (!o.moving) continue;
+    const double unseen_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
+    const Point place = T_level_map * Point(o.center_map_m + o.velocity_map_m_s * unseen_s);
+    if (place.norm() > kPersonRange_m) continue;
+    result.push_back({place, Eigen::Rotation2Dd(T_level_map.yaw_rad) * o.velocity_map_m_s, o.radius_m, unseen_s});
   }
-  return std::max(0.0, result_m_s);
+  return result;
 }
 
-Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
-                         double latency_s) const {
-  // The danger may have passed only for a moment, so the state lasts until it has been gone for 0.6 s.
-  if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
-  const RetreatInput retreat{input.velocity_level_m_s, points,         threats,  last_retreat_level_,
-                             input.T_map_level,        input.cost_map, latency_s};
+std::string Avoidance::whyLeaving(const std::vector<NearPerson>& people) const {
+  const auto nearest = std::ranges::min_element(people, {}, [](const NearPerson& p) { return p.place_m.norm(); });
+  return fmt::format("something closing in, {:.2f} m off the hull at {}",
+                     nearest->place_m.norm() - nearest->radius_m - hull_radius_m_, bearingInWords(nearest->place_m));
+}
+
+/// The greatest speed ahead at which about the least is risked.
+Avoidance::Slowed Avoidance::slowedFor(const ContactRisk& risk, const Point& velocity_level_m_s, const Point& ahead,
+                                       double intended_m_s, double latency_s) const {
+  if (!risk.anybody()) return {intended_m_s, 0.0};
+  constexpr int kSpeeds = 5;
+  constexpr double kAlways_s = ContactRisk::kSteps * ContactRisk::kStep_s;
+  std::array<Slowed, kSpeeds> options;
+  double least = 1.0;
+  const int first = intended_m_s > 0.0 ? 0 : kSpeeds - 1;
+  for (int i = first; i < kSpeeds; ++i) {
+    const double speed_m_s = intended_m_s * (kSpeeds - 1 - i) / (kSpeeds - 1);
+    const auto course =
+        courseOf(velocity_level_m_s, speed_m_s * ahead, kAlways_s, latency_s, config_.deceleration_m_s2);
+    options.at(i) = {speed_m_s, risk.of(course)};
+    least = std::min(least, options.at(i).contact);
+  }
+  return *std::find_if(options.begin() + first, options.end(),
+                       [&](const Slowed& one) { return one.contact <= least + kWorthSlowing; });
+}
+
+/// Turning is worth its errors in a retreat, and while somebody walks about, also where that person is out of sight for
+/// a while.
+void Avoidance::look(const AvoidanceInput& input, const std::vector<Threat>& threats, std::vector<NearPerson> people,
+                     AvoidanceDecision& decision) {
+  constexpr double kAbout_s = 10.0;
+  if (!people.empty()) people_seen_ = input.stamp;
+  for (const Threat& threat : threats)
+    if (threat.dangerous) people.push_back({threat.center_m, threat.velocity_m_s, threat.radius_m, 0.0});
+  const Point& course_level_m_s = retreating_ ? last_retreat_level_ : input.wanted_level_m_s;
+  const double turn_rad = lookout_.turn_rad({input.stamp, input.T_map_level, input.cost_map, people, course_level_m_s});
+  const bool about = people_seen_ && (input.stamp - *people_seen_).seconds() < kAbout_s;
+  if (about || retreating_) decision.turn_rad = turn_rad;
+}
+
+RetreatChoice Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
+                                 const std::vector<NearPerson>& people, const ContactRisk& risk,
+                                 double latency_s) const {
+  const bool danger = std::ranges::any_of(threats, &Threat::dangerous);
+  if (!danger && !risk.anybody()) return {};
+  // Where a person is seen now is free a moment later.
+  Points standing;
+  for (const Point& p : points)
+    if (std::ranges::none_of(
+            people, [&](const NearPerson& one) { return (one.place_m - p).norm() <= one.radius_m + kSameBody_m; }))
+      standing.push_back(p);
+  const RetreatInput retreat{input.velocity_level_m_s, standing,       threats,   last_retreat_level_,
+                             input.T_map_level,        input.cost_map, latency_s, &risk};
   switch (config_.retreat_rule) {
     case RetreatRule::kOpposite:
-      return oppositeVelocity(config_, hull_radius_m_, retreat);
+      return {oppositeVelocity(config_, hull_radius_m_, retreat), 0.0};
     case RetreatRule::kPotentialField:
-      return potentialFieldVelocity(config_, hull_radius_m_, retreat);
+      return {potentialFieldVelocity(config_, hull_radius_m_, retreat), 0.0};
     case RetreatRule::kClearCourse:
       break;
   }
-  return retreatVelocity(config_, hull_radius_m_, retreat);
-}
-
-/// The turn that brings the nearest threat and the course of the retreat into the laser's field of view. Outside it, a
-/// person is soon lost by the tracker, and an obstacle on the course is not seen.
-double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
-  // Losing sight of the danger costs more than losing sight of the course, and each more than turning
-  // (docs/decisions/avoidance.md#009).
-  constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kCourse = 2.0, kLeast_m_s = 0.1;
-  const Threat* nearest = nullptr;
-  for (const Threat& threat : threats) {
-    if (!threat.dangerous && threat.velocity_m_s.isZero()) continue;
-    if (nearest == nullptr || threat.center_m.norm() < nearest->center_m.norm()) nearest = &threat;
-  }
-  if (nearest == nullptr) return 0.0;
-  const double seen_rad = (0.5 * config_.field_of_view_deg - kViewMargin_deg) * std::numbers::pi / 180.0;
-  const auto outside_rad = [&](const Point& direction, double turn_rad) {
-    const double bearing_rad = common::wrapAngle(std::atan2(direction.y(), direction.x()) - turn_rad);
-    return std::max(0.0, std::abs(bearing_rad) - seen_rad);
-  };
-  double best_rad = 0.0, least_cost = kInfinity;
-  for (int i = 0; i <= 36; ++i) {
-    for (const double turn_rad : {i * kStep_rad, -i * kStep_rad}) {
-      double cost = std::abs(turn_rad) + kDanger * outside_rad(nearest->center_m, turn_rad);
-      if (retreat_level_m_s.norm() > kLeast_m_s) cost += kCourse * outside_rad(retreat_level_m_s, turn_rad);
-      if (cost >= least_cost - 1e-9) continue;
-      least_cost = cost;
-      best_rad = turn_rad;
-    }
-  }
-  return best_rad;
+  return retreatChoice(config_, hull_radius_m_, retreat);
 }
 
 }  // namespace swiftlet::planning

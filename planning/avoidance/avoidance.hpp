@@ -15,10 +15,14 @@
 #include "common/time.hpp"
 #include "common/world/avoidance_status.hpp"
 #include "planning/avoidance/avoidance_config.hpp"
+#include "planning/avoidance/lookout.hpp"
 #include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning {
 
+class ContactRisk;
+struct NearPerson;
+struct RetreatChoice;
 struct Threat;
 
 /// The speed from which the vehicle stops within the gap, braking after the delay: v t + v^2 / 2a = gap.
@@ -51,8 +55,8 @@ struct AvoidanceDecision {
   /// Replaces the velocity of the intent if set. Fly it with `retreat_acceleration_m_s2`.
   std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;
   double retreat_acceleration_m_s2 = 0.0;
-  /// During a retreat: the angle to turn so that the laser sees both the danger and the course.
-  double turn_rad = 0.0;
+  /// While people are about: the angle to turn so that the laser sees what matters most, see Lookout.
+  std::optional<double> turn_rad;
   std::optional<Eigen::Vector2d> nearest_level_m;  ///< The nearest return, without keep-out zones.
   common::AvoidanceStatus status;
 };
@@ -95,11 +99,18 @@ class Avoidance {
   bool cannotStopBefore(const Eigen::Vector2d& point_level_m, const Eigen::Vector2d& velocity_level_m_s) const;
   double speedLimit(const Eigen::Vector2d& direction, const Points& points, double delay_s) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
-  double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
-                       const std::vector<Threat>& threats, double latency_s) const;
-  Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
-                          double latency_s) const;
-  double turnToSee(const std::vector<Threat>& threats, const Eigen::Vector2d& retreat_level_m_s) const;
+  std::vector<NearPerson> people(const AvoidanceInput& input) const;
+  std::string whyLeaving(const std::vector<NearPerson>& people) const;
+  struct Slowed {
+    double speed_m_s = 0.0;
+    double contact = 0.0;  ///< Probability that a person is met at that speed.
+  };
+  Slowed slowedFor(const ContactRisk& risk, const Eigen::Vector2d& velocity_level_m_s, const Eigen::Vector2d& ahead,
+                   double intended_m_s, double latency_s) const;
+  RetreatChoice retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
+                        const std::vector<NearPerson>& people, const ContactRisk& risk, double latency_s) const;
+  void look(const AvoidanceInput& input, const std::vector<Threat>& threats, std::vector<NearPerson> people,
+            AvoidanceDecision& decision);
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;
 
   Config config_;
@@ -107,6 +118,8 @@ class Avoidance {
   bool retreating_ = false;
   common::Time danger_stamp_;
   std::string danger_;
+  Lookout lookout_;
+  std::optional<common::Time> people_seen_;  ///< When somebody walked about last.
   Eigen::Vector2d last_retreat_level_ = Eigen::Vector2d::Zero();
 };
 

@@ -13,9 +13,8 @@ using Point = Eigen::Vector2d;
 using Points = std::vector<Point>;
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
-/// A course is predicted for 2 s: the latency, the longest flight (kGoing_s) and the time to brake to rest.
-constexpr double kStep_s = 0.1;
-constexpr int kSteps = 20;
+constexpr double kStep_s = ContactRisk::kStep_s;
+constexpr int kSteps = ContactRisk::kSteps;
 /// Motion of people is extrapolated for at most this time. A contact sooner than `kTooSoon_s` cannot be changed any
 /// more.
 constexpr double kForesight_s = 1.5, kTooSoon_s = 0.3;
@@ -26,11 +25,14 @@ constexpr std::array<double, 3> kGoing_s{0.2, 0.5, 0.9};
 /// Preferences that are weighed against the gap, in metres of gap: flying straight away, keeping the direction, flying
 /// slowly, and moving at all.
 constexpr double kAway_m = 0.06, kSame_m = 0.05, kSlow_m = 0.06, kWorth_m = 0.02;
+/// A contact that is certain counts as much as this gap.
+constexpr double kContact_m = 3.0;
+/// While people walk about, room to the sides counts up to the width of hull and person and as much again.
+constexpr double kOpen_m = 1.1, kOpenShare = 0.2;
 /// Returns denser than a cell of the shipped map are left out.
 constexpr double kThinned_m = 0.05;
 
-/// Position of the vehicle at every step, from the origin.
-using Course = std::array<Point, kSteps + 1>;
+using Course = ContactRisk::Course;
 
 struct Prospect {
   double seen_m;     ///< Least distance of the centre to a return.
@@ -38,16 +40,20 @@ struct Prospect {
   double gap_m;      ///< Least gap to any person during the prediction.
   double end_gap_m;  ///< Gap to the nearest person at the end of the prediction.
   double room_m;     ///< Distance of the centre to the nearest static obstacle at the end, capped at the wanted margin.
+  double open_m;     ///< The same, capped at kOpen_m: beside a wall fewer ways lead on.
 
-  double worth_m() const { return gap_m + 0.5 * end_gap_m + room_m; }
+  double contact;  ///< Probability that a person is met.
+
+  double worth_m() const { return gap_m + 0.5 * end_gap_m + room_m + kOpenShare * open_m - kContact_m * contact; }
 };
 
 class Retreat {
  public:
   Retreat(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input)
       : config_(config), hull_radius_m_(hull_radius_m), input_(input) {
-    const double reach_m =
-        input.velocity_level_m_s.norm() * input.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
+    // The latency, the longest flight and the time to brake to rest.
+    constexpr double kLongest_s = 2.0;
+    const double reach_m = input.velocity_level_m_s.norm() * input.latency_s + kRetreatSpeed_m_s * kLongest_s;
     for (const Point& p : input.points_level_m) {
       const bool far = p.norm() > reach_m + safe_m();
       if (!far && (near_.empty() || (p - near_.back()).norm() > kThinned_m)) near_.push_back(p);
@@ -58,27 +64,26 @@ class Retreat {
     if (input.last_level_m_s.norm() > 1e-6) last_ = input.last_level_m_s.normalized();
   }
 
-  Point best() const {
+  RetreatChoice best() const {
     const Prospect stop = prospectOf(courseAt(Point::Zero(), 0.0));
     double best_score = -kUnreached;
-    Point best = Point::Zero();
+    RetreatChoice best{Point::Zero(), stop.contact};
     for (int i = 0; i < kDirections; ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
       const Point direction(std::cos(angle_rad), std::sin(angle_rad));
       for (const double share : kShareOfSpeed) {
-        const Point velocity = share * config_.retreat_speed_m_s * direction;
+        const Point velocity = share * kRetreatSpeed_m_s * direction;
         for (const double going_s : kGoing_s) {
           const Course course = courseAt(velocity, going_s);
           const Prospect prospect = prospectOf(course);
           const bool clear = prospect.seen_m >= std::min(stop.seen_m, safe_m()) &&
                              prospect.mapped_m >= std::min(stop.mapped_m, safe_m());
-          if (!clear || prospect.gap_m < stop.gap_m) continue;
-          if (prospect.worth_m() < stop.worth_m() + kWorth_m) continue;
+          if (!clear || prospect.worth_m() < stop.worth_m() + kWorth_m) continue;
           const double score =
               prospect.worth_m() + kAway_m * direction.dot(away_) + kSame_m * direction.dot(last_) - kSlow_m * share;
           if (score <= best_score) continue;
           best_score = score;
-          best = velocity;
+          best = {velocity, prospect.contact};
         }
       }
     }
@@ -101,21 +106,8 @@ class Retreat {
 
   double safe_m() const { return hull_radius_m_ + config_.retreat_margin_m; }
 
-  /// Accelerates to that velocity, holds it for the given time, then brakes to rest.
   Course courseAt(const Point& wanted_m_s, double going_s) const {
-    const double most_m_s = config_.deceleration_m_s2 * kStep_s;
-    Course course;
-    Point place = Point::Zero(), velocity = input_.velocity_level_m_s;
-    for (int i = 0; i <= kSteps; ++i) {
-      course[static_cast<std::size_t>(i)] = place;
-      const double since_s = i * kStep_s - input_.latency_s;
-      if (since_s >= 0.0) {
-        const Point change = (since_s < going_s ? wanted_m_s : Point::Zero()) - velocity;
-        velocity += change.norm() > most_m_s ? Point(change.normalized() * most_m_s) : change;
-      }
-      place += velocity * kStep_s;
-    }
-    return course;
+    return courseOf(input_.velocity_level_m_s, wanted_m_s, going_s, input_.latency_s, kRetreatAcceleration_m_s2);
   }
 
   Prospect prospectOf(const Course& course) const {
@@ -123,9 +115,14 @@ class Retreat {
     const double enough_m =
         config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m) + 2.0 * kWorth_m;
     double seen_m = kUnreached, mapped_m = kUnreached, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;
-    double time_s = 0.0;
+    double time_s = 0.0, to_seen_m = 0.0, to_mapped_m = 0.0;
+    const Point* before = nullptr;
     for (const Point& place : course) {
-      const double to_seen_m = toSeen_m(place), to_mapped_m = toMapped_m(place);
+      if (before == nullptr || *before != place) {  // At rest nothing that stands comes nearer.
+        to_seen_m = toSeen_m(place);
+        to_mapped_m = toMapped_m(place);
+      }
+      before = &place;
       seen_m = std::min(seen_m, to_seen_m);
       mapped_m = std::min(mapped_m, to_mapped_m);
       room_m = std::min({to_seen_m, to_mapped_m, safe_m()});
@@ -137,7 +134,10 @@ class Retreat {
       }
       time_s += kStep_s;
     }
-    return {seen_m, mapped_m, gap_m, end_gap_m, room_m};
+    const bool anybody = input_.people != nullptr && input_.people->anybody();
+    const double open_m = anybody ? std::min({to_seen_m, to_mapped_m, kOpen_m}) : 0.0;
+    return {
+        seen_m, mapped_m, gap_m, end_gap_m, room_m, open_m, input_.people == nullptr ? 0.0 : input_.people->of(course)};
   }
 
   double toSeen_m(const Point& place) const {
@@ -161,7 +161,25 @@ class Retreat {
 
 }  // namespace
 
-Eigen::Vector2d retreatVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input) {
+ContactRisk::Course courseOf(const Eigen::Vector2d& velocity_now_m_s, const Eigen::Vector2d& wanted_m_s, double going_s,
+                             double latency_s, double acceleration_m_s2) {
+  const double most_m_s = acceleration_m_s2 * kStep_s;
+  Course course;
+  Point place = Point::Zero(), velocity = velocity_now_m_s;
+  for (int i = 0; i <= kSteps; ++i) {
+    course[static_cast<std::size_t>(i)] = place;
+    const double since_s = i * kStep_s - latency_s;
+    if (since_s >= 0.0) {
+      const Point change = (since_s < going_s ? wanted_m_s : Point::Zero()) - velocity;
+      velocity = change.norm() > most_m_s ? Point(velocity + change.normalized() * most_m_s)
+                                          : Point(since_s < going_s ? wanted_m_s : Point::Zero());
+    }
+    place += velocity * kStep_s;
+  }
+  return course;
+}
+
+RetreatChoice retreatChoice(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input) {
   return Retreat(config, hull_radius_m, input).best();
 }
 

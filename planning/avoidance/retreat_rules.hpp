@@ -1,5 +1,5 @@
 // The courses of a retreat by the rules of two papers. Neither checks what lies on its course: they are here to be
-// compared with `retreatVelocity`, which does.
+// compared with `retreatChoice`, which does.
 #pragma once
 
 #include <Eigen/Core>

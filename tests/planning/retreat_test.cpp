@@ -29,15 +29,16 @@ struct Flyer {
     for (const Point& p : walls_m) seen.push_back(p - place_m);
     std::vector<Threat> around = threats;
     for (Threat& threat : around) threat.center_m -= place_m;
-    answer_m_s = retreatVelocity(
-        config, kHull_m,
-        {velocity_m_s, seen, around, answer_m_s, {place_m.x(), place_m.y(), 0.0}, map, config.latency_s});
+    answer_m_s =
+        retreatChoice(config, kHull_m,
+                      {velocity_m_s, seen, around, answer_m_s, {place_m.x(), place_m.y(), 0.0}, map, config.latency_s})
+            .velocity_level_m_s;
     fastest_m_s = std::max(fastest_m_s, answer_m_s.norm());
     late.push_back(answer_m_s);
     const Point wanted = late.size() > 4 ? late.front() : velocity_m_s;
     if (late.size() > 4) late.pop_front();
     const Point change = wanted - velocity_m_s;
-    const double most = config.deceleration_m_s2 * kTick_s;
+    const double most = kRetreatAcceleration_m_s2 * kTick_s;
     velocity_m_s += change.norm() > most ? Point(change.normalized() * most) : change;
     place_m += velocity_m_s * kTick_s;
     for (Threat& threat : threats) threat.center_m += threat.velocity_m_s * kTick_s;
@@ -93,7 +94,7 @@ TEST(Retreat, MovesNoFasterThanNecessary) {
   flyer.threats = {person({0.85, 0.0}, {0.0, 0.0})};
   flyer.fly(3.0);
   EXPECT_GT(flyer.threats[0].gapTo(kHull_m, flyer.place_m, 0.0), 0.30);
-  EXPECT_LE(flyer.fastest_m_s, 0.5 * flyer.config.retreat_speed_m_s);
+  EXPECT_LE(flyer.fastest_m_s, 0.5 * kRetreatSpeed_m_s);
 }
 
 TEST(Retreat, AllowsForItsTurningDistanceAtSpeed) {
