@@ -160,7 +160,7 @@ Scenario withPair() {
   return scenario;
 }
 
-std::vector<common::SensorEvent> standing(const Scenario& scenario, double seconds) {
+std::vector<common::SensorEvent> standingWithPair(const Scenario& scenario, double seconds) {
   SimulatedVehicle vehicle(boxRoom(), scenario);
   std::vector<common::SensorEvent> events;
   EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(seconds), events));
@@ -168,7 +168,7 @@ std::vector<common::SensorEvent> standing(const Scenario& scenario, double secon
 }
 
 TEST(StereoCamera, PairsComeLateAtTheirRateAndTheSameSeedGivesTheSameBytes) {
-  const auto first = standing(withPair(), 2.0), second = standing(withPair(), 2.0);
+  const auto first = standingWithPair(withPair(), 2.0), second = standingWithPair(withPair(), 2.0);
   const auto pairs = eventsOf<Rgbd>(first), again = eventsOf<Rgbd>(second);
   ASSERT_NEAR(static_cast<double>(pairs.size()), 7.0, 1.0);
   ASSERT_EQ(pairs.size(), again.size());
